@@ -1,0 +1,38 @@
+# Everything that is chosen at configure time, and the flags that our own targets share.
+
+option(BROADSIDE_TESTS "Build the tests" ON)
+option(BROADSIDE_CUDA "Build the CUDA pipeline when nvcc is there; without it GPU cells say 'not measured: no device'" ON)
+option(BROADSIDE_WARNINGS_AS_ERRORS "Treat warnings in our own targets as errors" ON)
+set(BROADSIDE_SANITIZE "" CACHE STRING "Sanitizers for our own targets, e.g. address,undefined or thread")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(BROADSIDE_CCACHE ccache)
+if(BROADSIDE_CCACHE)
+  foreach(language CXX CUDA)
+    if(NOT CMAKE_${language}_COMPILER_LAUNCHER)
+      set(CMAKE_${language}_COMPILER_LAUNCHER ${BROADSIDE_CCACHE} CACHE STRING "Compiler cache" FORCE)
+    endif()
+  endforeach()
+endif()
+
+# Same stamp, same bits: no contraction into fused multiply-add, on the host or on the device.
+add_library(broadside_flags INTERFACE)
+# -Wno-restrict: g++ 12 sees an overlap in std::string's operator+ that is not there (GCC bug 105651).
+target_compile_options(broadside_flags INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off -fno-fast-math -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-restrict>
+  $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${BROADSIDE_WARNINGS_AS_ERRORS}>>:-Werror>
+  $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false -prec-div=true -prec-sqrt=true -ftz=false --expt-relaxed-constexpr -Xcompiler=-ffp-contract=off>)
+target_include_directories(broadside_flags INTERFACE ${PROJECT_SOURCE_DIR})
+if(BROADSIDE_SANITIZE)
+  target_compile_options(broadside_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${BROADSIDE_SANITIZE} -fno-omit-frame-pointer>)
+  target_link_options(broadside_flags INTERFACE -fsanitize=${BROADSIDE_SANITIZE})
+endif()

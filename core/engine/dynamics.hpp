@@ -1,0 +1,32 @@
+// A whole simulation, step by step.
+#pragma once
+
+#include "core/result.hpp"
+#include "core/scene/scene.hpp"
+#include "core/trace/frame.hpp"
+
+#include <span>
+#include <string_view>
+
+namespace broadside::core {
+
+struct StageTime {
+  std::string_view stage;  // static storage
+  double seconds = 0.0;
+};
+
+class Dynamics {
+ public:
+  virtual ~Dynamics() = default;
+
+  // Not timed. The scene has passed check_scene and outlives this object.
+  virtual Status load(const Scene& scene) = 0;
+  // Timed. Advances by dt; a GPU engine's state stays on the device, and the call returns when the work is complete.
+  virtual Status step(float dt_s) = 0;
+  // Own zone: the frame that the last step made. kDigest fills digest and counts only.
+  virtual Status read_back(FrameRecord& frame, RecordLevel level) = 0;
+  // Of the last step, in pipeline order; empty when the engine cannot tell its stages apart.
+  [[nodiscard]] virtual std::span<const StageTime> stage_times() const { return {}; }
+};
+
+}  // namespace broadside::core

@@ -1,0 +1,40 @@
+// A named thing that offers one or more capabilities, and how tables list it.
+#pragma once
+
+#include "core/engine/broad_phase.hpp"
+#include "core/engine/dynamics.hpp"
+#include "core/engine/narrow_phase.hpp"
+#include "core/engine/settings.hpp"
+#include "core/result.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace broadside::core {
+
+struct Engine {
+  std::string id;
+  std::string build;  // library and version really loaded, precision, SIMD: "Bullet 3.24, float"
+  Settings settings;
+  std::unique_ptr<BroadPhase> broad_phase;    // null = not offered
+  std::unique_ptr<NarrowPhase> narrow_phase;  // null = not offered
+  std::unique_ptr<Dynamics> dynamics;         // null = not offered
+};
+
+// One row per engine in the one table (bench/engines.cpp). A row exists also where the engine cannot run on this
+// machine; then absent() says why ("not measured: no device") and create is not called.
+struct EngineRow {
+  std::string_view id;
+  std::string_view capabilities;  // "broad narrow dynamics", for listings
+  std::string_view what;
+  std::span<const SettingRow> settings;
+  // References run in a child process: their libraries may abort or hang.
+  bool is_reference = true;
+  Result<Engine> (*create)(const Settings& settings) = nullptr;
+  // Why it cannot run here; empty when it can.
+  std::string (*absent)() = nullptr;
+};
+
+}  // namespace broadside::core

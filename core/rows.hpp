@@ -1,0 +1,50 @@
+// The rows that a run leaves for reports: cells, verdicts, samples; and their JSON files in the run's folder.
+#pragma once
+
+#include "core/result.hpp"
+#include "core/sample.hpp"
+#include "core/stamp.hpp"
+#include "core/verdict.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace broadside::core {
+
+// What became of one (scene, engine, settings). Absence is a word, never a blank.
+enum class CellState { kRecorded, kNotMeasured, kUnsupported, kCrashed, kTimedOut, kInterrupted, kFailed };
+
+std::string_view cell_state_word(CellState state);
+
+struct Cell {
+  Stamp stamp;
+  CellState state = CellState::kNotMeasured;
+  std::string reason;      // "no device"; "signal 6 (abort) after frame 12"; empty when recorded
+  std::string trace_file;  // file name within the folder; empty when there is none
+  std::uint64_t frames = 0;
+  double wall_s = 0.0;     // of the recording run; never a benchmark
+  std::map<std::string, std::string> notes;  // "frames measured" -> "every 100th"; "mesh" -> file and sum
+};
+
+struct CellVerdicts {
+  std::string trace_file;
+  Stamp stamp;
+  std::vector<Verdict> verdicts;
+};
+
+struct RunRows {
+  std::vector<Cell> cells;
+  std::vector<CellVerdicts> verdicts;
+  std::vector<Sample> samples;
+};
+
+// Files: cells.json, verdicts.json, samples.json. Written beside their final name and renamed. Doubles round-trip;
+// NaN and infinity are written as the strings "nan", "inf", "-inf". A file that is absent reads as no rows.
+Status write_cells(const std::filesystem::path& file, const std::vector<Cell>& cells);
+Status write_verdicts(const std::filesystem::path& file, const std::vector<CellVerdicts>& verdicts);
+Status write_samples(const std::filesystem::path& file, const std::vector<Sample>& samples);
+Result<RunRows> read_rows(const std::filesystem::path& folder);
+
+}  // namespace broadside::core

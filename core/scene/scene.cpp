@@ -1,0 +1,143 @@
+#include "core/scene/scene.hpp"
+
+#include "core/contact.hpp"
+
+#include <xxhash.h>
+
+#include <bit>
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+namespace broadside::core {
+namespace {
+
+bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+Error bad(const Scene& scene, const std::string& where, const std::string& what, const std::string& advice) {
+  return {what, scene.name + ": " + where, advice, Exit::kBadInput};
+}
+
+Status check_material(const Scene& scene, const std::string& where, const Material& m) {
+  if (!(std::isfinite(m.mu_static) && m.mu_static >= 0.0F && std::isfinite(m.mu_kinetic) && m.mu_kinetic >= 0.0F))
+    return bad(scene, where, "friction is negative or not finite", "give mu_static and mu_kinetic of 0 or more");
+  if (m.mu_kinetic > m.mu_static)
+    return bad(scene, where, "mu_kinetic is above mu_static", "give mu_kinetic <= mu_static");
+  if (!(m.restitution >= 0.0F && m.restitution <= 1.0F))
+    return bad(scene, where, "restitution is outside 0 to 1", "give 0 <= restitution <= 1");
+  return Done{};
+}
+
+Status check_body(const Scene& scene, std::size_t index) {
+  const Body& b = scene.bodies[index];
+  const std::string where = "body " + std::to_string(index);
+  if (b.mesh >= scene.meshes.size()) return bad(scene, where, "its mesh does not exist", "name a mesh of this scene");
+  if (!is_finite(b.position)) return bad(scene, where, "position is NaN or infinite", "give three finite numbers, in m");
+  if (!is_finite(b.velocity)) return bad(scene, where, "velocity is NaN or infinite", "give three finite numbers, in m/s");
+  if (!is_finite(b.angular_velocity))
+    return bad(scene, where, "angular_velocity is NaN or infinite", "give three finite numbers, in rad/s");
+  const Quat q = b.orientation;
+  const double norm2 = double(q.w) * q.w + double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z;
+  // A unit quaternion rounded to float has four components off by half an ulp each: |norm^2 - 1| <= 4 * 2^-24.
+  if (!(std::abs(norm2 - 1.0) <= 4.0 * 0x1p-24))
+    return bad(scene, where, "orientation is not a unit quaternion", "normalize w x y z");
+  if (!(std::isfinite(b.inverse_mass) && b.inverse_mass >= 0.0F))
+    return bad(scene, where, "mass is zero, negative or not finite", "give a mass above zero in kg, or static = true");
+  return check_material(scene, where, b.material);
+}
+
+Status check_parameters(const Scene& scene) {
+  const Parameters& p = scene.parameters;
+  const auto in = [](float v, float low, float high) { return v >= low && v <= high; };
+  constexpr float kMax = 3.4e38F;
+  if (!in(p.delta_m, 0.0F, kMax)) return bad(scene, "parameters", "delta_m is out of range", "give 0 or more, in m");
+  if (!(p.beta > 0.0F && p.beta <= 1.0F)) return bad(scene, "parameters", "beta is out of range", "give 0 < beta <= 1");
+  if (!(p.alpha > 0.0F && p.alpha <= 1.0F)) return bad(scene, "parameters", "alpha is out of range", "give 0 < alpha <= 1");
+  if (!in(p.v_threshold_m_s, 0.0F, kMax))
+    return bad(scene, "parameters", "v_threshold_m_s is out of range", "give 0 or more, in m/s");
+  if (!in(p.impulse_min_n_s, 0.0F, kMax))
+    return bad(scene, "parameters", "impulse_min_n_s is out of range", "give 0 or more, in N s");
+  if (!(p.v_max_m_s > 0.0F && p.v_max_m_s <= kMax))
+    return bad(scene, "parameters", "v_max_m_s is out of range", "give a speed above 0, in m/s");
+  if (!in(p.epsilon_m, 0.0F, kMax)) return bad(scene, "parameters", "epsilon_m is out of range", "give 0 or more, in m");
+  if (!in(p.theta_m, 0.0F, kMax))
+    return bad(scene, "parameters", "theta_m is out of range", "give 0 (mean edge length) or more, in m");
+  if (!(p.hash_cell_m > 0.0F && p.hash_cell_m <= kMax))
+    return bad(scene, "parameters", "hash_cell_m is out of range", "give a length above 0, in m");
+  return Done{};
+}
+
+Status check_mesh(const Scene& scene, const Mesh& mesh) {
+  const std::string where = "mesh " + mesh.name;
+  if (mesh.vertices.empty() || mesh.triangles.empty())
+    return bad(scene, where, "it has no triangles", "use a mesh with at least one triangle");
+  for (const Vec3 v : mesh.vertices)
+    if (!is_finite(v)) return bad(scene, where, "a vertex is NaN or infinite", "repair the mesh file");
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      if (v >= mesh.vertices.size())
+        return bad(scene, where, "a triangle names a vertex that does not exist", "repair the mesh file");
+  return Done{};
+}
+
+class CanonicalHash {
+ public:
+  CanonicalHash() : state_(XXH64_createState()) { XXH64_reset(state_, 0); }
+  ~CanonicalHash() { XXH64_freeState(state_); }
+  CanonicalHash(const CanonicalHash&) = delete;
+  CanonicalHash& operator=(const CanonicalHash&) = delete;
+
+  template <typename T>
+  void add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    XXH64_update(state_, &value, sizeof value);
+  }
+  void add(const Material& m) { add(m.mu_static), add(m.mu_kinetic), add(m.restitution); }
+  [[nodiscard]] std::uint64_t value() const { return XXH64_digest(state_); }
+
+ private:
+  XXH64_state_t* state_;
+};
+
+}  // namespace
+
+Status check_scene(const Scene& scene) {
+  for (const auto& mesh : scene.meshes)
+    if (Status s = check_mesh(scene, *mesh); !s) return s;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (Status s = check_body(scene, i); !s) return s;
+  if (scene.bodies.size() >= kFirstFace)
+    return bad(scene, "bodies", "too many bodies", "the ids from 0xFFFFFFF0 are faces of the domain");
+  if (Status s = check_material(scene, "faces", scene.face_material); !s) return s;
+  if (!is_finite(scene.gravity_m_s2))
+    return bad(scene, "gravity_m_s2", "it is NaN or infinite", "give three finite numbers, in m/s^2");
+  if (!(scene.dt_s > 0.0F && std::isfinite(scene.dt_s)))
+    return bad(scene, "dt_s", "it is zero, negative or not finite", "give a step above zero, in s");
+  const Box& d = scene.domain;
+  if (!(is_finite(d.min) && is_finite(d.max) && d.min.x < d.max.x && d.min.y < d.max.y && d.min.z < d.max.z))
+    return bad(scene, "domain", "it has no volume or is not finite", "give min below max on every axis, in m");
+  return check_parameters(scene);
+}
+
+std::uint64_t scene_digest(const Scene& scene) {
+  static_assert(std::endian::native == std::endian::little, "canonical bytes are little-endian");
+  CanonicalHash hash;
+  hash.add(std::uint64_t{1});  // version of this byte layout
+  hash.add(std::uint64_t{scene.meshes.size()});
+  for (const auto& mesh : scene.meshes) {
+    hash.add(std::uint64_t{mesh->vertices.size()});
+    for (const Vec3 v : mesh->vertices) hash.add(v);
+    hash.add(std::uint64_t{mesh->triangles.size()});
+    for (const Triangle& t : mesh->triangles) hash.add(t);
+  }
+  hash.add(std::uint64_t{scene.bodies.size()});
+  for (const Body& b : scene.bodies) {
+    hash.add(b.mesh), hash.add(b.position), hash.add(b.orientation), hash.add(b.velocity);
+    hash.add(b.angular_velocity), hash.add(b.inverse_mass), hash.add(b.material);
+  }
+  hash.add(scene.domain), hash.add(scene.face_material), hash.add(scene.gravity_m_s2), hash.add(scene.dt_s);
+  hash.add(scene.frames), hash.add(scene.seed), hash.add(scene.parameters);
+  return hash.value();
+}
+
+}  // namespace broadside::core

@@ -1,0 +1,52 @@
+// The immutable description of a simulation that every engine is given: DESIGN's "scene".
+#pragma once
+
+#include "core/material.hpp"
+#include "core/math/box.hpp"
+#include "core/math/quat.hpp"
+#include "core/math/vec3.hpp"
+#include "core/parameters.hpp"
+#include "core/result.hpp"
+#include "core/scene/mesh.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace broadside::core {
+
+struct Body {
+  std::uint32_t mesh = 0;  // index into Scene::meshes
+  Vec3 position;           // of the mesh's origin, m
+  Quat orientation;        // constant during a run: the method's bodies translate only
+  Vec3 velocity;           // m/s
+  Vec3 angular_velocity;   // rad/s; must be zero for the pipeline's engines
+  float inverse_mass = 1.0F;  // 1/kg; 0 = static
+  Material material;
+};
+
+struct Scene {
+  std::string name;         // "freefall:bunny:50", or the name in the scene file
+  std::string description;  // one sentence for reports
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  std::vector<Body> bodies;
+  Box domain;  // its faces are static half-spaces
+  Material face_material;
+  Vec3 gravity_m_s2;
+  float dt_s = 1.0F / 60.0F;
+  std::uint32_t frames = 1;
+  std::uint64_t seed = 0;
+  Parameters parameters;
+
+  [[nodiscard]] std::uint32_t body_count() const { return static_cast<std::uint32_t>(bodies.size()); }
+};
+
+// Everything that an engine may rely on: finite numbers, masses and parameters in range, unit quaternions, indices that
+// exist, meshes with triangles, a domain with volume. The first violation is named with its body and field.
+Status check_scene(const Scene& scene);
+
+// XXH64 over the canonical little-endian bytes of everything but name, description and mesh provenance.
+std::uint64_t scene_digest(const Scene& scene);
+
+}  // namespace broadside::core

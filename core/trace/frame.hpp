@@ -1,0 +1,59 @@
+// One frame of a trace, in memory: what was recorded of one step.
+#pragma once
+
+#include "core/contact.hpp"
+#include "core/engine/narrow_phase.hpp"
+#include "core/math/box.hpp"
+#include "core/math/quat.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/proximity.hpp"
+#include "core/pair.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace broadside::core {
+
+enum class RecordLevel { kFull, kDigest, kNone };
+
+// Groups of a frame; a trace has each group in all of its frames or in none.
+enum class Group : std::uint32_t {
+  kBodies = 1U << 0,     // states at the end of the step
+  kDetection = 1U << 1,  // states and boxes that collision detection saw: after integration, before any response
+  kPairs = 1U << 2,      // candidate pairs of the broad phase
+  kConfirmed = 1U << 3,  // pairs whose body-octree boxes overlap at the last level, and their vertex proximity
+  kContacts = 1U << 4,   // every application of the response, in the order of application
+  kNarrow = 1U << 5,     // separations measured by a narrow-phase engine
+};
+
+constexpr std::uint32_t bit(Group g) { return static_cast<std::uint32_t>(g); }
+
+// Vectors of a group that the trace does not have are empty. n = body count.
+struct FrameRecord {
+  std::uint64_t step = 0;  // 1 = after the first step; 0 = the initial state
+  double time_s = 0.0;     // step * dt
+  std::uint64_t digest = 0;
+
+  std::vector<Vec3> position;  // [n] m
+  std::vector<Quat> orientation;
+  std::vector<Vec3> velocity;  // [n] m/s
+  std::vector<Vec3> angular_velocity;
+
+  std::vector<Vec3> detected_position;
+  std::vector<Vec3> detected_velocity;
+  std::vector<Box> boxes;  // [n] at detection: the exact candidate set is defined by these
+
+  std::vector<Pair> pairs;
+  std::uint64_t pairs_demanded = 0;
+  std::uint64_t pairs_raw = 0;
+
+  std::vector<Pair> confirmed;
+  std::vector<Proximity> proximity;  // one per confirmed pair; empty when the vertex stage was off
+
+  std::vector<Contact> contacts;
+
+  std::vector<Pair> measured;
+  std::vector<Separation> separations;
+};
+
+}  // namespace broadside::core

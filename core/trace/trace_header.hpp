@@ -1,0 +1,34 @@
+// What a trace says once, about all of its frames.
+#pragma once
+
+#include "core/scene/scene.hpp"
+#include "core/stamp.hpp"
+#include "core/trace/frame.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace broadside::core {
+
+// Raised whenever a reader of the previous version would misread a file. CHANGELOG.md lists the breaks.
+constexpr std::uint32_t kTraceFormatVersion = 1;
+
+struct TraceHeader {
+  Stamp stamp;
+  Scene scene;
+  std::uint32_t groups = 0;  // bit(Group) of each group that the frames have
+  RecordLevel level = RecordLevel::kFull;
+  std::uint32_t every = 1;   // every k-th frame was recorded
+  // Of the broad phase, where the trace has pairs.
+  bool broad_is_exact = true;
+  double broad_margin_m = 0.0;
+  // What produced the boxes or poses that a broad-phase or narrow-phase engine was fed: "octree-cpu"; empty for a
+  // trace of dynamics.
+  std::string driver;
+  // Anything else worth knowing, as printed in the report's equivalence card: "theta_m" -> "0.0312".
+  std::map<std::string, std::string> notes;
+};
+
+}  // namespace broadside::core

@@ -1,0 +1,41 @@
+// Reads a trace frame by frame. Schema: core/trace/SCHEMA.md.
+#pragma once
+
+#include "core/result.hpp"
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace broadside::core {
+
+// Not thread-safe. Trusts nothing in the file: types, shapes, offsets and indices are checked before use.
+class TraceReader {
+ public:
+  // A file that is no trace, is of a later version, or lacks what it must have is an error that says so. A .part file
+  // opens too, with the frames that were flushed.
+  static Result<TraceReader> open(const std::filesystem::path& path);
+
+  TraceReader(TraceReader&&) noexcept;
+  TraceReader& operator=(TraceReader&&) noexcept;
+  ~TraceReader();
+
+  [[nodiscard]] const TraceHeader& header() const;
+  [[nodiscard]] const std::filesystem::path& path() const;
+  [[nodiscard]] std::uint64_t frame_count() const;
+  // Step of each recorded frame, rising.
+  [[nodiscard]] const std::vector<std::uint64_t>& steps() const;
+  [[nodiscard]] const std::vector<std::uint64_t>& digests() const;
+  // Random access by index 0 .. frame_count()-1; only the asked-for groups are read, and none that the trace lacks.
+  Result<FrameRecord> read(std::uint64_t index, std::uint32_t groups) const;
+
+ private:
+  struct Impl;
+  explicit TraceReader(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace broadside::core

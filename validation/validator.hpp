@@ -1,0 +1,48 @@
+// What a validator is: a law, checked over the frames of a trace, that ends in one verdict. It never calls an engine.
+#pragma once
+
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
+#include "core/verdict.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace broadside::validation {
+
+// One frame of the subject, the subject's frame before it (null at the first, or when frames between were not
+// recorded), and the baseline's frame of the same step (null when there is no baseline or it lacks that step).
+struct Evidence {
+  const core::FrameRecord& frame;
+  const core::FrameRecord* previous = nullptr;
+  const core::FrameRecord* baseline = nullptr;
+};
+
+// Lives for one pass over one trace. Frames come in rising order of step; memory must not grow with their number.
+class Validator {
+ public:
+  virtual ~Validator() = default;
+  virtual void look(const Evidence& evidence) = 0;
+  virtual core::Verdict conclude() = 0;
+};
+
+struct Subject {
+  const core::TraceHeader& header;
+  const core::TraceHeader* baseline = nullptr;
+};
+
+// One row per validator in the one table (validation/table.cpp).
+struct ValidatorRow {
+  std::string_view name;
+  std::string_view law;         // holds when
+  std::string_view must_reject;  // the known-bad engine or trace
+  std::uint32_t groups = 0;           // of the subject that look() reads
+  std::uint32_t baseline_groups = 0;  // of the baseline; 0 when it needs none
+  // Why it does not apply to this subject and baseline; empty when it does.
+  std::string (*why_not)(const Subject& subject);
+  std::unique_ptr<Validator> (*make)(const Subject& subject);
+};
+
+}  // namespace broadside::validation
