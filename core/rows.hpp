@@ -1,15 +1,15 @@
 // The rows that a run leaves for reports: cells, verdicts, samples; and their JSON files in the run's folder.
 #pragma once
 
-#include "core/result.hpp"
-#include "core/sample.hpp"
-#include "core/stamp.hpp"
-#include "core/verdict.hpp"
-
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "core/result.hpp"
+#include "core/sample.hpp"
+#include "core/stamp.hpp"
+#include "core/verdict.hpp"
 
 namespace broadside::core {
 
@@ -24,7 +24,10 @@ struct Cell {
   std::string reason;      // "no device"; "signal 6 (abort) after frame 12"; empty when recorded
   std::string trace_file;  // file name within the folder; empty when there is none
   std::uint64_t frames = 0;
-  double wall_s = 0.0;     // of the recording run; never a benchmark
+  double wall_s = 0.0;  // of the recording run; never a benchmark
+  // Step -> digest of that recorded frame: the last frame, and any other at which a timed run may end. A sample is
+  // admitted only when its final digest is found here.
+  std::map<std::uint64_t, std::uint64_t> digests;
   std::map<std::string, std::string> notes;  // "frames measured" -> "every 100th"; "mesh" -> file and sum
 };
 
@@ -40,8 +43,11 @@ struct RunRows {
   std::vector<Sample> samples;
 };
 
-// Files: cells.json, verdicts.json, samples.json. Written beside their final name and renamed. Doubles round-trip;
-// NaN and infinity are written as the strings "nan", "inf", "-inf". A file that is absent reads as no rows.
+// Files: cells.json, verdicts.json, samples.json: {"format": "broadside-cells", "version": 1, "rows": [...]}. Written
+// beside their final name, synced and renamed. Doubles round-trip; NaN and infinity are written as the strings "nan",
+// "inf", "-inf"; digests are strings "0x" + 16 hexadecimal digits, which survive readers that hold numbers as doubles.
+// Text that is not UTF-8 is written with replacement characters. A file that is absent reads as no rows; a malformed
+// one is an error that names the file, the row and the field.
 Status write_cells(const std::filesystem::path& file, const std::vector<Cell>& cells);
 Status write_verdicts(const std::filesystem::path& file, const std::vector<CellVerdicts>& verdicts);
 Status write_samples(const std::filesystem::path& file, const std::vector<Sample>& samples);

@@ -1,0 +1,113 @@
+// Rows to JSON. The reader of the same files is rows_read.cpp.
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/rows.hpp"
+#include "core/whole_file.hpp"
+
+namespace broadside::core {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex(std::uint64_t digest) {
+  char text[19];
+  std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(digest));
+  return text;
+}
+
+// JSON has no word for these, and a missing value would read as zero.
+Json number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(number(value));
+  return array;
+}
+
+Json to_json(const Stamp& stamp) {
+  return Json{{"scene_name", stamp.scene_name},
+              {"scene_digest", hex(stamp.scene_digest)},
+              {"engine", stamp.engine},
+              {"settings", stamp.settings},
+              {"settings_short", stamp.settings_short},
+              {"engine_build", stamp.engine_build},
+              {"broadside_build", stamp.broadside_build},
+              {"machine", stamp.machine}};
+}
+
+Json to_json(const Cell& cell) {
+  Json digests = Json::object();
+  for (const auto& [step, digest] : cell.digests) digests[std::to_string(step)] = hex(digest);
+  Json notes = Json::object();
+  for (const auto& [key, text] : cell.notes) notes[key] = text;
+  return Json{{"stamp", to_json(cell.stamp)},  {"state", std::string(cell_state_word(cell.state))},
+              {"reason", cell.reason},         {"trace_file", cell.trace_file},
+              {"frames", cell.frames},         {"wall_s", number(cell.wall_s)},
+              {"digests", std::move(digests)}, {"notes", std::move(notes)}};
+}
+
+Json to_json(const Verdict& verdict) {
+  return Json{
+      {"validator", verdict.validator},
+      {"outcome", std::string(outcome_word(verdict.outcome))},
+      {"measured", number(verdict.measured)},
+      {"limit", number(verdict.limit)},
+      {"unit", verdict.unit},
+      {"origin", verdict.origin},
+      {"explanation", verdict.explanation},
+      {"worst", Json{{"step", verdict.worst.step}, {"bodies", verdict.worst.bodies}, {"field", verdict.worst.field}}},
+      {"checked", verdict.checked},
+      {"violations", verdict.violations},
+      {"baseline", verdict.baseline}};
+}
+
+Json to_json(const CellVerdicts& cell) {
+  Json verdicts = Json::array();
+  for (const Verdict& verdict : cell.verdicts) verdicts.push_back(to_json(verdict));
+  return Json{{"trace_file", cell.trace_file}, {"stamp", to_json(cell.stamp)}, {"verdicts", std::move(verdicts)}};
+}
+
+Json to_json(const Sample& sample) {
+  Json stages = Json::array();
+  for (const StageSeries& series : sample.stages)
+    stages.push_back(Json{{"stage", series.stage}, {"seconds", numbers(series.seconds)}});
+  return Json{{"stamp", to_json(sample.stamp)},           {"repetition", sample.repetition},
+              {"warm_up_frames", sample.warm_up_frames},  {"stages", std::move(stages)},
+              {"final_digest", hex(sample.final_digest)}, {"final_step", sample.final_step}};
+}
+
+// One row per line, so that two files can be compared line by line and long series stay compact.
+template <typename Row>
+Status write_rows(const std::filesystem::path& file, std::string_view format, const std::vector<Row>& rows) {
+  std::string text = "{\"format\": \"" + std::string(format) + "\", \"version\": 1, \"rows\": [";
+  const char* separator = "\n";
+  for (const Row& row : rows) {
+    text += separator;
+    text += to_json(row).dump(-1, ' ', false, Json::error_handler_t::replace);
+    separator = ",\n";
+  }
+  text += "\n]}\n";
+  return write_whole_file(file, text);
+}
+
+}  // namespace
+
+Status write_cells(const std::filesystem::path& file, const std::vector<Cell>& cells) {
+  return write_rows(file, "broadside-cells", cells);
+}
+
+Status write_verdicts(const std::filesystem::path& file, const std::vector<CellVerdicts>& verdicts) {
+  return write_rows(file, "broadside-verdicts", verdicts);
+}
+
+Status write_samples(const std::filesystem::path& file, const std::vector<Sample>& samples) {
+  return write_rows(file, "broadside-samples", samples);
+}
+
+}  // namespace broadside::core
