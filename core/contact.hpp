@@ -1,10 +1,10 @@
 // One application of the collision response to one pair of bodies, or to one body and one face of the domain.
 #pragma once
 
+#include <cstdint>
+
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
-
-#include <cstdint>
 
 namespace broadside::core {
 
@@ -14,7 +14,9 @@ constexpr int kFaceCount = 6;
 // Contacts with faces come after all colors of body contacts.
 constexpr std::uint32_t kFaceColor = 0xFFFFFFFFU;
 
-BROADSIDE_HD constexpr bool is_face(std::uint32_t body) { return body >= kFirstFace; }
+BROADSIDE_HD constexpr bool is_face(std::uint32_t body) {
+  return body >= kFirstFace;
+}
 
 // Position (m) and velocity (m/s) of one body at one moment.
 struct Kinematics {

@@ -1,15 +1,15 @@
 // Friction and restitution of a surface, and the rule that combines two of them.
 #pragma once
 
-#include "core/attributes.hpp"
-
 #include <cmath>
+
+#include "core/attributes.hpp"
 
 namespace broadside::core {
 
 struct Material {
-  float mu_static = 0.6F;   // P-Table 1
-  float mu_kinetic = 0.5F;  // P-Table 1
+  float mu_static = 0.6F;    // P-Table 1
+  float mu_kinetic = 0.5F;   // P-Table 1
   float restitution = 0.3F;  // not published; ours
 
   friend constexpr bool operator==(const Material&, const Material&) = default;

@@ -11,9 +11,9 @@ namespace broadside::core {
 enum class Exit : int { kGood = 0, kFailed = 1, kBadInput = 2, kMissing = 3, kInternal = 4 };
 
 struct Error {
-  std::string what;             // "inverse_mass is negative (-1)"
-  std::string where = {};       // "scene.toml: body 3"
-  std::string advice = {};      // "give a mass above zero, or static = true"
+  std::string what;         // "inverse_mass is negative (-1)"
+  std::string where = {};   // "scene.toml: body 3"
+  std::string advice = {};  // "give a mass above zero, or static = true"
   Exit exit = Exit::kBadInput;
 
   // One line: "where: what; advice".

@@ -1,11 +1,11 @@
 // A timing measurement with its stamp.
 #pragma once
 
-#include "core/stamp.hpp"
-
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "core/stamp.hpp"
 
 namespace broadside::core {
 

@@ -12,33 +12,37 @@ enum class Outcome { kPass, kFail, kInconclusive, kNotApplicable };
 
 constexpr std::string_view outcome_word(Outcome o) {
   switch (o) {
-    case Outcome::kPass: return "pass";
-    case Outcome::kFail: return "fail";
-    case Outcome::kInconclusive: return "inconclusive";
-    case Outcome::kNotApplicable: return "not applicable";
+    case Outcome::kPass:
+      return "pass";
+    case Outcome::kFail:
+      return "fail";
+    case Outcome::kInconclusive:
+      return "inconclusive";
+    case Outcome::kNotApplicable:
+      return "not applicable";
   }
   return "unknown";
 }
 
 // Where the measured value was worst.
 struct Place {
-  std::int64_t step = -1;              // the frame's step; -1 = no single frame
-  std::vector<std::uint32_t> bodies;   // faces of the domain as kFirstFace + k
-  std::string field;                   // "contact.normal", "pairs"
+  std::int64_t step = -1;             // the frame's step; -1 = no single frame
+  std::vector<std::uint32_t> bodies;  // faces of the domain as kFirstFace + k
+  std::string field;                  // "contact.normal", "pairs"
 };
 
 struct Verdict {
   std::string validator;
   Outcome outcome = Outcome::kNotApplicable;
-  double measured = 0.0;     // the worst value, in `unit`
-  double limit = 0.0;        // what it may be at most (or at least: the origin says)
-  std::string unit;          // "", "m", "J", "rad", "pairs"
-  std::string origin;        // where the limit comes from, one sentence
-  std::string explanation;   // what was checked, or why it does not apply, or what failed: one sentence
+  double measured = 0.0;    // the worst value, in `unit`
+  double limit = 0.0;       // what it may be at most (or at least: the origin says)
+  std::string unit;         // "", "m", "J", "rad", "pairs"
+  std::string origin;       // where the limit comes from, one sentence
+  std::string explanation;  // what was checked, or why it does not apply, or what failed: one sentence
   Place worst;
   std::uint64_t checked = 0;  // how many things were judged
   std::uint64_t violations = 0;
-  std::string baseline;      // label of the trace that this was judged against; empty = alone
+  std::string baseline;  // label of the trace that this was judged against; empty = alone
 };
 
 }  // namespace broadside::core

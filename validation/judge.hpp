@@ -1,15 +1,15 @@
 // Runs every validator that applies over one trace in one streamed pass.
 #pragma once
 
-#include "core/result.hpp"
-#include "core/trace/trace_reader.hpp"
-#include "core/verdict.hpp"
-#include "validation/validator.hpp"
-
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "core/result.hpp"
+#include "core/trace/trace_reader.hpp"
+#include "core/verdict.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 

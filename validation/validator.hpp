@@ -1,14 +1,14 @@
 // What a validator is: a law, checked over the frames of a trace, that ends in one verdict. It never calls an engine.
 #pragma once
 
-#include "core/trace/frame.hpp"
-#include "core/trace/trace_header.hpp"
-#include "core/verdict.hpp"
-
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
+#include "core/verdict.hpp"
 
 namespace broadside::validation {
 
@@ -36,8 +36,8 @@ struct Subject {
 // One row per validator in the one table (validation/table.cpp).
 struct ValidatorRow {
   std::string_view name;
-  std::string_view law;         // holds when
-  std::string_view must_reject;  // the known-bad engine or trace
+  std::string_view law;               // holds when
+  std::string_view must_reject;       // the known-bad engine or trace
   std::uint32_t groups = 0;           // of the subject that look() reads
   std::uint32_t baseline_groups = 0;  // of the baseline; 0 when it needs none
   // Why it does not apply to this subject and baseline; empty when it does.

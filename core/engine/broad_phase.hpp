@@ -1,13 +1,13 @@
 // Boxes in, overlapping pairs out.
 #pragma once
 
-#include "core/math/box.hpp"
-#include "core/pair.hpp"
-#include "core/result.hpp"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "core/math/box.hpp"
+#include "core/pair.hpp"
+#include "core/result.hpp"
 
 namespace broadside::core {
 
@@ -18,7 +18,7 @@ struct BroadPhaseTraits {
 };
 
 struct PairSet {
-  std::vector<Pair> pairs;    // sorted, i < j, no duplicates, no pair of two static bodies
+  std::vector<Pair> pairs;     // sorted, i < j, no duplicates, no pair of two static bodies
   std::uint64_t demanded = 0;  // how many there were; more than pairs.size() means that some are missing
   std::uint64_t raw = 0;       // how many the engine reported before its own pairs were re-filtered on the given boxes
   double filter_s = 0.0;       // time of that filter: charged openly, beside update and find

@@ -1,12 +1,13 @@
 // A whole simulation, step by step.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <string_view>
+
 #include "core/result.hpp"
 #include "core/scene/scene.hpp"
 #include "core/trace/frame.hpp"
-
-#include <span>
-#include <string_view>
 
 namespace broadside::core {
 
@@ -25,6 +26,8 @@ class Dynamics {
   virtual Status step(float dt_s) = 0;
   // Own zone: the frame that the last step made. kDigest fills digest and counts only.
   virtual Status read_back(FrameRecord& frame, RecordLevel level) = 0;
+  // bit(Group) of each group that read_back fills at kFull: known after construction, the same for every frame.
+  [[nodiscard]] virtual std::uint32_t groups() const = 0;
   // Of the last step, in pipeline order; empty when the engine cannot tell its stages apart.
   [[nodiscard]] virtual std::span<const StageTime> stage_times() const { return {}; }
 };

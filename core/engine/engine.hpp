@@ -1,16 +1,16 @@
 // A named thing that offers one or more capabilities, and how tables list it.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
 #include "core/engine/broad_phase.hpp"
 #include "core/engine/dynamics.hpp"
 #include "core/engine/narrow_phase.hpp"
 #include "core/engine/settings.hpp"
 #include "core/result.hpp"
-
-#include <memory>
-#include <span>
-#include <string>
-#include <string_view>
 
 namespace broadside::core {
 

@@ -1,15 +1,15 @@
 // Pairs of bodies in, separations out.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
 #include "core/pair.hpp"
 #include "core/result.hpp"
 #include "core/scene/scene.hpp"
-
-#include <cstdint>
-#include <span>
-#include <vector>
 
 namespace broadside::core {
 

@@ -1,15 +1,16 @@
 #include "core/engine/settings.hpp"
 
-#include "core/nearest_name.hpp"
-
 #include <algorithm>
 #include <cstdlib>
+
+#include "core/nearest_name.hpp"
 
 namespace broadside::core {
 namespace {
 
 bool is_whole_number(const std::string& text) {
-  return !text.empty() && text.size() <= 9 && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return !text.empty() && text.size() <= 9 &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 }  // namespace
@@ -38,11 +39,17 @@ Result<Settings> Settings::parse(std::string_view engine_id, std::span<const Set
   return settings;
 }
 
-const std::string& Settings::text(std::string_view key) const { return values_.find(key)->second.text; }
+const std::string& Settings::text(std::string_view key) const {
+  return values_.find(key)->second.text;
+}
 
-unsigned long Settings::number(std::string_view key) const { return std::strtoul(text(key).c_str(), nullptr, 10); }
+unsigned long Settings::number(std::string_view key) const {
+  return std::strtoul(text(key).c_str(), nullptr, 10);
+}
 
-bool Settings::is_given(std::string_view key) const { return values_.find(key)->second.is_given; }
+bool Settings::is_given(std::string_view key) const {
+  return values_.find(key)->second.is_given;
+}
 
 std::string Settings::canonical() const {
   std::string out;

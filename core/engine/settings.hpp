@@ -1,13 +1,13 @@
 // The settings of one engine in one run: a table of what exists, and the values chosen.
 #pragma once
 
-#include "core/result.hpp"
-
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/result.hpp"
 
 namespace broadside::core {
 

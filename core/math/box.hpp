@@ -1,10 +1,10 @@
 // An axis-aligned bounding box, closed on every side.
 #pragma once
 
+#include <limits>
+
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
-
-#include <limits>
 
 namespace broadside::core {
 
@@ -21,7 +21,9 @@ BROADSIDE_HD constexpr Box empty_box() {
   return {{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}};
 }
 
-BROADSIDE_HD constexpr bool is_empty(const Box& b) { return !(b.min.x <= b.max.x); }
+BROADSIDE_HD constexpr bool is_empty(const Box& b) {
+  return !(b.min.x <= b.max.x);
+}
 
 BROADSIDE_HD constexpr Box grown(const Box& b, Vec3 p) {
   return {{p.x < b.min.x ? p.x : b.min.x, p.y < b.min.y ? p.y : b.min.y, p.z < b.min.z ? p.z : b.min.z},
@@ -30,7 +32,9 @@ BROADSIDE_HD constexpr Box grown(const Box& b, Vec3 p) {
 
 // Rounding is monotone, so the rounded translation of a tight box is the tight box of the rounded translated points:
 // a body that only translates never needs its vertices visited to refresh its box, P(5).
-BROADSIDE_HD constexpr Box translated(const Box& b, Vec3 x) { return {b.min + x, b.max + x}; }
+BROADSIDE_HD constexpr Box translated(const Box& b, Vec3 x) {
+  return {b.min + x, b.max + x};
+}
 
 // P(6): closed intervals overlap on all three axes; touching counts.
 BROADSIDE_HD constexpr bool overlaps(const Box& a, const Box& b) {

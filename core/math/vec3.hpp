@@ -1,9 +1,9 @@
 // A vector of three floats: the state's precision (float32), in SI units and the world frame unless said otherwise.
 #pragma once
 
-#include "core/attributes.hpp"
-
 #include <cmath>
+
+#include "core/attributes.hpp"
 
 namespace broadside::core {
 
@@ -17,14 +17,24 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-BROADSIDE_HD constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-BROADSIDE_HD constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-BROADSIDE_HD constexpr Vec3 operator*(float s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+BROADSIDE_HD constexpr Vec3 operator+(Vec3 a, Vec3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+BROADSIDE_HD constexpr Vec3 operator-(Vec3 a, Vec3 b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+BROADSIDE_HD constexpr Vec3 operator*(float s, Vec3 a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
 
 // The three products are added left to right: the order is part of the result's bits.
-BROADSIDE_HD constexpr float dot(Vec3 a, Vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+BROADSIDE_HD constexpr float dot(Vec3 a, Vec3 b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
 
-BROADSIDE_HD float length(Vec3 a) { return sqrtf(dot(a, a)); }
+BROADSIDE_HD float length(Vec3 a) {
+  return sqrtf(dot(a, a));
+}
 
 BROADSIDE_HD constexpr Vec3 axis_vector(int axis, float sign) {
   return {axis == 0 ? sign : 0.0F, axis == 1 ? sign : 0.0F, axis == 2 ? sign : 0.0F};

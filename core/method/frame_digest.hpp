@@ -1,14 +1,14 @@
 // The 64-bit digest of a frame: what two engines must share to count as bit-identical.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "core/attributes.hpp"
 #include "core/contact.hpp"
 #include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
 #include "core/pair.hpp"
-
-#include <bit>
-#include <cstdint>
 
 namespace broadside::core {
 
@@ -17,7 +17,8 @@ namespace broadside::core {
 // records of different bodies do not cancel or swap unseen.
 class RecordHash {
  public:
-  BROADSIDE_HD constexpr RecordHash(std::uint64_t seed, std::uint64_t identity) : h_(splitmix64(seed ^ splitmix64(identity))) {}
+  BROADSIDE_HD constexpr RecordHash(std::uint64_t seed, std::uint64_t identity)
+      : h_(splitmix64(seed ^ splitmix64(identity))) {}
 
   BROADSIDE_HD constexpr RecordHash& add(std::uint64_t word) {
     h_ = splitmix64(h_ ^ word);
@@ -38,7 +39,9 @@ BROADSIDE_HD constexpr std::uint64_t body_digest(std::uint32_t body, Vec3 x, Qua
   return RecordHash(0x626f6479ULL, body).add(x, v.x).add(v.y, v.z).add(q.w, q.x).add(q.y, q.z).add(omega, 0.0F).value();
 }
 
-BROADSIDE_HD constexpr std::uint64_t confirmed_digest(Pair p) { return RecordHash(0x70616972ULL, pair_key(p)).value(); }
+BROADSIDE_HD constexpr std::uint64_t confirmed_digest(Pair p) {
+  return RecordHash(0x70616972ULL, pair_key(p)).value();
+}
 
 BROADSIDE_HD constexpr std::uint64_t contact_digest(const Contact& c) {
   return RecordHash(0x636f6e74ULL, pair_key({c.a, c.b}))

@@ -1,11 +1,11 @@
 // Time integration, METHOD section 1.
 #pragma once
 
+#include <cmath>
+
 #include "core/attributes.hpp"
 #include "core/contact.hpp"
 #include "core/math/vec3.hpp"
-
-#include <cmath>
 
 namespace broadside::core {
 
@@ -20,9 +20,13 @@ BROADSIDE_HD Kinematics semi_implicit_euler(Kinematics s, float inverse_mass, Ve
 }
 
 // Largest stable step of m x'' + c x' + k x = 0 under that rule, with w0 = sqrt(k/m) and g = c/m.
-BROADSIDE_HD double step_limit_sound(double w0, double g) { return 2.0 / (sqrt(w0 * w0 + 0.25 * g * g) + 0.5 * g); }
+BROADSIDE_HD double step_limit_sound(double w0, double g) {
+  return 2.0 / (sqrt(w0 * w0 + 0.25 * g * g) + 0.5 * g);
+}
 
 // P(4) as printed: too large whenever g > 0 (E1).
-BROADSIDE_HD double step_limit_printed(double w0, double g) { return 2.0 / sqrt(w0 * w0 + 0.25 * g * g); }
+BROADSIDE_HD double step_limit_printed(double w0, double g) {
+  return 2.0 / sqrt(w0 * w0 + 0.25 * g * g);
+}
 
 }  // namespace broadside::core

@@ -1,12 +1,12 @@
 // Vertex proximity, P(7) and P(8): METHOD section 3.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+
 #include "core/attributes.hpp"
 #include "core/math/box.hpp"
 #include "core/math/vec3.hpp"
-
-#include <cstdint>
-#include <limits>
 
 namespace broadside::core {
 

@@ -1,6 +1,8 @@
 // Position correction and velocity update of one contact: METHOD sections 5 and 6, with the printed forms E3 to E6.
 #pragma once
 
+#include <cmath>
+
 #include "core/attributes.hpp"
 #include "core/contact.hpp"
 #include "core/material.hpp"
@@ -8,8 +10,6 @@
 #include "core/method/contact_geometry.hpp"
 #include "core/parameters.hpp"
 #include "core/variant.hpp"
-
-#include <cmath>
 
 namespace broadside::core {
 

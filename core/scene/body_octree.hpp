@@ -1,13 +1,13 @@
 // The octree over one mesh's vertices: 1 + 8 + 64 tight boxes, and each vertex's leaf. METHOD section 2 and P-Alg A1.
 #pragma once
 
-#include "core/math/box.hpp"
-#include "core/math/vec3.hpp"
-
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "core/math/box.hpp"
+#include "core/math/vec3.hpp"
 
 namespace broadside::core {
 
@@ -16,7 +16,9 @@ constexpr int kBodyOctreeNodes = 1 + 8 + 64;
 // First node and node count of each level; the children of node n are 8 n + 1 ... 8 n + 8.
 constexpr std::array<int, kBodyOctreeLevels> kLevelOffset{0, 1, 9};
 constexpr std::array<int, kBodyOctreeLevels> kLevelSize{1, 8, 64};
-constexpr int first_child(int node) { return 8 * node + 1; }
+constexpr int first_child(int node) {
+  return 8 * node + 1;
+}
 
 // Boxes and vertices are in body coordinates after the body's orientation was applied: world = this + position.
 // A node's box is the tight box of its vertices; a node without vertices has the empty box and is skipped. An octant is

@@ -11,12 +11,16 @@ struct Point {
   double x, y, z;
 };
 
-Point point(Vec3 v) { return {v.x, v.y, v.z}; }
-double distance(Point a, Point b) { return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z)); }
+Point point(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+double distance(Point a, Point b) {
+  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
+}
 
-// The covering radius of a triangle by its three vertices, from its side lengths. Acute or right: the circumcenter is in
-// the triangle and is the farthest point. Obtuse, with c the longest side: the farthest point is where a bisector of a
-// shorter side meets c, at distance a^2 c / (a^2 + c^2 - b^2) from the nearer ends (the larger of the two).
+// The covering radius of a triangle by its three vertices, from its side lengths. Acute or right: the circumcenter is
+// in the triangle and is the farthest point. Obtuse, with c the longest side: the farthest point is where a bisector of
+// a shorter side meets c, at distance a^2 c / (a^2 + c^2 - b^2) from the nearer ends (the larger of the two).
 double triangle_covering_radius(double a, double b, double c) {
   if (a > c) std::swap(a, c);
   if (b > c) std::swap(b, c);

@@ -1,13 +1,13 @@
 // A triangle mesh in body coordinates (m), as every engine receives it: scaled, centered and cleaned.
 #pragma once
 
-#include "core/math/box.hpp"
-#include "core/math/vec3.hpp"
-
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "core/math/box.hpp"
+#include "core/math/vec3.hpp"
 
 namespace broadside::core {
 

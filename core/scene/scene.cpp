@@ -1,7 +1,5 @@
 #include "core/scene/scene.hpp"
 
-#include "core/contact.hpp"
-
 #include <xxhash.h>
 
 #include <bit>
@@ -9,10 +7,14 @@
 #include <string>
 #include <type_traits>
 
+#include "core/contact.hpp"
+
 namespace broadside::core {
 namespace {
 
-bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(Vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 Error bad(const Scene& scene, const std::string& where, const std::string& what, const std::string& advice) {
   return {what, scene.name + ": " + where, advice, Exit::kBadInput};
@@ -32,8 +34,10 @@ Status check_body(const Scene& scene, std::size_t index) {
   const Body& b = scene.bodies[index];
   const std::string where = "body " + std::to_string(index);
   if (b.mesh >= scene.meshes.size()) return bad(scene, where, "its mesh does not exist", "name a mesh of this scene");
-  if (!is_finite(b.position)) return bad(scene, where, "position is NaN or infinite", "give three finite numbers, in m");
-  if (!is_finite(b.velocity)) return bad(scene, where, "velocity is NaN or infinite", "give three finite numbers, in m/s");
+  if (!is_finite(b.position))
+    return bad(scene, where, "position is NaN or infinite", "give three finite numbers, in m");
+  if (!is_finite(b.velocity))
+    return bad(scene, where, "velocity is NaN or infinite", "give three finite numbers, in m/s");
   if (!is_finite(b.angular_velocity))
     return bad(scene, where, "angular_velocity is NaN or infinite", "give three finite numbers, in rad/s");
   const Quat q = b.orientation;
@@ -52,14 +56,16 @@ Status check_parameters(const Scene& scene) {
   constexpr float kMax = 3.4e38F;
   if (!in(p.delta_m, 0.0F, kMax)) return bad(scene, "parameters", "delta_m is out of range", "give 0 or more, in m");
   if (!(p.beta > 0.0F && p.beta <= 1.0F)) return bad(scene, "parameters", "beta is out of range", "give 0 < beta <= 1");
-  if (!(p.alpha > 0.0F && p.alpha <= 1.0F)) return bad(scene, "parameters", "alpha is out of range", "give 0 < alpha <= 1");
+  if (!(p.alpha > 0.0F && p.alpha <= 1.0F))
+    return bad(scene, "parameters", "alpha is out of range", "give 0 < alpha <= 1");
   if (!in(p.v_threshold_m_s, 0.0F, kMax))
     return bad(scene, "parameters", "v_threshold_m_s is out of range", "give 0 or more, in m/s");
   if (!in(p.impulse_min_n_s, 0.0F, kMax))
     return bad(scene, "parameters", "impulse_min_n_s is out of range", "give 0 or more, in N s");
   if (!(p.v_max_m_s > 0.0F && p.v_max_m_s <= kMax))
     return bad(scene, "parameters", "v_max_m_s is out of range", "give a speed above 0, in m/s");
-  if (!in(p.epsilon_m, 0.0F, kMax)) return bad(scene, "parameters", "epsilon_m is out of range", "give 0 or more, in m");
+  if (!in(p.epsilon_m, 0.0F, kMax))
+    return bad(scene, "parameters", "epsilon_m is out of range", "give 0 or more, in m");
   if (!in(p.theta_m, 0.0F, kMax))
     return bad(scene, "parameters", "theta_m is out of range", "give 0 (mean edge length) or more, in m");
   if (!(p.hash_cell_m > 0.0F && p.hash_cell_m <= kMax))

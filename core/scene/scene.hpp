@@ -1,6 +1,11 @@
 // The immutable description of a simulation that every engine is given: DESIGN's "scene".
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "core/material.hpp"
 #include "core/math/box.hpp"
 #include "core/math/quat.hpp"
@@ -9,19 +14,14 @@
 #include "core/result.hpp"
 #include "core/scene/mesh.hpp"
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace broadside::core {
 
 struct Body {
-  std::uint32_t mesh = 0;  // index into Scene::meshes
-  Vec3 position;           // of the mesh's origin, m
-  Quat orientation;        // constant during a run: the method's bodies translate only
-  Vec3 velocity;           // m/s
-  Vec3 angular_velocity;   // rad/s; must be zero for the pipeline's engines
+  std::uint32_t mesh = 0;     // index into Scene::meshes
+  Vec3 position;              // of the mesh's origin, m
+  Quat orientation;           // constant during a run: the method's bodies translate only
+  Vec3 velocity;              // m/s
+  Vec3 angular_velocity;      // rad/s; must be zero for the pipeline's engines
   float inverse_mass = 1.0F;  // 1/kg; 0 = static
   Material material;
 };

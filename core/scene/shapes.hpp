@@ -2,11 +2,11 @@
 // more shape and a frame never rotates a vertex.
 #pragma once
 
-#include "core/scene/body_octree.hpp"
-#include "core/scene/scene.hpp"
-
 #include <cstdint>
 #include <vector>
+
+#include "core/scene/body_octree.hpp"
+#include "core/scene/scene.hpp"
 
 namespace broadside::core {
 

@@ -1,6 +1,9 @@
 // One frame of a trace, in memory: what was recorded of one step.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/contact.hpp"
 #include "core/engine/narrow_phase.hpp"
 #include "core/math/box.hpp"
@@ -8,9 +11,6 @@
 #include "core/math/vec3.hpp"
 #include "core/method/proximity.hpp"
 #include "core/pair.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace broadside::core {
 
@@ -26,7 +26,9 @@ enum class Group : std::uint32_t {
   kNarrow = 1U << 5,     // separations measured by a narrow-phase engine
 };
 
-constexpr std::uint32_t bit(Group g) { return static_cast<std::uint32_t>(g); }
+constexpr std::uint32_t bit(Group g) {
+  return static_cast<std::uint32_t>(g);
+}
 
 // Vectors of a group that the trace does not have are empty. n = body count.
 struct FrameRecord {

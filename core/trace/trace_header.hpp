@@ -1,14 +1,14 @@
 // What a trace says once, about all of its frames.
 #pragma once
 
-#include "core/scene/scene.hpp"
-#include "core/stamp.hpp"
-#include "core/trace/frame.hpp"
-
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+
+#include "core/scene/scene.hpp"
+#include "core/stamp.hpp"
+#include "core/trace/frame.hpp"
 
 namespace broadside::core {
 
@@ -20,7 +20,7 @@ struct TraceHeader {
   Scene scene;
   std::uint32_t groups = 0;  // bit(Group) of each group that the frames have
   RecordLevel level = RecordLevel::kFull;
-  std::uint32_t every = 1;   // every k-th frame was recorded
+  std::uint32_t every = 1;  // every k-th frame was recorded
   // Of the broad phase, where the trace has pairs.
   bool broad_is_exact = true;
   double broad_margin_m = 0.0;

@@ -1,14 +1,14 @@
 // Reads a trace frame by frame. Schema: core/trace/SCHEMA.md.
 #pragma once
 
-#include "core/result.hpp"
-#include "core/trace/frame.hpp"
-#include "core/trace/trace_header.hpp"
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
+
+#include "core/result.hpp"
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
 
 namespace broadside::core {
 

@@ -1,12 +1,12 @@
 // Writes a trace as NAME.part and gives it its final name only when it is complete. Schema: core/trace/SCHEMA.md.
 #pragma once
 
+#include <filesystem>
+#include <memory>
+
 #include "core/result.hpp"
 #include "core/trace/frame.hpp"
 #include "core/trace/trace_header.hpp"
-
-#include <filesystem>
-#include <memory>
 
 namespace broadside::core {
 

@@ -1,0 +1,26 @@
+#include "reference/octree_cpu/bodies.hpp"
+
+#include <utility>
+
+namespace broadside::reference {
+
+Bodies make_bodies(const core::Scene& scene) {
+  Bodies bodies;
+  core::ShapeTable table = core::build_shapes(scene);
+  for (core::Shape& shape : table.shapes) {
+    const core::NodeBoxes boxes = core::node_boxes(shape.octree);
+    bodies.shapes.push_back({std::move(shape), boxes});
+  }
+  bodies.shape = std::move(table.shape_of_body);
+  for (const core::Body& body : scene.bodies) {
+    bodies.state.push_back({body.position, body.velocity});
+    bodies.inverse_mass.push_back(body.inverse_mass);
+    bodies.material.push_back(body.material);
+    bodies.is_static.push_back(body.inverse_mass > 0.0F ? 0 : 1);
+  }
+  bodies.boxes.resize(bodies.state.size());
+  bodies.detected.resize(bodies.state.size());
+  return bodies;
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,38 @@
+// The pipeline's working set on the CPU: one entry per body, and what is shared by bodies of one shape.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/contact.hpp"
+#include "core/material.hpp"
+#include "core/math/box.hpp"
+#include "core/method/levels.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/shapes.hpp"
+
+namespace broadside::reference {
+
+struct ShapeData {
+  core::Shape shape;
+  core::NodeBoxes boxes;
+};
+
+struct Bodies {
+  std::vector<core::Kinematics> state;
+  std::vector<float> inverse_mass;
+  std::vector<core::Material> material;
+  std::vector<std::uint8_t> is_static;
+  std::vector<std::uint32_t> shape;
+  std::vector<ShapeData> shapes;
+  // Boxes at detection, and the states they were made from.
+  std::vector<core::Box> boxes;
+  std::vector<core::Kinematics> detected;
+
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(state.size()); }
+  [[nodiscard]] const core::Box& local_box(std::uint32_t body) const { return shapes[shape[body]].boxes.root; }
+};
+
+Bodies make_bodies(const core::Scene& scene);
+
+}  // namespace broadside::reference

@@ -1,0 +1,37 @@
+// Colors contacts so that contacts of one color share no dynamic body.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pair.hpp"
+
+namespace broadside::reference {
+
+// The greedy coloring in the order of core::color_priority: one fixed function of the set of pairs.
+class Coloring {
+ public:
+  // pairs: sorted. Bodies with never_written != 0 conflict with nothing. Afterwards order() lists their indices by
+  // color, by pair within a color.
+  void color(std::span<const core::Pair> pairs, std::span<const std::uint8_t> never_written);
+
+  [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
+  // Contacts of color c are order()[color_begin()[c] .. color_begin()[c + 1]).
+  [[nodiscard]] std::span<const std::uint32_t> color_begin() const { return begin_; }
+  [[nodiscard]] std::uint32_t color_count() const { return static_cast<std::uint32_t>(begin_.size()) - 1; }
+
+ private:
+  std::uint32_t smallest_free(core::Pair p, std::span<const std::uint8_t> never_written);
+  void widen(std::size_t bodies);
+
+  std::vector<std::uint32_t> by_priority_;
+  std::vector<std::uint32_t> color_;
+  std::vector<std::uint32_t> begin_{0};
+  std::vector<std::uint32_t> order_;
+  // Colors taken at each body, words_ words of 64 colors a body.
+  std::vector<std::uint64_t> taken_;
+  std::size_t words_ = 1;
+};
+
+}  // namespace broadside::reference

@@ -1,0 +1,62 @@
+#include "reference/octree_cpu/engine.hpp"
+
+#include <oneapi/tbb/version.h>
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "core/variant.hpp"
+#include "reference/octree_cpu/pipeline.hpp"
+
+namespace broadside::reference {
+namespace {
+
+const std::array<core::SettingRow, 6>& settings_table() {
+  static const std::array<core::SettingRow, 6> kTable{{
+      {"broad", "brute", {"brute"}, "where candidates come from"},
+      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
+      {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
+      {"threads", "0", {}, "threads; 0 = all. Does not change a bit of the result"},
+      {"variant",
+       "sound",
+       {"sound", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7", "printed-E8"},
+       "a printed, wrong form of the paper to run instead"},
+      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
+  }};
+  return kTable;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  PipelineOptions options;
+  options.levels = *core::levels_named(settings.text("levels"));
+  options.variant = *core::variant_named(settings.text("variant"));
+  const std::string& solver = settings.text("solver");
+  if (solver == "jacobi") options.solver = Solver::kJacobi;
+  if (solver == "printed-E8" || options.variant == core::Variant::kE8) options.solver = Solver::kRacing;
+  options.has_vertex_stage = settings.text("vertex_stage") == "on";
+  options.threads = static_cast<int>(settings.number("threads"));
+
+  core::Engine engine;
+  engine.id = "octree-cpu";
+  engine.build =
+      "Broadside, float32, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
+  engine.settings = settings;
+  engine.dynamics = std::make_unique<Pipeline>(std::move(options));
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow octree_cpu_row() {
+  core::EngineRow row;
+  row.id = "octree-cpu";
+  row.capabilities = "broad dynamics";
+  row.what = "the pipeline's own stage bodies on CPU threads: the twin of octree-gpu";
+  row.settings = settings_table();
+  row.is_reference = false;
+  row.create = create;
+  return row;
+}
+
+}  // namespace broadside::reference

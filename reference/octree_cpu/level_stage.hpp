@@ -1,0 +1,28 @@
+// Which pairs of bodies have overlapping boxes at the last level of the chosen setting.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/method/levels.hpp"
+#include "core/pair.hpp"
+#include "reference/octree_cpu/bodies.hpp"
+
+namespace broadside::reference {
+
+// From the candidates of a broad phase, which already passed level 0.
+class LevelStage {
+ public:
+  void confirm(const Bodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
+               std::vector<core::Pair>& confirmed);
+
+  // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair.
+  void confirm_all(const Bodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
+
+ private:
+  std::vector<std::uint8_t> keep_;
+  std::vector<std::vector<core::Pair>> rows_;
+};
+
+}  // namespace broadside::reference

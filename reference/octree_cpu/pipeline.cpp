@@ -1,0 +1,172 @@
+#include "reference/octree_cpu/pipeline.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <chrono>
+#include <utility>
+
+#include "core/method/frame_digest.hpp"
+#include "core/method/integrate.hpp"
+#include "reference/octree_cpu/vertex_stage.hpp"
+
+namespace broadside::reference {
+namespace {
+
+class StageClock {
+ public:
+  explicit StageClock(std::array<core::StageTime, 6>& times) : times_(times), last_(Clock::now()) {}
+  void lap(std::string_view stage) {
+    const auto now = Clock::now();
+    times_[next_++] = {stage, std::chrono::duration<double>(now - last_).count()};
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::array<core::StageTime, 6>& times_;
+  std::size_t next_ = 0;
+  Clock::time_point last_;
+};
+
+}  // namespace
+
+Pipeline::Pipeline(PipelineOptions options)
+    : options_(std::move(options)),
+      arena_(options_.threads > 0 ? options_.threads : static_cast<int>(tbb::task_arena::automatic)) {}
+
+core::Status Pipeline::load(const core::Scene& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!(scene.bodies[i].angular_velocity == core::Vec3{}))
+      return core::Error{"angular_velocity is not zero, and this pipeline's bodies translate only",
+                         scene.name + ": body " + std::to_string(i), "set angular_velocity to 0 0 0"};
+  }
+  scene_ = &scene;
+  bodies_ = make_bodies(scene);
+  rules_ = {scene.parameters, options_.variant, options_.solver, scene.domain, scene.face_material};
+  steps_ = 0;
+  if (!options_.make_broad_phase) return core::Done{};
+  broad_phase_ = options_.make_broad_phase(scene);
+  for (std::uint32_t i = 0; i < bodies_.count(); ++i)
+    bodies_.boxes[i] = core::translated(bodies_.local_box(i), bodies_.state[i].x);
+  return broad_phase_->load(bodies_.boxes, bodies_.is_static);
+}
+
+core::Status Pipeline::step(float dt_s) {
+  core::Status status = core::Done{};
+  arena_.execute([&] { status = run_stages(dt_s); });
+  return status;
+}
+
+core::Status Pipeline::run_stages(float dt_s) {
+  StageClock clock(times_);
+  integrate(dt_s);
+  clock.lap("integrate");
+  if (core::Status s = find_candidates(); !s) return s;
+  clock.lap("broad");
+  confirm();
+  clock.lap("levels");
+  touch();
+  clock.lap("vertices");
+  response_.resolve_bodies(bodies_, rules_, touching_);
+  clock.lap("response");
+  response_.resolve_faces(bodies_, rules_);
+  clock.lap("faces");
+  ++steps_;
+  dt_s_ = dt_s;
+  return core::Done{};
+}
+
+void Pipeline::integrate(float dt_s) {
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies_.count(), 1024), [&](const auto& range) {
+    for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
+      bodies_.state[i] =
+          core::semi_implicit_euler(bodies_.state[i], bodies_.inverse_mass[i], scene_->gravity_m_s2, dt_s);
+      bodies_.detected[i] = bodies_.state[i];
+      bodies_.boxes[i] = core::translated(bodies_.local_box(i), bodies_.state[i].x);
+    }
+  });
+}
+
+core::Status Pipeline::find_candidates() {
+  if (!broad_phase_) return core::Done{};
+  if (core::Status s = broad_phase_->update(bodies_.boxes); !s) return s;
+  if (core::Status s = broad_phase_->find(); !s) return s;
+  auto found = broad_phase_->read_back();
+  if (!found) return found.error();
+  candidates_ = std::move(found).value();
+  return core::Done{};
+}
+
+void Pipeline::confirm() {
+  if (broad_phase_)
+    level_stage_.confirm(bodies_, options_.levels, candidates_.pairs, confirmed_);
+  else
+    level_stage_.confirm_all(bodies_, options_.levels, confirmed_);
+}
+
+// Level 0 from the published start is a broad phase too: what it confirms is the candidate set.
+bool Pipeline::has_level0() const {
+  return broad_phase_ || options_.levels == core::Levels::kFlat;
+}
+
+void Pipeline::touch() {
+  if (!options_.has_vertex_stage) {
+    touching_ = confirmed_;
+    return;
+  }
+  measure_proximity(bodies_, rules_.parameters, confirmed_, proximity_);
+  touching_.clear();
+  for (std::size_t k = 0; k < confirmed_.size(); ++k)
+    if (proximity_[k].is_touching()) touching_.push_back(confirmed_[k]);
+}
+
+std::uint32_t Pipeline::groups() const {
+  using core::Group;
+  std::uint32_t groups = core::bit(Group::kBodies) | core::bit(Group::kDetection) | core::bit(Group::kConfirmed) |
+                         core::bit(Group::kContacts);
+  if (has_level0()) groups |= core::bit(Group::kPairs);
+  return groups;
+}
+
+std::uint64_t Pipeline::digest() const {
+  std::uint64_t sum = 0;
+  for (std::uint32_t i = 0; i < bodies_.count(); ++i)
+    sum += core::body_digest(i, bodies_.state[i].x, scene_->bodies[i].orientation, bodies_.state[i].v,
+                             scene_->bodies[i].angular_velocity);
+  for (const core::Pair p : confirmed_) sum += core::confirmed_digest(p);
+  for (const core::Contact& c : contacts_) sum += core::contact_digest(c);
+  return sum;
+}
+
+core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
+  frame = {};
+  frame.step = steps_;
+  frame.time_s = static_cast<double>(steps_) * static_cast<double>(dt_s_);
+  response_.collect(contacts_);
+  frame.digest = digest();
+  if (level != core::RecordLevel::kFull) return core::Done{};
+
+  for (std::uint32_t i = 0; i < bodies_.count(); ++i) {
+    frame.position.push_back(bodies_.state[i].x);
+    frame.velocity.push_back(bodies_.state[i].v);
+    frame.orientation.push_back(scene_->bodies[i].orientation);
+    frame.angular_velocity.push_back(scene_->bodies[i].angular_velocity);
+    frame.detected_position.push_back(bodies_.detected[i].x);
+    frame.detected_velocity.push_back(bodies_.detected[i].v);
+  }
+  frame.boxes = bodies_.boxes;
+  if (broad_phase_) {
+    frame.pairs = candidates_.pairs;
+    frame.pairs_demanded = candidates_.demanded;
+    frame.pairs_raw = candidates_.raw;
+  } else if (has_level0()) {
+    frame.pairs = confirmed_;
+    frame.pairs_demanded = frame.pairs_raw = confirmed_.size();
+  }
+  frame.confirmed = confirmed_;
+  if (options_.has_vertex_stage) frame.proximity = proximity_;
+  frame.contacts = contacts_;
+  return core::Done{};
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,53 @@
+// Applies the collision response to all touching pairs and to the faces of the domain: METHOD sections 4 to 6.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/contact.hpp"
+#include "core/material.hpp"
+#include "core/math/box.hpp"
+#include "core/pair.hpp"
+#include "core/parameters.hpp"
+#include "core/variant.hpp"
+#include "reference/octree_cpu/bodies.hpp"
+#include "reference/octree_cpu/coloring.hpp"
+
+namespace broadside::reference {
+
+enum class Solver { kColored, kJacobi, kRacing };
+
+struct ResponseRules {
+  core::Parameters parameters;
+  core::Variant variant = core::Variant::kSound;
+  Solver solver = Solver::kColored;
+  core::Box domain;
+  core::Material face_material;
+};
+
+class ResponseStage {
+ public:
+  // touching: sorted pairs. Geometry is evaluated at the moment of application, from the boxes at the positions that
+  // earlier contacts left; a pair that no longer overlaps by then is no contact.
+  void resolve_bodies(Bodies& bodies, const ResponseRules& rules, std::span<const core::Pair> touching);
+  // The six faces of the domain, body by body, then the velocity clamp P(23).
+  void resolve_faces(Bodies& bodies, const ResponseRules& rules);
+
+  // Everything applied since resolve_bodies, in the order of application: by color, by pair; then by body, by face.
+  void collect(std::vector<core::Contact>& contacts) const;
+
+ private:
+  void apply(Bodies& bodies, const ResponseRules& rules, core::Pair pair, std::uint32_t color, core::Contact& contact);
+  void resolve_jacobi(Bodies& bodies, const ResponseRules& rules, std::span<const core::Pair> touching);
+  void resolve_racing(Bodies& bodies, const ResponseRules& rules, std::span<const core::Pair> touching);
+
+  Coloring coloring_;
+  // Slots in order of application; depth 0 marks a slot that made no contact.
+  std::vector<core::Contact> contacts_;
+  std::vector<std::array<core::Contact, core::kFaceCount>> face_contacts_;
+  std::vector<core::Kinematics> sums_;
+  std::vector<std::uint8_t> never_written_;
+};
+
+}  // namespace broadside::reference
