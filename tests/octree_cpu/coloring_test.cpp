@@ -18,8 +18,10 @@ void expect_proper(const Coloring& coloring, const std::vector<core::Pair>& pair
     std::set<std::uint32_t> seen;
     for (std::uint32_t k = coloring.color_begin()[c]; k < coloring.color_begin()[c + 1]; ++k) {
       const core::Pair p = pairs[coloring.order()[k]];
-      if (never_written[p.i] == 0) EXPECT_TRUE(seen.insert(p.i).second) << "color " << c << " body " << p.i;
-      if (never_written[p.j] == 0) EXPECT_TRUE(seen.insert(p.j).second) << "color " << c << " body " << p.j;
+      for (const std::uint32_t body : {p.i, p.j}) {
+        if (never_written[body] != 0) continue;
+        EXPECT_TRUE(seen.insert(body).second) << "color " << c << " body " << body;
+      }
     }
   }
 }
