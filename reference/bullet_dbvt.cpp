@@ -1,0 +1,153 @@
+// Bullet's two-tree dynamic bounding volume hierarchy, fed the given boxes through setAabb. Its pair cache is a
+// superset: leaves are fattened by gDbvtMargin when they move, and collide() re-checks a tenth of the cached pairs a
+// call, so pairs stay after their boxes have parted. read_back filters on the given boxes.
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "reference/engines.hpp"
+#include "reference/given_boxes.hpp"
+#include "reference/vendor_build.hpp"
+#include "reference/vendor_call.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Pair;
+using core::Status;
+
+constexpr std::string_view kId = "bullet-dbvt";
+
+// gDbvtMargin is a global that setAabb reads: it is ours for the length of one call and then what it was before.
+class MarginScope {
+ public:
+  explicit MarginScope(btScalar margin) : before_(gDbvtMargin) { gDbvtMargin = margin; }
+  ~MarginScope() { gDbvtMargin = before_; }
+  MarginScope(const MarginScope&) = delete;
+  MarginScope& operator=(const MarginScope&) = delete;
+
+ private:
+  btScalar before_;
+};
+
+btVector3 bullet(core::Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+std::uint32_t body_of(const btBroadphaseProxy* proxy) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
+}
+
+class BulletDbvt final : public core::BroadPhase {
+ public:
+  BulletDbvt(btScalar margin, bool is_deferred) : margin_(margin), is_deferred_(is_deferred) {}
+
+  [[nodiscard]] core::BroadPhaseTraits traits() const override {
+    return {.exact = true, .margin_m = static_cast<double>(margin_), .keeps_stale_pairs = true};
+  }
+
+  Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
+    if (Status status = given_.load(kId, boxes, is_static); !status) return status;
+    return vendor_call("bullet-dbvt: load", [&]() -> Status {
+      destroy_proxies();
+      // Without a pair cache of ours, the broad phase makes and owns its hashed one.
+      broad_phase_ = std::make_unique<btDbvtBroadphase>();
+      broad_phase_->m_deferedcollide = is_deferred_;
+      for (std::uint32_t i = 0; i < given_.count(); ++i) {
+        // As btCollisionWorld does: static bodies are filtered against each other, and against nothing else.
+        const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
+        const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
+                                           : static_cast<int>(btBroadphaseProxy::AllFilter);
+        void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
+        proxies_.push_back(broad_phase_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE,
+                                                     body, group, mask, nullptr));
+      }
+      return core::Done{};
+    });
+  }
+
+  // Unless deferred, Bullet finds new pairs in here: charge update and find together.
+  Status update(std::span<const core::Box> boxes) override {
+    if (Status status = given_.update(kId, boxes); !status) return status;
+    return vendor_call("bullet-dbvt: update", [&]() -> Status {
+      const MarginScope scope(margin_);
+      for (std::size_t i = 0; i < proxies_.size(); ++i)
+        broad_phase_->setAabb(proxies_[i], bullet(boxes[i].min), bullet(boxes[i].max), nullptr);
+      return core::Done{};
+    });
+  }
+
+  Status find() override {
+    if (broad_phase_ == nullptr) return core::Done{};
+    return vendor_call("bullet-dbvt: find", [&]() -> Status {
+      broad_phase_->calculateOverlappingPairs(nullptr);
+      return core::Done{};
+    });
+  }
+
+  core::Result<core::PairSet> read_back() override {
+    if (broad_phase_ == nullptr) return core::PairSet{};
+    return vendor_call("bullet-dbvt: read_back", [&]() -> core::Result<core::PairSet> {
+      const btBroadphasePairArray& cache = broad_phase_->getOverlappingPairCache()->getOverlappingPairArray();
+      std::vector<Pair> raw;
+      raw.reserve(static_cast<std::size_t>(cache.size()));
+      for (int k = 0; k < cache.size(); ++k)
+        raw.push_back(core::make_pair_of(body_of(cache[k].m_pProxy0), body_of(cache[k].m_pProxy1)));
+      return given_.tighten(std::move(raw));
+    });
+  }
+
+  ~BulletDbvt() override { destroy_proxies(); }
+
+ private:
+  // Bullet leaves proxies to their creator.
+  void destroy_proxies() {
+    if (broad_phase_ == nullptr) return;
+    for (btBroadphaseProxy* proxy : proxies_) broad_phase_->destroyProxy(proxy, nullptr);
+    proxies_.clear();
+  }
+
+  btScalar margin_;
+  bool is_deferred_;
+  GivenBoxes given_;
+  std::unique_ptr<btDbvtBroadphase> broad_phase_;
+  std::vector<btBroadphaseProxy*> proxies_;
+};
+
+std::span<const core::SettingRow> setting_rows() {
+  static const std::array<core::SettingRow, 2> rows{{
+      {"margin",
+       "bullet",
+       {"bullet", "0"},
+       "by how much a moving leaf is fattened: what Bullet ships (0.05 m in 3.24), or nothing"},
+      {"deferred", "off", {"off", "on"}, "on: pairs are found by one tree-tree pass in find instead of inside setAabb"},
+  }};
+  return rows;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = bullet_build();
+  engine.settings = settings;
+  // Nobody leaves gDbvtMargin changed, so this is the value that the loaded library ships: 0.05 m in 3.24.
+  engine.broad_phase = std::make_unique<BulletDbvt>(settings.text("margin") == "0" ? btScalar(0) : gDbvtMargin,
+                                                    settings.text("deferred") == "on");
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow bullet_dbvt_row() {
+  return {.id = kId,
+          .capabilities = "broad",
+          .what = "Bullet's btDbvtBroadphase on the same boxes",
+          .settings = setting_rows(),
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,14 @@
+// The rows of every engine of this folder, for the one table in bench/engines.cpp. Each is defined in the file of its
+// name; settings and "what" texts have static storage.
+#pragma once
+
+#include "core/engine/engine.hpp"
+
+namespace broadside::reference {
+
+core::EngineRow all_pairs_row();    // broad: exact, the arbiter
+core::EngineRow bullet_dbvt_row();  // broad: btDbvtBroadphase
+core::EngineRow fcl_tree_row();     // broad: fcl::DynamicAABBTreeCollisionManager
+core::EngineRow fcl_sap_row();      // broad: fcl::SaPCollisionManager and the other managers
+
+}  // namespace broadside::reference

@@ -1,0 +1,350 @@
+// One body of tests for every broad-phase engine of the folder: whatever it does inside, read_back must give exactly
+// the pairs whose closed boxes overlap, P(6), save pairs of two static bodies. A new engine is one more line in
+// kSubjects.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <ostream>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/engine/engine.hpp"
+#include "reference/engines.hpp"
+
+namespace broadside {
+namespace {
+
+using core::Box;
+using core::Pair;
+using core::PairSet;
+
+struct Subject {
+  std::string name;
+  core::EngineRow (*row)();
+  std::map<std::string, std::string> settings;
+  // Empty, or the library's known defect (reference/README.md) that keeps boxes which only touch away from it, or
+  // boxes that change size.
+  std::string loses_touching = {};
+  std::string breaks_on_resize = {};
+};
+
+void PrintTo(const Subject& subject, std::ostream* out) {
+  *out << subject.name;
+}
+
+const std::vector<Subject>& subjects() {
+  static const std::vector<Subject> all{
+      {"all_pairs", reference::all_pairs_row, {}},
+      {"all_pairs_1_thread", reference::all_pairs_row, {{"threads", "1"}}},
+      {"all_pairs_3_threads", reference::all_pairs_row, {{"threads", "3"}}},
+      {"bullet_dbvt", reference::bullet_dbvt_row, {}},
+      {"bullet_dbvt_deferred", reference::bullet_dbvt_row, {{"deferred", "on"}}},
+      {"bullet_dbvt_no_margin", reference::bullet_dbvt_row, {{"margin", "0"}}},
+      {"bullet_dbvt_no_margin_deferred", reference::bullet_dbvt_row, {{"margin", "0"}, {"deferred", "on"}}},
+      {"fcl_tree", reference::fcl_tree_row, {}},
+      {"fcl_tree_array", reference::fcl_tree_row, {{"manager", "tree-array"}}},
+      {"fcl_ssap", reference::fcl_sap_row, {}},
+      {"fcl_sap",
+       reference::fcl_sap_row,
+       {{"manager", "sap"}},
+       "FCL's SaP sorts the end of one box before the equal start of another",
+       "FCL's SaP links an end point to itself when a box's two ends do not move the same way"},
+      {"fcl_interval_tree",
+       reference::fcl_sap_row,
+       {{"manager", "interval-tree"}},
+       "FCL's interval trees sort the end of one box before the equal start of another"},
+      {"fcl_spatial_hash",
+       reference::fcl_sap_row,
+       {{"manager", "spatial-hash"}},
+       "FCL's hash leaves out the cell that a box only touches"},
+  };
+  return all;
+}
+
+core::Engine make_engine(const Subject& subject) {
+  const core::EngineRow row = subject.row();
+  auto settings = core::Settings::parse(row.id, row.settings, subject.settings);
+  EXPECT_TRUE(settings.ok());
+  auto engine = row.create(settings.value());
+  EXPECT_TRUE(engine.ok());
+  return std::move(engine).value();
+}
+
+// The law, written out a second time: closed intervals meet on all three axes.
+bool meet(const Box& a, const Box& b) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::max(a.min[axis], b.min[axis]) > std::min(a.max[axis], b.max[axis])) return false;
+  return true;
+}
+
+std::vector<Pair> brute_force(const std::vector<Box>& boxes, const std::vector<std::uint8_t>& is_static) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+      if ((is_static[i] == 0 || is_static[j] == 0) && meet(boxes[i], boxes[j])) pairs.push_back({i, j});
+  return pairs;
+}
+
+Box cube(float x, float y, float z, float side) {
+  return {{x, y, z}, {x + side, y + side, z + side}};
+}
+
+std::vector<std::uint8_t> all_moving(std::size_t n) {
+  return std::vector<std::uint8_t>(n, 0);
+}
+
+class BroadPhases : public testing::TestWithParam<Subject> {
+ protected:
+  void load(const std::vector<Box>& boxes, const std::vector<std::uint8_t>& is_static) {
+    const auto status = phase().load(boxes, is_static);
+    ASSERT_TRUE(status.ok()) << status.error().line();
+  }
+
+  PairSet find() {
+    const auto found = phase().find();
+    EXPECT_TRUE(found.ok()) << (found.ok() ? "" : found.error().line());
+    auto set = phase().read_back();
+    EXPECT_TRUE(set.ok());
+    return set.ok() ? std::move(set).value() : PairSet{};
+  }
+
+  // What a pair set promises whatever the boxes are.
+  static void expect_well_formed(const PairSet& set, std::size_t n) {
+    EXPECT_TRUE(std::is_sorted(set.pairs.begin(), set.pairs.end()));
+    EXPECT_EQ(std::adjacent_find(set.pairs.begin(), set.pairs.end()), set.pairs.end()) << "a pair twice";
+    EXPECT_TRUE(std::all_of(set.pairs.begin(), set.pairs.end(), [&](Pair p) { return p.i < p.j && p.j < n; }));
+    EXPECT_EQ(set.demanded, set.pairs.size());
+    EXPECT_GE(set.raw, set.pairs.size());
+    EXPECT_GE(set.filter_s, 0.0);
+  }
+
+  void expect_exact(const std::vector<Box>& boxes, const std::vector<std::uint8_t>& is_static) {
+    load(boxes, is_static);
+    const PairSet set = find();
+    expect_well_formed(set, boxes.size());
+    EXPECT_EQ(set.pairs, brute_force(boxes, is_static));
+  }
+  void expect_exact(const std::vector<Box>& boxes) { expect_exact(boxes, all_moving(boxes.size())); }
+
+  core::BroadPhase& phase() { return *engine_.broad_phase; }
+
+  core::Engine engine_ = make_engine(GetParam());
+};
+
+TEST_P(BroadPhases, NamesItselfAndItsLibrary) {
+  EXPECT_EQ(engine_.id, GetParam().row().id);
+  EXPECT_NE(engine_.build.find_first_of("0123456789"), std::string::npos) << "no version in: " << engine_.build;
+  EXPECT_EQ(engine_.build.find("unknown"), std::string::npos) << engine_.build;
+}
+
+TEST_P(BroadPhases, NoBodies) {
+  load({}, {});
+  EXPECT_TRUE(phase().update({}).ok());
+  EXPECT_TRUE(find().pairs.empty());
+}
+
+TEST_P(BroadPhases, OneBodyHasNoPair) {
+  const std::vector<Box> boxes{cube(0, 0, 0, 1)};
+  load(boxes, all_moving(1));
+  EXPECT_TRUE(phase().update(boxes).ok());
+  EXPECT_TRUE(find().pairs.empty());
+}
+
+TEST_P(BroadPhases, TwoOverlappingAndOneFar) {
+  load({cube(0, 0, 0, 1), cube(100, 0, 0, 1), cube(0.5F, 0.5F, 0.5F, 1)}, all_moving(3));
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 2}}));
+}
+
+TEST_P(BroadPhases, ContainedBoxOverlaps) {
+  load({cube(1, 1, 1, 0.25F), cube(0, 0, 0, 10)}, all_moving(2));
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 1}}));
+}
+
+TEST_P(BroadPhases, FacesEdgesAndCornersThatTouchCount) {
+  if (!GetParam().loses_touching.empty()) GTEST_SKIP() << GetParam().loses_touching;
+  // 3 x 3 x 3 unit cubes on integer corners: each touches all of its up to 26 neighbors, exactly.
+  std::vector<Box> boxes;
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x)
+        boxes.push_back(cube(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 1));
+  load(boxes, all_moving(boxes.size()));
+  // Lattice neighbors: 7^3 ordered pairs with |dx|, |dy|, |dz| <= 1 (3 + 2 + 2 per axis), less 27 selves, by two.
+  EXPECT_EQ(find().pairs.size(), (7U * 7U * 7U - 27U) / 2U);
+  expect_exact(boxes);
+}
+
+TEST_P(BroadPhases, OneUlpApartIsApart) {
+  const float beyond = std::nextafter(1.0F, 2.0F);
+  load({cube(0, 0, 0, 1), {{beyond, 0, 0}, {2, 1, 1}}}, all_moving(2));
+  EXPECT_TRUE(find().pairs.empty());
+}
+
+TEST_P(BroadPhases, IdenticalBoxesAllOverlap) {
+  const std::vector<Box> boxes(20, cube(3, -2, 1, 0.5F));
+  load(boxes, all_moving(boxes.size()));
+  EXPECT_EQ(find().pairs.size(), 20U * 19U / 2U);
+}
+
+TEST_P(BroadPhases, PointsOverlapWhatContainsThem) {
+  load({cube(0.5F, 0.5F, 0.5F, 0), cube(0, 0, 0, 1), cube(2, 2, 2, 0)}, all_moving(3));
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 1}}));
+}
+
+TEST_P(BroadPhases, TwoStaticBodiesAreNoPair) {
+  load({cube(0, 0, 0, 1), cube(0.5F, 0, 0, 1), cube(0.25F, 0, 0, 1)}, {1, 1, 0});
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 2}, {1, 2}}));
+}
+
+TEST_P(BroadPhases, LineAndPlane) {
+  std::vector<Box> line;
+  std::vector<Box> plane;
+  for (int k = 0; k < 100; ++k) line.push_back(cube(0.75F * static_cast<float>(k), 0, 0, 1));
+  for (int k = 0; k < 144; ++k)
+    plane.push_back(cube(0.75F * static_cast<float>(k % 12), 0, 0.75F * static_cast<float>(k / 12), 1));
+  load(line, all_moving(line.size()));
+  EXPECT_EQ(find().pairs.size(), 99U);  // each only its next: 2 * 0.75 > 1
+  load(plane, all_moving(plane.size()));
+  EXPECT_EQ(find().pairs.size(), 2U * 12U * 11U + 2U * 11U * 11U);  // sides and diagonals of a 12 x 12 lattice
+}
+
+TEST_P(BroadPhases, CoordinatesOfAMillion) {
+  // The spacing of floats at 1e6 is 1/16 m: boxes a spacing apart are apart, overlapping by one are not.
+  const float ulp = 0.0625F;
+  load({{{1e6F, -1e6F, 0}, {1e6F + 1, -1e6F + 1, 1}},
+        {{1e6F + 1 + ulp, -1e6F, 0}, {1e6F + 2, -1e6F + 1, 1}},
+        {{1e6F + 1 - ulp, -1e6F, 0}, {1e6F + 1, -1e6F + 1, 1}}},
+       all_moving(3));
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 2}}));
+}
+
+std::vector<Box> random_boxes(std::mt19937& random, std::size_t n, float domain, float side) {
+  std::uniform_real_distribution<float> at(0.0F, domain);
+  std::uniform_real_distribution<float> size(0.0F, side);
+  std::vector<Box> boxes(n);
+  for (Box& b : boxes) {
+    b.min = {at(random), at(random), at(random)};
+    b.max = b.min + core::Vec3{size(random), size(random), size(random)};
+  }
+  return boxes;
+}
+
+TEST_P(BroadPhases, TwoThousandRandomBoxes) {
+  std::mt19937 random(2000);
+  // 2000 boxes of mean side 1 in a cube of side 16: about 2000^2 / 2 * (2 / 16)^3 = 3900 pairs.
+  const std::vector<Box> boxes = random_boxes(random, 2000, 16.0F, 2.0F);
+  std::vector<std::uint8_t> is_static(boxes.size());
+  for (std::uint8_t& mark : is_static) mark = random() % 4 == 0 ? 1 : 0;
+  expect_exact(boxes, is_static);
+}
+
+// Fifty frames of drifting boxes, some of which teleport and some of which change size, with an exact answer in each.
+TEST_P(BroadPhases, MovingTeleportingAndResizingBoxes) {
+  if (!GetParam().breaks_on_resize.empty()) GTEST_SKIP() << GetParam().breaks_on_resize;
+  std::mt19937 random(50);
+  std::vector<Box> boxes = random_boxes(random, 120, 6.0F, 1.5F);
+  std::vector<std::uint8_t> is_static(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); i += 5) is_static[i] = 1;
+  load(boxes, is_static);
+  EXPECT_EQ(find().pairs, brute_force(boxes, is_static)) << "before the first update";
+  std::uniform_real_distribution<float> step(-0.1F, 0.1F);
+  for (int frame = 1; frame <= 50; ++frame) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (is_static[i] != 0) continue;
+      if (random() % 20 == 0) {
+        boxes[i] = random_boxes(random, 1, 6.0F, 1.5F)[0];
+      } else {
+        boxes[i] = core::translated(boxes[i], {step(random), step(random), step(random)});
+      }
+    }
+    ASSERT_TRUE(phase().update(boxes).ok());
+    const PairSet set = find();
+    expect_well_formed(set, boxes.size());
+    ASSERT_EQ(set.pairs, brute_force(boxes, is_static)) << "frame " << frame;
+  }
+}
+
+// Bodies that come to rest and start again: engines move them between their structures.
+TEST_P(BroadPhases, RestThenMoveAgain) {
+  std::vector<Box> boxes{cube(0, 0, 0, 1), cube(5, 0, 0, 1), cube(10, 0, 0, 1)};
+  load(boxes, all_moving(3));
+  for (int frame = 0; frame < 5; ++frame) {
+    ASSERT_TRUE(phase().update(boxes).ok());
+    EXPECT_TRUE(find().pairs.empty());
+  }
+  boxes[0] = cube(4.5F, 0, 0, 1);
+  ASSERT_TRUE(phase().update(boxes).ok());
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 1}}));
+  boxes[0] = cube(20, 0, 0, 1);
+  boxes[1] = cube(9.5F, 0, 0, 1);
+  ASSERT_TRUE(phase().update(boxes).ok());
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{1, 2}}));
+}
+
+// Bullet's margin is one global of the library: an engine that uses it must not change what the next one sees.
+TEST_P(BroadPhases, TwoEnginesAtOnceDoNotDisturbEachOther) {
+  core::Engine other = make_engine(subjects().front());
+  core::Engine bullet = make_engine({"", reference::bullet_dbvt_row, {{"margin", "0"}}});
+  const std::vector<Box> boxes{cube(0, 0, 0, 1), cube(0.5F, 0, 0, 1), cube(1.51F, 0, 0, 1)};
+  const std::vector<Box> moved{cube(0, 0, 0, 1), cube(0.505F, 0, 0, 1), cube(1.51F, 0, 0, 1)};
+  load(boxes, all_moving(3));
+  for (core::Engine* e : {&other, &bullet}) ASSERT_TRUE(e->broad_phase->load(boxes, all_moving(3)).ok());
+  const std::uint64_t raw_alone = [&] {
+    core::Engine alone = make_engine(GetParam());
+    EXPECT_TRUE(alone.broad_phase->load(boxes, all_moving(3)).ok());
+    EXPECT_TRUE(alone.broad_phase->update(moved).ok());
+    EXPECT_TRUE(alone.broad_phase->find().ok());
+    return alone.broad_phase->read_back().value().raw;
+  }();
+  for (core::Engine* e : {&other, &bullet}) ASSERT_TRUE(e->broad_phase->update(moved).ok());
+  ASSERT_TRUE(phase().update(moved).ok());
+  const PairSet set = find();
+  EXPECT_EQ(set.pairs, (std::vector<Pair>{{0, 1}}));
+  EXPECT_EQ(set.raw, raw_alone);
+}
+
+TEST_P(BroadPhases, LoadStartsAfresh) {
+  load(std::vector<Box>(4, cube(0, 0, 0, 1)), all_moving(4));
+  EXPECT_EQ(find().pairs.size(), 6U);
+  load({cube(0, 0, 0, 1), cube(7, 0, 0, 1)}, all_moving(2));
+  EXPECT_TRUE(find().pairs.empty());
+}
+
+TEST_P(BroadPhases, BadBoxesAreRefusedByName) {
+  const std::vector<Box> boxes{cube(0, 0, 0, 1), {{0, 0, 0}, {std::nanf(""), 1, 1}}};
+  const auto status = phase().load(boxes, all_moving(2));
+  ASSERT_FALSE(status.ok());
+  EXPECT_NE(status.error().line().find("box 1"), std::string::npos) << status.error().line();
+  EXPECT_FALSE(phase().load(boxes, all_moving(1)).ok());
+  load({cube(0, 0, 0, 1)}, all_moving(1));
+  EXPECT_FALSE(phase().update({}).ok()) << "fewer boxes than were loaded";
+}
+
+// A leaf that moved by 5 mm is fattened by Bullet's 50 mm, so it meets a box 5 mm away that it does not overlap: raw
+// and tight differ with the library's margin and agree without.
+TEST(BulletDbvt, ReportsItsMarginPairsApart) {
+  const std::vector<Box> before{cube(0, 0, 0, 1), cube(1.02F, 0, 0, 1)};
+  const std::vector<Box> after{cube(0.005F, 0, 0, 1), cube(1.02F, 0, 0, 1)};
+  for (const auto& [margin, raw] : {std::pair{"bullet", 1U}, std::pair{"0", 0U}}) {
+    const core::Engine engine = make_engine({"", reference::bullet_dbvt_row, {{"margin", margin}}});
+    ASSERT_TRUE(engine.broad_phase->load(before, all_moving(2)).ok());
+    ASSERT_TRUE(engine.broad_phase->update(after).ok());
+    ASSERT_TRUE(engine.broad_phase->find().ok());
+    const auto set = engine.broad_phase->read_back();
+    ASSERT_TRUE(set.ok());
+    EXPECT_EQ(set.value().raw, raw) << "margin " << margin;
+    EXPECT_TRUE(set.value().pairs.empty());
+    EXPECT_NEAR(engine.broad_phase->traits().margin_m, raw == 1 ? 0.05 : 0.0, 1e-8);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, BroadPhases, testing::ValuesIn(subjects()),
+                         [](const auto& subject) { return subject.param.name; });
+
+}  // namespace
+}  // namespace broadside
