@@ -1,6 +1,7 @@
 #include "reference/octree_cpu/pipeline.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
 #include <utility>
@@ -30,9 +31,16 @@ class StageClock {
 
 }  // namespace
 
+struct Pipeline::Threads {
+  tbb::task_arena arena;
+};
+
 Pipeline::Pipeline(PipelineOptions options)
     : options_(std::move(options)),
-      arena_(options_.threads > 0 ? options_.threads : static_cast<int>(tbb::task_arena::automatic)) {}
+      threads_(new Threads{
+          tbb::task_arena(options_.threads > 0 ? options_.threads : static_cast<int>(tbb::task_arena::automatic))}) {}
+
+Pipeline::~Pipeline() = default;
 
 core::Status Pipeline::load(const core::Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -53,7 +61,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
 
 core::Status Pipeline::step(float dt_s) {
   core::Status status = core::Done{};
-  arena_.execute([&] { status = run_stages(dt_s); });
+  threads_->arena.execute([&] { status = run_stages(dt_s); });
   return status;
 }
 

@@ -1,8 +1,6 @@
 // The CPU twin: the pipeline's own stage bodies run on CPU threads. METHOD sections 1 to 6.
 #pragma once
 
-#include <oneapi/tbb/task_arena.h>
-
 #include <array>
 #include <functional>
 #include <memory>
@@ -34,6 +32,7 @@ struct PipelineOptions {
 class Pipeline final : public core::Dynamics {
  public:
   explicit Pipeline(PipelineOptions options);
+  ~Pipeline() override;
 
   core::Status load(const core::Scene& scene) override;
   core::Status step(float dt_s) override;
@@ -50,8 +49,10 @@ class Pipeline final : public core::Dynamics {
   [[nodiscard]] bool has_level0() const;
   [[nodiscard]] std::uint64_t digest() const;
 
+  struct Threads;  // oneTBB's arena: vendor headers stay in the source
+
   PipelineOptions options_;
-  tbb::task_arena arena_;
+  std::unique_ptr<Threads> threads_;
   const core::Scene* scene_ = nullptr;
   Bodies bodies_;
   ResponseRules rules_;
