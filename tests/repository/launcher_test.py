@@ -1,0 +1,151 @@
+"""The launcher ./broadside, with the machine around it played by small scripts: apt-get, dpkg-query, cmake, ctest."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# Each stands in for a program of that name and notes its call in $PLAYED/calls.
+MACHINE = {
+    # Everything is installed but what the file `missing` names.
+    "dpkg-query": 'for p in "${@:4}"; do grep -qx -- "$p" "$PLAYED/missing" || echo "installed $p"; done; exit 1',
+    "apt-get": '[[ -e $PLAYED/offline ]] && { echo "E: Could not resolve the server"; exit 100; }; '
+               '[[ " $* " == *" install "* ]] && : >"$PLAYED/missing"; exit 0',
+    "dpkg": "exit 0",
+    "cmake": '[[ " $* " == *" --preset "* && -e $PLAYED/unconfigurable ]] && { echo "CMake Error: no compiler"; exit 1; }; '
+             'if [[ " $* " == *" --preset "* ]]; then mkdir -p build/release/bench; touch build/release/build.ninja; '
+             "printf '#!/bin/sh\\necho ran \"$@\"\\n' >build/release/bench/broadside; chmod +x build/release/bench/broadside; "
+             'else [[ ! -e $PLAYED/uncompilable ]] || { echo "a.cpp:1: error: expected"; exit 1; }; fi',
+    "ctest": 'echo "0% tests passed, 1 tests failed out of 1"; exit 8',
+    "nvidia-smi": "exit 9",
+}
+
+
+class Launcher(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        scratch = Path(self.folder.name)
+        self.tree, self.programs, self.played = scratch / "tree", scratch / "programs", scratch / "played"
+        for folder in (self.tree / "cmake", self.programs, self.played):
+            folder.mkdir(parents=True)
+        for name in ("broadside", "CMakePresets.json", "cmake/packages.txt"):
+            shutil.copy(ROOT / name, self.tree / name)
+        for name, body in MACHINE.items():
+            script = self.programs / name
+            script.write_text(f'#!/bin/bash\necho "{name} $*" >>"$PLAYED/calls"\n{body}\n', encoding="utf-8")
+            script.chmod(0o755)
+        # sudo hands on to what follows it, so that these tests do the same for every user.
+        sudo = self.programs / "sudo"
+        sudo.write_text('#!/bin/bash\n[[ $1 == -n ]] && shift\nexec "$@"\n', encoding="utf-8")
+        sudo.chmod(0o755)
+        (self.played / "missing").touch()
+        (self.played / "calls").touch()
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def call(self, *arguments, **more):
+        environment = {"PATH": f"{self.programs}:{os.environ['PATH']}", "PLAYED": str(self.played), **more}
+        (self.played / "calls").write_text("", encoding="utf-8")
+        answer = subprocess.run([self.tree / "broadside", *arguments], env=environment, stdin=subprocess.DEVNULL,
+                                capture_output=True, text=True, check=False)
+        self.calls = (self.played / "calls").read_text(encoding="utf-8").splitlines()
+        return answer
+
+    def called(self, start):
+        return [call for call in self.calls if call.startswith(start)]
+
+    def test_second_call_neither_installs_nor_configures(self):
+        (self.played / "missing").write_text("libfcl-dev\n", encoding="utf-8")
+        first = self.call("list", "engines")
+        self.assertEqual((0, "ran list engines\n"), (first.returncode, first.stdout), first.stderr)
+        self.assertIn("installing 1 packages", first.stderr)
+        self.assertTrue(self.called("apt-get") and self.called("cmake --fresh"), self.calls)
+        second = self.call("list", "engines")
+        self.assertEqual((0, "ran list engines\n", ""), (second.returncode, second.stdout, second.stderr))
+        self.assertEqual([], self.called("apt-get") + self.called("cmake --fresh"))
+
+    def test_demo_has_a_place_for_its_results_unless_told_another(self):
+        self.assertEqual(f"ran demo --out {self.tree}/out/demo --frames 3\n", self.call("demo", "--frames", "3").stdout)
+        self.assertEqual("ran demo --out=x\n", self.call("demo", "--out=x").stdout)
+
+    def test_no_network_is_one_line_and_code_2(self):
+        (self.played / "missing").write_text("libfcl-dev\n", encoding="utf-8")
+        (self.played / "offline").touch()
+        answer = self.call("demo")
+        self.assertEqual(2, answer.returncode)
+        last = answer.stderr.splitlines()[-1]
+        self.assertIn("E: Could not resolve the server", last)
+        self.assertIn("log: ", last)
+        self.assertEqual([], self.called("cmake"), "nothing is configured without its packages")
+        (self.played / "offline").unlink()
+        self.assertEqual(0, self.call("demo").returncode, "the next call goes on")
+
+    def test_failed_configuration_is_tried_again(self):
+        (self.played / "unconfigurable").touch()
+        answer = self.call("demo")
+        self.assertEqual(4, answer.returncode)
+        self.assertRegex(answer.stderr.splitlines()[-1], "configuring failed: .*no compiler.*log: ")
+        (self.played / "unconfigurable").unlink()
+        self.assertEqual(0, self.call("demo").returncode)
+        self.assertTrue(self.called("cmake --fresh"))
+
+    def test_failed_build_shows_the_error_and_runs_nothing(self):
+        self.call("build")
+        (self.played / "uncompilable").touch()
+        answer = self.call("demo")
+        self.assertEqual((4, ""), (answer.returncode, answer.stdout))
+        self.assertIn("a.cpp:1: error: expected", answer.stderr)
+        self.assertRegex(answer.stderr.splitlines()[-1], "the build failed; log: ")
+
+    def test_tests_end_with_the_runners_own_line_and_code(self):
+        answer = self.call("test", "-R", "core")
+        self.assertEqual(8, answer.returncode)
+        self.assertEqual("0% tests passed, 1 tests failed out of 1\n", answer.stdout)
+        run = self.called("ctest")[0]
+        self.assertIn("-LE ^(slow|gpu)$", run)
+        self.assertTrue(run.endswith("-R core"), run)
+        self.call("test", "--all")
+        self.assertIn("-LE ^(gpu)$", self.called("ctest")[0])
+
+    def test_other_settings_configure_again(self):
+        self.call("build")
+        self.call("build", BROADSIDE_CUDA_ARCHITECTURES="90")
+        self.assertTrue(self.called("cmake --fresh")[0].endswith("-DCMAKE_CUDA_ARCHITECTURES=90"), self.calls)
+
+    def test_no_subcommand_shows_the_usage(self):
+        self.assertEqual(2, self.call().returncode)
+        helped = self.call("--help")
+        self.assertEqual(0, helped.returncode)
+        self.assertIn("./broadside demo", helped.stdout)
+        self.assertEqual([], self.calls)
+
+    @unittest.skipUnless(os.geteuid() == 0 and shutil.which("setpriv"), "only root can become a user without rights")
+    def test_neither_root_nor_sudo_says_what_to_install(self):
+        (self.played / "missing").write_text("libfcl-dev\n", encoding="utf-8")
+        (self.programs / "sudo").unlink()
+        for path in (Path(self.folder.name), *Path(self.folder.name).rglob("*")):
+            os.chown(path, 65534, 65534)
+        answer = subprocess.run(
+            [shutil.which("setpriv"), "--reuid=65534", "--clear-groups", str(self.tree / "broadside"), "demo"],
+            env={"PATH": self._path_without_sudo(), "PLAYED": str(self.played)},
+            stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        self.assertEqual(2, answer.returncode, answer.stderr)
+        self.assertEqual(1, len(answer.stderr.splitlines()), answer.stderr)
+        self.assertIn("apt-get install libfcl-dev", answer.stderr)
+
+    def _path_without_sudo(self):
+        for folder in ("/usr/bin", "/bin"):
+            for name in ("bash", "env", "awk", "comm", "sort", "dirname", "readlink", "mkdir", "flock", "nproc", "grep", "cat"):
+                link = self.programs / name
+                if not link.exists() and Path(folder, name).exists():
+                    link.symlink_to(Path(folder, name))
+        return str(self.programs)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,95 @@
+"""Each check finds what it is there to find: a violation is planted in a small tree, and nothing else is reported."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import formatting
+import include_boundaries
+import packages
+import shell_scripts
+import tree_rules
+import wording
+from source_tree import SourceTree
+
+CLEAN = {"core/body.hpp": '#pragma once\n\n#include <vector>\n'}
+CLEAN["cmake/packages.txt"] = "# debian-12 ubuntu-24.04 for\nlibx-dev libx-dev X\n"
+CLEAN["CMakeLists.txt"] = "find_package(X REQUIRED)\n"
+
+
+class PlantedViolation(unittest.TestCase):
+    def found(self, check, planted):
+        with tempfile.TemporaryDirectory() as scratch:
+            for name, text in {**CLEAN, **planted}.items():
+                path = Path(scratch) / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            return check.violations(SourceTree(scratch))
+
+    def one(self, check, planted, said):
+        self.assertEqual([], self.found(check, {}), "the tree without the violation is clean")
+        found = self.found(check, planted)
+        self.assertEqual(1, len(found), found)
+        self.assertIn(said, found[0])
+
+    def test_include_from_a_folder_that_the_table_forbids(self):
+        self.one(include_boundaries, {"core/a.cpp": '#include "gpu/kernel.hpp"\n'}, "core/ may not include")
+        self.one(include_boundaries, {"reference/a.cpp": '#include "validation/judge.hpp"\n'}, "reference/ may not")
+        self.one(include_boundaries, {"validation/a.hpp": ' # include "reports/page.hpp"\n'}, "validation/ may not")
+
+    def test_include_that_does_not_start_at_the_root(self):
+        self.one(include_boundaries, {"core/a.cpp": '#include "body.hpp"\n'}, "does not start with a folder")
+        self.one(include_boundaries, {"core/a.cpp": '#include "../core/body.hpp"\n'}, "does not start with a folder")
+
+    def test_vendor_header_outside_a_source(self):
+        self.one(include_boundaries, {"reference/a.hpp": "#include <fcl/fcl.h>\n"}, "vendor header")
+        self.assertEqual([], self.found(include_boundaries, {"reference/a.cpp": "#include <fcl/fcl.h>\n"}))
+
+    def test_source_that_does_not_prove_its_header(self):
+        self.one(include_boundaries, {"core/body.cpp": '#include <vector>\n#include "core/body.hpp"\n'}, "not its own header")
+        self.one(include_boundaries, {"core/body.cpp": "int a;\n"}, "does not include its own header")
+
+    def test_link_that_the_table_forbids(self):
+        self.one(include_boundaries, {"validation/CMakeLists.txt": "target_link_libraries(broadside_validation broadside_gpu)\n"},
+                 "may not link broadside_gpu")
+
+    def test_long_file(self):
+        self.one(tree_rules, {"core/a.cpp": "\n" * 401}, "401 lines")
+        self.assertEqual([], self.found(tree_rules, {"core/a.cpp": "\n" * 400}))
+
+    def test_names_and_places(self):
+        self.one(tree_rules, {"core/helpers.cpp": ""}, "says nothing")
+        self.one(tree_rules, {"core/BodyState.cpp": ""}, "snake_case")
+        self.one(tree_rules, {"extra/a.txt": ""}, "top-level")
+        self.one(tree_rules, {"datasets/bunny.ply": ""}, "a mesh")
+        self.one(tree_rules, {"core/a.hpp": "int a;\n"}, "#pragma once")
+        self.one(tree_rules, {"tests/core/a.cpp": ""}, "nothing builds it")
+        self.one(tree_rules, {"core/a.txt": "x" * (tree_rules.BIGGEST + 1)}, "larger than")
+
+    def test_words(self):
+        self.one(wording, {"core/a.cpp": "// TO" "DO: later\n"}, "unfinished")
+        self.one(wording, {"core/a.md": "See /ho" "me/somebody/x\n"}, "a path of one machine")
+        self.one(wording, {"broadside": "curl http://deb.debian" ".org/\n"}, "registry")
+        self.assertEqual([], self.found(wording, {"core/a.cpp": "// out/demo/report.html, ../shared/work/x\n"}))
+
+    def test_package_that_is_not_in_the_table(self):
+        self.one(packages, {"core/CMakeLists.txt": "find_package(Y)\n"}, "Y is searched for")
+        self.one(packages, {"cmake/y.cmake": "  pkg_check_modules(y REQUIRED IMPORTED_TARGET liby)\n"}, "liby is searched for")
+        self.one(packages, {"cmake/packages.txt": CLEAN["cmake/packages.txt"] + "libz-dev\n"}, "a row has the columns")
+
+    def test_unformatted_source(self):
+        try:
+            formatting.clang_format()
+        except formatting.Absent as reason:
+            self.skipTest(str(reason))
+        self.one(formatting, {"core/a.cpp": "int   a ;\n"}, "core/a.cpp:1")
+
+    def test_faulty_shell_script(self):
+        try:
+            self.one(shell_scripts, {"broadside": "#!/usr/bin/env bash\nrm $1\n"}, "SC2086")
+        except formatting.Absent as reason:
+            self.skipTest(str(reason))
+
+
+if __name__ == "__main__":
+    unittest.main()
