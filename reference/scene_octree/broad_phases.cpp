@@ -1,0 +1,92 @@
+#include "reference/scene_octree/broad_phases.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "reference/scene_octree/box_check.hpp"
+#include "reference/scene_octree/scene_octree.hpp"
+
+namespace broadside::reference {
+namespace {
+
+// Runs work in an arena of its own, or in the caller's.
+class Arena {
+ public:
+  explicit Arena(int threads) {
+    if (threads > 0) own_.emplace(threads);
+  }
+  template <typename Work>
+  void execute(Work&& work) {
+    if (own_)
+      own_->execute(std::forward<Work>(work));
+    else
+      work();
+  }
+
+ private:
+  std::optional<tbb::task_arena> own_;
+};
+
+core::Box bounds_of(std::span<const core::Box> boxes) {
+  core::Box bounds = core::empty_box();
+  for (const core::Box& box : boxes) bounds = core::grown(core::grown(bounds, box.min), box.max);
+  return bounds;
+}
+
+class SceneOctreeBroadPhase final : public core::BroadPhase {
+ public:
+  SceneOctreeBroadPhase(const core::Box& domain, int depth, core::Variant variant, int threads)
+      : arena_(threads), octree_(depth, variant), domain_(domain), domain_is_given_(!core::is_empty(domain)) {
+    traits_.exact = variant != core::Variant::kE2;
+  }
+
+  [[nodiscard]] core::BroadPhaseTraits traits() const override { return traits_; }
+
+  core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
+    is_static_.assign(is_static.begin(), is_static.end());
+    if (!domain_is_given_) domain_ = bounds_of(boxes);
+    return update(boxes);
+  }
+
+  core::Status update(std::span<const core::Box> boxes) override {
+    if (core::Status s = check_box_count(boxes.size(), is_static_.size()); !s) return s;
+    core::Status status = core::Done{};
+    arena_.execute([&] {
+      status = check_boxes(boxes);
+      if (status.ok()) octree_.build(boxes, is_static_, domain_);
+    });
+    return status;
+  }
+
+  core::Status find() override {
+    arena_.execute([&] { octree_.find(); });
+    return core::Done{};
+  }
+
+  core::Result<core::PairSet> read_back() override {
+    core::PairSet set;
+    arena_.execute([&] { octree_.read_back(set.pairs); });
+    set.demanded = set.raw = set.pairs.size();
+    return set;
+  }
+
+ private:
+  Arena arena_;
+  SceneOctree octree_;
+  core::BroadPhaseTraits traits_;
+  core::Box domain_;
+  bool domain_is_given_;
+  std::vector<std::uint8_t> is_static_;
+};
+
+}  // namespace
+
+std::unique_ptr<core::BroadPhase> make_scene_octree_broad_phase(const core::Box& domain, int depth,
+                                                                core::Variant variant, int threads) {
+  return std::make_unique<SceneOctreeBroadPhase>(domain, depth, variant, threads);
+}
+
+}  // namespace broadside::reference
