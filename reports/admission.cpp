@@ -1,0 +1,91 @@
+#include "reports/admission.hpp"
+
+#include <vector>
+
+#include "reports/figures.hpp"
+#include "reports/wording.hpp"
+
+namespace broadside::reports {
+namespace {
+
+std::vector<std::string> differences(const core::Stamp& a, const core::Stamp& b) {
+  std::vector<std::string> names;
+  if (a.scene_digest != b.scene_digest) names.emplace_back("scene");
+  if (a.engine != b.engine) names.emplace_back("engine");
+  if (a.settings != b.settings) names.emplace_back("settings");
+  if (a.engine_build != b.engine_build) names.emplace_back("engine's build");
+  if (a.broadside_build != b.broadside_build) names.emplace_back("build");
+  if (a.machine != b.machine) names.emplace_back("machine");
+  return names;
+}
+
+// The nearest thing to a proof that there is, for somebody who wonders why it was not taken.
+std::string why_no_cell(const core::Sample& sample, const core::RunRows& rows) {
+  for (const core::Cell& cell : rows.cells)
+    if (same_stamp(cell.stamp, sample.stamp)) return "the recording of the same stamp is " + state_text(cell);
+  for (const core::Cell& cell : rows.cells) {
+    const std::vector<std::string> names = differences(cell.stamp, sample.stamp);
+    if (names.size() == 1) return "no recording of the same stamp: the recorded cell differs in its " + names[0];
+  }
+  return "no recording of the same stamp";
+}
+
+std::string at_place(const core::Place& place) {
+  return place.step < 0 && place.bodies.empty() ? "" : " (worst at " + place_text(place) + ")";
+}
+
+}  // namespace
+
+bool same_stamp(const core::Stamp& a, const core::Stamp& b) {
+  return differences(a, b).empty();
+}
+
+Admission admit(const core::Sample& sample, const core::RunRows& rows) {
+  bool is_recorded = false;
+  bool has_frame = false;
+  bool has_equal_digest = false;
+  bool has_other_digest = false;
+  std::uint64_t other_digest = 0;
+  std::uint64_t last_step = 0;
+  for (const core::Cell& cell : rows.cells) {
+    if (cell.state != core::CellState::kRecorded || !same_stamp(cell.stamp, sample.stamp)) continue;
+    is_recorded = true;
+    if (!cell.digests.empty()) last_step = std::max(last_step, cell.digests.rbegin()->first);
+    const auto found = cell.digests.find(sample.final_step);
+    if (found == cell.digests.end()) continue;
+    has_frame = true;
+    if (found->second == sample.final_digest) {
+      has_equal_digest = true;
+    } else {
+      has_other_digest = true;
+      other_digest = found->second;
+    }
+  }
+  if (!is_recorded) return {.reason = why_no_cell(sample, rows)};
+
+  std::uint64_t passed = 0;
+  std::string caveat;
+  for (const core::CellVerdicts& cell : rows.verdicts) {
+    if (!same_stamp(cell.stamp, sample.stamp)) continue;
+    for (const core::Verdict& verdict : cell.verdicts) {
+      if (verdict.outcome == core::Outcome::kFail)
+        return {.reason = verdict.validator + " failed on this stamp" + at_place(verdict.worst)};
+      if (verdict.outcome == core::Outcome::kPass) ++passed;
+      if (verdict.outcome == core::Outcome::kInconclusive && caveat.find(verdict.validator) == std::string::npos)
+        caveat += (caveat.empty() ? "" : ", ") + verdict.validator;
+    }
+  }
+  if (passed == 0) return {.reason = "nothing was proven: no validator passed on this stamp"};
+
+  const std::string step = std::to_string(sample.final_step);
+  if (!has_frame)
+    return {.reason = "the recording keeps no digest of step " + step +
+                      ", where the timed run ended (its last is of step " + std::to_string(last_step) + ")"};
+  // Also when another recording of the stamp agrees: one stamp with two answers is no proof.
+  if (has_other_digest || !has_equal_digest)
+    return {.reason = "the timed run's answer differs from the recording's at step " + step + " (digest " +
+                      hexadecimal(sample.final_digest) + " against " + hexadecimal(other_digest) + ")"};
+  return {.is_admitted = true, .caveat = caveat.empty() ? "" : "inconclusive: " + caveat};
+}
+
+}  // namespace broadside::reports

@@ -1,0 +1,56 @@
+// The rows of a run arranged for reading: scene by scene, engines down, validators across.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/rows.hpp"
+#include "reports/timing.hpp"
+
+namespace broadside::reports {
+
+// One line of the verdict matrix: one trace, or a cell that left none. Pointers are into the rows it was made from.
+struct TraceView {
+  core::Stamp stamp;
+  std::string label;                 // the stamp's, with the trace's file name where two would be alike
+  const core::Cell* cell = nullptr;  // null for a trace that was judged without a run
+  std::string trace_file;
+  std::vector<std::string> baselines;  // labels, in order of appearance
+  // One entry per validator of the scene; each holds what was said about it, worst first, repetitions left out (a trace
+  // that was judged against two baselines has its verdicts of itself alone twice). Empty = no verdict.
+  std::vector<std::vector<const core::Verdict*>> verdicts;
+
+  [[nodiscard]] bool is_judged() const;
+  // Words for the places of a line that has no verdict: "not measured: no device", "recorded, not judged".
+  [[nodiscard]] std::string absence() const;
+};
+
+struct SceneView {
+  std::string name;
+  std::uint64_t digest = 0;
+  std::vector<std::string> validators;  // columns, in order of first appearance
+  std::vector<TraceView> traces;
+  std::vector<Timing> timings;
+  std::map<std::string, std::string> facts;  // notes that every cell with notes shares word for word
+};
+
+// The rows must outlive the views.
+std::vector<SceneView> by_scene(const core::RunRows& rows);
+
+struct Tally {
+  std::uint64_t passed = 0, failed = 0, inconclusive = 0, not_applicable = 0;  // verdicts
+  std::uint64_t recorded = 0, absent = 0;                                      // cells
+  std::uint64_t admitted = 0, struck_out = 0;                                  // times
+
+  [[nodiscard]] std::uint64_t judged() const { return passed + failed + inconclusive; }
+};
+Tally tally(const std::vector<SceneView>& scenes);
+
+// The state of things in one sentence, for the top of every report. Plain text, not escaped.
+std::string headline(const std::vector<SceneView>& scenes);
+
+// Fail, inconclusive or pass over everything; not applicable when nothing was judged.
+core::Outcome overall(const Tally& tally);
+
+}  // namespace broadside::reports

@@ -1,0 +1,33 @@
+// The samples of one stamp, pooled: what one line of a table of times says.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/rows.hpp"
+#include "reports/admission.hpp"
+#include "reports/statistics.hpp"
+
+namespace broadside::reports {
+
+struct StageTiming {
+  std::string stage;
+  Summary seconds;  // per frame, over all frames of all repetitions
+};
+
+struct Timing {
+  core::Stamp stamp;
+  std::uint64_t repetitions = 0;
+  std::uint64_t warm_up_frames = 0;  // run before the first timed one; not in the figures
+  std::vector<StageTiming> stages;   // in pipeline order, without the whole frame
+  Summary frame;                     // the stage "frame"; where an engine gives none, the sum of its stages
+  bool frame_is_sum = false;
+  Summary fps;  // one value per repetition: its frames over the sum of their times
+  // Refused when any of its samples is: one stamp with one wrong answer has no trustworthy time.
+  Admission admission;
+};
+
+// In order of first appearance.
+std::vector<Timing> pool_samples(const core::RunRows& rows);
+
+}  // namespace broadside::reports
