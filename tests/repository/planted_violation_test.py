@@ -43,7 +43,10 @@ class PlantedViolation(unittest.TestCase):
 
     def test_vendor_header_outside_a_source(self):
         self.one(include_boundaries, {"reference/a.hpp": "#include <fcl/fcl.h>\n"}, "vendor header")
+        self.one(include_boundaries, {"core/a.hpp": "#include <cuda_runtime_api.h>\n"}, "vendor header")
+        self.one(include_boundaries, {"core/trace/a.hpp": "#include <hdf5.h>\n"}, "vendor header")
         self.assertEqual([], self.found(include_boundaries, {"reference/a.cpp": "#include <fcl/fcl.h>\n"}))
+        self.assertEqual([], self.found(include_boundaries, {"gpu/a.hpp": "#include <cuda_runtime_api.h>\n"}))
 
     def test_source_that_does_not_prove_its_header(self):
         self.one(include_boundaries, {"core/body.cpp": '#include <vector>\n#include "core/body.hpp"\n'}, "not its own header")
