@@ -1,6 +1,5 @@
 // The arbiter of every broad phase: P(6) on each of the n (n - 1) / 2 pairs, by float comparison of the stored boxes,
 // with no structure that could lose one. Quadratic on purpose; tiled and branch-free so that it stays usable.
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/version.h>
@@ -14,6 +13,7 @@
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
 #include "reference/vendor_call.hpp"
+#include "reference/worker_count.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -59,7 +59,7 @@ void test_tile(const Columns& c, std::uint32_t i, std::uint32_t first, std::uint
 
 class AllPairs final : public core::BroadPhase {
  public:
-  explicit AllPairs(int threads) : arena_(usable(threads)) {}
+  explicit AllPairs(int workers) : arena_(workers) {}
 
   [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
 
@@ -94,12 +94,6 @@ class AllPairs final : public core::BroadPhase {
   }
 
  private:
-  // oneTBB complains aloud when asked for more workers than there are cores.
-  static int usable(int threads) {
-    const int cores = tbb::info::default_concurrency();
-    return threads == 0 ? cores : std::min(threads, cores);
-  }
-
   void test_rows(std::size_t block) {
     const std::uint32_t n = given_.count();
     const auto begin = static_cast<std::uint32_t>(block) * kRows;
@@ -156,7 +150,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.build =
       "own, float32 compare, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
-  engine.broad_phase = std::make_unique<AllPairs>(static_cast<int>(settings.number("threads")));
+  engine.broad_phase = std::make_unique<AllPairs>(worker_count(settings.number("threads")));
   return engine;
 }
 

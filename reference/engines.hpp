@@ -10,5 +10,6 @@ core::EngineRow all_pairs_row();    // broad: exact, the arbiter
 core::EngineRow bullet_dbvt_row();  // broad: btDbvtBroadphase
 core::EngineRow fcl_tree_row();     // broad: fcl::DynamicAABBTreeCollisionManager
 core::EngineRow fcl_sap_row();      // broad: fcl::SaPCollisionManager and the other managers
+core::EngineRow fcl_mesh_row();     // narrow: fcl::distance and fcl::collide on meshes
 
 }  // namespace broadside::reference

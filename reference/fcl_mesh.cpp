@@ -1,0 +1,148 @@
+// FCL on triangle meshes: BVHModel<OBBRSS>, distance with nearest points, and collide for the touching flag.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/engines.hpp"
+#include "reference/pair_check.hpp"
+#include "reference/vendor_build.hpp"
+#include "reference/vendor_call.hpp"
+#include "reference/worker_count.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Separation;
+using core::Status;
+using Model = fcl::BVHModel<fcl::OBBRSS<double>>;
+
+constexpr std::string_view kId = "fcl-mesh";
+
+std::unique_ptr<Model> make_model(const core::Mesh& mesh) {
+  std::vector<fcl::Vector3<double>> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const core::Vec3 v : mesh.vertices) vertices.emplace_back(v.x, v.y, v.z);
+  std::vector<fcl::Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const core::Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+
+  auto model = std::make_unique<Model>();
+  const bool is_built =
+      model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size())) == fcl::BVH_OK &&
+      model->addSubModel(vertices, triangles) == fcl::BVH_OK && model->endModel() == fcl::BVH_OK;
+  if (!is_built) throw std::runtime_error("BVHModel could not be built for mesh '" + mesh.name + "'");
+  return model;
+}
+
+// Normalized in double: a float quaternion is a unit only to 1e-7, and FCL takes the matrix as it is.
+fcl::Transform3<double> transform(const core::Pose& pose) {
+  const core::Quat q = pose.orientation;
+  fcl::Transform3<double> t = fcl::Transform3<double>::Identity();
+  t.linear() = fcl::Quaternion<double>(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+  t.translation() = fcl::Vector3<double>(pose.position.x, pose.position.y, pose.position.z);
+  return t;
+}
+
+core::Vec3 to_core(const fcl::Vector3<double>& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Separation measure_one(const Model& a, const fcl::Transform3<double>& pose_a, const Model& b,
+                       const fcl::Transform3<double>& pose_b) {
+  Separation out;
+  fcl::DistanceRequest<double> distance_request(/*enable_nearest_points_=*/true);
+  fcl::DistanceResult<double> near;
+  fcl::distance(&a, pose_a, &b, pose_b, distance_request, near);
+  // Meshes give no penetration depth: whatever FCL says below zero is 0, "overlap of unknown depth".
+  out.distance_m = std::max(0.0, near.min_distance);
+  out.witness_a = to_core(near.nearest_points[0]);
+  out.witness_b = to_core(near.nearest_points[1]);
+  if (out.distance_m > 0.0) {
+    const fcl::Vector3<double> from_b_to_a = near.nearest_points[0] - near.nearest_points[1];
+    if (from_b_to_a.norm() > 0.0) out.normal = to_core(from_b_to_a.normalized());
+  }
+  const fcl::CollisionRequest<double> collision_request(/*num_max_contacts_=*/1, /*enable_contact_=*/false);
+  fcl::CollisionResult<double> touch;
+  out.is_touching = fcl::collide(&a, pose_a, &b, pose_b, collision_request, touch) > 0;
+  return out;
+}
+
+class FclMesh final : public core::NarrowPhase {
+ public:
+  explicit FclMesh(int workers) : arena_(workers) {}
+
+  Status load(const core::Scene& scene) override {
+    return vendor_call("fcl-mesh: load", [&]() -> Status {
+      models_.clear();
+      model_of_body_.clear();
+      for (const auto& mesh : scene.meshes) models_.push_back(make_model(*mesh));
+      for (const core::Body& body : scene.bodies) model_of_body_.push_back(models_[body.mesh].get());
+      return core::Done{};
+    });
+  }
+
+  // Pairs are independent and FCL keeps its state in the call's own objects, so they run side by side, each into its
+  // own slot: the answer does not depend on the number of workers.
+  Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
+    if (Status status = check_pairs(kId, pairs, poses, model_of_body_.size()); !status) return status;
+    separations_.assign(pairs.size(), {});
+    return vendor_call("fcl-mesh: measure", [&]() -> Status {
+      arena_.execute([&] {
+        tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
+          const auto [i, j] = pairs[k];
+          separations_[k] =
+              measure_one(*model_of_body_[i], transform(poses[i]), *model_of_body_[j], transform(poses[j]));
+        });
+      });
+      return core::Done{};
+    });
+  }
+
+  core::Result<std::vector<Separation>> read_back() override { return separations_; }
+
+ private:
+  tbb::task_arena arena_;
+  std::vector<std::unique_ptr<Model>> models_;
+  std::vector<const Model*> model_of_body_;
+  std::vector<Separation> separations_;
+};
+
+std::span<const core::SettingRow> setting_rows() {
+  static const std::array<core::SettingRow, 1> rows{{
+      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+  }};
+  return rows;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = fcl_build();
+  engine.settings = settings;
+  engine.narrow_phase = std::make_unique<FclMesh>(worker_count(settings.number("threads")));
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow fcl_mesh_row() {
+  return {.id = kId,
+          .capabilities = "narrow",
+          .what = "FCL's distance and collide on triangle meshes (OBBRSS trees)",
+          .settings = setting_rows(),
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference

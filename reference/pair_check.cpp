@@ -1,0 +1,24 @@
+#include "reference/pair_check.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace broadside::reference {
+
+core::Status check_pairs(std::string_view engine, std::span<const core::Pair> pairs, std::span<const core::Pose> poses,
+                         std::size_t body_count) {
+  const std::string where = std::string(engine) + ": measure";
+  if (poses.size() != body_count) {
+    return core::Error{std::to_string(poses.size()) + " poses for " + std::to_string(body_count) + " bodies", where,
+                       "give one pose per body of the loaded scene", core::Exit::kInternal};
+  }
+  const auto bad =
+      std::find_if(pairs.begin(), pairs.end(), [&](core::Pair p) { return p.i >= p.j || p.j >= body_count; });
+  if (bad != pairs.end()) {
+    return core::Error{"(" + std::to_string(bad->i) + ", " + std::to_string(bad->j) + ") is no pair of these bodies",
+                       where, "give i < j < the number of bodies", core::Exit::kInternal};
+  }
+  return core::Done{};
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,16 @@
+// What every narrow-phase adapter checks before it measures.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "core/engine/narrow_phase.hpp"
+
+namespace broadside::reference {
+
+// Errors: another number of poses than bodies that were loaded; a pair without i < j < bodies (named).
+core::Status check_pairs(std::string_view engine, std::span<const core::Pair> pairs, std::span<const core::Pose> poses,
+                         std::size_t body_count);
+
+}  // namespace broadside::reference

@@ -1,0 +1,335 @@
+// One body of tests for every narrow-phase engine of the folder, on bodies whose distance is known in closed form.
+// Poses stay out of the touching band: nobody is asked for a verdict at a gap of zero. A new engine is one line in
+// subjects().
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/engine/engine.hpp"
+#include "reference/engines.hpp"
+
+namespace broadside {
+namespace {
+
+using core::Pose;
+using core::Separation;
+using core::Vec3;
+
+struct Subject {
+  std::string name;
+  core::EngineRow (*row)();
+  std::map<std::string, std::string> settings = {};
+  // Solids: a body wholly inside another one touches it. Otherwise bodies are surfaces and it does not.
+  bool is_solid = false;
+  // By how much a distance may be off, relative to the size of the scene (about 1 m), and why.
+  double tolerance = 1e-6;
+};
+
+void PrintTo(const Subject& subject, std::ostream* out) {
+  *out << subject.name;
+}
+
+// Float vertices and poses: a coordinate of about 4 m is off by up to 2^-22 = 2.4e-7 m after rounding, and a distance
+// is made of two of them in each of three axes; 1e-6 covers it. Double inside adds nothing.
+std::vector<Subject> subjects() {
+  return {
+      {"fcl_mesh", reference::fcl_mesh_row},
+      {"fcl_mesh_1_thread", reference::fcl_mesh_row, {{"threads", "1"}}},
+  };
+}
+
+core::Engine make_engine(const Subject& subject) {
+  const core::EngineRow row = subject.row();
+  auto settings = core::Settings::parse(row.id, row.settings, subject.settings);
+  EXPECT_TRUE(settings.ok());
+  auto engine = row.create(settings.value());
+  EXPECT_TRUE(engine.ok());
+  return std::move(engine).value();
+}
+
+// Vertices of a box around the origin, each face split into n x n squares of two triangles, so that its vertices can be
+// far from where it is nearest.
+core::Mesh box_mesh(Vec3 half, int n) {
+  core::Mesh mesh;
+  mesh.name = "box";
+  mesh.source = "procedural";
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0F, 1.0F}) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (int u = 0; u <= n; ++u) {
+        for (int v = 0; v <= n; ++v) {
+          Vec3 p;
+          p[axis] = side * half[axis];
+          p[(axis + 1) % 3] = half[(axis + 1) % 3] * (2.0F * static_cast<float>(u) / static_cast<float>(n) - 1.0F);
+          p[(axis + 2) % 3] = half[(axis + 2) % 3] * (2.0F * static_cast<float>(v) / static_cast<float>(n) - 1.0F);
+          mesh.vertices.push_back(p);
+        }
+      }
+      const auto row = static_cast<std::uint32_t>(n + 1);
+      for (std::uint32_t u = 0; u < row - 1; ++u) {
+        for (std::uint32_t v = 0; v < row - 1; ++v) {
+          const std::uint32_t k = first + u * row + v;
+          mesh.triangles.push_back({k, k + row, k + row + 1});
+          mesh.triangles.push_back({k, k + row + 1, k + 1});
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+// An octahedron whose triangles were split and pushed out to the unit sphere `depth` times. Its six first vertices stay
+// on the axes at distance 1, and all of it lies inside the unit ball.
+core::Mesh sphere_mesh(int depth) {
+  core::Mesh mesh;
+  mesh.name = "sphere";
+  mesh.source = "procedural";
+  mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (int level = 0; level < depth; ++level) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
+    const auto split = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [entry, is_new] =
+          middle.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
+      if (is_new) {
+        const Vec3 m = mesh.vertices[a] + mesh.vertices[b];
+        mesh.vertices.push_back((1.0F / core::length(m)) * m);
+      }
+      return entry->second;
+    };
+    std::vector<core::Triangle> finer;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::uint32_t ab = split(a, b);
+      const std::uint32_t bc = split(b, c);
+      const std::uint32_t ca = split(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    mesh.triangles = std::move(finer);
+  }
+  return mesh;
+}
+
+core::Scene scene_of(std::vector<core::Mesh> meshes) {
+  core::Scene scene;
+  scene.name = "narrow";
+  for (core::Mesh& mesh : meshes) {
+    core::Body body;
+    body.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+    scene.meshes.push_back(std::make_shared<const core::Mesh>(std::move(mesh)));
+    scene.bodies.push_back(body);
+  }
+  return scene;
+}
+
+class NarrowPhases : public testing::TestWithParam<Subject> {
+ protected:
+  Separation measure(std::vector<core::Mesh> meshes, const std::vector<Pose>& poses) {
+    const core::Scene scene = scene_of(std::move(meshes));
+    const auto loaded = phase().load(scene);
+    EXPECT_TRUE(loaded.ok()) << (loaded.ok() ? "" : loaded.error().line());
+    const std::vector<core::Pair> pairs{{0, 1}};
+    const auto measured = phase().measure(pairs, poses);
+    EXPECT_TRUE(measured.ok()) << (measured.ok() ? "" : measured.error().line());
+    auto result = phase().read_back();
+    EXPECT_TRUE(result.ok());
+    EXPECT_EQ(result.value().size(), 1U);
+    return result.value().at(0);
+  }
+
+  // What every answer about bodies apart by `distance` promises.
+  void expect_apart(const Separation& s, double distance) const {
+    EXPECT_NEAR(s.distance_m, distance, tolerance());
+    EXPECT_FALSE(s.is_touching);
+    EXPECT_NEAR(core::length(s.normal), 1.0, 1e-6);
+    const Vec3 between = s.witness_a - s.witness_b;
+    EXPECT_NEAR(core::length(between), distance, 4.0 * tolerance());
+    // From B to A: along the line from B's witness to A's.
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(s.normal[axis], between[axis] / core::length(between), 4.0 * tolerance() / distance);
+  }
+
+  [[nodiscard]] double tolerance() const { return GetParam().tolerance; }
+  core::NarrowPhase& phase() { return *engine_.narrow_phase; }
+  core::Engine engine_ = make_engine(GetParam());
+};
+
+TEST_P(NarrowPhases, NamesItselfAndItsLibrary) {
+  EXPECT_EQ(engine_.id, GetParam().row().id);
+  EXPECT_EQ(engine_.build.find("unknown"), std::string::npos) << engine_.build;
+}
+
+TEST_P(NarrowPhases, FaceToFace) {
+  const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
+  const Separation s = measure({cube, cube}, {{{0, 0, 0}, {}}, {{1.25F, 0.125F, -0.25F}, {}}});
+  expect_apart(s, 0.25);
+  EXPECT_NEAR(s.normal.x, -1.0, 1e-6) << "from B, on the right, to A";
+  EXPECT_NEAR(s.witness_a.x, 0.5, 1e-6);
+  EXPECT_NEAR(s.witness_b.x, 0.75, 1e-6);
+}
+
+TEST_P(NarrowPhases, SwappedRolesTurnTheNormal) {
+  const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
+  const Separation s = measure({cube, cube}, {{{1.25F, 0.125F, -0.25F}, {}}, {{0, 0, 0}, {}}});
+  expect_apart(s, 0.25);
+  EXPECT_NEAR(s.normal.x, 1.0, 1e-6) << "from B, on the left, to A";
+}
+
+TEST_P(NarrowPhases, CornerToCorner) {
+  const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 2);
+  const Separation s = measure({cube, cube}, {{{0, 0, 0}, {}}, {{1.25F, 1.25F, 1.25F}, {}}});
+  expect_apart(s, 0.25 * std::sqrt(3.0));
+}
+
+TEST_P(NarrowPhases, EdgeToCrossedEdge) {
+  // Turned by 45 degrees about z, B shows an edge along z to A's edge; A is turned about y, so the edges cross.
+  const float s45 = std::sqrt(0.5F);
+  const float c = std::cos(0.39269908F);
+  const float s = std::sin(0.39269908F);
+  const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
+  const Separation found =
+      measure({cube, cube}, {{{0, 0, 0}, {c, 0, s, 0}}, {{2.0F * s45 + 0.25F, 0, 0}, {c, 0, 0, s}}});
+  expect_apart(found, 0.25);
+}
+
+TEST_P(NarrowPhases, SpheresAlongAnAxis) {
+  // Both lie in their unit balls and have a vertex where the balls are nearest.
+  const core::Mesh sphere = sphere_mesh(3);
+  const Separation s = measure({sphere, sphere}, {{{0, 0, 0}, {}}, {{0, 2.5F, 0}, {}}});
+  expect_apart(s, 0.5);
+  EXPECT_NEAR(s.normal.y, -1.0, 1e-6);
+}
+
+TEST_P(NarrowPhases, DifferentMeshes) {
+  const Separation s = measure({box_mesh({0.25F, 1, 0.5F}, 3), sphere_mesh(2)}, {{{-1, 0, 0}, {}}, {{2, 0, 0}, {}}});
+  expect_apart(s, 3.0 - 0.25 - 1.0);
+}
+
+TEST_P(NarrowPhases, OverlapIsTouching) {
+  const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
+  const Separation s = measure({cube, cube}, {{{0, 0, 0}, {}}, {{0.75F, 0.125F, 0.25F}, {}}});
+  EXPECT_TRUE(s.is_touching);
+  EXPECT_LE(s.distance_m, 0.0);
+}
+
+TEST_P(NarrowPhases, InsideWithoutMeetingSurfaces) {
+  const Separation s =
+      measure({box_mesh({0.25F, 0.25F, 0.25F}, 1), box_mesh({1, 1, 1}, 1)}, {{{0.25F, 0, 0}, {}}, {{0, 0, 0}, {}}});
+  if (GetParam().is_solid) {
+    EXPECT_TRUE(s.is_touching);
+    EXPECT_LE(s.distance_m, 0.0);
+  } else {
+    EXPECT_FALSE(s.is_touching);
+    EXPECT_NEAR(s.distance_m, 0.5, tolerance());
+  }
+}
+
+// Boxes with parallel axes: the distance is the length of the gaps on the three axes.
+TEST_P(NarrowPhases, RandomBoxesWithParallelAxes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> half(0.1F, 0.6F);
+  std::uniform_real_distribution<float> at(-1.5F, 1.5F);
+  std::vector<core::Mesh> meshes;
+  std::vector<Vec3> halves;
+  std::vector<Pose> poses;
+  for (int k = 0; k < 40; ++k) {
+    halves.push_back({half(random), half(random), half(random)});
+    meshes.push_back(box_mesh(halves.back(), 1 + k % 3));
+    poses.push_back({{at(random), at(random), at(random)}, {}});
+  }
+  std::vector<core::Pair> pairs;
+  for (std::uint32_t i = 0; i < 40; ++i)
+    for (std::uint32_t j = i + 1; j < 40; ++j) pairs.push_back({i, j});
+  const core::Scene scene = scene_of(std::move(meshes));
+  ASSERT_TRUE(phase().load(scene).ok());
+  ASSERT_TRUE(phase().measure(pairs, poses).ok());
+  const auto found = phase().read_back();
+  ASSERT_TRUE(found.ok());
+  ASSERT_EQ(found.value().size(), pairs.size());
+  int apart = 0;
+  int overlapping = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [i, j] = pairs[k];
+    double squared = 0.0;
+    double least_overlap = 1e9;
+    bool is_nested = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = std::abs(static_cast<double>(poses[i].position[axis]) - poses[j].position[axis]) -
+                         halves[i][axis] - halves[j][axis];
+      squared += gap > 0.0 ? gap * gap : 0.0;
+      least_overlap = std::min(least_overlap, -gap);
+      const double offset = std::abs(static_cast<double>(poses[i].position[axis]) - poses[j].position[axis]);
+      is_nested = is_nested && offset <= std::abs(static_cast<double>(halves[i][axis]) - halves[j][axis]);
+    }
+    const Separation& s = found.value()[k];
+    // Within 1e-4 m of touching nobody is judged.
+    if (squared > 1e-8) {
+      ++apart;
+      EXPECT_NEAR(s.distance_m, std::sqrt(squared), tolerance()) << i << ' ' << j;
+      EXPECT_FALSE(s.is_touching) << i << ' ' << j;
+    } else if (least_overlap > 1e-4 && !is_nested) {
+      ++overlapping;
+      EXPECT_TRUE(s.is_touching) << i << ' ' << j;
+      EXPECT_LE(s.distance_m, 0.0) << i << ' ' << j;
+    }
+  }
+  EXPECT_GT(apart, 300);
+  EXPECT_GT(overlapping, 50);
+}
+
+TEST_P(NarrowPhases, SameAnswersAgainAndOnAnyNumberOfThreads) {
+  const core::Scene scene = scene_of(std::vector<core::Mesh>(12, sphere_mesh(2)));
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> at(-3.0F, 3.0F);
+  std::vector<Pose> poses;
+  for (int k = 0; k < 12; ++k) poses.push_back({{at(random), at(random), at(random)}, {}});
+  std::vector<core::Pair> pairs;
+  for (std::uint32_t i = 0; i < 12; ++i)
+    for (std::uint32_t j = i + 1; j < 12; ++j) pairs.push_back({i, j});
+  const auto answers = [&](core::NarrowPhase& engine) {
+    EXPECT_TRUE(engine.load(scene).ok());
+    EXPECT_TRUE(engine.measure(pairs, poses).ok());
+    return engine.read_back().value();
+  };
+  const std::vector<Separation> first = answers(phase());
+  Subject two_threads = GetParam();
+  two_threads.settings["threads"] = "2";
+  const core::Engine other = make_engine(two_threads);
+  for (core::NarrowPhase* engine : {&phase(), other.narrow_phase.get()}) {
+    const std::vector<Separation> again = answers(*engine);
+    ASSERT_EQ(again.size(), first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      EXPECT_EQ(again[k].distance_m, first[k].distance_m);
+      EXPECT_EQ(again[k].is_touching, first[k].is_touching);
+      EXPECT_EQ(again[k].normal, first[k].normal);
+      EXPECT_EQ(again[k].witness_a, first[k].witness_a);
+      EXPECT_EQ(again[k].witness_b, first[k].witness_b);
+    }
+  }
+}
+
+TEST_P(NarrowPhases, NoPairsAndBadPairs) {
+  const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
+  const core::Scene scene = scene_of({cube, cube});
+  ASSERT_TRUE(phase().load(scene).ok());
+  const std::vector<Pose> poses(2);
+  EXPECT_TRUE(phase().measure({}, poses).ok());
+  EXPECT_TRUE(phase().read_back().value().empty());
+  for (const core::Pair bad : {core::Pair{0, 2}, core::Pair{1, 1}, core::Pair{1, 0}}) {
+    const auto status = phase().measure(std::vector<core::Pair>{bad}, poses);
+    ASSERT_FALSE(status.ok());
+    EXPECT_NE(status.error().line().find("no pair"), std::string::npos) << status.error().line();
+  }
+  EXPECT_FALSE(phase().measure({}, std::vector<Pose>(1)).ok()) << "fewer poses than bodies";
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, NarrowPhases, testing::ValuesIn(subjects()),
+                         [](const auto& subject) { return subject.param.name; });
+
+}  // namespace
+}  // namespace broadside
