@@ -1,0 +1,38 @@
+// One growing dataset of /trace while it is written: rows wait in memory until they are worth a call to HDF5. Private
+// to core/trace/*.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/trace/columns.hpp"
+#include "core/trace/hdf5_handle.hpp"
+
+namespace broadside::core {
+
+class ColumnBuffer {
+ public:
+  ColumnBuffer(const Column& column, std::uint64_t bodies, Handle set);
+
+  [[nodiscard]] const Column& column() const { return *column_; }
+  [[nodiscard]] const Handle& set() const { return set_; }
+  [[nodiscard]] std::size_t waiting_bytes() const { return waiting_.size(); }
+
+  // One frame (or window): the column's part of each record; for offsets, the number of records so far.
+  void add(RecordSpan<const std::byte> records);
+  // Hands what waits to HDF5. False when HDF5 failed; its reason is then on its error stack.
+  bool write();
+
+ private:
+  const Column* column_;
+  Handle set_;
+  std::vector<std::uint64_t> inner_;  // dimensions after the first
+  std::uint64_t bytes_per_row_;
+  std::uint64_t rows_written_ = 0;
+  std::uint64_t rows_waiting_ = 0;
+  std::uint64_t total_records_ = 0;
+  std::vector<std::byte> waiting_;
+};
+
+}  // namespace broadside::core

@@ -1,0 +1,38 @@
+#include "core/trace/hdf5_handle.hpp"
+
+namespace broadside::core {
+namespace {
+
+// Called for the innermost entry first: its text is the reason, the others only repeat it from farther out.
+herr_t take_innermost(unsigned /*n*/, const H5E_error2_t* entry, void* reason) {
+  if (entry->desc == nullptr || *entry->desc == '\0') return 0;
+  *static_cast<std::string*>(reason) = entry->desc;
+  return 1;
+}
+
+}  // namespace
+
+QuietHdf5::QuietHdf5() {
+  H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+QuietHdf5::~QuietHdf5() {
+  H5Eset_auto2(H5E_DEFAULT, function_, data_);
+}
+
+std::string hdf5_reason() {
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_innermost, &reason);
+  H5Eclear2(H5E_DEFAULT);
+  for (char& c : reason)
+    if (c == '\n' || c == '\r') c = ' ';
+  return reason;
+}
+
+Error hdf5_error(const std::string& what, const std::string& where, const std::string& advice) {
+  const std::string reason = hdf5_reason();
+  return {reason.empty() ? what : what + " (" + reason + ")", where, advice, Exit::kBadInput};
+}
+
+}  // namespace broadside::core

@@ -1,0 +1,18 @@
+// /scene and /provenance: the two groups that say what was simulated and who did it. Private to core/trace/*.cpp.
+#pragma once
+
+#include "core/trace/hdf5_sink.hpp"
+#include "core/trace/hdf5_source.hpp"
+#include "core/trace/trace_header.hpp"
+
+namespace broadside::core {
+
+void write_scene(Hdf5Sink& sink, const Scene& scene);
+// The scene passes check_scene, and its digest is the one that the file gives (if it gives one).
+Scene read_scene(Hdf5Source& source);
+
+void write_provenance(Hdf5Sink& sink, const TraceHeader& header);
+// Everything of the header but scene and groups. Of the stamp only the engine is required.
+void read_provenance(Hdf5Source& source, TraceHeader& header);
+
+}  // namespace broadside::core

@@ -1,0 +1,287 @@
+#include "core/trace/trace_writer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/trace/column_buffer.hpp"
+#include "core/trace/part_file.hpp"
+#include "core/trace/scene_group.hpp"
+#include "core/trace/statistics.hpp"
+
+namespace broadside::core {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Rows wait in memory up to this much, so that small frames do not cost one HDF5 call per dataset each; then they go to
+// HDF5's chunk cache. 4 MiB is some 100 frames of 50 bodies.
+constexpr std::size_t kWaitingBytes = 4U << 20U;
+// A killed writer loses at most the frames of about this long.
+constexpr std::chrono::seconds kFlushPeriod{1};
+// A flush that cuts through a chunk makes HDF5 write that chunk a second time elsewhere and leave the first as waste.
+// More waste than this share is copied away when the trace is finished: below it the copy costs more than it saves.
+constexpr std::uint64_t kWasteShare = 16;
+
+std::filesystem::path with_suffix(std::filesystem::path path, const char* suffix) {
+  return path += suffix;
+}
+
+Error misuse(const std::filesystem::path& path, const std::string& what, const std::string& advice) {
+  return {what, path.string(), advice, Exit::kInternal};
+}
+
+Status check_header(const std::filesystem::path& path, const TraceHeader& header) {
+  if (const Status s = check_scene(header.scene); !s) return s;
+  if (header.stamp.scene_digest != scene_digest(header.scene))
+    return misuse(path, "the stamp's scene_digest is not the digest of the scene", "stamp the scene that is recorded");
+  if (header.every == 0) return misuse(path, "every is 0", "record every 1st frame or fewer");
+  for (const auto& [name, value] : header.notes)
+    if (name.empty()) return misuse(path, "a note has no name", "name every note");
+  return Done{};
+}
+
+void write_once(Hdf5Sink& sink, const TraceHeader& header) {
+  sink.text("/", "format", "broadside-trace");
+  sink.number("/", "format_version", Element::kU32, &kTraceFormatVersion);
+  write_scene(sink, header.scene);
+  write_provenance(sink, header);
+  sink.group("/trace");
+  for (const GroupRow& row : group_rows())
+    if ((header.groups & bit(row.group)) != 0U) sink.group(std::string(row.path));
+  if ((header.groups & bit(Group::kContacts)) != 0U) sink.group("/trace/statistics");
+}
+
+// A new HDF5 file in the part file.
+Handle create_hdf5(PartFile& part) {
+  const Handle access = part.access_properties();
+  if (!access) return {};
+  return {H5Fcreate(part.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
+}
+
+}  // namespace
+
+struct TraceWriter::Impl {
+  std::filesystem::path path;
+  std::uint64_t bodies = 0;
+  std::uint32_t groups = 0;
+  PenetrationCounter counter{0.0F};
+  std::unique_ptr<PartFile> part;
+  Handle file;
+  std::vector<ColumnBuffer> columns;
+  std::optional<std::uint64_t> last_step;
+  std::uint64_t frames = 0;
+  std::uint64_t frames_flushed = 0;
+  Clock::time_point last_flush = Clock::now();
+  std::optional<Error> failed;
+  bool finished = false;
+
+  ~Impl() {
+    const QuietHdf5 quiet;
+    if (part && !failed && !finished) static_cast<void>(flush());  // nobody is left to tell
+    columns.clear();
+    file.close();
+  }
+
+  Error stop(Error error) {
+    failed = error;
+    return error;
+  }
+
+  // What HDF5 or the disk refused, with what can still be saved.
+  Error stop_writing(const std::string& doing) {
+    Error error = part->refused() != 0 ? disk_error(part->refused(), part->path(), doing)
+                                       : hdf5_error(doing + " failed", part->path().string(), "choose another folder");
+    if (frames_flushed > 0)
+      error.advice += "; its first " + std::to_string(frames_flushed) + " frames: broadside recover " +
+                      part->path().filename().string();
+    return stop(std::move(error));
+  }
+
+  // Rows to HDF5. Steps wait for flush(): a step in the file says that all else of its frame is there.
+  bool write_columns() {
+    for (ColumnBuffer& c : columns)
+      if (c.column().records != Records::kStep && !c.write()) return false;
+    return part->refused() == 0;
+  }
+
+  bool write_steps() {
+    for (ColumnBuffer& c : columns)
+      if (c.column().records == Records::kStep)
+        return c.write() && H5Dflush(c.set().get()) >= 0 && part->refused() == 0;
+    return false;
+  }
+
+  Status flush() {
+    const bool good = write_columns() && H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0 && write_steps();
+    if (!good) return stop_writing("writing frame " + std::to_string(frames));
+    frames_flushed = frames;
+    last_flush = Clock::now();
+    return Done{};
+  }
+
+  Status check_counts(const FrameRecord& frame) const {
+    for (const ColumnBuffer& c : columns) {
+      if (c.column().layout != Layout::kFrameBodies) continue;
+      const std::size_t count = records_of(frame, c.column().records).count;
+      if (count != bodies)
+        return misuse(path,
+                      "step " + std::to_string(frame.step) + " has " + std::to_string(count) + " rows of " +
+                          std::string(c.column().path) + " for " + std::to_string(bodies) + " bodies",
+                      "fill every group that the header names");
+    }
+    if ((groups & bit(Group::kConfirmed)) != 0U && !frame.proximity.empty() &&
+        frame.proximity.size() != frame.confirmed.size())
+      return misuse(path, "step " + std::to_string(frame.step) + " has not one proximity per confirmed pair",
+                    "give all of them or none");
+    if ((groups & bit(Group::kNarrow)) != 0U && frame.separations.size() != frame.measured.size())
+      return misuse(path, "step " + std::to_string(frame.step) + " has not one separation per measured pair",
+                    "give all of them");
+    return Done{};
+  }
+
+  void add_statistics(const std::optional<PenetrationStatistics>& row) {
+    if (!row) return;
+    for (ColumnBuffer& c : columns)
+      if (c.column().layout == Layout::kWindows) c.add({reinterpret_cast<const std::byte*>(&*row), 1, sizeof *row});
+  }
+
+  Status append(const FrameRecord& frame) {
+    if (failed) return *failed;
+    if (finished) return misuse(path, "a frame was appended after the end", "append before finish()");
+    if (last_step && frame.step <= *last_step)
+      return stop(misuse(path, "step " + std::to_string(frame.step) + " follows step " + std::to_string(*last_step),
+                         "append frames in rising order"));
+    if (const Status s = check_counts(frame); !s) return stop(s.error());
+    if ((groups & bit(Group::kContacts)) != 0U) add_statistics(counter.add(frame.step, frame.contacts));
+    std::size_t waiting = 0;
+    for (ColumnBuffer& c : columns) {
+      if (c.column().layout != Layout::kWindows) c.add(records_of(frame, c.column().records));
+      waiting += c.waiting_bytes();
+    }
+    last_step = frame.step;
+    ++frames;
+    if (Clock::now() - last_flush >= kFlushPeriod) return flush();
+    if (waiting >= kWaitingBytes && !write_columns()) return stop_writing("writing frame " + std::to_string(frames));
+    return Done{};
+  }
+
+  std::uint64_t stored_bytes() const {
+    std::uint64_t sum = 0;
+    for (const ColumnBuffer& c : columns) sum += H5Dget_storage_size(c.set().get());
+    return sum;
+  }
+
+  // Copies every object to a new file, chunk by chunk without unpacking, so that the waste stays behind. The part file
+  // is complete either way: when the copy fails (a disk without room for both), it is the trace.
+  std::unique_ptr<PartFile> compacted() {
+    auto made = PartFile::create(with_suffix(path, ".compact"));
+    if (!made) return nullptr;
+    std::unique_ptr<PartFile> copy = std::move(made).value();
+    bool good = false;
+    {
+      Handle source(H5Fopen(part->path().c_str(), H5F_ACC_RDONLY, part->access_properties().get()), H5Fclose);
+      Handle target = create_hdf5(*copy);
+      if (source && target) {
+        Hdf5Sink sink(target.get());
+        sink.text("/", "format", "broadside-trace");
+        sink.number("/", "format_version", Element::kU32, &kTraceFormatVersion);
+        good = sink.ok();
+        for (const char* name : {"trace", "scene", "provenance"})
+          good = good && H5Ocopy(source.get(), name, target.get(), name, H5P_DEFAULT, H5P_DEFAULT) >= 0;
+      }
+      good = target.close() && good && copy->refused() == 0;
+    }
+    hdf5_reason();
+    if (good) return copy;
+    std::error_code ignored;
+    std::filesystem::remove(copy->path(), ignored);
+    return nullptr;
+  }
+
+  Status finish() {
+    if (failed) return *failed;
+    if (finished) return misuse(path, "finish() was called twice", "call it once");
+    if ((groups & bit(Group::kContacts)) != 0U) add_statistics(counter.rest());
+    if (const Status s = flush(); !s) return s;
+    const std::uint64_t stored = stored_bytes();
+    columns.clear();
+    if (!file.close() || part->refused() != 0) return stop_writing("closing the trace");
+    std::unique_ptr<PartFile> copy;
+    // 1 MiB: the scene and HDF5's own structures, which are no waste, seldom need more.
+    if (part->size() > stored + stored / kWasteShare + (1U << 20U)) copy = compacted();
+    PartFile& complete = copy ? *copy : *part;
+    if (const int code = complete.sync(); code != 0)
+      return stop(disk_error(code, complete.path(), "syncing the trace"));
+    std::error_code code;
+    std::filesystem::rename(complete.path(), path, code);
+    if (code) return stop(disk_error(code.value(), path, "renaming " + complete.path().filename().string()));
+    if (copy) std::filesystem::remove(part->path(), code);
+    finished = true;
+    if (const int error = sync_folder(path.parent_path()); error != 0)
+      return disk_error(error, path.parent_path(), "syncing the folder");
+    return Done{};
+  }
+};
+
+TraceWriter::TraceWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+TraceWriter::TraceWriter(TraceWriter&&) noexcept = default;
+TraceWriter& TraceWriter::operator=(TraceWriter&&) noexcept = default;
+TraceWriter::~TraceWriter() = default;
+
+Result<TraceWriter> TraceWriter::create(const std::filesystem::path& path, const TraceHeader& header) {
+  const QuietHdf5 quiet;
+  if (const Status s = check_header(path, header); !s) return s.error();
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code)) return disk_error(EISDIR, path, "creating the trace");
+  auto part = PartFile::create(with_suffix(path, ".part"));
+  if (!part) return part.error();
+
+  auto impl = std::make_unique<Impl>();
+  impl->path = path;
+  impl->bodies = header.scene.bodies.size();
+  impl->groups = header.groups;
+  impl->counter = PenetrationCounter(header.scene.parameters.delta_m);
+  impl->part = std::move(part).value();
+  impl->file = create_hdf5(*impl->part);
+  bool good = static_cast<bool>(impl->file);
+  if (good) {
+    Hdf5Sink sink(impl->file.get());
+    write_once(sink, header);
+    for (const Column& c : columns()) {
+      if (c.groups != 0 && (c.groups & header.groups) == 0) continue;
+      impl->columns.emplace_back(c, impl->bodies, sink.growing(c, impl->bodies));
+    }
+    // From here on a kill at any moment leaves a file that opens.
+    good = sink.ok() && H5Fflush(impl->file.get(), H5F_SCOPE_LOCAL) >= 0 &&
+           H5Fstart_swmr_write(impl->file.get()) >= 0 && impl->part->refused() == 0;
+  }
+  if (!good) {
+    const Error error = impl->stop_writing("creating the trace");
+    std::filesystem::remove(impl->part->path(), code);
+    return error;
+  }
+  return TraceWriter(std::move(impl));
+}
+
+Status TraceWriter::append(const FrameRecord& frame) {
+  const QuietHdf5 quiet;
+  return impl_->append(frame);
+}
+
+Status TraceWriter::flush() {
+  const QuietHdf5 quiet;
+  if (impl_->failed) return *impl_->failed;
+  if (impl_->finished) return Done{};
+  return impl_->flush();
+}
+
+Status TraceWriter::finish() {
+  const QuietHdf5 quiet;
+  return impl_->finish();
+}
+
+}  // namespace broadside::core
