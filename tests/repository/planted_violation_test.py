@@ -7,6 +7,7 @@ from pathlib import Path
 import formatting
 import include_boundaries
 import packages
+import readme_commands
 import shell_scripts
 import tree_rules
 import wording
@@ -79,6 +80,20 @@ class PlantedViolation(unittest.TestCase):
         self.one(packages, {"core/CMakeLists.txt": "find_package(Y)\n"}, "Y is searched for")
         self.one(packages, {"cmake/y.cmake": "  pkg_check_modules(y REQUIRED IMPORTED_TARGET liby)\n"}, "liby is searched for")
         self.one(packages, {"cmake/packages.txt": CLEAN["cmake/packages.txt"] + "libz-dev\n"}, "a row has the columns")
+
+    def test_readme_command_that_exits_otherwise(self):
+        page = ("```sh\n./broadside untested\n```\n\n<!-- tested -->\n```sh\n./broadside first >seen\n"
+                "./broadside 3  # exits 3\n```\n")
+        found = readme_commands.commands(page)
+        self.assertEqual([("./broadside first >seen", 0), ("./broadside 3  # exits 3", 3)], found)
+        with tempfile.TemporaryDirectory() as scratch:
+            program = Path(scratch) / "program"
+            program.write_text('#!/bin/sh\n[ -e seen ] || exit 1\n[ "$1" = first ] || exit "$1"\n', encoding="utf-8")
+            program.chmod(0o755)
+            self.assertEqual([], readme_commands.failures(found, program))
+            wrong = readme_commands.failures([("./broadside first >seen", 0), ("./broadside 3", 0)], program)
+            self.assertEqual(1, len(wrong))
+            self.assertIn("expected exit 0, saw 3", wrong[0])
 
     def test_unformatted_source(self):
         try:
