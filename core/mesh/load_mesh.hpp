@@ -1,0 +1,29 @@
+// Reads a triangle mesh from a file: OBJ, PLY, STL, OFF, glTF, glb.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "core/mesh/clean_mesh.hpp"
+#include "core/result.hpp"
+#include "core/scene/mesh.hpp"
+
+namespace broadside::core {
+
+// Larger files are refused before they are read. The method's largest model (721,902 triangles) is 14 MB as binary PLY
+// and about 60 MB as text; 2 GiB holds fifty million triangles in text and still fits the memory of a small machine.
+inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{2} << 30;
+
+struct LoadedMesh {
+  Mesh mesh;  // coordinates as in the file (nodes' transforms applied), name = the file's stem, source = its name
+  Dropped dropped;
+};
+
+// Normals, texture coordinates and colors are dropped first, so that corners which differ only in them share a vertex;
+// polygons are cut into triangles, points and lines are left out, every node's transform is applied, and the result is
+// cleaned. A binary PLY of shared vertices keeps its bits and its order.
+// Errors, each one line: missing, not a file, unreadable, too large, unknown format, broken, no vertices, no triangles,
+// a vertex that is NaN or infinite, no triangle with area.
+Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
+
+}  // namespace broadside::core

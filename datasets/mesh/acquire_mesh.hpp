@@ -1,0 +1,29 @@
+// Obtains a mesh of the catalogue on this machine, checked against its published sum.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/result.hpp"
+#include "core/scene/mesh.hpp"
+
+namespace broadside::datasets {
+
+struct MeshOptions {
+  std::filesystem::path mesh_dir;   // a folder of mesh files that somebody provides; empty = none
+  std::filesystem::path cache_dir;  // where fetch_mesh leaves its products; empty = none
+  // A procedural body of the same size class when no file is there; it is marked as a stand-in.
+  bool allow_procedural = false;
+
+  // mesh_dir from BROADSIDE_MESH_DIR; cache_dir from XDG_CACHE_HOME or HOME: $XDG_CACHE_HOME/broadside or
+  // ~/.cache/broadside.
+  static MeshOptions from_environment();
+};
+
+// Looks for the row's files in mesh_dir, then in cache_dir, best first. Coordinates are the file's; Mesh::name is the
+// catalogue's and Mesh::source says which file with which sum was used.
+// Errors: unknown name; a file with another sum than the published one (a damaged file is never passed over in
+// silence); no file, with what to do; and all errors of load_mesh.
+core::Result<core::Mesh> acquire_mesh(std::string_view name, const MeshOptions& options);
+
+}  // namespace broadside::datasets
