@@ -10,6 +10,7 @@
 #include "core/attributes.hpp"
 #include "core/math/box.hpp"
 #include "core/math/vec3.hpp"
+#include "core/method/space_curve.hpp"
 
 namespace broadside::core {
 
@@ -53,18 +54,6 @@ BROADSIDE_HD std::uint32_t scene_cell(const SceneGrid& grid, int axis, float coo
   const auto last = static_cast<float>((1U << static_cast<unsigned>(grid.depth)) - 1U);
   if (!(cell > 0.0F)) return 0;
   return static_cast<std::uint32_t>(cell < last ? cell : last);
-}
-
-// The bits of a 9-bit number, three apart.
-BROADSIDE_HD std::uint32_t spread_by_three(std::uint32_t v) {
-  v = (v | (v << 16U)) & 0x030000FFU;
-  v = (v | (v << 8U)) & 0x0300F00FU;
-  v = (v | (v << 4U)) & 0x030C30C3U;
-  return (v | (v << 2U)) & 0x09249249U;
-}
-
-BROADSIDE_HD std::uint32_t morton_code(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  return spread_by_three(x) | (spread_by_three(y) << 1U) | (spread_by_three(z) << 2U);
 }
 
 // The lowest node that completely contains the box. The root when the box is not inside the domain.

@@ -8,6 +8,7 @@
 
 #include "reference/scene_octree/box_check.hpp"
 #include "reference/scene_octree/scene_octree.hpp"
+#include "reference/scene_octree/size_tree.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -82,7 +83,48 @@ class SceneOctreeBroadPhase final : public core::BroadPhase {
   std::vector<std::uint8_t> is_static_;
 };
 
+class TreeBroadPhase final : public core::BroadPhase {
+ public:
+  explicit TreeBroadPhase(int threads) : arena_(threads) {}
+
+  [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
+
+  core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
+    is_static_.assign(is_static.begin(), is_static.end());
+    return update(boxes);
+  }
+
+  core::Status update(std::span<const core::Box> boxes) override {
+    if (core::Status s = check_box_count(boxes.size(), is_static_.size()); !s) return s;
+    bool is_sound = true;
+    arena_.execute([&] { is_sound = tree_.build(boxes, is_static_); });
+    if (!is_sound) return unsound_box(boxes);
+    return core::Done{};
+  }
+
+  core::Status find() override {
+    arena_.execute([&] { tree_.find(); });
+    return core::Done{};
+  }
+
+  core::Result<core::PairSet> read_back() override {
+    core::PairSet set;
+    arena_.execute([&] { tree_.read_back(set.pairs); });
+    set.demanded = set.raw = set.pairs.size();
+    return set;
+  }
+
+ private:
+  Arena arena_;
+  SizeTree tree_;
+  std::vector<std::uint8_t> is_static_;
+};
+
 }  // namespace
+
+std::unique_ptr<core::BroadPhase> make_tree_broad_phase(int threads) {
+  return std::make_unique<TreeBroadPhase>(threads);
+}
 
 std::unique_ptr<core::BroadPhase> make_scene_octree_broad_phase(const core::Box& domain, int depth,
                                                                 core::Variant variant, int threads) {

@@ -33,6 +33,8 @@ class PairWriter {
     filled_.back() += written;
     count_ += written;
   }
+  // One past the room that is left in the open block.
+  [[nodiscard]] core::Pair* end() const { return end_; }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t block_count() const { return filled_.size(); }
   [[nodiscard]] std::span<const core::Pair> block(std::size_t k) const { return {blocks_[k].get(), filled_[k]}; }

@@ -1,0 +1,36 @@
+// The search kernel in plain C++: the loop over lanes compares whole registers where the compiler knows how (SSE2,
+// NEON).
+#include "reference/scene_octree/tree_join.hpp"
+
+namespace broadside::reference {
+namespace {
+
+struct Portable {
+  struct Box {
+    float min_x, min_y, min_z, max_x, max_y, max_z;
+  };
+  static Box spread(const BoxPack& pack, std::uint32_t lane) {
+    return {pack.min_x[lane], pack.min_y[lane], pack.min_z[lane], pack.max_x[lane], pack.max_y[lane], pack.max_z[lane]};
+  }
+  static unsigned overlapping(const BoxPack& pack, const Box& box) {
+    // Each lane keeps its own bit of the answer, so that the sum at the end is of distinct bits.
+    constexpr std::uint32_t kBit[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+    std::uint32_t hit[8];
+    for (int k = 0; k < 8; ++k) {
+      const bool meets = (pack.min_x[k] <= box.max_x) & (box.min_x <= pack.max_x[k]) & (pack.min_y[k] <= box.max_y) &
+                         (box.min_y <= pack.max_y[k]) & (pack.min_z[k] <= box.max_z) & (box.min_z <= pack.max_z[k]);
+      hit[k] = meets ? kBit[k] : 0U;
+    }
+    return hit[0] + hit[1] + hit[2] + hit[3] + hit[4] + hit[5] + hit[6] + hit[7];
+  }
+};
+
+}  // namespace
+
+void join_portable(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last,
+                   PairSink& sink) {
+  Join<Portable> join(tree, sink);
+  for (std::uint32_t pack = first; pack < last; ++pack) join.search(pack_class, pack);
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,64 @@
+// The built tree as the search kernels see it: plain arrays. Included by files that are compiled for one instruction
+// set each, so it has no function that a linker might share between them.
+#pragma once
+
+#include <cstdint>
+
+namespace broadside::reference {
+
+// Eight boxes, or the bounds of eight packs below. Lanes without a box hold min = inf, max = -inf, which overlap
+// nothing.
+struct alignas(64) BoxPack {
+  float min_x[8];
+  float min_y[8];
+  float min_z[8];
+  float max_x[8];
+  float max_y[8];
+  float max_z[8];
+};
+static_assert(sizeof(BoxPack) == 192, "three cache lines");
+
+// 8^10 packs of 8 boxes are more than 32-bit ids can number.
+inline constexpr int kMostTreeLevels = 12;
+
+// One size class. Level 0 is its packs of boxes; the only pack of the top level holds the bounds of up to eight below.
+struct TreeClass {
+  std::uint32_t level_count;  // at least 2
+  std::uint32_t packs;        // at level 0
+  // Index of each level's first pack in TreeView::packs. Level 0 of all classes comes first, in order of class, so a
+  // pack's index there also numbers its ids.
+  std::uint32_t level_begin[kMostTreeLevels];
+};
+
+struct TreeView {
+  const BoxPack* packs;
+  const TreeClass* classes;
+  const std::uint32_t* ids;          // 8 for each pack of level 0
+  const std::uint8_t* static_lanes;  // for each pack of level 0, a bit for each lane with a static body
+  std::uint32_t class_count;
+};
+
+// A pair as two ids; the layout of core::Pair.
+struct FoundPair {
+  std::uint32_t i;
+  std::uint32_t j;
+};
+
+// Where a kernel puts pairs: [next, end) is free. Short of room, it calls more, which takes what was written and sets
+// both.
+struct PairSink {
+  FoundPair* next;
+  FoundPair* end;
+  void* owner;
+  void (*more)(PairSink& sink);
+};
+
+// Finds all pairs that packs [first, last) of a class own. Every kernel finds the same set.
+using JoinKernel = void (*)(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last,
+                            PairSink& sink);
+
+void join_portable(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last,
+                   PairSink& sink);
+void join_avx2(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last, PairSink& sink);
+
+}  // namespace broadside::reference
