@@ -6,10 +6,13 @@
 
 namespace broadside::reference {
 
-core::EngineRow all_pairs_row();    // broad: exact, the arbiter
-core::EngineRow bullet_dbvt_row();  // broad: btDbvtBroadphase
-core::EngineRow fcl_tree_row();     // broad: fcl::DynamicAABBTreeCollisionManager
-core::EngineRow fcl_sap_row();      // broad: fcl::SaPCollisionManager and the other managers
-core::EngineRow fcl_mesh_row();     // narrow: fcl::distance and fcl::collide on meshes
+core::EngineRow all_pairs_row();         // broad: exact, the arbiter
+core::EngineRow bullet_dbvt_row();       // broad: btDbvtBroadphase
+core::EngineRow bullet_dbvt_tree_row();  // broad: btDbvt::collideTT without the broad phase around it
+core::EngineRow bullet_sap_row();        // broad: bt32BitAxisSweep3
+core::EngineRow fcl_tree_row();          // broad: fcl::DynamicAABBTreeCollisionManager
+core::EngineRow fcl_sap_row();           // broad: fcl::SaPCollisionManager and the other managers
+core::EngineRow exact_mesh_row();        // narrow: exact, the arbiter
+core::EngineRow fcl_mesh_row();          // narrow: fcl::distance and fcl::collide on meshes
 
 }  // namespace broadside::reference

@@ -46,6 +46,9 @@ const std::vector<Subject>& subjects() {
       {"bullet_dbvt_deferred", reference::bullet_dbvt_row, {{"deferred", "on"}}},
       {"bullet_dbvt_no_margin", reference::bullet_dbvt_row, {{"margin", "0"}}},
       {"bullet_dbvt_no_margin_deferred", reference::bullet_dbvt_row, {{"margin", "0"}, {"deferred", "on"}}},
+      {"bullet_dbvt_tree", reference::bullet_dbvt_tree_row, {}},
+      {"bullet_dbvt_tree_margin", reference::bullet_dbvt_tree_row, {{"margin", "bullet"}}},
+      {"bullet_sap", reference::bullet_sap_row, {}},
       {"fcl_tree", reference::fcl_tree_row, {}},
       {"fcl_tree_array", reference::fcl_tree_row, {{"manager", "tree-array"}}},
       {"fcl_ssap", reference::fcl_sap_row, {}},
@@ -267,6 +270,19 @@ TEST_P(BroadPhases, MovingTeleportingAndResizingBoxes) {
     expect_well_formed(set, boxes.size());
     ASSERT_EQ(set.pairs, brute_force(boxes, is_static)) << "frame " << frame;
   }
+}
+
+// Some engines fix their world when they are loaded.
+TEST_P(BroadPhases, BoxesThatLeaveTheLoadedWorld) {
+  std::vector<Box> boxes{cube(0, 0, 0, 1), cube(2, 2, 2, 1), cube(4, 0.5F, 0.5F, 1)};
+  load(boxes, all_moving(3));
+  EXPECT_TRUE(find().pairs.empty());
+  boxes = {cube(500, -300, 0, 1), cube(500.5F, -300, 0.5F, 1), cube(-900, 0, 0, 1)};
+  ASSERT_TRUE(phase().update(boxes).ok());
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 1}}));
+  boxes = {cube(0, 0, 0, 1), cube(9, 9, 9, 1), cube(0.5F, 0.5F, 0.5F, 1)};
+  ASSERT_TRUE(phase().update(boxes).ok());
+  EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 2}}));
 }
 
 // Bodies that come to rest and start again: engines move them between their structures.

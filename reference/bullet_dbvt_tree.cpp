@@ -1,0 +1,135 @@
+// Bullet's bounding volume tree without the broad phase around it: no pair cache, no stages, one tree-tree traversal a
+// frame. It separates the cost of the tree from that of btDbvtBroadphase's bookkeeping.
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "reference/engines.hpp"
+#include "reference/given_boxes.hpp"
+#include "reference/vendor_build.hpp"
+#include "reference/vendor_call.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Status;
+
+constexpr std::string_view kId = "bullet-dbvt-tree";
+
+btDbvtVolume volume_of(const core::Box& b) {
+  return btDbvtAabbMm::FromMM({b.min.x, b.min.y, b.min.z}, {b.max.x, b.max.y, b.max.z});
+}
+
+// What a traversal does with two leaves whose volumes overlap.
+struct Collect final : btDbvt::ICollide {
+  std::vector<core::Pair> pairs;
+
+  void Process(const btDbvtNode* a, const btDbvtNode* b) override {
+    pairs.push_back(core::make_pair_of(body_of(a), body_of(b)));
+  }
+  static std::uint32_t body_of(const btDbvtNode* leaf) {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(leaf->data));
+  }
+};
+
+struct Trees {
+  btDbvt moving;
+  btDbvt fixed;
+};
+
+class BulletDbvtTree final : public core::BroadPhase {
+ public:
+  explicit BulletDbvtTree(btScalar margin) : margin_(margin) {}
+
+  [[nodiscard]] core::BroadPhaseTraits traits() const override {
+    return {.exact = true, .margin_m = static_cast<double>(margin_), .keeps_stale_pairs = false};
+  }
+
+  Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
+    if (Status status = given_.load(kId, boxes, is_static); !status) return status;
+    return vendor_call("bullet-dbvt-tree: load", [&]() -> Status {
+      trees_ = std::make_unique<Trees>();
+      leaves_.clear();
+      found_.pairs.clear();
+      for (std::uint32_t i = 0; i < given_.count(); ++i)
+        leaves_.push_back(
+            tree_of(i).insert(volume_of(boxes[i]), reinterpret_cast<void*>(static_cast<std::uintptr_t>(i))));
+      trees_->moving.optimizeTopDown();
+      trees_->fixed.optimizeTopDown();
+      return core::Done{};
+    });
+  }
+
+  Status update(std::span<const core::Box> boxes) override {
+    if (Status status = given_.update(kId, boxes); !status) return status;
+    return vendor_call("bullet-dbvt-tree: update", [&]() -> Status {
+      for (std::uint32_t i = 0; i < given_.count(); ++i) {
+        btDbvtVolume volume = volume_of(boxes[i]);
+        if (margin_ > 0) {
+          tree_of(i).update(leaves_[i], volume, margin_);  // nothing when the fat leaf still contains it
+        } else {
+          tree_of(i).update(leaves_[i], volume);
+        }
+      }
+      // One pass a frame, as btDbvtBroadphase::collide does.
+      trees_->moving.optimizeIncremental(1);
+      return core::Done{};
+    });
+  }
+
+  Status find() override {
+    found_.pairs.clear();
+    if (trees_ == nullptr) return core::Done{};
+    return vendor_call("bullet-dbvt-tree: find", [&]() -> Status {
+      btDbvt& moving = trees_->moving;
+      moving.collideTT(moving.m_root, moving.m_root, found_);
+      moving.collideTT(moving.m_root, trees_->fixed.m_root, found_);
+      return core::Done{};
+    });
+  }
+
+  core::Result<core::PairSet> read_back() override { return given_.tighten(found_.pairs); }
+
+ private:
+  btDbvt& tree_of(std::uint32_t body) { return given_.is_static()[body] != 0 ? trees_->fixed : trees_->moving; }
+
+  btScalar margin_;
+  GivenBoxes given_;
+  std::unique_ptr<Trees> trees_;
+  std::vector<btDbvtNode*> leaves_;
+  Collect found_;
+};
+
+std::span<const core::SettingRow> setting_rows() {
+  static const std::array<core::SettingRow, 1> rows{{
+      {"margin", "0", {"0", "bullet"}, "by how much a moving leaf is fattened: nothing, or what Bullet ships"},
+  }};
+  return rows;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = bullet_build();
+  engine.settings = settings;
+  engine.broad_phase =
+      std::make_unique<BulletDbvtTree>(settings.text("margin") == "bullet" ? gDbvtMargin : btScalar(0));
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow bullet_dbvt_tree_row() {
+  return {.id = kId,
+          .capabilities = "broad",
+          .what = "Bullet's bounding volume tree alone (btDbvt::collideTT), without its pair cache",
+          .settings = setting_rows(),
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference

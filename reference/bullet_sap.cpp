@@ -1,0 +1,136 @@
+// Bullet's incremental sweep and prune with 32-bit end points.
+#include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "reference/engines.hpp"
+#include "reference/given_boxes.hpp"
+#include "reference/vendor_build.hpp"
+#include "reference/vendor_call.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Status;
+
+constexpr std::string_view kId = "bullet-sap";
+
+btVector3 bullet(core::Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+std::uint32_t body_of(const btBroadphaseProxy* proxy) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
+}
+
+// End points are quantized within a world that is fixed when it is made, and clamped to it. The world is the loaded
+// boxes' with its own size added on every side, and at least 1 m, since a world without extent divides by zero.
+core::Box sweep_world(std::span<const core::Box> boxes) {
+  core::Box all{{0, 0, 0}, {0, 0, 0}};
+  if (!boxes.empty()) {
+    all = core::empty_box();
+    for (const core::Box& b : boxes) all = core::grown(core::grown(all, b.min), b.max);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const float size = std::max(1.0F, all.max[axis] - all.min[axis]);
+    all.min[axis] -= size;
+    all.max[axis] += size;
+  }
+  return all;
+}
+
+class BulletSap final : public core::BroadPhase {
+ public:
+  ~BulletSap() override { destroy_proxies(); }
+
+  // One step of the quantization is the world's extent over 2^31, but boxes are in float, so what counts is float's
+  // spacing; the rounding is monotone, and clamping is too: no pair is lost, some are added.
+  [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
+
+  Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
+    if (Status status = given_.load(kId, boxes, is_static); !status) return status;
+    return vendor_call("bullet-sap: load", [&]() -> Status {
+      destroy_proxies();
+      const core::Box world = sweep_world(boxes);
+      // No ray casting here: its extra tree would be updated in the timed zone for nothing.
+      sweep_ = std::make_unique<bt32BitAxisSweep3>(bullet(world.min), bullet(world.max), given_.count() + 1, nullptr,
+                                                   /*disableRaycastAccelerator=*/true);
+      for (std::uint32_t i = 0; i < given_.count(); ++i) {
+        const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
+        const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
+                                           : static_cast<int>(btBroadphaseProxy::AllFilter);
+        void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
+        proxies_.push_back(sweep_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE, body,
+                                               group, mask, nullptr));
+      }
+      return core::Done{};
+    });
+  }
+
+  // Pairs come and go in here, as end points pass each other: charge update and find together.
+  Status update(std::span<const core::Box> boxes) override {
+    if (Status status = given_.update(kId, boxes); !status) return status;
+    return vendor_call("bullet-sap: update", [&]() -> Status {
+      for (std::size_t i = 0; i < proxies_.size(); ++i)
+        sweep_->setAabb(proxies_[i], bullet(boxes[i].min), bullet(boxes[i].max), nullptr);
+      return core::Done{};
+    });
+  }
+
+  Status find() override {
+    if (sweep_ == nullptr) return core::Done{};
+    return vendor_call("bullet-sap: find", [&]() -> Status {
+      sweep_->calculateOverlappingPairs(nullptr);
+      return core::Done{};
+    });
+  }
+
+  core::Result<core::PairSet> read_back() override {
+    if (sweep_ == nullptr) return core::PairSet{};
+    return vendor_call("bullet-sap: read_back", [&]() -> core::Result<core::PairSet> {
+      const btBroadphasePairArray& cache = sweep_->getOverlappingPairCache()->getOverlappingPairArray();
+      std::vector<core::Pair> raw;
+      raw.reserve(static_cast<std::size_t>(cache.size()));
+      for (int k = 0; k < cache.size(); ++k)
+        raw.push_back(core::make_pair_of(body_of(cache[k].m_pProxy0), body_of(cache[k].m_pProxy1)));
+      return given_.tighten(std::move(raw));
+    });
+  }
+
+ private:
+  void destroy_proxies() {
+    if (sweep_ == nullptr) return;
+    for (btBroadphaseProxy* proxy : proxies_) sweep_->destroyProxy(proxy, nullptr);
+    proxies_.clear();
+  }
+
+  GivenBoxes given_;
+  std::unique_ptr<bt32BitAxisSweep3> sweep_;
+  std::vector<btBroadphaseProxy*> proxies_;
+};
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = bullet_build();
+  engine.settings = settings;
+  engine.broad_phase = std::make_unique<BulletSap>();
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow bullet_sap_row() {
+  return {.id = kId,
+          .capabilities = "broad",
+          .what = "Bullet's incremental sweep and prune (bt32BitAxisSweep3) on the same boxes",
+          .settings = {},
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference

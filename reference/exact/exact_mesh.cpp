@@ -1,0 +1,133 @@
+// The arbiter of narrow phases: least distance of triangle surfaces, or of vertices, in double.
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/version.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "reference/engines.hpp"
+#include "reference/exact/triangle_tree.hpp"
+#include "reference/pair_check.hpp"
+#include "reference/vendor_call.hpp"
+#include "reference/worker_count.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Separation;
+using core::Status;
+
+constexpr std::string_view kId = "exact-mesh";
+
+using Search = Nearest (*)(const TriangleTree&, core::Vec3, const TriangleTree&, core::Vec3);
+
+core::Vec3 to_core(Point p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+Separation separation_of(const Nearest& near) {
+  Separation out;
+  out.distance_m = std::sqrt(near.squared_m2);
+  out.is_touching = near.squared_m2 == 0.0;
+  out.witness_a = to_core(near.on_a);
+  out.witness_b = to_core(near.on_b);
+  if (out.distance_m > 0.0) out.normal = to_core((1.0 / out.distance_m) * (near.on_a - near.on_b));
+  return out;
+}
+
+class ExactMesh final : public core::NarrowPhase {
+ public:
+  ExactMesh(Search search, int workers) : search_(search), arena_(workers) {}
+
+  Status load(const core::Scene& scene) override {
+    return vendor_call("exact-mesh: load", [&]() -> Status {
+      meshes_ = scene.meshes;
+      trees_.clear();
+      mesh_of_body_.clear();
+      for (const core::Body& body : scene.bodies) {
+        mesh_of_body_.push_back(body.mesh);
+        tree_of(body.mesh, body.orientation);
+      }
+      return core::Done{};
+    });
+  }
+
+  Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
+    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    separations_.assign(pairs.size(), {});
+    return vendor_call("exact-mesh: measure", [&]() -> Status {
+      // A body that turned since load needs a new tree; made before the threads start.
+      std::vector<const TriangleTree*> trees(poses.size(), nullptr);
+      for (const core::Pair p : pairs)
+        for (const std::uint32_t body : {p.i, p.j})
+          if (trees[body] == nullptr) trees[body] = &tree_of(mesh_of_body_[body], poses[body].orientation);
+      arena_.execute([&] {
+        tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
+          const auto [i, j] = pairs[k];
+          separations_[k] = separation_of(search_(*trees[i], poses[i].position, *trees[j], poses[j].position));
+        });
+      });
+      return core::Done{};
+    });
+  }
+
+  core::Result<std::vector<Separation>> read_back() override { return separations_; }
+
+ private:
+  const TriangleTree& tree_of(std::uint32_t mesh, core::Quat q) {
+    auto& tree = trees_[{mesh, q.w, q.x, q.y, q.z}];
+    if (tree == nullptr) tree = std::make_unique<TriangleTree>(*meshes_[mesh], q);
+    return *tree;
+  }
+
+  Search search_;
+  tbb::task_arena arena_;
+  std::vector<std::shared_ptr<const core::Mesh>> meshes_;
+  std::vector<std::uint32_t> mesh_of_body_;
+  std::map<std::tuple<std::uint32_t, float, float, float, float>, std::unique_ptr<TriangleTree>> trees_;
+  std::vector<Separation> separations_;
+};
+
+std::span<const core::SettingRow> setting_rows() {
+  static const std::array<core::SettingRow, 2> rows{{
+      {"method",
+       "surface-tree",
+       {"surface-tree", "surface-brute", "vertices-brute"},
+       "least distance of surfaces by a box tree or over all triangle pairs; or of vertices (d_vv) over all pairs"},
+      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+  }};
+  return rows;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  const std::string& method = settings.text("method");
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = "own, double, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
+  engine.settings = settings;
+  engine.narrow_phase = std::make_unique<ExactMesh>(method == "surface-tree"    ? nearest_of_trees
+                                                    : method == "surface-brute" ? nearest_by_brute_force
+                                                                                : nearest_vertices,
+                                                    worker_count(settings.number("threads")));
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow exact_mesh_row() {
+  return {.id = kId,
+          .capabilities = "narrow",
+          .what = "least distance of triangle surfaces or of vertices in double: the arbiter of narrow phases",
+          .settings = setting_rows(),
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference

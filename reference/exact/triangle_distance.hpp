@@ -1,0 +1,50 @@
+// The least distance between two triangles, in double: the primitive of the exact mesh arbiter.
+#pragma once
+
+#include <array>
+
+#include "core/math/vec3.hpp"
+
+namespace broadside::reference {
+
+struct Point {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+};
+
+constexpr Point to_point(core::Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+constexpr Point operator+(Point a, Point b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+constexpr Point operator-(Point a, Point b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+constexpr Point operator*(double s, Point a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+constexpr double dot(Point a, Point b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+constexpr Point cross(Point a, Point b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+using Corners = std::array<Point, 3>;
+
+// Nearest points of two bodies or triangles, in the frame of the corners, m. Squared distance 0 = they meet; then both
+// points are one common point.
+struct Nearest {
+  double squared_m2 = 0.0;
+  Point on_a;
+  Point on_b;
+};
+
+// Degenerate triangles (segments, points) are fine. Where two triangles cross by less than the rounding of double at
+// the size of their coordinates, either answer, 0 or that small distance, may come out. Two edges within an angle t of
+// parallel may be off by t times their length, t < 1e-8 or so.
+Nearest nearest_of_triangles(const Corners& a, const Corners& b);
+
+}  // namespace broadside::reference
