@@ -36,15 +36,24 @@ std::string reach(const std::vector<SceneView>& scenes, const std::vector<Findin
   return "on " + std::to_string(labels.size()) + " of " + counted(judged, "trace");
 }
 
-std::string first_of(const std::vector<Finding>& found, bool name_the_trace) {
-  const core::Verdict& verdict = *found.front().verdict;
-  std::string text = verdict.validator;
+// The validators by name, the first with its worst place: "center-of-mass (worst at step 41, bodies 3 and 17),
+// capacity".
+std::string named(const std::vector<Finding>& found, bool name_the_trace) {
+  constexpr std::size_t kNamed = 3;
+  const core::Verdict& first = *found.front().verdict;
+  std::string text = first.validator;
   if (name_the_trace) text += " on " + found.front().label;
-  if (verdict.worst.step >= 0 || !verdict.worst.bodies.empty()) {
-    core::Place place = verdict.worst;
+  if (first.worst.step >= 0 || !first.worst.bodies.empty()) {
+    core::Place place = first.worst;
     place.field.clear();
-    text += ", worst at " + place_text(place);
+    text += " (worst at " + place_text(place) + ")";
   }
+  std::vector<std::string> names{first.validator};
+  for (const Finding& finding : found)
+    if (std::find(names.begin(), names.end(), finding.verdict->validator) == names.end())
+      names.push_back(finding.verdict->validator);
+  for (std::size_t k = 1; k < std::min(kNamed, names.size()); ++k) text += ", " + names[k];
+  if (names.size() > kNamed) text += " and " + counted(names.size() - kNamed, "other validator");
   return text;
 }
 
@@ -62,8 +71,7 @@ std::string headline(const std::vector<SceneView>& scenes) {
     const std::vector<Finding> found = findings(scenes, core::Outcome::kFail);
     const std::string where = reach(scenes, found);
     const bool is_one = where.starts_with("on ") && where.find(" of ") == std::string::npos;
-    return counted(t.failed) + " of " + all + " failed " + where + ": " + first_of(found, !is_one) + absent_part(t) +
-           ".";
+    return counted(t.failed) + " of " + all + " failed " + where + ": " + named(found, !is_one) + absent_part(t) + ".";
   }
   if (t.inconclusive > 0) {
     const std::vector<Finding> found = findings(scenes, core::Outcome::kInconclusive);

@@ -1,0 +1,187 @@
+// The verdict matrix and the list of findings.
+#include <algorithm>
+
+#include "reports/escape.hpp"
+#include "reports/figures.hpp"
+#include "reports/html_sections.hpp"
+#include "reports/wording.hpp"
+
+namespace broadside::reports {
+namespace {
+
+std::string fact(std::string_view name, const std::string& value) {
+  if (value.empty()) return "";
+  return "<div><dt>" + std::string(name) + "</dt><dd>" + html(value) + "</dd></div>";
+}
+
+// Everything that is known of one verdict.
+std::string verdict_card(const core::Verdict& verdict, const std::string& label) {
+  std::string out = "<section class=\"verdict\"><h4>" + outcome_html(verdict.outcome, false) + " <span>" +
+                    html(verdict.validator) + "</span></h4><p class=\"on\">on " + html(label);
+  if (!verdict.baseline.empty()) out += ", against " + html(verdict.baseline);
+  out += "</p>";
+  if (!verdict.explanation.empty()) out += "<p>" + html(verdict.explanation) + "</p>";
+  if (verdict.outcome != core::Outcome::kNotApplicable) {
+    const Compared values = compared(verdict.measured, verdict.limit, verdict.unit);
+    out += "<dl>" + fact("measured", values.measured) + fact("limit", values.limit) + fact("origin", verdict.origin) +
+           fact("worst at", place_text(verdict.worst)) + fact("checked", counted(verdict.checked)) +
+           fact("violations", counted(verdict.violations)) + "</dl>";
+  }
+  return out + "</section>";
+}
+
+std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, std::size_t scene_number) {
+  const auto& said = trace.verdicts[column];
+  const std::string name = html(scene.validators[column]);
+  if (said.empty()) return "<td class=\"none\" data-name=\"" + name + "\"><span class=\"void\">not judged</span></td>";
+  const core::Outcome outcome = said.front()->outcome;
+  std::string out = "<td class=\"" + std::string(outcome_class(outcome)) + "\" data-name=\"" + name + "\">";
+  // One name: opening a place closes the one that was open, with scripts off too.
+  out += "<details name=\"matrix-" + std::to_string(scene_number) + "\"><summary>" + outcome_html(outcome, true) +
+         "<span class=\"unseen\"> <b>" + name + "</b> on " + html(trace.label) + "</span>";
+  if (said.size() > 1) out += "<sup>" + std::to_string(said.size()) + "</sup>";
+  out += "</summary><div class=\"card";
+  if (column * 2 >= scene.validators.size()) out += " leftward";
+  out += "\">";
+  for (const core::Verdict* verdict : said) out += verdict_card(*verdict, trace.label);
+  return out + "</div></details></td>";
+}
+
+std::string baselines_text(const TraceView& trace) {
+  std::string text;
+  for (std::size_t k = 0; k < trace.baselines.size(); ++k) text += (k == 0 ? "against " : ", ") + trace.baselines[k];
+  return text;
+}
+
+// What every judged line was judged against, when that is the same; then it is said once.
+std::string shared_baselines(const SceneView& scene) {
+  std::string shared;
+  std::size_t judged = 0;
+  for (const TraceView& trace : scene.traces) {
+    if (!trace.is_judged()) continue;
+    if (judged++ == 0) shared = baselines_text(trace);
+    if (baselines_text(trace) != shared) return "";
+  }
+  return judged > 1 ? shared : "";
+}
+
+std::string row_head(const TraceView& trace, bool says_baselines) {
+  std::string out = "<th scope=\"row\">" + label_html(trace.stamp, trace.label);
+  std::string below = says_baselines ? baselines_text(trace) : "";
+  const bool is_partial = trace.cell != nullptr && trace.cell->state != core::CellState::kRecorded && trace.is_judged();
+  if (is_partial) below += (below.empty() ? "" : "; ") + state_text(*trace.cell);
+  if (!below.empty()) out += "<small>" + html(below) + "</small>";
+  return out + "</th>";
+}
+
+struct Finding {
+  const SceneView* scene;
+  const TraceView* trace;
+  const core::Verdict* verdict;
+};
+
+}  // namespace
+
+std::string label_html(const core::Stamp& stamp, std::string_view label) {
+  if (!label.starts_with(stamp.engine)) return "<span class=\"engine\">" + html(label) + "</span>";
+  std::string out = "<span class=\"engine\">" + html(stamp.engine) + "</span>";
+  std::string_view rest = label.substr(stamp.engine.size());
+  // The brackets of the label are for plain text; here the weight of the letters says it.
+  std::string shown(rest);
+  if (const std::string bracketed = "[" + stamp.settings_short + "]"; rest.starts_with(bracketed))
+    shown = stamp.settings_short + std::string(rest.substr(bracketed.size()));
+  if (!shown.empty()) out += " <span class=\"settings\">" + html(shown) + "</span>";
+  return out;
+}
+
+std::string_view outcome_class(core::Outcome outcome) {
+  switch (outcome) {
+    case core::Outcome::kPass:
+      return "pass";
+    case core::Outcome::kFail:
+      return "fail";
+    case core::Outcome::kInconclusive:
+      return "open";
+    case core::Outcome::kNotApplicable:
+      return "none";
+  }
+  return "none";
+}
+
+std::string outcome_html(core::Outcome outcome, bool is_short) {
+  std::string_view word = core::outcome_word(outcome);
+  if (is_short && outcome == core::Outcome::kInconclusive) word = "unsure";
+  if (is_short && outcome == core::Outcome::kNotApplicable) word = "n/a";
+  return "<span class=\"word " + std::string(outcome_class(outcome)) + "\"><span aria-hidden=\"true\">" +
+         std::string(symbol(outcome)) + "</span> " + std::string(word) + "</span>";
+}
+
+std::string matrix_section(const SceneView& scene, std::size_t scene_number) {
+  if (scene.validators.empty()) {
+    std::string out = "<section><h3>Verdicts</h3><p>Nothing was judged.</p>";
+    if (!scene.traces.empty()) {
+      out += "<ul class=\"plain\">";
+      for (const TraceView& trace : scene.traces)
+        out += "<li>" + label_html(trace.stamp, trace.label) + ": " + html(trace.absence()) + "</li>";
+      out += "</ul>";
+    }
+    return out + "</section>";
+  }
+  std::string out =
+      "<section><h3>Verdicts</h3><p class=\"hint\">Each word opens what was measured, the limit and where it "
+      "comes from, and the worst place.";
+  const std::string shared = shared_baselines(scene);
+  if (!shared.empty()) out += " All were judged " + html(shared) + ".";
+  out += "</p><table class=\"matrix\"><thead><tr><th scope=\"col\">engine</th>";
+  for (const std::string& validator : scene.validators) out += "<th scope=\"col\">" + html(validator) + "</th>";
+  out += "</tr></thead><tbody>";
+  for (const TraceView& trace : scene.traces) {
+    out += "<tr>" + row_head(trace, shared.empty());
+    if (!trace.is_judged()) {
+      out += "<td class=\"absent\" colspan=\"" + std::to_string(scene.validators.size()) + "\">" +
+             html(trace.absence()) + "</td>";
+    } else {
+      for (std::size_t c = 0; c < scene.validators.size(); ++c) out += matrix_place(scene, trace, c, scene_number);
+    }
+    out += "</tr>";
+  }
+  return out + "</tbody></table></section>";
+}
+
+std::string findings_section(const std::vector<SceneView>& scenes) {
+  std::vector<Finding> found;
+  for (const SceneView& scene : scenes)
+    for (const TraceView& trace : scene.traces)
+      for (const auto& said : trace.verdicts)
+        for (const core::Verdict* verdict : said)
+          if (severity(verdict->outcome) >= severity(core::Outcome::kInconclusive))
+            found.push_back({&scene, &trace, verdict});
+  if (found.empty()) return "";
+  std::stable_sort(found.begin(), found.end(), [](const Finding& a, const Finding& b) {
+    return severity(a.verdict->outcome) > severity(b.verdict->outcome);
+  });
+  std::string out =
+      "<section id=\"findings\"><h2>What did not pass</h2><table class=\"findings\"><thead><tr>"
+      "<th scope=\"col\">verdict</th><th scope=\"col\">engine</th><th scope=\"col\" class=\"figure\">measured"
+      "</th><th scope=\"col\" class=\"figure\">limit</th><th scope=\"col\">worst at</th><th scope=\"col\" "
+      "class=\"figure\">violations</th></tr></thead><tbody>";
+  for (const Finding& finding : found) {
+    const core::Verdict& verdict = *finding.verdict;
+    const Compared values = compared(verdict.measured, verdict.limit, verdict.unit);
+    out += "<tr><td data-name=\"verdict\">" + outcome_html(verdict.outcome, true) + " <strong>" +
+           html(verdict.validator) + "</strong></td><td data-name=\"engine\">" +
+           label_html(finding.trace->stamp, finding.trace->label);
+    if (scenes.size() > 1) out += "<small>" + html(finding.scene->name) + "</small>";
+    if (!verdict.baseline.empty()) out += "<small>against " + html(verdict.baseline) + "</small>";
+    out += "</td><td class=\"figure\" data-name=\"measured\">" + html(values.measured) +
+           "</td><td class=\"figure\" data-name=\"limit\">" + html(values.limit) + "</td><td data-name=\"worst at\">" +
+           html(place_text(verdict.worst)) + "</td><td class=\"figure\" data-name=\"violations\">" +
+           counted(verdict.violations) + "<small>of " + counted(verdict.checked) + "</small></td></tr>";
+    out += "<tr class=\"why\"><td colspan=\"6\">" + html(verdict.explanation);
+    if (!verdict.origin.empty()) out += " <span class=\"origin\">Limit: " + html(verdict.origin) + "</span>";
+    out += "</td></tr>";
+  }
+  return out + "</tbody></table></section>";
+}
+
+}  // namespace broadside::reports

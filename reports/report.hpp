@@ -1,0 +1,41 @@
+// The three kinds of report of a run: a page to read, a comment for a pull request, a file for a CI server.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/rows.hpp"
+
+namespace broadside::reports {
+
+struct ReportOptions {
+  std::string title = "Collision engines compared";
+  std::string command;              // the command line that made the rows; empty = not shown
+  std::vector<std::string> repeat;  // more commands for "how to repeat", in order
+  std::string generated_at;         // as printed; empty = left out, and the same rows give the same bytes
+};
+
+// One self-contained file without any network access: readable with scripts off, from a phone to paper, light or dark.
+std::string html_page(const core::RunRows& rows, const ReportOptions& options);
+
+// GitHub-flavored Markdown for a comment, at most kMarkdownLimit bytes: what does not fit is left out last things
+// first, and the text says how much.
+constexpr std::size_t kMarkdownLimit = 60'000;
+std::string markdown_text(const core::RunRows& rows, const ReportOptions& options);
+
+// JUnit XML: one testsuite per trace, one testcase per verdict and one, "recorded", for the cell itself.
+//   fail                        failure: CI is red
+//   inconclusive                error: JUnit's word for a test that reached no result; a skip would look green
+//   not applicable              skipped, with the reason
+//   not measured, unsupported   "recorded" is skipped, with the reason
+//   crashed, timed out,
+//   interrupted, failed         "recorded" is an error
+std::string junit_xml(const core::RunRows& rows, const ReportOptions& options);
+
+// Written beside the final name and renamed.
+core::Status write_html(const core::RunRows& rows, const ReportOptions& options, const std::filesystem::path& file);
+core::Status write_markdown(const core::RunRows& rows, const ReportOptions& options, const std::filesystem::path& file);
+core::Status write_junit(const core::RunRows& rows, const ReportOptions& options, const std::filesystem::path& file);
+
+}  // namespace broadside::reports
