@@ -1,6 +1,7 @@
 // Runs every validator that applies over one trace in one streamed pass.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -23,9 +24,20 @@ struct JudgeOptions {
   std::function<void(std::uint64_t, std::uint64_t)> progress;
 };
 
+// Where frames come from: a trace file, or frames in memory. header and steps outlive the pass.
+struct FrameSource {
+  const core::TraceHeader& header;
+  std::span<const std::uint64_t> steps;  // rising
+  // Frame by index, with at least the asked-for groups that the header names.
+  std::function<core::Result<core::FrameRecord>(std::uint64_t index, std::uint32_t groups)> read;
+};
+
 // One verdict per validator, in the table's order; those that do not apply say why. With a baseline, validators that
-// need one compare; the others judge the subject alone. The two scenes must have one digest.
+// need one compare; the others judge the subject alone. The two scenes must have one digest. Frames of the baseline are
+// matched by step; at most three frames are in memory at a time.
 core::Result<std::vector<core::Verdict>> judge(const core::TraceReader& trace, const core::TraceReader* baseline,
+                                               const JudgeOptions& options);
+core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const FrameSource* baseline,
                                                const JudgeOptions& options);
 
 }  // namespace broadside::validation

@@ -1,0 +1,44 @@
+#include "validation/capacity.hpp"
+
+#include <cmath>
+
+#include "validation/subject_facts.hpp"
+#include "validation/tally.hpp"
+
+namespace broadside::validation {
+namespace {
+
+class Capacity final : public Validator {
+ public:
+  explicit Capacity(const Subject&) {}
+
+  void look(const Evidence& evidence) override {
+    const core::FrameRecord& frame = evidence.frame;
+    const double missing = static_cast<double>(frame.pairs_demanded) - static_cast<double>(frame.pairs.size());
+    tally_.check(std::abs(missing), {0.0, "pairs", "demanded = stored: counts are exact"},
+                 Where::frame(frame.step, "pairs"));
+  }
+
+  core::Verdict conclude() override { return tally_.conclude("no frames"); }
+
+ private:
+  Tally tally_{"capacity", "pair lists", "demanded = stored: counts are exact"};
+};
+
+std::string why_not(const Subject& subject) {
+  return lacking(subject.header, core::bit(core::Group::kPairs));
+}
+
+}  // namespace
+
+ValidatorRow capacity_row() {
+  return {"capacity",
+          "no buffer overflowed silently: as many pairs stored as demanded",
+          "a truncated pair list",
+          core::bit(core::Group::kPairs),
+          0,
+          why_not,
+          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Capacity>(subject); }};
+}
+
+}  // namespace broadside::validation

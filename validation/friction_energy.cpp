@@ -1,0 +1,125 @@
+#include "validation/friction_energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/application.hpp"
+#include "validation/rounding.hpp"
+#include "validation/subject_facts.hpp"
+#include "validation/tally.hpp"
+
+namespace broadside::validation {
+namespace {
+
+class FrictionEnergy final : public Validator {
+ public:
+  explicit FrictionEnergy(const Subject& subject) : bodies_(subject.header.scene) {}
+
+  void look(const Evidence& evidence) override {
+    double frame_work = 0.0;
+    for (const core::Contact& contact : evidence.frame.contacts) {
+      const auto app = bodies_.application(contact);
+      if (app) frame_work += judge(*app, evidence.frame.step);
+    }
+    work_j_ += frame_work;
+    if (frame_work < hardest_frame_j_) {
+      hardest_frame_j_ = frame_work;
+      hardest_step_ = evidence.frame.step;
+    }
+  }
+
+  core::Verdict conclude() override {
+    std::string notes = "friction did " + number_text(work_j_) + " J of work in all";
+    if (hardest_frame_j_ < 0.0)
+      notes += ", at most in step " + std::to_string(hardest_step_) + " with " + number_text(hardest_frame_j_) + " J";
+    notes += "; " + std::to_string(sticking_) + " stuck, " + std::to_string(sliding_) + " slid";
+    return tally_.conclude("no contacts", notes);
+  }
+
+ private:
+  // Returns the work that friction did, J.
+  double judge(const Application& app, std::uint64_t step) {
+    const core::Contact& c = *app.contact;
+    const double band = app.relative_velocity_rounding();
+    const double error = app.velocity_after_rounding() + band;
+    const double speed = length(app.sliding_before);
+    const double speed_after = length(app.sliding_after);
+    const auto at = [&](std::string_view field) { return Where::pair(step, c.a, c.b, field); };
+
+    if (app.approach_before >= band) {
+      const double changed = length(app.sliding_after - app.sliding_before) + std::abs(c.tangent_impulse_n_s);
+      tally_.check(changed, {0.0, "m/s", "a separating contact changes nothing (METHOD 6)"}, at("contact.post.v"));
+      return 0.0;
+    }
+
+    const double work = 0.5 * (speed_after - speed) * (speed_after + speed) / app.w_sum;
+    const double work_limit = (speed_after * error + 0.5 * error * error) / app.w_sum;
+    tally_.check(work, {work_limit, "J", "|v_t'| E / (wA + wB), E = 12 operations relative to the speeds (float32)"},
+                 at("contact.post.v"));
+
+    const double recorded = c.tangent_impulse_n_s;
+    const Vec3d tangent(c.tangent);
+    const Vec3d unexplained = (app.sliding_after - app.sliding_before) - (app.w_sum * recorded) * tangent;
+    tally_.check(length(unexplained),
+                 {error + rounding(8) * app.w_sum * std::abs(recorded), "m/s",
+                  "the recorded impulse explains the change of v_t, to E"},
+                 at("contact.tangent_impulse"));
+    // A direction is meaningful only when the sliding is larger than its own rounding error.
+    if (speed > error) {
+      const double off = recorded == 0.0 ? 0.0 : length(tangent - (1.0 / speed) * app.sliding_before);
+      tally_.check(off, {error / speed + rounding(8), "rad", "tangent = v_t / |v_t|, to E / |v_t|"},
+                   at("contact.tangent"));
+    }
+    judge_cone(app, speed, error, band, at("contact.tangent_impulse"));
+    return work;
+  }
+
+  void judge_cone(const Application& app, double speed, double error, double band, const Where& where) {
+    const double normal = std::max(0.0F, app.contact->normal_impulse_n_s);
+    const double recorded = app.contact->tangent_impulse_n_s;
+    const double stop = speed / app.w_sum;
+    const double cone = app.surface.mu_static * normal;
+    const double rounded = error / app.w_sum + rounding(8) * (stop + cone);
+    const bool may_stick = stop <= cone + rounded;
+    const bool may_slide = stop >= cone - rounded;
+    double off = std::numeric_limits<double>::infinity();
+    if (may_stick) off = std::min(off, std::abs(recorded + stop));
+    if (may_slide) off = std::min(off, std::abs(recorded + app.surface.mu_kinetic * normal));
+    // Sliding that is all rounding error, or a contact that may have counted as separating: no friction is right too.
+    if (speed <= error || app.approach_before >= -band) off = std::min(off, std::abs(recorded));
+    if (std::isnan(recorded) || std::isnan(speed)) off = std::numeric_limits<double>::quiet_NaN();
+    ++(may_slide ? sliding_ : sticking_);
+    tally_.check(
+        off, {rounded, "N s", "stick: -|v_t| / (wA + wB) up to mu_s J_n; slide: -mu_k J_n; 8 operations (METHOD 6)"},
+        where);
+  }
+
+  ContactBodies bodies_;
+  Tally tally_{"friction-energy", "energies, impulses and directions", "METHOD 6 and E6: friction opposes sliding"};
+  double work_j_ = 0.0;
+  double hardest_frame_j_ = 0.0;
+  std::uint64_t hardest_step_ = 0;
+  std::uint64_t sticking_ = 0;
+  std::uint64_t sliding_ = 0;
+};
+
+std::string why_not(const Subject& subject) {
+  if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
+  return why_not_method_response(subject.header);
+}
+
+}  // namespace
+
+ValidatorRow friction_energy_row() {
+  return {
+      "friction-energy",
+      "friction never adds energy, opposes sliding, and stays in its cone",
+      "printed-E6",
+      core::bit(core::Group::kContacts),
+      0,
+      why_not,
+      [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<FrictionEnergy>(subject); }};
+}
+
+}  // namespace broadside::validation

@@ -1,0 +1,129 @@
+#include "validation/judge.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/nearest_name.hpp"
+#include "core/scene/scene.hpp"
+
+namespace broadside::validation {
+namespace {
+
+// How often progress is told: often enough for a live estimate, too seldom to cost time.
+constexpr std::uint64_t kFramesPerReport = 50;
+
+// One row of the pass: a running validator, or the verdict that says why it does not run.
+struct Entry {
+  std::unique_ptr<Validator> validator;
+  core::Verdict verdict;
+};
+
+core::Status check_names(const std::vector<std::string>& only) {
+  std::vector<std::string_view> known;
+  for (const ValidatorRow& row : validators()) known.push_back(row.name);
+  for (const std::string& name : only)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      return core::Error{"unknown validator '" + name + "'", "", core::advise_name(name, known)};
+  return core::Done{};
+}
+
+std::string hex(std::uint64_t digest) {
+  char text[24];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
+  return text;
+}
+
+core::Status check_same_scene(const core::TraceHeader& a, const core::TraceHeader& b) {
+  if (a.stamp.scene_digest == b.stamp.scene_digest) return core::Done{};
+  return core::Error{"the two traces are of different scenes (" + a.stamp.scene_name + " " + hex(a.stamp.scene_digest) +
+                         " and " + b.stamp.scene_name + " " + hex(b.stamp.scene_digest) + ")",
+                     "baseline " + b.stamp.label(), "record both from one scene file, with the same parameters"};
+}
+
+std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& options, std::uint32_t& groups,
+                                std::uint32_t& baseline_groups) {
+  std::vector<Entry> entries;
+  for (const ValidatorRow& row : validators()) {
+    if (!options.only.empty() && std::find(options.only.begin(), options.only.end(), row.name) == options.only.end())
+      continue;
+    Entry entry;
+    entry.verdict.validator = row.name;
+    entry.verdict.explanation = row.why_not(subject);
+    if (entry.verdict.explanation.empty()) {
+      entry.validator = row.make(subject);
+      groups |= row.groups;
+      baseline_groups |= row.baseline_groups;
+    }
+    entries.push_back(std::move(entry));
+  }
+  groups &= subject.header.groups;
+  baseline_groups &= subject.baseline != nullptr ? subject.baseline->groups : 0;
+  return entries;
+}
+
+// Walks the baseline beside the subject: both have rising steps.
+class BaselineFrames {
+ public:
+  BaselineFrames(const FrameSource* source, std::uint32_t groups) : source_(source), groups_(groups) {}
+
+  // The frame of this step, or null where the baseline has none.
+  core::Result<const core::FrameRecord*> at(std::uint64_t step) {
+    if (source_ == nullptr) return static_cast<const core::FrameRecord*>(nullptr);
+    while (next_ < source_->steps.size() && source_->steps[next_] < step) ++next_;
+    if (next_ == source_->steps.size() || source_->steps[next_] != step)
+      return static_cast<const core::FrameRecord*>(nullptr);
+    auto frame = source_->read(next_, groups_);
+    if (!frame) return frame.error();
+    frame_ = std::move(frame).value();
+    return static_cast<const core::FrameRecord*>(&*frame_);
+  }
+
+ private:
+  const FrameSource* source_;
+  std::uint32_t groups_;
+  std::size_t next_ = 0;
+  std::optional<core::FrameRecord> frame_;
+};
+
+}  // namespace
+
+core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const FrameSource* baseline,
+                                               const JudgeOptions& options) {
+  if (core::Status s = check_names(options.only); !s) return s.error();
+  if (baseline != nullptr)
+    if (core::Status s = check_same_scene(subject.header, baseline->header); !s) return s.error();
+
+  std::uint32_t groups = 0;
+  std::uint32_t baseline_groups = 0;
+  const Subject facts{subject.header, baseline != nullptr ? &baseline->header : nullptr};
+  std::vector<Entry> entries = make_entries(facts, options, groups, baseline_groups);
+
+  BaselineFrames baseline_frames(baseline, baseline_groups);
+  std::optional<core::FrameRecord> previous;
+  const std::uint64_t total = subject.steps.size();
+  for (std::uint64_t index = 0; index < total; ++index) {
+    auto read = subject.read(index, groups);
+    if (!read) return read.error();
+    core::FrameRecord frame = std::move(read).value();
+    const auto counterpart = baseline_frames.at(frame.step);
+    if (!counterpart) return counterpart.error();
+    const bool follows = previous && previous->step + 1 == frame.step;
+    const Evidence evidence{frame, follows ? &*previous : nullptr, counterpart.value()};
+    for (Entry& entry : entries)
+      if (entry.validator) entry.validator->look(evidence);
+    previous = std::move(frame);
+    if (options.progress && ((index + 1) % kFramesPerReport == 0 || index + 1 == total))
+      options.progress(index + 1, total);
+  }
+
+  std::vector<core::Verdict> verdicts;
+  for (Entry& entry : entries)
+    verdicts.push_back(entry.validator ? entry.validator->conclude() : std::move(entry.verdict));
+  return verdicts;
+}
+
+}  // namespace broadside::validation

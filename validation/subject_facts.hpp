@@ -1,0 +1,30 @@
+// What headers say about a subject and its baseline: which laws are meant for it, and what the two share.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/trace/trace_header.hpp"
+
+namespace broadside::validation {
+
+// "the trace records no contacts" for the first of these groups that the header lacks; empty when it has all.
+std::string lacking(const core::TraceHeader& header, std::uint32_t groups);
+
+bool has(const core::TraceHeader& header, core::Group group);
+
+// Value of one key in the stamp's canonical settings "a=1,b=2"; empty when it is not there.
+std::string_view setting(const core::Stamp& stamp, std::string_view key);
+
+// Canonical settings without the keys that must not change a bit of the result: threads.
+std::string settings_that_matter(const core::Stamp& stamp);
+
+// octree-cpu and octree-gpu (and hash-cpu and hash-gpu) are twins: one method, bit-identical by design.
+bool are_twins(std::string_view engine, std::string_view other);
+
+// Why METHOD 4 to 6 do not describe how this engine resolves contacts; empty when they do, or when nothing is known
+// about the engine.
+std::string why_not_method_response(const core::TraceHeader& header);
+
+}  // namespace broadside::validation
