@@ -1,5 +1,5 @@
 // A world that obeys the method passes every validator that applies.
-#include "sound_world.hpp"
+#include "tests/validation/sound_world.hpp"
 
 namespace broadside::tests {
 namespace {
