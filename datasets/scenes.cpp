@@ -7,6 +7,7 @@
 #include "core/nearest_name.hpp"
 #include "datasets/generators/paper_scenes.hpp"
 #include "datasets/generators/small_scenes.hpp"
+#include "datasets/scene_file/scene_file.hpp"
 
 namespace broadside::datasets {
 namespace {
@@ -92,6 +93,7 @@ std::vector<SceneRow> scene_table() {
 }
 
 Result<Scene> make_scene(const std::string& spec, const SceneOptions& options) {
+  if (spec.ends_with(".toml")) return read_scene_file(spec, options);
   Result<Scene> scene = by_name(spec, options);
   if (!scene) return scene;
   if (core::Status s = core::check_scene(scene.value()); !s) return s.error();

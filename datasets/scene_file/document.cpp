@@ -1,0 +1,76 @@
+#include "datasets/scene_file/document.hpp"
+
+#include <toml++/toml.h>
+
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+namespace broadside::datasets {
+namespace {
+
+using core::Error;
+using core::Result;
+
+Node converted(const toml::node& from) {
+  Node node;
+  node.line = from.source().begin.line;
+  if (const toml::table* table = from.as_table()) {
+    node.kind = Node::Kind::kTable;
+    for (const auto& [key, value] : *table) node.members.emplace_back(std::string(key.str()), converted(value));
+  } else if (const toml::array* array = from.as_array()) {
+    node.kind = Node::Kind::kArray;
+    for (const toml::node& item : *array) node.items.push_back(converted(item));
+  } else if (const auto* text = from.as_string()) {
+    node.kind = Node::Kind::kText;
+    node.text = text->get();
+  } else if (const auto* whole = from.as_integer()) {
+    node.kind = Node::Kind::kWhole;
+    node.whole = whole->get();
+    node.number = static_cast<double>(node.whole);
+  } else if (const auto* number = from.as_floating_point()) {
+    node.kind = Node::Kind::kNumber;
+    node.number = number->get();
+  } else if (const auto* flag = from.as_boolean()) {
+    node.kind = Node::Kind::kFlag;
+    node.flag = flag->get();
+  }
+  return node;
+}
+
+Result<std::string> content_of(const std::filesystem::path& path) {
+  std::error_code failed;
+  const auto status = std::filesystem::status(path, failed);
+  if (status.type() == std::filesystem::file_type::not_found)
+    return Error{"no such scene file", path.string(), "check the path, or name a built-in scene"};
+  if (status.type() != std::filesystem::file_type::regular)
+    return Error{"not a file", path.string(), "give a scene file"};
+  const auto size = std::filesystem::file_size(path, failed);
+  if (!failed && size > kMaxSceneFileBytes)
+    return Error{"the file is larger than a scene file may be (1024 MiB)", path.string(), "use a generator"};
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream content;
+  content << file.rdbuf();
+  // An empty file sets failbit on the copy; only a file that was not opened or broke off is an error.
+  if (!file.is_open() || file.bad()) return Error{"cannot be read", path.string(), "check its permissions"};
+  return std::move(content).str();
+}
+
+}  // namespace
+
+Result<Node> parse_toml(const std::filesystem::path& path) {
+  const Result<std::string> content = content_of(path);
+  if (!content) return content.error();
+  try {
+    return converted(toml::parse(std::string_view(content.value()), path.string()));
+  } catch (const toml::parse_error& e) {
+    std::string what(e.description());
+    for (char& c : what)
+      if (c == '\n') c = ' ';
+    return Error{what, path.string() + ":" + std::to_string(e.source().begin.line),
+                 "see https://toml.io for the syntax"};
+  }
+}
+
+}  // namespace broadside::datasets

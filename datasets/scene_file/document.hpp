@@ -1,0 +1,32 @@
+// A TOML file as a tree of values that know their line: what the readers of scene files work on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/result.hpp"
+
+namespace broadside::datasets {
+
+struct Node {
+  enum class Kind { kTable, kArray, kText, kWhole, kNumber, kFlag, kOther };
+  Kind kind = Kind::kOther;
+  std::uint32_t line = 0;                             // 1-based
+  std::string text;                                   // kText
+  std::int64_t whole = 0;                             // kWhole
+  double number = 0.0;                                // kNumber, and kWhole converted
+  bool flag = false;                                  // kFlag
+  std::vector<std::pair<std::string, Node>> members;  // kTable, in order of the keys
+  std::vector<Node> items;                            // kArray
+};
+
+// Larger files are refused: a body takes about 100 bytes, so this is the ten million bodies that a scene may have.
+inline constexpr std::uint64_t kMaxSceneFileBytes = std::uint64_t{1} << 30;
+
+// Errors: missing, not a file, unreadable, too large, or not TOML (with file:line).
+core::Result<Node> parse_toml(const std::filesystem::path& path);
+
+}  // namespace broadside::datasets

@@ -1,0 +1,267 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/nearest_name.hpp"
+#include "datasets/generators/start_grid.hpp"
+#include "datasets/scene_file/document.hpp"
+#include "datasets/scene_file/mesh_table.hpp"
+#include "datasets/scene_file/scene_file.hpp"
+#include "datasets/scene_file/table_reader.hpp"
+
+namespace broadside::datasets {
+namespace {
+
+using core::Body;
+using core::Material;
+using core::Result;
+using core::Scene;
+
+constexpr std::array<std::string_view, 2> kGenerators{"stacked-grid", "filled-cube"};
+
+class SceneFileReader {
+ public:
+  SceneFileReader(std::filesystem::path path, const SceneOptions& options)
+      : path_(std::move(path)), options_(options), errors_{path_.string(), {}} {}
+
+  Result<Scene> read(const Node& root) {
+    TableReader top(root, "the scene", errors_);
+    read_scalars(top);
+    read_domain(top);
+    if (const Node* node = top.table("parameters")) read_parameters(*node);
+    if (const Node* node = top.table("face_material")) read_material(*node, scene_.face_material);
+    if (const Node* node = top.table("material")) read_material(*node, material_);
+    lines_["parameters"] = top.line_of("parameters");
+    lines_["faces"] = top.line_of("face_material");
+    for (const Node* node : top.tables("mesh")) read_mesh(*node);
+    if (const Node* node = top.table("generator")) read_generator(*node);
+    for (const Node* node : top.tables("body")) read_body(*node);
+    top.finish();
+    if (!has_domain_)
+      errors_.add(1, "the scene has no domain", "add [domain] with min_m and max_m, or a generator that makes one");
+    if (errors_.first) return *errors_.first;
+    return checked();
+  }
+
+ private:
+  void read_scalars(TableReader& top) {
+    scene_.name = path_.stem().string();
+    scene_.seed = kDefaultSeed;
+    top.text("name", scene_.name);
+    top.text("description", scene_.description);
+    top.whole("frames", 1U, std::numeric_limits<std::uint32_t>::max(), scene_.frames);
+    read_seed(top);
+    top.number("dt_s", scene_.dt_s);
+    top.vec3("gravity_m_s2", scene_.gravity_m_s2);
+    for (const char* key : {"dt_s", "gravity_m_s2"}) lines_[key] = top.line_of(key);
+    scene_.frames = options_.frames.value_or(scene_.frames);
+    scene_.seed = options_.seed.value_or(scene_.seed);
+  }
+
+  // TOML's whole numbers end at 2^63 - 1; a larger seed is written as a text of digits.
+  void read_seed(TableReader& top) {
+    constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (!top.is_text("seed")) {
+      top.whole("seed", std::uint64_t{0}, kMost, scene_.seed);
+      return;
+    }
+    std::string digits;
+    top.text("seed", digits);
+    const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), scene_.seed);
+    if (failed != std::errc() || end != digits.data() + digits.size())
+      top.fail("seed", "seed is '" + digits + "'", "give a whole number from 0 to 18446744073709551615");
+  }
+
+  void read_domain(TableReader& top) {
+    const Node* node = top.table("domain");
+    if (node == nullptr) return;
+    TableReader domain(*node, "the domain", errors_);
+    lines_["domain"] = domain.line();
+    has_domain_ = domain.vec3("min_m", scene_.domain.min);
+    has_domain_ = domain.vec3("max_m", scene_.domain.max) && has_domain_;
+    domain.finish();
+    if (!has_domain_) errors_.add(node->line, "the domain is not complete", "give min_m and max_m");
+  }
+
+  void read_parameters(const Node& node) {
+    TableReader table(node, "the parameters", errors_);
+    core::Parameters& p = scene_.parameters;
+    table.number("delta_m", p.delta_m);
+    table.number("beta", p.beta);
+    table.number("alpha", p.alpha);
+    table.number("v_threshold_m_s", p.v_threshold_m_s);
+    table.number("impulse_min_n_s", p.impulse_min_n_s);
+    table.number("v_max_m_s", p.v_max_m_s);
+    table.number("epsilon_m", p.epsilon_m);
+    table.number("theta_m", p.theta_m);
+    table.number("hash_cell_m", p.hash_cell_m);
+    table.finish();
+  }
+
+  void read_material(const Node& node, Material& material) {
+    TableReader table(node, "the material", errors_);
+    table.number("mu_static", material.mu_static);
+    table.number("mu_kinetic", material.mu_kinetic);
+    table.number("restitution", material.restitution);
+    table.finish();
+  }
+
+  void read_mesh(const Node& node) {
+    if (errors_.first) return;
+    std::optional<core::Mesh> mesh = read_mesh_table(node, path_.parent_path(), options_.meshes, errors_);
+    if (!mesh) return;
+    for (const auto& known : scene_.meshes)
+      if (known->name == mesh->name)
+        errors_.add(node.line, "a second mesh is named '" + mesh->name + "'", "give each mesh a name of its own");
+    lines_["mesh " + mesh->name] = node.line;
+    scene_.meshes.push_back(std::make_shared<const core::Mesh>(std::move(*mesh)));
+  }
+
+  // The index of the mesh that the table names; the only mesh needs no naming.
+  std::uint32_t mesh_of(TableReader& table) {
+    std::string name;
+    const bool is_named = table.text("mesh", name);
+    std::vector<std::string_view> known;
+    for (const auto& mesh : scene_.meshes) known.push_back(mesh->name);
+    if (!is_named && known.size() != 1) {
+      table.fail("mesh", known.empty() ? "there is no [[mesh]]" : "it does not say which mesh",
+                 known.empty() ? "add one" : "give mesh = \"" + std::string(known[0]) + "\"");
+      return 0;
+    }
+    if (!is_named) return 0;
+    for (std::uint32_t m = 0; m < known.size(); ++m)
+      if (known[m] == name) return m;
+    table.fail("mesh", "there is no mesh '" + name + "' in this scene", core::advise_name(name, known));
+    return 0;
+  }
+
+  // Everything that a generated body and a written one share.
+  Body body_of(TableReader& table) {
+    Body body;
+    body.material = material_;
+    body.mesh = mesh_of(table);
+    bool is_static = false;
+    double mass_kg = 1.0;
+    table.flag("static", is_static);
+    const bool has_mass = table.positive("mass_kg", mass_kg);
+    if (is_static && has_mass) table.fail("mass_kg", "a static body has a mass", "give static = true or mass_kg");
+    body.inverse_mass = is_static ? 0.0F : static_cast<float>(1.0 / mass_kg);
+    if (!is_static && !(body.inverse_mass > 0.0F && std::isfinite(body.inverse_mass)))
+      table.fail("mass_kg", "1 / mass_kg is outside the range of a 32-bit float", "give a mass from 1e-37 to 1e37 kg");
+    if (const Node* node = table.table("material")) read_material(*node, body.material);
+    return body;
+  }
+
+  void read_body(const Node& node) {
+    if (errors_.first) return;
+    TableReader table(node, "this body", errors_);
+    Body body = body_of(table);
+    if (!table.vec3("position_m", body.position) && !errors_.first)
+      errors_.add(node.line, "the body has no position", "give position_m = [x, y, z]");
+    table.vec3("velocity_m_s", body.velocity);
+    table.vec3("angular_velocity_rad_s", body.angular_velocity);
+    std::vector<double> q;
+    if (table.numbers("orientation_wxyz", 4, q)) body.orientation = unit(table, q);
+    table.finish();
+    lines_["body " + std::to_string(scene_.bodies.size())] = node.line;
+    scene_.bodies.push_back(body);
+  }
+
+  // Rounded once from the normalized doubles; written digits are rarely a unit quaternion to the last bit.
+  core::Quat unit(TableReader& table, const std::vector<double>& q) {
+    const double norm = std::sqrt((q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]));
+    // A part in a thousand is more than rounded digits explain.
+    if (!(std::abs(norm - 1.0) <= 1e-3)) {
+      table.fail("orientation_wxyz", "orientation_wxyz is not a unit quaternion", "normalize w, x, y, z");
+      return {};
+    }
+    // Already a unit quaternion in float: taken as it is, so that a written scene reads back to the same bits.
+    const double n = std::abs(norm * norm - 1.0) <= 4.0 * 0x1p-24 ? 1.0 : norm;
+    return {static_cast<float>(q[0] / n), static_cast<float>(q[1] / n), static_cast<float>(q[2] / n),
+            static_cast<float>(q[3] / n)};
+  }
+
+  void read_generator(const Node& node) {
+    if (errors_.first) return;
+    TableReader table(node, "the generator", errors_);
+    std::string kind;
+    std::uint32_t count = 0;
+    if (!table.text("kind", kind)) errors_.add(node.line, "the generator has no kind", "give kind = \"stacked-grid\"");
+    if (!table.whole("count", 0U, kMaxBodies, count) && !errors_.first)
+      errors_.add(node.line, "the generator has no count", "give count = 50");
+    const Body body = body_of(table);
+    StackedGrid grid;
+    FilledCube cube;
+    if (kind == "stacked-grid") {
+      table.number("gap", grid.gap);
+      table.number("drop_m", grid.drop_m);
+      table.number("jitter", grid.jitter);
+      table.number("width_of_grid", grid.width_of_grid);
+      if (!(grid.gap >= 0.0)) table.fail("gap", "gap is negative", "give 0 or more");
+      if (!(grid.drop_m >= 0.0)) table.fail("drop_m", "drop_m is negative", "give 0 or more, in m");
+      if (!(grid.jitter >= 0.0)) table.fail("jitter", "jitter is negative", "give 0 or more");
+      if (!(grid.width_of_grid >= 1.0)) table.fail("width_of_grid", "width_of_grid is below 1", "give 1 or more");
+    } else if (kind == "filled-cube") {
+      table.positive("fill", cube.fill);
+      table.number("top_speed_m_s", cube.top_speed_m_s);
+      // Above a half the grid of cells rarely fits, and the cube would grow in silence.
+      if (!(cube.fill <= 0.5)) table.fail("fill", "fill is above 0.5", "give a share of the volume up to 0.5");
+      if (!(cube.top_speed_m_s >= 0.0)) table.fail("top_speed_m_s", "top_speed_m_s is negative", "give 0 or more");
+    } else if (!errors_.first) {
+      table.fail("kind", "no such generator '" + kind + "'", core::advise_name(kind, kGenerators));
+    }
+    table.finish();
+    if (errors_.first) return;
+    const core::Box box = core::bounds(*scene_.meshes[body.mesh]);
+    place(kind == "stacked-grid" ? stacked_grid(box, count, grid, scene_.seed)
+                                 : filled_cube(box, count, cube, scene_.seed),
+          body);
+  }
+
+  void place(const Start& start, const Body& prototype) {
+    for (std::size_t n = 0; n < start.positions.size(); ++n) {
+      Body body = prototype;
+      body.position = start.positions[n];
+      body.velocity = start.velocities[n];
+      scene_.bodies.push_back(body);
+    }
+    if (!has_domain_) scene_.domain = start.domain;
+    has_domain_ = true;
+  }
+
+  // check_scene says "NAME: body 3"; the line of that place is put before it.
+  Result<Scene> checked() {
+    const core::Status status = core::check_scene(scene_);
+    if (status) return std::move(scene_);
+    core::Error error = status.error();
+    const std::string prefix = scene_.name + ": ";
+    const std::string place = error.where.starts_with(prefix) ? error.where.substr(prefix.size()) : error.where;
+    const auto line = lines_.find(place);
+    error.where = errors_.file + ":" + (line == lines_.end() ? "1" : std::to_string(line->second)) + ": " + place;
+    return error;
+  }
+
+  std::filesystem::path path_;
+  const SceneOptions& options_;
+  FileErrors errors_;
+  Scene scene_;
+  Material material_;
+  bool has_domain_ = false;
+  std::map<std::string, std::uint32_t> lines_;
+};
+
+}  // namespace
+
+Result<Scene> read_scene_file(const std::filesystem::path& path, const SceneOptions& options) {
+  const Result<Node> root = parse_toml(path);
+  if (!root) return root.error();
+  return SceneFileReader(path, options).read(root.value());
+}
+
+}  // namespace broadside::datasets

@@ -1,0 +1,66 @@
+// Typed reading of one table of a scene file: wrong types, numbers out of range and unknown keys become the one error.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/math/vec3.hpp"
+#include "core/result.hpp"
+#include "datasets/scene_file/document.hpp"
+
+namespace broadside::datasets {
+
+// The file's name and its first error; shared by the readers of its tables.
+struct FileErrors {
+  std::string file;
+  std::optional<core::Error> first;
+
+  void add(std::uint32_t line, std::string what, std::string advice);
+};
+
+// Each getter leaves its target alone when the key is absent, and reports false then and on errors. finish() makes
+// every key that was never asked for an error that names the nearest key that was.
+class TableReader {
+ public:
+  // `what` names the table in errors: "body", "the scene".
+  TableReader(const Node& table, std::string what, FileErrors& errors);
+
+  bool text(std::string_view key, std::string& out);
+  bool flag(std::string_view key, bool& out);
+  // Whole numbers in low ... high.
+  bool whole(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t& out);
+  bool whole(std::string_view key, std::uint32_t low, std::uint32_t high, std::uint32_t& out);
+  // Finite numbers; whole ones count too. As float: rounded once, finite after that.
+  bool number(std::string_view key, double& out);
+  bool number(std::string_view key, float& out);
+  // Finite and above zero.
+  bool positive(std::string_view key, double& out);
+  bool numbers(std::string_view key, std::size_t count, std::vector<double>& out);
+  bool vec3(std::string_view key, core::Vec3& out);
+
+  // Null when absent or when it is something else (then an error).
+  const Node* table(std::string_view key);
+  // The tables of [[key]]; empty when absent.
+  std::vector<const Node*> tables(std::string_view key);
+
+  [[nodiscard]] bool has(std::string_view key) const;
+  [[nodiscard]] bool is_text(std::string_view key) const;
+  [[nodiscard]] std::uint32_t line() const { return table_.line; }
+  [[nodiscard]] std::uint32_t line_of(std::string_view key) const;
+  void fail(std::string_view key, std::string what, std::string advice);
+  void finish();
+
+ private:
+  const Node* find(std::string_view key);
+  bool finite_float(std::string_view key, double value, float& out);
+
+  const Node& table_;
+  std::string what_;
+  FileErrors& errors_;
+  std::vector<std::string_view> asked_;
+};
+
+}  // namespace broadside::datasets
