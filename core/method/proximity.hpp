@@ -7,6 +7,7 @@
 #include "core/attributes.hpp"
 #include "core/math/box.hpp"
 #include "core/math/vec3.hpp"
+#include "core/parameters.hpp"
 
 namespace broadside::core {
 
@@ -26,6 +27,11 @@ BROADSIDE_HD bool is_nearer(const Proximity& p, const Proximity& q) {
   if (p.squared_distance_m2 != q.squared_distance_m2) return p.squared_distance_m2 < q.squared_distance_m2;
   if (p.vertex_a != q.vertex_a) return p.vertex_a < q.vertex_a;
   return p.vertex_b < q.vertex_b;
+}
+
+// The distance below which vertices of two meshes touch: the scene's, or the mean of both mean edge lengths.
+BROADSIDE_HD float pair_theta_m(const Parameters& parameters, float mean_edge_a_m, float mean_edge_b_m) {
+  return parameters.theta_m > 0.0F ? parameters.theta_m : 0.5F * (mean_edge_a_m + mean_edge_b_m);
 }
 
 BROADSIDE_HD float squared_distance(Vec3 a, Vec3 b) {

@@ -26,7 +26,7 @@ ShapeTable build_shapes(const Scene& scene) {
 }
 
 float pair_theta_m(const Parameters& parameters, const Shape& a, const Shape& b) {
-  return parameters.theta_m > 0.0F ? parameters.theta_m : 0.5F * (a.mean_edge_m + b.mean_edge_m);
+  return pair_theta_m(parameters, a.mean_edge_m, b.mean_edge_m);
 }
 
 }  // namespace broadside::core

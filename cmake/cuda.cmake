@@ -1,0 +1,26 @@
+# CUDA is optional: without nvcc the project configures and builds, and GPU cells say "not measured". Sets
+# BROADSIDE_HAS_CUDA. The language is enabled at the top because every executable that links broadside_gpu needs it.
+
+set(BROADSIDE_HAS_CUDA OFF)
+if(BROADSIDE_CUDA)
+  if(NOT CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX})
+    find_program(BROADSIDE_NVCC nvcc HINTS /usr/local/cuda/bin)
+    if(BROADSIDE_NVCC)
+      set(CMAKE_CUDA_COMPILER ${BROADSIDE_NVCC} CACHE FILEPATH "CUDA compiler")
+    endif()
+  endif()
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(CMAKE_CUDA_COMPILER)
+    # Which GPUs the binary runs on: machine code for these and PTX for later ones.
+    if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
+      set(CMAKE_CUDA_ARCHITECTURES 90 CACHE STRING "CUDA architectures")
+    endif()
+    set(CMAKE_CUDA_STANDARD 20)
+    set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+    enable_language(CUDA)
+    set(BROADSIDE_HAS_CUDA ON)
+  else()
+    message(STATUS "nvcc was not found: building without the CUDA pipeline")
+  endif()
+endif()

@@ -1,0 +1,61 @@
+#include "gpu/device_scene.hpp"
+
+#include "core/method/levels.hpp"
+#include "core/scene/shapes.hpp"
+
+#include <algorithm>
+
+namespace broadside::gpu {
+
+core::Status DeviceScene::load(const core::Scene& scene) {
+  const core::ShapeTable table = core::build_shapes(scene);
+  std::vector<PackedBox> octree;
+  std::vector<PackedBox> level2;
+  std::vector<std::uint32_t> level2_count;
+  ShapeTrees trees;
+  largest_side_m_ = 0.0F;
+  tree_levels_ = 1;
+  for (const core::Shape& shape : table.shapes) {
+    for (const core::Box& box : shape.octree.boxes) octree.push_back(pack(box));
+    const core::NodeBoxes nodes = core::node_boxes(shape.octree);
+    for (const core::Box& box : nodes.level2) level2.push_back(pack(box));
+    level2_count.push_back(nodes.level2_count);
+    append_tree(trees, shape.octree.sorted_vertices, shape.octree.sorted_indices, shape.mean_edge_m);
+    tree_levels_ = std::max(tree_levels_, trees.headers.back().top + 1);
+    const core::Vec3 side = nodes.root.max - nodes.root.min;
+    largest_side_m_ = std::max({largest_side_m_, side.x, side.y, side.z});
+  }
+  std::vector<core::Material> material;
+  std::vector<core::Quat> orientation;
+  for (const core::Body& body : scene.bodies) {
+    material.push_back(body.material);
+    orientation.push_back(body.orientation);
+  }
+  BROADSIDE_TRY(octree_.upload(octree, "body octrees"));
+  BROADSIDE_TRY(level2_.upload(level2, "body octrees"));
+  BROADSIDE_TRY(level2_count_.upload(level2_count, "body octrees"));
+  BROADSIDE_TRY(trees_.upload(trees.headers, "vertex trees"));
+  BROADSIDE_TRY(tree_nodes_.upload(trees.nodes, "vertex trees"));
+  BROADSIDE_TRY(tree_vertices_.upload(trees.vertices, "vertices"));
+  BROADSIDE_TRY(shape_of_body_.upload(table.shape_of_body, "bodies"));
+  BROADSIDE_TRY(material_.upload(material, "materials"));
+  return orientation_.upload(orientation, "orientations");
+}
+
+void DeviceScene::fill(FrameView& view) const {
+  view.shapes = {octree_.data(), level2_.data(),     level2_count_.data(),
+                 trees_.data(),  tree_nodes_.data(), tree_vertices_.data()};
+  view.shape_of_body = shape_of_body_.data();
+  view.material = material_.data();
+}
+
+std::uint64_t DeviceScene::shape_bytes() const {
+  return octree_.bytes() + level2_.bytes() + level2_count_.bytes() + trees_.bytes() + tree_nodes_.bytes() +
+         tree_vertices_.bytes();
+}
+
+std::uint64_t DeviceScene::body_bytes() const {
+  return shape_of_body_.bytes() + material_.bytes() + orientation_.bytes();
+}
+
+}  // namespace broadside::gpu

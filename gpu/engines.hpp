@@ -1,0 +1,11 @@
+// The engines of this folder, as rows for the one table of engines.
+#pragma once
+
+#include "core/engine/engine.hpp"
+
+namespace broadside::gpu {
+
+// `octree-gpu`: the row exists also where it cannot run; absent() then says why.
+core::EngineRow octree_gpu_row();
+
+}  // namespace broadside::gpu

@@ -1,0 +1,73 @@
+// What changes from frame to frame, on the device: states, and the buffers that grow to what a frame demands.
+#pragma once
+
+#include "core/contact.hpp"
+#include "core/method/proximity.hpp"
+#include "core/pair.hpp"
+#include "core/scene/scene.hpp"
+#include "gpu/device_buffer.hpp"
+#include "gpu/frame_view.hpp"
+
+#include <cstdint>
+
+namespace broadside::gpu {
+
+struct DeviceState {
+  DeviceBuffer<PackedVec3> position;
+  DeviceBuffer<PackedVec3> velocity;
+
+  core::Status reserve(std::size_t bodies);
+  [[nodiscard]] StateView view() const { return {position.data(), velocity.data()}; }
+};
+
+class FrameBuffers {
+ public:
+  // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
+  core::Status load(const core::Scene& scene, bool has_grid, bool is_jacobi);
+  void fill(FrameView& view) const;
+  // Makes room for what the aborted frame demanded, and a quarter more. Contents are lost.
+  core::Status grow(const Counters& demanded, bool is_confirmed_by_level0);
+  // The frame is done: the next one starts from what it made.
+  void advance() { std::swap(previous_, next_); }
+
+  // After advance(), of the frame that was done; before any step, the initial state.
+  [[nodiscard]] const DeviceState& state() const { return previous_; }
+  [[nodiscard]] const DeviceState& detected() const { return detected_; }
+  [[nodiscard]] const DeviceBuffer<PackedBox>& boxes() const { return boxes_; }
+  [[nodiscard]] const DeviceBuffer<core::Pair>& pairs() const { return pairs_; }
+  [[nodiscard]] const DeviceBuffer<core::Pair>& confirmed() const { return confirmed_; }
+  [[nodiscard]] const DeviceBuffer<core::Proximity>& proximity() const { return proximity_; }
+  [[nodiscard]] const DeviceBuffer<core::Contact>& contacts() const { return contacts_; }
+  [[nodiscard]] const DeviceBuffer<core::Contact>& face_contacts() const { return face_contacts_; }
+  [[nodiscard]] std::uint64_t body_bytes() const;
+  [[nodiscard]] std::uint64_t appended_bytes() const;
+
+ private:
+  core::Status reserve_confirmed(std::uint64_t count);
+
+  std::uint32_t body_count_ = 0;
+  std::uint32_t color_words_ = 1;
+  DeviceState previous_;
+  DeviceState detected_;
+  DeviceState next_;
+  DeviceBuffer<PackedBox> boxes_;
+  DeviceBuffer<std::uint32_t> bucket_count_;
+  DeviceBuffer<std::uint32_t> bucket_begin_;
+  DeviceBuffer<std::uint32_t> rank_;
+  DeviceBuffer<PackedBox> entries_;
+  DeviceBuffer<std::uint32_t> levels_;
+  DeviceBuffer<unsigned long long> least_priority_;
+  DeviceBuffer<unsigned long long> taken_;
+  DeviceBuffer<core::Kinematics> sums_;
+  DeviceBuffer<Counters> counters_;
+
+  DeviceBuffer<core::Pair> pairs_;
+  DeviceBuffer<core::Pair> confirmed_;
+  DeviceBuffer<core::Proximity> proximity_;
+  DeviceBuffer<core::Pair> touching_;
+  DeviceBuffer<std::uint32_t> color_;
+  DeviceBuffer<core::Contact> contacts_;
+  DeviceBuffer<core::Contact> face_contacts_;
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,44 @@
+// Launches of the device code, as plain functions: the rest of gpu/ is compiled by the host compiler.
+#pragma once
+
+#include "core/math/quat.hpp"
+#include "core/math/vec3.hpp"
+#include "core/result.hpp"
+#include "gpu/frame_view.hpp"
+
+#include <cuda_runtime_api.h>
+
+#include <cstdint>
+
+namespace broadside::gpu {
+
+// How the frame kernel fits this GPU.
+struct LaunchShape {
+  std::uint32_t threads = 0;        // of a block; a power of two of warps
+  std::uint32_t blocks = 0;         // that are resident at once: all of them meet at barriers
+  std::uint32_t shared_bytes = 0;
+  std::uint32_t multiprocessors = 0;
+};
+
+// For trees of this many levels. An error says that the GPU has too little shared memory for one warp's stack.
+core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
+
+// One whole frame is this one launch, whatever its counts: every stage reads them on the device. Asynchronous.
+core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, cudaStream_t stream);
+
+// The digest's sum over everything that the last frame left. `confirmed` and `touching` are counts. Asynchronous.
+struct DigestView {
+  std::uint32_t body_count = 0;
+  StateView state;
+  const core::Quat* orientation = nullptr;
+  const core::Pair* confirmed = nullptr;
+  std::uint64_t confirmed_count = 0;
+  const core::Contact* contacts = nullptr;
+  std::uint64_t contact_count = 0;
+  const core::Contact* face_contacts = nullptr;
+  std::uint64_t face_contact_count = 0;
+  unsigned long long* sum = nullptr;
+};
+core::Status launch_digest(const DigestView& view, cudaStream_t stream);
+
+}  // namespace broadside::gpu

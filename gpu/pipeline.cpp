@@ -1,0 +1,261 @@
+#include "gpu/pipeline.hpp"
+
+#include "gpu/cuda_check.hpp"
+#include "gpu/device_scene.hpp"
+#include "gpu/frame_buffers.hpp"
+#include "gpu/frame_kernel.hpp"
+#include "gpu/frame_record.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace broadside::gpu {
+namespace {
+
+constexpr std::array<std::string_view, kStageCount> kStageNames{"integrate", "broad",    "levels",
+                                                                "vertices",  "response", "faces"};
+
+// Below this many bodies the tree start tests all pairs of body boxes: 2,080 tiles of 32 x 32 are one tile a warp on a
+// large GPU, and take less than the grid's three passes.
+constexpr std::uint32_t kLeastBodiesForGrid = 2048;
+
+// A box may grow by a few units in the last place when it is placed.
+constexpr float kCellSlack = 1.0F + 0x1p-10F;
+
+// Cells are at least this share of the coordinates, so that they are many units in the last place (see grid_level).
+constexpr float kLeastCellShare = 0x1p-17F;
+
+float coordinate_range_m(const core::Scene& scene) {
+  float range = 0.0F;
+  const auto widen = [&range](core::Vec3 v) { range = std::max({range, std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+  widen(scene.domain.min), widen(scene.domain.max);
+  for (const core::Body& body : scene.bodies) widen(body.position);
+  return range;
+}
+
+// Memory of the host that the device writes, with an owner.
+class OutcomeMemory {
+ public:
+  OutcomeMemory() = default;
+  OutcomeMemory(const OutcomeMemory&) = delete;
+  OutcomeMemory& operator=(const OutcomeMemory&) = delete;
+  ~OutcomeMemory() {
+    if (host_ != nullptr) cudaFreeHost(host_);
+  }
+  core::Status allocate() {
+    if (host_ == nullptr) {
+      void* memory = nullptr;
+      BROADSIDE_CUDA_TRY(cudaHostAlloc(&memory, sizeof(Outcome), cudaHostAllocMapped));
+      host_ = static_cast<Outcome*>(memory);
+    }
+    *host_ = Outcome{};
+    void* device = nullptr;
+    BROADSIDE_CUDA_TRY(cudaHostGetDevicePointer(&device, host_, 0));
+    device_ = static_cast<Outcome*>(device);
+    return core::Done{};
+  }
+  [[nodiscard]] Outcome* device() const { return device_; }
+  [[nodiscard]] const Outcome& operator*() const { return *host_; }
+
+ private:
+  Outcome* host_ = nullptr;
+  Outcome* device_ = nullptr;
+};
+
+class Stream {
+ public:
+  Stream() = default;
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+  ~Stream() {
+    if (stream_ != nullptr) cudaStreamDestroy(stream_);
+  }
+  core::Status create() {
+    if (stream_ == nullptr) BROADSIDE_CUDA_TRY(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+    return core::Done{};
+  }
+  [[nodiscard]] cudaStream_t get() const { return stream_; }
+
+ private:
+  cudaStream_t stream_ = nullptr;
+};
+
+}  // namespace
+
+struct Pipeline::Impl {
+  PipelineOptions options;
+  const core::Scene* scene = nullptr;
+  Stream stream;
+  OutcomeMemory outcome;
+  DeviceScene device_scene;
+  FrameBuffers buffers;
+  DeviceBuffer<unsigned long long> digest_sum;
+  LaunchShape launch;
+  FrameView view;
+  Counters last;
+  std::array<core::StageTime, kStageCount> times{};
+  std::uint64_t steps = 0;
+  std::uint64_t repeats = 0;
+  double dt_s = 0.0;
+
+  [[nodiscard]] bool is_confirmed_by_level0() const {
+    return view.start != Start::kNone && view.levels == core::Levels::kFlat;
+  }
+  [[nodiscard]] std::uint64_t confirmed_count() const { return is_confirmed_by_level0() ? last.pairs : last.confirmed; }
+  void choose_start();
+  core::Status run_frame();
+  core::Result<std::uint64_t> digest();
+};
+
+Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl>()) { impl_->options = options; }
+Pipeline::~Pipeline() = default;
+
+void Pipeline::Impl::choose_start() {
+  const bool has_level0 = options.levels == core::Levels::kFlat || options.levels == core::Levels::kC;
+  if (options.variant == core::Variant::kE2)
+    view.start = Start::kSameNode;
+  else if (options.has_broad_phase)
+    view.start = scene->body_count() < kLeastBodiesForGrid ? Start::kTiles : Start::kGrid;
+  else
+    view.start = has_level0 ? Start::kTiles : Start::kNone;
+}
+
+core::Status Pipeline::load(const core::Scene& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!(scene.bodies[i].angular_velocity == core::Vec3{}))
+      return core::Error{"angular_velocity is not zero, and this pipeline's bodies translate only",
+                         scene.name + ": body " + std::to_string(i), "set angular_velocity to 0 0 0"};
+  }
+  Impl& d = *impl_;
+  d.scene = &scene;
+  d.steps = d.repeats = 0;
+  d.last = {};
+  d.times = {};
+  d.view = {};
+  d.choose_start();
+  BROADSIDE_TRY(d.stream.create());
+  BROADSIDE_TRY(d.outcome.allocate());
+  BROADSIDE_TRY(d.device_scene.load(scene));
+  BROADSIDE_TRY(d.buffers.load(scene, d.view.start == Start::kGrid, d.options.solver == Solver::kJacobi));
+  BROADSIDE_TRY(d.digest_sum.reserve(1, "digest"));
+  auto launch = frame_launch_shape(d.device_scene.tree_levels());
+  if (!launch.ok()) return launch.error();
+  d.launch = launch.value();
+
+  d.view.levels = d.options.levels;
+  d.view.solver = d.options.solver;
+  d.view.variant = d.options.variant;
+  d.view.has_vertex_stage = d.options.has_vertex_stage;
+  d.view.gravity_m_s2 = scene.gravity_m_s2;
+  d.view.parameters = scene.parameters;
+  d.view.domain = scene.domain;
+  d.view.face_material = scene.face_material;
+  d.view.stack_entries = stack_entries_of(d.device_scene.tree_levels());
+  d.view.grid.cell_m = std::max({d.device_scene.largest_side_m() * kCellSlack, coordinate_range_m(scene) * kLeastCellShare,
+                                 std::numeric_limits<float>::min() * 0x1p24F});
+  d.view.outcome = d.outcome.device();
+  d.device_scene.fill(d.view);
+  // Uploads ran on the default stream, which this one does not wait for.
+  return cuda_status(cudaDeviceSynchronize(), "loading the scene");
+}
+
+core::Status Pipeline::Impl::run_frame() {
+  buffers.fill(view);
+  if (is_confirmed_by_level0()) view.confirmed.items = view.pairs.items;
+  // Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them.
+  LaunchShape shape = launch;
+  if (view.body_count < kLeastBodiesForGrid) shape.blocks = std::min(shape.blocks, shape.multiprocessors);
+  BROADSIDE_TRY(launch_frame(view, shape, stream.get()));
+  return cuda_status(cudaStreamSynchronize(stream.get()), "a frame");
+}
+
+core::Status Pipeline::step(float dt_s) {
+  Impl& d = *impl_;
+  d.view.dt_s = dt_s;
+  for (;;) {
+    BROADSIDE_TRY(d.run_frame());
+    d.last = (*d.outcome).counters;
+    if (d.last.is_aborted == 0) break;
+    BROADSIDE_TRY(d.buffers.grow(d.last, d.is_confirmed_by_level0()));
+    ++d.repeats;
+  }
+  d.buffers.advance();
+  ++d.steps;
+  d.dt_s = static_cast<double>(dt_s);
+  const auto& end = (*d.outcome).stage_end_ns;
+  for (int k = 0; k < kStageCount; ++k) d.times[k] = {kStageNames[k], static_cast<double>(end[k + 1] - end[k]) * 1e-9};
+  return core::Done{};
+}
+
+core::Result<std::uint64_t> Pipeline::Impl::digest() {
+  DigestView digest;
+  digest.body_count = scene->body_count();
+  digest.state = buffers.state().view();
+  digest.orientation = device_scene.orientation();
+  digest.confirmed = is_confirmed_by_level0() ? buffers.pairs().data() : buffers.confirmed().data();
+  digest.confirmed_count = confirmed_count();
+  digest.contacts = buffers.contacts().data();
+  digest.contact_count = last.touching;
+  digest.face_contacts = buffers.face_contacts().data();
+  digest.face_contact_count = last.faces;
+  digest.sum = digest_sum.data();
+  BROADSIDE_TRY(launch_digest(digest, stream.get()));
+  BROADSIDE_CUDA_TRY(cudaStreamSynchronize(stream.get()));
+  std::vector<unsigned long long> sum;
+  BROADSIDE_TRY(digest_sum.download(sum, 1));
+  return std::uint64_t{sum[0]};
+}
+
+std::uint32_t Pipeline::groups() const {
+  using core::Group;
+  std::uint32_t groups = core::bit(Group::kBodies) | core::bit(Group::kDetection) | core::bit(Group::kConfirmed) |
+                         core::bit(Group::kContacts);
+  const bool starts_at_level0 = impl_->options.has_broad_phase || impl_->options.variant == core::Variant::kE2 ||
+                                impl_->options.levels == core::Levels::kFlat || impl_->options.levels == core::Levels::kC;
+  if (starts_at_level0) groups |= core::bit(Group::kPairs);
+  return groups;
+}
+
+core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
+  Impl& d = *impl_;
+  frame = {};
+  frame.step = d.steps;
+  frame.time_s = static_cast<double>(d.steps) * d.dt_s;
+  frame.pairs_demanded = frame.pairs_raw = d.last.pairs;
+  auto digest = d.digest();
+  if (!digest.ok()) return digest.error();
+  frame.digest = digest.value();
+  if (level != core::RecordLevel::kFull) return core::Done{};
+
+  FrameCounts counts;
+  counts.bodies = d.scene->bodies.size();
+  counts.pairs = d.last.pairs;
+  counts.confirmed = d.confirmed_count();
+  counts.proximity = d.options.has_vertex_stage ? counts.confirmed : 0;
+  counts.contacts = d.last.touching;
+  counts.face_contacts = d.last.faces;
+  BROADSIDE_TRY(read_frame(d.buffers, counts, d.is_confirmed_by_level0(), frame));
+  for (const core::Body& body : d.scene->bodies) {
+    frame.orientation.push_back(body.orientation);
+    frame.angular_velocity.push_back(body.angular_velocity);
+  }
+  return core::Done{};
+}
+
+std::span<const core::StageTime> Pipeline::stage_times() const {
+  if (impl_->steps == 0) return {};
+  return impl_->times;
+}
+
+const Counters& Pipeline::counters() const { return impl_->last; }
+
+MemoryUse Pipeline::memory_use() const {
+  const Impl& d = *impl_;
+  return {d.device_scene.shape_bytes(), d.device_scene.body_bytes() + d.buffers.body_bytes(), d.buffers.appended_bytes()};
+}
+
+std::uint64_t Pipeline::repeated_frames() const { return impl_->repeats; }
+
+}  // namespace broadside::gpu

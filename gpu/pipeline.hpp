@@ -1,0 +1,56 @@
+// The pipeline on the GPU: METHOD sections 1 to 6, all state on the device.
+#pragma once
+
+#include "core/engine/dynamics.hpp"
+#include "core/method/levels.hpp"
+#include "core/variant.hpp"
+#include "gpu/frame_view.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace broadside::gpu {
+
+struct PipelineOptions {
+  // From the scene octree; false = the published start, the first of the levels by brute force.
+  bool has_broad_phase = true;
+  core::Levels levels = core::Levels::kC;
+  Solver solver = Solver::kColored;
+  core::Variant variant = core::Variant::kSound;
+  bool has_vertex_stage = true;
+};
+
+// Device memory of the last loaded scene, in bytes.
+struct MemoryUse {
+  std::uint64_t shapes = 0;   // grows with meshes and orientations
+  std::uint64_t bodies = 0;   // grows with bodies
+  std::uint64_t appended = 0;  // grows with pairs and contacts
+};
+
+// The result is bit-identical to octree-cpu's. Uses the current CUDA device; not thread-safe.
+class Pipeline final : public core::Dynamics {
+ public:
+  explicit Pipeline(const PipelineOptions& options);
+  ~Pipeline() override;
+
+  core::Status load(const core::Scene& scene) override;
+  // One kernel launch; again, from the same state, when a buffer turned out too small. Synchronizes.
+  core::Status step(float dt_s) override;
+  core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
+  [[nodiscard]] std::uint32_t groups() const override;
+  // Read off the GPU's clock within the one kernel: integrate, broad, levels, vertices, response, faces.
+  [[nodiscard]] std::span<const core::StageTime> stage_times() const override;
+
+  // Counts of the last step.
+  [[nodiscard]] const Counters& counters() const;
+  [[nodiscard]] MemoryUse memory_use() const;
+  // Frames that were repeated with larger buffers since load.
+  [[nodiscard]] std::uint64_t repeated_frames() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,45 @@
+// A tree of tight boxes over one shape's vertices, built once on the host: what the proximity stage descends.
+#pragma once
+
+#include "core/math/vec3.hpp"
+#include "gpu/packed_box.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace broadside::gpu {
+
+// 16 vertices against 16 are 256 distances, 8 a lane; 8 children against 8 are 64 boxes, 2 a lane.
+constexpr std::uint32_t kLeafVertices = 16;
+constexpr std::uint32_t kFanOut = 8;
+// 16 * 8^8 vertices: more than an index of 28 bits can name, so never the limit.
+constexpr std::uint32_t kMaxTreeLevels = 9;
+
+// Node pairs that wait while two trees of so many levels are descended at once: a pair of nodes of equal levels leaves
+// at most 63 more than it was, a lone descent 7 more.
+constexpr std::uint32_t stack_entries_of(std::uint32_t levels) { return 64 * levels; }
+
+// Where one shape's tree lies in the arrays shared by all shapes. Level 0 holds the leaves; level `top` is the root,
+// one node. Children of node n are 8 n .. 8 n + 7 of the level below, as far as they exist; leaf n holds vertices
+// 16 n .. 16 n + 15, the last leaf being filled up with vertices at infinity, which are near nothing.
+struct TreeHeader {
+  std::uint32_t top = 0;
+  std::uint32_t node_begin[kMaxTreeLevels] = {};
+  std::uint32_t node_count[kMaxTreeLevels] = {};
+  std::uint32_t vertex_begin = 0;
+  float mean_edge_m = 0.0F;
+};
+
+struct ShapeTrees {
+  std::vector<TreeHeader> headers;      // one per shape
+  std::vector<PackedBox> nodes;         // body coordinates
+  std::vector<PackedVec3> vertices;     // body coordinates; w holds the bits of the index in the mesh
+};
+
+// Appends the tree of one shape; indices[k] is the mesh's index of vertices[k]. Vertices are ordered along a Morton
+// curve, so that 16 in a row lie together.
+void append_tree(ShapeTrees& trees, std::span<const core::Vec3> vertices, std::span<const std::uint32_t> indices,
+                 float mean_edge_m);
+
+}  // namespace broadside::gpu

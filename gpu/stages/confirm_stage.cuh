@@ -1,0 +1,96 @@
+// The body octrees of a pair of bodies, level by level; a warp per pair. METHOD section 2.
+#pragma once
+
+#include "core/method/levels.hpp"
+#include "gpu/frame_view.hpp"
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+struct PlacedShape {
+  std::uint32_t shape = 0;
+  const PackedBox* octree = nullptr;
+  core::Vec3 x;
+};
+
+__device__ inline PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
+  const std::uint32_t shape = f.shape_of_body[body];
+  return {shape, f.shapes.octree + std::uint64_t{shape} * core::kBodyOctreeNodes, f.detected.position[body].v};
+}
+
+// The 64 pairs of eight boxes of each body, two a lane: bit 8 p + q of the result for box p of A and q of B.
+__device__ inline std::uint64_t eight_by_eight(const PackedBox* a, core::Vec3 xa, const PackedBox* b, core::Vec3 xb) {
+  const core::Box box_b = core::translated(unpack(b[lane() % 8]), xb);
+  const core::Box low = core::translated(unpack(a[lane() / 8]), xa);
+  const core::Box high = core::translated(unpack(a[lane() / 8 + 4]), xa);
+  const std::uint64_t low_hits = __ballot_sync(kFullWarp, core::overlaps(low, box_b));
+  const std::uint64_t high_hits = __ballot_sync(kFullWarp, core::overlaps(high, box_b));
+  return low_hits | high_hits << 32;
+}
+
+// core::descent_overlaps by a warp: empty boxes overlap nothing, so they need no care.
+__device__ inline bool descends(const PlacedShape& a, const PlacedShape& b) {
+  std::uint64_t hits = eight_by_eight(a.octree + core::kLevelOffset[1], a.x, b.octree + core::kLevelOffset[1], b.x);
+  for (; hits != 0; hits &= hits - 1) {
+    const int bit = __ffsll(static_cast<long long>(hits)) - 1;
+    const int p = core::first_child(core::kLevelOffset[1] + bit / 8);
+    const int q = core::first_child(core::kLevelOffset[1] + bit % 8);
+    if (eight_by_eight(a.octree + p, a.x, b.octree + q, b.x) != 0) return true;
+  }
+  return false;
+}
+
+// core::level2_overlaps by a warp: all pairs, two boxes of A a lane against each box of B.
+__device__ inline bool level2_meets(const FrameView& f, const PlacedShape& a, const PlacedShape& b) {
+  const PackedBox* boxes_a = f.shapes.level2 + std::uint64_t{a.shape} * core::kLevelSize[2];
+  const PackedBox* boxes_b = f.shapes.level2 + std::uint64_t{b.shape} * core::kLevelSize[2];
+  const std::uint32_t count_a = f.shapes.level2_count[a.shape];
+  const std::uint32_t count_b = f.shapes.level2_count[b.shape];
+  const core::Box none = core::empty_box();
+  const core::Box low = lane() < count_a ? core::translated(unpack(boxes_a[lane()]), a.x) : none;
+  const core::Box high = lane() + 32 < count_a ? core::translated(unpack(boxes_a[lane() + 32]), a.x) : none;
+  bool hit = false;
+#pragma unroll 4
+  for (std::uint32_t q = 0; q < count_b; ++q) {
+    const core::Box box = core::translated(unpack(boxes_b[q]), b.x);
+    hit = hit || core::overlaps(low, box) || core::overlaps(high, box);
+  }
+  return __any_sync(kFullWarp, hit);
+}
+
+// core::is_confirmed by a warp, for the levels that have a first level below 0 or passed it already.
+__device__ inline bool are_levels_overlapping(const FrameView& f, std::uint32_t i, std::uint32_t j) {
+  const PlacedShape a = placed_shape(f, i);
+  const PlacedShape b = placed_shape(f, j);
+  switch (f.levels) {
+    case core::Levels::kFlat: return true;
+    case core::Levels::kLevel1:
+      return eight_by_eight(a.octree + core::kLevelOffset[1], a.x, b.octree + core::kLevelOffset[1], b.x) != 0;
+    case core::Levels::kA: return level2_meets(f, a, b);
+    case core::Levels::kB:
+    case core::Levels::kC: return descends(a, b);
+  }
+  return false;
+}
+
+// From pairs to confirmed. Each warp takes a run of pairs and appends what it confirms with one atomic; runs are short
+// while there are more warps than pairs, so that few pairs are done at once.
+template <typename Team>
+__device__ void confirm_pairs(const Team& team, const FrameView& f) {
+  const std::uint64_t count = f.counters->pairs;
+  const std::uint64_t warps = warp_count(team);
+  const std::uint64_t run = min(std::uint64_t{32}, (count + warps - 1) / warps);
+  for (std::uint64_t first = warp_rank(team) * run; first < count; first += warps * run) {
+    const std::uint64_t last = min(first + run, count);
+    unsigned hits = 0;
+    for (std::uint64_t k = first; k < last; ++k) {
+      const core::Pair p = f.pairs.items[k];
+      if (are_levels_overlapping(f, p.i, p.j)) hits |= 1U << (k - first);
+    }
+    const bool mine = ((hits >> lane()) & 1U) != 0;
+    const unsigned long long place = warp_append(mine ? 1U : 0U, &f.counters->confirmed);
+    if (mine && place < f.confirmed.capacity) f.confirmed.items[place] = f.pairs.items[first + lane()];
+  }
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,230 @@
+// Nearest vertices of each confirmed pair, P(7) and P(8): branch and bound over two vertex trees at once.
+#pragma once
+
+#include "core/method/proximity.hpp"
+#include "gpu/frame_view.hpp"
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+// One warp's stack of node pairs, in shared memory. A node is level << 28 | index.
+struct NodePairStack {
+  std::uint32_t* a = nullptr;
+  std::uint32_t* b = nullptr;
+  float* gap2 = nullptr;
+  std::uint32_t size = 0;
+};
+
+constexpr std::uint32_t kBytesPerStackEntry = 12;
+
+// Squared distance of two boxes in the arithmetic of core::squared_distance. Rounding is monotone in every operation of
+// it, so no vertex in one box and vertex in the other have a smaller rounded squared distance than this: what is
+// skipped by it could not have been the nearest.
+__device__ inline float squared_gap(const core::Box& a, const core::Box& b) {
+  const auto gap = [](float a_min, float a_max, float b_min, float b_max) {
+    return fmaxf(0.0F, fmaxf(a_min - b_max, b_min - a_max));
+  };
+  const core::Vec3 g{gap(a.min.x, a.max.x, b.min.x, b.max.x), gap(a.min.y, a.max.y, b.min.y, b.max.y),
+                     gap(a.min.z, a.max.z, b.min.z, b.max.z)};
+  return core::dot(g, g);
+}
+
+__device__ inline std::uint32_t warp_min(std::uint32_t value) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_min_sync(kFullWarp, value);
+#else
+  for (unsigned step = 16; step > 0; step /= 2) value = min(value, __shfl_xor_sync(kFullWarp, value, step));
+  return value;
+#endif
+}
+
+__device__ inline core::Proximity warp_nearest(core::Proximity mine) {
+  for (unsigned step = 16; step > 0; step /= 2) {
+    core::Proximity other;
+    other.squared_distance_m2 = __shfl_xor_sync(kFullWarp, mine.squared_distance_m2, step);
+    other.vertex_a = __shfl_xor_sync(kFullWarp, mine.vertex_a, step);
+    other.vertex_b = __shfl_xor_sync(kFullWarp, mine.vertex_b, step);
+    if (core::is_nearer(other, mine)) mine = other;
+  }
+  return mine;
+}
+
+// The search of one pair of bodies by the `members` warps of one block that share `bound`: the bits of the smallest
+// squared distance found so far by any of them (of non-negative floats, bits order as values do).
+class NearestVertices {
+ public:
+  __device__ NearestVertices(const FrameView& f, core::Pair pair, NodePairStack stack, std::uint32_t* bound,
+                             std::uint32_t member, std::uint32_t members)
+      : nodes_(f.shapes.tree_nodes),
+        vertices_(f.shapes.tree_vertices),
+        a_(f.shapes.trees[f.shape_of_body[pair.i]]),
+        b_(f.shapes.trees[f.shape_of_body[pair.j]]),
+        xa_(f.detected.position[pair.i].v),
+        xb_(f.detected.position[pair.j].v),
+        stack_(stack),
+        bound_(bound),
+        member_(member),
+        members_(members) {
+    const float theta_m = core::pair_theta_m(f.parameters, a_.mean_edge_m, b_.mean_edge_m);
+    theta2_ = theta_m * theta_m;
+    // Where the trees have some 8 to 64 nodes the pairs of nodes are dealt out to the warps; above it all do the same.
+    const std::uint32_t top = min(a_.top, b_.top);
+    split_ = top > 2 ? top - 2 : 0;
+  }
+
+  __device__ core::Proximity find() {
+    if (a_.top != split_ || b_.top != split_ || is_mine(0, 0)) push_root();
+    while (stack_.size > 0) {
+      --stack_.size;
+      const std::uint32_t a = stack_.a[stack_.size];
+      const std::uint32_t b = stack_.b[stack_.size];
+      const float gap2 = stack_.gap2[stack_.size];
+      __syncwarp();
+      const float limit = __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_));
+      if (gap2 > limit) continue;
+      if ((a >> 28) == 0 && (b >> 28) == 0)
+        meet_leaves(a, b);
+      else
+        meet_children(a, b, limit);
+    }
+    return warp_nearest(best_);
+  }
+
+ private:
+  __device__ bool is_mine(std::uint32_t node_a, std::uint32_t node_b) const {
+    return ((node_a * 0x9E3779B1U + node_b * 0x85EBCA6BU) >> 16) % members_ == member_;
+  }
+
+  __device__ void push_root() {
+    if (lane() == 0) {
+      stack_.a[0] = a_.top << 28;
+      stack_.b[0] = b_.top << 28;
+      stack_.gap2[0] = 0.0F;
+    }
+    stack_.size = 1;
+    __syncwarp();
+  }
+
+  __device__ core::Box box(const TreeHeader& tree, std::uint32_t level, std::uint32_t node, core::Vec3 x) const {
+    return core::translated(unpack(nodes_[tree.node_begin[level] + node]), x);
+  }
+
+  // The higher of the two nodes is opened, both when they are level.
+  __device__ void meet_children(std::uint32_t a, std::uint32_t b, float limit) {
+    const std::uint32_t level_a = a >> 28;
+    const std::uint32_t level_b = b >> 28;
+    const bool opens_a = level_a >= level_b;
+    const bool opens_b = level_b >= level_a;
+    const std::uint32_t child_level_a = opens_a ? level_a - 1 : level_a;
+    const std::uint32_t child_level_b = opens_b ? level_b - 1 : level_b;
+    const std::uint32_t first_a = (a & 0xFFFFFFFU) * (opens_a ? kFanOut : 1U);
+    const std::uint32_t first_b = (b & 0xFFFFFFFU) * (opens_b ? kFanOut : 1U);
+    const std::uint32_t count_a = opens_a ? min(kFanOut, a_.node_count[child_level_a] - first_a) : 1U;
+    const std::uint32_t count_b = opens_b ? min(kFanOut, b_.node_count[child_level_b] - first_b) : 1U;
+    const bool is_split = child_level_a == split_ && child_level_b == split_;
+
+    const std::uint32_t q = lane() % 8;
+    core::Box box_b;
+    if (q < count_b) box_b = box(b_, child_level_b, first_b + q, xb_);
+#pragma unroll
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      const std::uint32_t p = lane() / 8 + 4 * half;
+      float gap2 = 0.0F;
+      bool keeps = p < count_a && q < count_b;
+      if (keeps) {
+        gap2 = squared_gap(box(a_, child_level_a, first_a + p, xa_), box_b);
+        keeps = gap2 < theta2_ && gap2 <= limit && (!is_split || is_mine(first_a + p, first_b + q));
+      }
+      const unsigned kept = __ballot_sync(kFullWarp, keeps);
+      if (keeps) {
+        const std::uint32_t place = stack_.size + __popc(kept & ((1U << lane()) - 1U));
+        stack_.a[place] = child_level_a << 28 | (first_a + p);
+        stack_.b[place] = child_level_b << 28 | (first_b + q);
+        stack_.gap2[place] = gap2;
+      }
+      stack_.size += __popc(kept);
+    }
+    __syncwarp();
+  }
+
+  // 16 vertices of each: a lane has one of A and meets eight of B.
+  __device__ void meet_leaves(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t begin_b = b_.vertex_begin + (b & 0xFFFFFFFU) * kLeafVertices;
+    const PackedVec3 mine_a = vertices_[a_.vertex_begin + (a & 0xFFFFFFFU) * kLeafVertices + lane() % 16];
+    const core::Vec3 va = mine_a.v + xa_;
+    const core::Vec3 vb = vertices_[begin_b + lane() % 16].v + xb_;
+#pragma unroll
+    for (std::uint32_t t = 0; t < 8; ++t) {
+      const std::uint32_t source = (lane() & 16U) / 2 + t;
+      const core::Vec3 other{__shfl_sync(kFullWarp, vb.x, source), __shfl_sync(kFullWarp, vb.y, source),
+                             __shfl_sync(kFullWarp, vb.z, source)};
+      const float d2 = core::squared_distance(va, other);
+      if (!(d2 < theta2_) || d2 > best_.squared_distance_m2) continue;
+      const core::Proximity found{d2, __float_as_uint(mine_a.w), __float_as_uint(vertices_[begin_b + source].w)};
+      if (core::is_nearer(found, best_)) best_ = found;
+    }
+    const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
+    if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);
+    __syncwarp();
+  }
+
+  const PackedBox* nodes_;
+  const PackedVec3* vertices_;
+  const TreeHeader& a_;
+  const TreeHeader& b_;
+  core::Vec3 xa_;
+  core::Vec3 xb_;
+  NodePairStack stack_;
+  std::uint32_t* bound_;
+  std::uint32_t member_;
+  std::uint32_t members_;
+  std::uint32_t split_ = 0;
+  float theta2_ = 0.0F;
+  core::Proximity best_;
+};
+
+constexpr std::uint32_t kMaxBlockWarps = 16;
+
+// Shared memory of a block: what the warps of one pair share, then every warp's stack.
+struct ProximityScratch {
+  std::uint32_t bound[kMaxBlockWarps];
+  core::Proximity part[kMaxBlockWarps];
+};
+
+// When there are fewer pairs than warps, several warps of a block share a pair. The block's warps are a power of two.
+__device__ inline void measure_proximity(const FrameView& f, std::uint64_t count, ProximityScratch& scratch, void* stacks) {
+  const std::uint32_t warps = blockDim.x / 32;
+  const std::uint32_t warp = threadIdx.x / 32;
+  std::uint32_t members = 1;
+  while (members < warps && count * members * 2 <= std::uint64_t{gridDim.x} * warps) members *= 2;
+  const std::uint32_t teams = warps / members;
+  const std::uint32_t team = warp / members;
+  const std::uint32_t member = warp % members;
+
+  const std::uint32_t entries = f.stack_entries;
+  NodePairStack stack;
+  stack.a = static_cast<std::uint32_t*>(stacks) + std::uint64_t{warp} * entries * 3;
+  stack.b = stack.a + entries;
+  stack.gap2 = reinterpret_cast<float*>(stack.b + entries);
+
+  // The same number of turns for every warp of the block, because members > 1 meet at its barrier.
+  for (std::uint64_t base = 0; base < count; base += std::uint64_t{teams} * gridDim.x) {
+    const std::uint64_t k = base + std::uint64_t{team} * gridDim.x + blockIdx.x;
+    if (member == 0 && lane() == 0) scratch.bound[team] = __float_as_uint(INFINITY);
+    if (members > 1)
+      __syncthreads();
+    else
+      __syncwarp();
+    core::Proximity best;
+    if (k < count) best = NearestVertices(f, f.confirmed.items[k], stack, &scratch.bound[team], member, members).find();
+    if (members > 1) {
+      if (lane() == 0) scratch.part[warp] = best;
+      __syncthreads();
+      for (std::uint32_t m = 1; member == 0 && m < members; ++m)
+        if (core::is_nearer(scratch.part[warp + m], best)) best = scratch.part[warp + m];
+    }
+    if (member == 0 && lane() == 0 && k < count) f.proximity[k] = best;
+  }
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,51 @@
+// Who works on a stage together: the whole grid, or one block where the work is too small to share.
+#pragma once
+
+#include <cooperative_groups.h>
+
+#include <cstdint>
+
+namespace broadside::gpu {
+
+constexpr unsigned kFullWarp = 0xFFFFFFFFU;
+
+// sync() waits for all threads of the grid and makes their writes visible: the kernel must be launched cooperatively.
+struct GridTeam {
+  __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
+  __device__ std::uint64_t size() const { return std::uint64_t{gridDim.x} * blockDim.x; }
+  __device__ void sync() const { cooperative_groups::this_grid().sync(); }
+};
+
+struct BlockTeam {
+  __device__ std::uint64_t rank() const { return threadIdx.x; }
+  __device__ std::uint64_t size() const { return blockDim.x; }
+  __device__ void sync() const { __syncthreads(); }
+};
+
+template <typename Team>
+__device__ std::uint64_t warp_rank(const Team& team) {
+  return team.rank() / 32;
+}
+template <typename Team>
+__device__ std::uint64_t warp_count(const Team& team) {
+  return team.size() / 32;
+}
+__device__ inline unsigned lane() { return threadIdx.x % 32; }
+
+// Room for the items of one warp in an append buffer: one atomic for all its lanes. Called by whole warps. Returns the
+// place of this lane's first item; places at or past the capacity are counted and not to be written.
+__device__ inline unsigned long long warp_append(unsigned count, unsigned long long* demanded) {
+  unsigned before = count;
+  for (unsigned step = 1; step < 32; step *= 2) {
+    const unsigned other = __shfl_up_sync(kFullWarp, before, step);
+    if (lane() >= step) before += other;
+  }
+  const unsigned total = __shfl_sync(kFullWarp, before, 31);
+  before -= count;
+  if (total == 0) return 0;
+  unsigned long long base = 0;
+  if (lane() == 0) base = atomicAdd(demanded, static_cast<unsigned long long>(total));
+  return __shfl_sync(kFullWarp, base, 0) + before;
+}
+
+}  // namespace broadside::gpu
