@@ -1,11 +1,11 @@
 // The one way in which a CUDA call's return code becomes an Error.
 #pragma once
 
-#include "core/result.hpp"
-
 #include <cuda_runtime_api.h>
 
 #include <string>
+
+#include "core/result.hpp"
 
 namespace broadside::gpu {
 
@@ -24,7 +24,7 @@ inline core::Status cuda_status(cudaError_t code, const char* what) {
       return broadside_status.error();                                                                \
   } while (false)
 
-#define BROADSIDE_TRY(call)                                                                          \
-  do {                                                                                               \
+#define BROADSIDE_TRY(call)                                                                      \
+  do {                                                                                           \
     if (auto broadside_status = (call); !broadside_status.ok()) return broadside_status.error(); \
   } while (false)

@@ -22,8 +22,8 @@ core::Result<void*> allocate_device_bytes(std::size_t bytes, const char* what) {
   std::size_t free = 0;
   std::size_t total = 0;
   (void)cudaMemGetInfo(&free, &total);
-  return core::Error{"out of device memory: " + std::string(what) + " needs " + megabytes(bytes) + ", " + megabytes(free) +
-                         " of " + megabytes(total) + " are free",
+  return core::Error{"out of device memory: " + std::string(what) + " needs " + megabytes(bytes) + ", " +
+                         megabytes(free) + " of " + megabytes(total) + " are free",
                      "octree-gpu", "use a smaller scene or a GPU with more memory", core::Exit::kMissing};
 }
 

@@ -1,9 +1,6 @@
 // Device memory with an owner.
 #pragma once
 
-#include "core/result.hpp"
-#include "gpu/cuda_check.hpp"
-
 #include <cuda_runtime_api.h>
 
 #include <cstddef>
@@ -12,6 +9,9 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "core/result.hpp"
+#include "gpu/cuda_check.hpp"
 
 namespace broadside::gpu {
 

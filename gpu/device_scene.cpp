@@ -1,9 +1,9 @@
 #include "gpu/device_scene.hpp"
 
+#include <algorithm>
+
 #include "core/method/levels.hpp"
 #include "core/scene/shapes.hpp"
-
-#include <algorithm>
 
 namespace broadside::gpu {
 

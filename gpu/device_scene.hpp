@@ -1,13 +1,13 @@
 // What of a scene does not change during a run, on the device.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/math/quat.hpp"
 #include "core/scene/scene.hpp"
 #include "gpu/device_buffer.hpp"
 #include "gpu/frame_view.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace broadside::gpu {
 

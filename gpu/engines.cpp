@@ -1,8 +1,8 @@
 #include "gpu/engines.hpp"
 
-#include "gpu/octree_gpu.hpp"
-
 #include <array>
+
+#include "gpu/octree_gpu.hpp"
 
 namespace broadside::gpu {
 namespace {

@@ -13,7 +13,9 @@ constexpr std::uint64_t kLeastPairs = 1024;
 // Buckets of the grid per body: cells that hold a body's box are met by some 27 lookups, most of empty cells.
 constexpr std::uint64_t kBucketsPerBody = 2;
 
-std::uint64_t with_slack(std::uint64_t demanded) { return demanded + demanded / 4; }
+std::uint64_t with_slack(std::uint64_t demanded) {
+  return demanded + demanded / 4;
+}
 
 }  // namespace
 
@@ -106,13 +108,13 @@ void FrameBuffers::fill(FrameView& view) const {
 }
 
 std::uint64_t FrameBuffers::body_bytes() const {
-  return 6 * previous_.position.bytes() + boxes_.bytes() + bucket_count_.bytes() + bucket_begin_.bytes() + rank_.bytes() +
-         entries_.bytes() + least_priority_.bytes() + taken_.bytes() + sums_.bytes();
+  return 6 * previous_.position.bytes() + boxes_.bytes() + bucket_count_.bytes() + bucket_begin_.bytes() +
+         rank_.bytes() + entries_.bytes() + least_priority_.bytes() + taken_.bytes() + sums_.bytes();
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {
-  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + touching_.bytes() + color_.bytes() + contacts_.bytes() +
-         face_contacts_.bytes();
+  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + touching_.bytes() + color_.bytes() +
+         contacts_.bytes() + face_contacts_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -1,14 +1,14 @@
 // What changes from frame to frame, on the device: states, and the buffers that grow to what a frame demands.
 #pragma once
 
+#include <cstdint>
+
 #include "core/contact.hpp"
 #include "core/method/proximity.hpp"
 #include "core/pair.hpp"
 #include "core/scene/scene.hpp"
 #include "gpu/device_buffer.hpp"
 #include "gpu/frame_view.hpp"
-
-#include <cstdint>
 
 namespace broadside::gpu {
 

@@ -1,7 +1,8 @@
-#include "gpu/frame_kernel.hpp"
+#include <algorithm>
 
 #include "core/method/frame_digest.hpp"
 #include "gpu/cuda_check.hpp"
+#include "gpu/frame_kernel.hpp"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/confirm_stage.cuh"
 #include "gpu/stages/contact_stage.cuh"
@@ -9,8 +10,6 @@
 #include "gpu/stages/proximity_stage.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/tile_stage.cuh"
-
-#include <algorithm>
 
 namespace broadside::gpu {
 namespace {
@@ -64,7 +63,8 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
 }
 
 // A whole frame. Counts are read after barriers, so all threads decide alike.
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor) frame_kernel(const __grid_constant__ FrameView f) {
+__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
+    frame_kernel(const __grid_constant__ FrameView f) {
   extern __shared__ __align__(16) unsigned char shared[];
   __shared__ ProximityScratch scratch;
   const GridTeam grid;
@@ -75,8 +75,12 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor) frame_kern
 
   switch (f.start) {
     case Start::kTiles:
-    case Start::kSameNode: find_pairs_by_tiles(grid, f); break;
-    case Start::kNone: confirm_by_brute_force(grid, f); break;
+    case Start::kSameNode:
+      find_pairs_by_tiles(grid, f);
+      break;
+    case Start::kNone:
+      confirm_by_brute_force(grid, f);
+      break;
     case Start::kGrid:
       grid_place_buckets(grid, f.grid, &f.counters->grid_cursor);
       grid.sync();
@@ -144,14 +148,15 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
   BROADSIDE_CUDA_TRY(cudaDeviceGetAttribute(&block_limit, cudaDevAttrMaxSharedMemoryPerBlockOptin, device));
   BROADSIDE_CUDA_TRY(cudaDeviceGetAttribute(&is_cooperative, cudaDevAttrCooperativeLaunch, device));
   if (is_cooperative == 0)
-    return core::Error{"this GPU cannot launch cooperative kernels", "octree-gpu", "use one of compute capability 7.5 or later",
-                       core::Exit::kMissing};
-  const std::uint32_t bytes_per_warp =
-      std::max(stack_entries_of(tree_levels) * kBytesPerStackEntry, static_cast<std::uint32_t>((sizeof(PairQueue) + 15) / 16 * 16));
+    return core::Error{"this GPU cannot launch cooperative kernels", "octree-gpu",
+                       "use one of compute capability 7.5 or later", core::Exit::kMissing};
+  const std::uint32_t bytes_per_warp = std::max(stack_entries_of(tree_levels) * kBytesPerStackEntry,
+                                                static_cast<std::uint32_t>((sizeof(PairQueue) + 15) / 16 * 16));
   for (std::uint32_t threads = kThreads; threads >= 32; threads /= 2) {
     const std::uint32_t bytes = threads / 32 * bytes_per_warp;
     if (bytes + sizeof(ProximityScratch) > static_cast<std::uint32_t>(block_limit)) continue;
-    BROADSIDE_CUDA_TRY(cudaFuncSetAttribute(frame_kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)));
+    BROADSIDE_CUDA_TRY(
+        cudaFuncSetAttribute(frame_kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)));
     int per_multiprocessor = 0;
     BROADSIDE_CUDA_TRY(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_multiprocessor, frame_kernel,
                                                                      static_cast<int>(threads), bytes));
@@ -174,7 +179,8 @@ core::Status launch_digest(const DigestView& view, cudaStream_t stream) {
   BROADSIDE_CUDA_TRY(cudaMemsetAsync(view.sum, 0, sizeof *view.sum, stream));
   const std::uint64_t most = std::max({std::uint64_t{view.body_count}, view.confirmed_count, view.contact_count,
                                        view.face_contact_count, std::uint64_t{1}});
-  const auto blocks = static_cast<unsigned>(std::min<std::uint64_t>((most + kDigestThreads - 1) / kDigestThreads, 1024));
+  const auto blocks =
+      static_cast<unsigned>(std::min<std::uint64_t>((most + kDigestThreads - 1) / kDigestThreads, 1024));
   digest_kernel<<<blocks, kDigestThreads, 0, stream>>>(view);
   BROADSIDE_CUDA_TRY(cudaGetLastError());
   return core::Done{};

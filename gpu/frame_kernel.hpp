@@ -1,21 +1,21 @@
 // Launches of the device code, as plain functions: the rest of gpu/ is compiled by the host compiler.
 #pragma once
 
+#include <cuda_runtime_api.h>
+
+#include <cstdint>
+
 #include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
 #include "core/result.hpp"
 #include "gpu/frame_view.hpp"
 
-#include <cuda_runtime_api.h>
-
-#include <cstdint>
-
 namespace broadside::gpu {
 
 // How the frame kernel fits this GPU.
 struct LaunchShape {
-  std::uint32_t threads = 0;        // of a block; a power of two of warps
-  std::uint32_t blocks = 0;         // that are resident at once: all of them meet at barriers
+  std::uint32_t threads = 0;  // of a block; a power of two of warps
+  std::uint32_t blocks = 0;   // that are resident at once: all of them meet at barriers
   std::uint32_t shared_bytes = 0;
   std::uint32_t multiprocessors = 0;
 };

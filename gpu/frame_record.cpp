@@ -16,7 +16,8 @@ core::Status read_vectors(const DeviceBuffer<PackedVec3>& from, std::uint64_t co
   return core::Done{};
 }
 
-core::Status read_contacts(const FrameBuffers& buffers, const FrameCounts& counts, std::vector<core::Contact>& contacts) {
+core::Status read_contacts(const FrameBuffers& buffers, const FrameCounts& counts,
+                           std::vector<core::Contact>& contacts) {
   BROADSIDE_TRY(buffers.contacts().download(contacts, counts.contacts));
   // Depth 0 marks a pair that did not overlap any more when its turn came.
   std::erase_if(contacts, [](const core::Contact& c) { return !(c.depth_m > 0.0F); });
@@ -57,7 +58,8 @@ core::Status read_frame(const FrameBuffers& buffers, const FrameCounts& counts, 
   for (const PackedBox& box : boxes) frame.boxes.push_back(unpack(box));
 
   BROADSIDE_TRY(buffers.pairs().download(frame.pairs, counts.pairs));
-  BROADSIDE_TRY((is_confirmed_by_level0 ? buffers.pairs() : buffers.confirmed()).download(frame.confirmed, counts.confirmed));
+  BROADSIDE_TRY(
+      (is_confirmed_by_level0 ? buffers.pairs() : buffers.confirmed()).download(frame.confirmed, counts.confirmed));
   BROADSIDE_TRY(buffers.proximity().download(frame.proximity, counts.proximity));
   std::sort(frame.pairs.begin(), frame.pairs.end());
   sort_confirmed(frame);

@@ -1,11 +1,11 @@
 // Copies what the last frame left on the device into a frame's record, in the record's order.
 #pragma once
 
+#include <cstdint>
+
 #include "core/result.hpp"
 #include "core/trace/frame.hpp"
 #include "gpu/frame_buffers.hpp"
-
-#include <cstdint>
 
 namespace broadside::gpu {
 

@@ -1,6 +1,8 @@
 // What the frame kernel is given, by value: where everything of one simulation lies on the device.
 #pragma once
 
+#include <cstdint>
+
 #include "core/contact.hpp"
 #include "core/material.hpp"
 #include "core/math/box.hpp"
@@ -12,8 +14,6 @@
 #include "core/variant.hpp"
 #include "gpu/packed_box.hpp"
 #include "gpu/shape_tree.hpp"
-
-#include <cstdint>
 
 namespace broadside::gpu {
 
@@ -28,8 +28,8 @@ enum class Solver : std::uint32_t { kColored, kJacobi, kRacing };
 
 // Per shape, in body coordinates. All instances of a mesh share one shape.
 struct ShapesView {
-  const PackedBox* octree = nullptr;   // [shapes * 73] boxes of the body octree, in its order; empty nodes stay empty
-  const PackedBox* level2 = nullptr;   // [shapes * 64] its level-2 boxes without the empty ones
+  const PackedBox* octree = nullptr;  // [shapes * 73] boxes of the body octree, in its order; empty nodes stay empty
+  const PackedBox* level2 = nullptr;  // [shapes * 64] its level-2 boxes without the empty ones
   const std::uint32_t* level2_count = nullptr;  // [shapes]
   const TreeHeader* trees = nullptr;            // [shapes]
   const PackedBox* tree_nodes = nullptr;
@@ -71,13 +71,13 @@ struct Outcome {
 };
 
 struct GridView {
-  std::uint32_t bucket_mask = 0;             // buckets - 1; a power of two of buckets
-  std::uint32_t* bucket_count = nullptr;     // zero between frames
+  std::uint32_t bucket_mask = 0;          // buckets - 1; a power of two of buckets
+  std::uint32_t* bucket_count = nullptr;  // zero between frames
   std::uint32_t* bucket_begin = nullptr;
-  std::uint32_t* rank = nullptr;             // [bodies] place within the bucket
-  PackedBox* entries = nullptr;              // [bodies] by bucket; low_tag = body, high_tag = level
-  std::uint32_t* levels = nullptr;           // bit k: some body was on level k; bits are only ever set
-  float cell_m = 0.0F;                       // of level 0; level k has cells of cell_m / 2^k
+  std::uint32_t* rank = nullptr;    // [bodies] place within the bucket
+  PackedBox* entries = nullptr;     // [bodies] by bucket; low_tag = body, high_tag = level
+  std::uint32_t* levels = nullptr;  // bit k: some body was on level k; bits are only ever set
+  float cell_m = 0.0F;              // of level 0; level k has cells of cell_m / 2^k
 };
 
 // Fixed during a run, but for `previous` and `next`, which change places after every frame.
@@ -104,18 +104,18 @@ struct FrameView {
 
   GridView grid;
   AppendView<core::Pair> pairs;
-  AppendView<core::Pair> confirmed;   // flat: the same memory as pairs
-  core::Proximity* proximity = nullptr;        // one per confirmed pair
-  std::uint32_t stack_entries = 0;             // of each warp's stack in the proximity stage
-  core::Pair* touching = nullptr;              // as many as confirmed
-  std::uint32_t* color = nullptr;              // one per touching pair
-  core::Contact* contacts = nullptr;           // one slot per touching pair; depth 0 = no contact
+  AppendView<core::Pair> confirmed;      // flat: the same memory as pairs
+  core::Proximity* proximity = nullptr;  // one per confirmed pair
+  std::uint32_t stack_entries = 0;       // of each warp's stack in the proximity stage
+  core::Pair* touching = nullptr;        // as many as confirmed
+  std::uint32_t* color = nullptr;        // one per touching pair
+  core::Contact* contacts = nullptr;     // one slot per touching pair; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
 
   unsigned long long* least_priority = nullptr;  // [bodies] of the contacts not yet colored
   unsigned long long* taken = nullptr;           // [bodies * color_words] colors in use at each body
   std::uint32_t color_words = 1;
-  core::Kinematics* sums = nullptr;              // jacobi
+  core::Kinematics* sums = nullptr;  // jacobi
 
   Counters* counters = nullptr;
   Outcome* outcome = nullptr;

@@ -1,15 +1,17 @@
-#include "gpu/cuda_check.hpp"
-#include "gpu/octree_gpu.hpp"
-#include "gpu/pipeline.hpp"
-
 #include <cuda_runtime_api.h>
 
 #include <string>
 
+#include "gpu/cuda_check.hpp"
+#include "gpu/octree_gpu.hpp"
+#include "gpu/pipeline.hpp"
+
 namespace broadside::gpu {
 namespace {
 
-std::string version_text(int version) { return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10); }
+std::string version_text(int version) {
+  return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
+}
 
 }  // namespace
 

@@ -2,12 +2,16 @@
 
 namespace broadside::gpu {
 
-std::string octree_gpu_absent() { return "built without CUDA"; }
+std::string octree_gpu_absent() {
+  return "built without CUDA";
+}
 
 core::Result<core::Engine> create_octree_gpu(const core::Settings& /*settings*/) {
   return core::Error{octree_gpu_absent(), "octree-gpu", "configure where nvcc is installed", core::Exit::kMissing};
 }
 
-std::string device_name() { return "no device"; }
+std::string device_name() {
+  return "no device";
+}
 
 }  // namespace broadside::gpu

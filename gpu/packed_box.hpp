@@ -1,10 +1,10 @@
 // A box in two 16-byte words, so that a thread reads it with two wide loads.
 #pragma once
 
+#include <cstdint>
+
 #include "core/attributes.hpp"
 #include "core/math/box.hpp"
-
-#include <cstdint>
 
 namespace broadside::gpu {
 
@@ -27,7 +27,9 @@ BROADSIDE_HD PackedBox pack(const core::Box& box, std::uint32_t low_tag = 0, std
   return packed;
 }
 
-BROADSIDE_HD core::Box unpack(const PackedBox& packed) { return {packed.min, packed.max}; }
+BROADSIDE_HD core::Box unpack(const PackedBox& packed) {
+  return {packed.min, packed.max};
+}
 
 // Three floats and a word: a position with the inverse mass, a velocity, a vertex with its index.
 struct alignas(16) PackedVec3 {

@@ -1,15 +1,15 @@
 #include "gpu/pipeline.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
 #include "gpu/cuda_check.hpp"
 #include "gpu/device_scene.hpp"
 #include "gpu/frame_buffers.hpp"
 #include "gpu/frame_kernel.hpp"
 #include "gpu/frame_record.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
 
 namespace broadside::gpu {
 namespace {
@@ -109,7 +109,9 @@ struct Pipeline::Impl {
   core::Result<std::uint64_t> digest();
 };
 
-Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl>()) { impl_->options = options; }
+Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+}
 Pipeline::~Pipeline() = default;
 
 void Pipeline::Impl::choose_start() {
@@ -153,8 +155,9 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;
   d.view.stack_entries = stack_entries_of(d.device_scene.tree_levels());
-  d.view.grid.cell_m = std::max({d.device_scene.largest_side_m() * kCellSlack, coordinate_range_m(scene) * kLeastCellShare,
-                                 std::numeric_limits<float>::min() * 0x1p24F});
+  d.view.grid.cell_m =
+      std::max({d.device_scene.largest_side_m() * kCellSlack, coordinate_range_m(scene) * kLeastCellShare,
+                std::numeric_limits<float>::min() * 0x1p24F});
   d.view.outcome = d.outcome.device();
   d.device_scene.fill(d.view);
   // Uploads ran on the default stream, which this one does not wait for.
@@ -213,7 +216,8 @@ std::uint32_t Pipeline::groups() const {
   std::uint32_t groups = core::bit(Group::kBodies) | core::bit(Group::kDetection) | core::bit(Group::kConfirmed) |
                          core::bit(Group::kContacts);
   const bool starts_at_level0 = impl_->options.has_broad_phase || impl_->options.variant == core::Variant::kE2 ||
-                                impl_->options.levels == core::Levels::kFlat || impl_->options.levels == core::Levels::kC;
+                                impl_->options.levels == core::Levels::kFlat ||
+                                impl_->options.levels == core::Levels::kC;
   if (starts_at_level0) groups |= core::bit(Group::kPairs);
   return groups;
 }
@@ -249,13 +253,18 @@ std::span<const core::StageTime> Pipeline::stage_times() const {
   return impl_->times;
 }
 
-const Counters& Pipeline::counters() const { return impl_->last; }
+const Counters& Pipeline::counters() const {
+  return impl_->last;
+}
 
 MemoryUse Pipeline::memory_use() const {
   const Impl& d = *impl_;
-  return {d.device_scene.shape_bytes(), d.device_scene.body_bytes() + d.buffers.body_bytes(), d.buffers.appended_bytes()};
+  return {d.device_scene.shape_bytes(), d.device_scene.body_bytes() + d.buffers.body_bytes(),
+          d.buffers.appended_bytes()};
 }
 
-std::uint64_t Pipeline::repeated_frames() const { return impl_->repeats; }
+std::uint64_t Pipeline::repeated_frames() const {
+  return impl_->repeats;
+}
 
 }  // namespace broadside::gpu

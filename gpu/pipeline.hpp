@@ -1,14 +1,14 @@
 // The pipeline on the GPU: METHOD sections 1 to 6, all state on the device.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <span>
+
 #include "core/engine/dynamics.hpp"
 #include "core/method/levels.hpp"
 #include "core/variant.hpp"
 #include "gpu/frame_view.hpp"
-
-#include <cstdint>
-#include <memory>
-#include <span>
 
 namespace broadside::gpu {
 
@@ -23,8 +23,8 @@ struct PipelineOptions {
 
 // Device memory of the last loaded scene, in bytes.
 struct MemoryUse {
-  std::uint64_t shapes = 0;   // grows with meshes and orientations
-  std::uint64_t bodies = 0;   // grows with bodies
+  std::uint64_t shapes = 0;    // grows with meshes and orientations
+  std::uint64_t bodies = 0;    // grows with bodies
   std::uint64_t appended = 0;  // grows with pairs and contacts
 };
 

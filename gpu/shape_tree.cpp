@@ -1,11 +1,11 @@
 #include "gpu/shape_tree.hpp"
 
-#include "core/math/box.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <limits>
 #include <utility>
+
+#include "core/math/box.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -26,11 +26,14 @@ std::uint64_t spread(std::uint64_t v) {
 // 16 bits per axis of the longest side: cells stay cubes, so that neighbors on the curve are near on every axis.
 std::uint64_t morton(Vec3 v, const Box& box, double cells_per_m) {
   std::uint64_t code = 0;
-  for (int k = 0; k < 3; ++k) code |= spread(static_cast<std::uint64_t>((double(v[k]) - double(box.min[k])) * cells_per_m)) << k;
+  for (int k = 0; k < 3; ++k)
+    code |= spread(static_cast<std::uint64_t>((double(v[k]) - double(box.min[k])) * cells_per_m)) << k;
   return code;
 }
 
-Box joined(const Box& a, const Box& b) { return core::grown(core::grown(a, b.min), b.max); }
+Box joined(const Box& a, const Box& b) {
+  return core::grown(core::grown(a, b.min), b.max);
+}
 
 }  // namespace
 

@@ -1,12 +1,12 @@
 // A tree of tight boxes over one shape's vertices, built once on the host: what the proximity stage descends.
 #pragma once
 
-#include "core/math/vec3.hpp"
-#include "gpu/packed_box.hpp"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "core/math/vec3.hpp"
+#include "gpu/packed_box.hpp"
 
 namespace broadside::gpu {
 
@@ -18,7 +18,9 @@ constexpr std::uint32_t kMaxTreeLevels = 9;
 
 // Node pairs that wait while two trees of so many levels are descended at once: a pair of nodes of equal levels leaves
 // at most 63 more than it was, a lone descent 7 more.
-constexpr std::uint32_t stack_entries_of(std::uint32_t levels) { return 64 * levels; }
+constexpr std::uint32_t stack_entries_of(std::uint32_t levels) {
+  return 64 * levels;
+}
 
 // Where one shape's tree lies in the arrays shared by all shapes. Level 0 holds the leaves; level `top` is the root,
 // one node. Children of node n are 8 n .. 8 n + 7 of the level below, as far as they exist; leaf n holds vertices
@@ -32,9 +34,9 @@ struct TreeHeader {
 };
 
 struct ShapeTrees {
-  std::vector<TreeHeader> headers;      // one per shape
-  std::vector<PackedBox> nodes;         // body coordinates
-  std::vector<PackedVec3> vertices;     // body coordinates; w holds the bits of the index in the mesh
+  std::vector<TreeHeader> headers;   // one per shape
+  std::vector<PackedBox> nodes;      // body coordinates
+  std::vector<PackedVec3> vertices;  // body coordinates; w holds the bits of the index in the mesh
 };
 
 // Appends the tree of one shape; indices[k] is the mesh's index of vertices[k]. Vertices are ordered along a Morton

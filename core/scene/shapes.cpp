@@ -3,6 +3,8 @@
 #include <map>
 #include <tuple>
 
+#include "core/method/proximity.hpp"
+
 namespace broadside::core {
 
 ShapeTable build_shapes(const Scene& scene) {

@@ -14,7 +14,9 @@ __device__ inline core::Box local_box(const FrameView& f, std::uint32_t body) {
   return unpack(f.shapes.octree[std::uint64_t{f.shape_of_body[body]} * core::kBodyOctreeNodes]);
 }
 
-__device__ inline bool is_static(const FrameView& f, std::uint32_t body) { return !(f.previous.position[body].w > 0.0F); }
+__device__ inline bool is_static(const FrameView& f, std::uint32_t body) {
+  return !(f.previous.position[body].w > 0.0F);
+}
 
 // P(1) to P(3), P(5); and clean slates for the frame's later stages. The previous state stays as it is, so that a frame
 // whose buffers turn out too small can be repeated.
@@ -66,7 +68,8 @@ __device__ void resolve_faces(const Team& team, const FrameView& f) {
       contact.color = core::kFaceColor;
       contact.pre_a = {x.v, v.v};
       contact.pre_b = {};
-      core::respond(contact, geometry, x.w, 0.0F, core::combine(f.material[i], f.face_material), f.parameters, f.variant);
+      core::respond(contact, geometry, x.w, 0.0F, core::combine(f.material[i], f.face_material), f.parameters,
+                    f.variant);
       x.v = contact.post_a.x;
       v.v = contact.post_a.v;
       if (place < f.face_contacts.capacity) f.face_contacts.items[place] = contact;

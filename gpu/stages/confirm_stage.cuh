@@ -63,12 +63,15 @@ __device__ inline bool are_levels_overlapping(const FrameView& f, std::uint32_t 
   const PlacedShape a = placed_shape(f, i);
   const PlacedShape b = placed_shape(f, j);
   switch (f.levels) {
-    case core::Levels::kFlat: return true;
+    case core::Levels::kFlat:
+      return true;
     case core::Levels::kLevel1:
       return eight_by_eight(a.octree + core::kLevelOffset[1], a.x, b.octree + core::kLevelOffset[1], b.x) != 0;
-    case core::Levels::kA: return level2_meets(f, a, b);
+    case core::Levels::kA:
+      return level2_meets(f, a, b);
     case core::Levels::kB:
-    case core::Levels::kC: return descends(a, b);
+    case core::Levels::kC:
+      return descends(a, b);
   }
   return false;
 }

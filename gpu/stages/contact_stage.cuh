@@ -106,7 +106,8 @@ __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint3
   if (!geometry.exists) return false;
   contact.pre_a = {xa.v, f.next.velocity[p.i].v};
   contact.pre_b = {xb.v, f.next.velocity[p.j].v};
-  core::respond(contact, geometry, xa.w, xb.w, core::combine(f.material[p.i], f.material[p.j]), f.parameters, f.variant);
+  core::respond(contact, geometry, xa.w, xb.w, core::combine(f.material[p.i], f.material[p.j]), f.parameters,
+                f.variant);
   return true;
 }
 

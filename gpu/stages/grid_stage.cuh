@@ -29,9 +29,13 @@ __device__ inline CellCorner cell_of(core::Vec3 v, float cells_per_m) {
   return {cell_index(v.x, cells_per_m), cell_index(v.y, cells_per_m), cell_index(v.z, cells_per_m)};
 }
 
-__device__ inline float cell_size(const GridView& g, int level) { return ldexpf(g.cell_m, -level); }
+__device__ inline float cell_size(const GridView& g, int level) {
+  return ldexpf(g.cell_m, -level);
+}
 
-__device__ inline float largest_magnitude(core::Vec3 v) { return fmaxf(fabsf(v.x), fmaxf(fabsf(v.y), fabsf(v.z))); }
+__device__ inline float largest_magnitude(core::Vec3 v) {
+  return fmaxf(fabsf(v.x), fmaxf(fabsf(v.y), fabsf(v.z)));
+}
 
 // The finest level whose cells are at least as large as the box, and not so fine that a cell is lost in the rounding of
 // the coordinates (2^-18 of them is 32 units in the last place).
@@ -59,9 +63,9 @@ __device__ inline std::uint32_t bucket_of(const GridView& g, CellCorner c, int l
   const std::uint32_t near = every_third_bit(static_cast<std::uint32_t>(c.x) & ((1U << bits) - 1U)) |
                              every_third_bit(static_cast<std::uint32_t>(c.y) & ((1U << bits) - 1U)) << 1 |
                              every_third_bit(static_cast<std::uint32_t>(c.z) & ((1U << bits) - 1U)) << 2;
-  std::uint32_t far = static_cast<std::uint32_t>(c.x >> bits) * 0x9E3779B1U ^
-                      static_cast<std::uint32_t>(c.y >> bits) * 0x85EBCA6BU ^
-                      static_cast<std::uint32_t>(c.z >> bits) * 0xC2B2AE35U ^ static_cast<std::uint32_t>(level) * 0x27D4EB2FU;
+  std::uint32_t far =
+      static_cast<std::uint32_t>(c.x >> bits) * 0x9E3779B1U ^ static_cast<std::uint32_t>(c.y >> bits) * 0x85EBCA6BU ^
+      static_cast<std::uint32_t>(c.z >> bits) * 0xC2B2AE35U ^ static_cast<std::uint32_t>(level) * 0x27D4EB2FU;
   far = (far ^ far >> 15) * 0x2C1B3C6DU;
   return (near ^ far ^ far >> 16) & g.bucket_mask;
 }
@@ -114,7 +118,8 @@ struct PairQueue {
   core::Pair pairs[kRoom];
 };
 
-__device__ inline void push_pair(PairQueue& queue, AppendView<core::Pair> out, unsigned long long* demanded, core::Pair p) {
+__device__ inline void push_pair(PairQueue& queue, AppendView<core::Pair> out, unsigned long long* demanded,
+                                 core::Pair p) {
   const std::uint32_t place = atomicAdd(&queue.count, 1U);
   if (place < PairQueue::kRoom) {
     queue.pairs[place] = p;

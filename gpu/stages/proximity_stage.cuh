@@ -192,7 +192,8 @@ struct ProximityScratch {
 };
 
 // When there are fewer pairs than warps, several warps of a block share a pair. The block's warps are a power of two.
-__device__ inline void measure_proximity(const FrameView& f, std::uint64_t count, ProximityScratch& scratch, void* stacks) {
+__device__ inline void measure_proximity(const FrameView& f, std::uint64_t count, ProximityScratch& scratch,
+                                         void* stacks) {
   const std::uint32_t warps = blockDim.x / 32;
   const std::uint32_t warp = threadIdx.x / 32;
   std::uint32_t members = 1;

@@ -30,7 +30,9 @@ template <typename Team>
 __device__ std::uint64_t warp_count(const Team& team) {
   return team.size() / 32;
 }
-__device__ inline unsigned lane() { return threadIdx.x % 32; }
+__device__ inline unsigned lane() {
+  return threadIdx.x % 32;
+}
 
 // Room for the items of one warp in an append buffer: one atomic for all its lanes. Called by whole warps. Returns the
 // place of this lane's first item; places at or past the capacity are counted and not to be written.

@@ -1,0 +1,85 @@
+// The vertex trees that the GPU's proximity stage descends: every vertex in one leaf, every box tight.
+#include "gpu/shape_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <vector>
+
+namespace broadside::gpu {
+namespace {
+
+using core::Vec3;
+
+std::vector<Vec3> spiral(std::uint32_t count) {
+  std::vector<Vec3> vertices;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const float t = 0.1F * static_cast<float>(k);
+    vertices.push_back({std::cos(t), 0.01F * t, std::sin(t)});
+  }
+  return vertices;
+}
+
+ShapeTrees tree_of(const std::vector<Vec3>& vertices) {
+  std::vector<std::uint32_t> indices(vertices.size());
+  std::iota(indices.begin(), indices.end(), 0U);
+  ShapeTrees trees;
+  append_tree(trees, vertices, indices, 0.5F);
+  return trees;
+}
+
+TEST(ShapeTree, HoldsEveryVertexOnce) {
+  for (const std::uint32_t count : {1U, 15U, 16U, 17U, 128U, 129U, 1000U, 2503U}) {
+    const std::vector<Vec3> vertices = spiral(count);
+    const ShapeTrees trees = tree_of(vertices);
+    std::set<std::uint32_t> seen;
+    for (const PackedVec3& v : trees.vertices) {
+      const auto index = std::bit_cast<std::uint32_t>(v.w);
+      if (index == 0xFFFFFFFFU) {
+        EXPECT_TRUE(std::isinf(v.v.x));
+        continue;
+      }
+      EXPECT_EQ(v.v, vertices[index]);
+      seen.insert(index);
+    }
+    EXPECT_EQ(seen.size(), count);
+    EXPECT_EQ(trees.vertices.size() % kLeafVertices, 0U);
+    EXPECT_LT(trees.vertices.size(), count + kLeafVertices);
+  }
+}
+
+TEST(ShapeTree, BoxesAreTheBoundsOfTheirLeaves) {
+  const ShapeTrees trees = tree_of(spiral(2503));
+  const TreeHeader& header = trees.headers[0];
+  ASSERT_EQ(header.node_count[header.top], 1U);
+  std::uint32_t leaves_below = 1;
+  for (std::uint32_t level = 0; level <= header.top; ++level, leaves_below *= kFanOut) {
+    for (std::uint32_t n = 0; n < header.node_count[level]; ++n) {
+      core::Box expected = core::empty_box();
+      for (std::uint32_t k = n * leaves_below * kLeafVertices; k < (n + 1) * leaves_below * kLeafVertices; ++k) {
+        if (k < trees.vertices.size() && !std::isinf(trees.vertices[k].v.x))
+          expected = core::grown(expected, trees.vertices[k].v);
+      }
+      EXPECT_EQ(unpack(trees.nodes[header.node_begin[level] + n]), expected) << "level " << level << " node " << n;
+    }
+  }
+}
+
+TEST(ShapeTree, KeepsShapesApart) {
+  const std::vector<Vec3> first = spiral(100);
+  const std::vector<Vec3> second = spiral(40);
+  const std::vector<std::uint32_t> indices(100, 7);
+  ShapeTrees trees;
+  append_tree(trees, first, indices, 1.0F);
+  append_tree(trees, second, std::span(indices).first(40), 2.0F);
+  ASSERT_EQ(trees.headers.size(), 2U);
+  EXPECT_EQ(trees.headers[1].vertex_begin, 112U);  // 100 filled up to whole leaves of 16
+  EXPECT_EQ(trees.headers[1].node_begin[0], trees.headers[0].node_begin[trees.headers[0].top] + 1);
+  EXPECT_EQ(trees.headers[1].mean_edge_m, 2.0F);
+}
+
+}  // namespace
+}  // namespace broadside::gpu
