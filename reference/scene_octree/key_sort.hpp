@@ -1,9 +1,8 @@
-// Stable radix sort of 32-bit keys that carry 32-bit ids.
+// Stable radix sort of 32-bit keys that carry 32-bit ids, on the calling thread.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace broadside::reference {
 
@@ -20,16 +19,7 @@ constexpr std::uint32_t id_of(KeyedId entry) {
   return static_cast<std::uint32_t>(entry);
 }
 
-// Sorts by the lowest `key_bits` bits of the key, on the workers of the current arena. scratch: as many entries.
-class KeySort {
- public:
-  void sort(std::span<KeyedId> entries, std::span<KeyedId> scratch, int key_bits);
-
- private:
-  std::vector<std::uint32_t> counts_;
-};
-
-// The same on the calling thread alone.
-void sort_alone(std::span<KeyedId> entries, std::span<KeyedId> scratch, int key_bits);
+// Sorts by the lowest `key_bits` bits of the key, of which no higher bit is set. scratch: as many entries, at least.
+void sort_by_key(std::span<KeyedId> entries, std::span<KeyedId> scratch, int key_bits);
 
 }  // namespace broadside::reference

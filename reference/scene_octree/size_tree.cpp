@@ -4,7 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
+
+#include "reference/scene_octree/curve_order.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -21,7 +22,7 @@ static_assert(sizeof(FoundPair) == sizeof(core::Pair) && alignof(FoundPair) == a
 
 JoinKernel kernel_for(Simd simd) {
 #if defined(BROADSIDE_HAS_AVX2_KERNEL)
-  if (simd == Simd::kFastest && __builtin_cpu_supports("avx2")) return join_avx2;
+  if (simd == Simd::kFastest && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt")) return join_avx2;
 #endif
   static_cast<void>(simd);
   return join_portable;
@@ -65,27 +66,25 @@ void take_more(PairSink& sink) {
 SizeTree::SizeTree(Simd simd) : join_(kernel_for(simd)) {}
 
 bool SizeTree::build(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
-  survey(boxes);
-  if (!whole_.is_sound) return false;
-  plan_.counts.clear();
-  if (!boxes.empty()) sort_boxes(boxes);
+  classes_.clear();
+  if (!buckets_.deal(boxes, is_static)) return false;
+  body_count_ = static_cast<std::uint32_t>(boxes.size());
   lay_out();
-  fill_packs(boxes, is_static);
+  tbb::parallel_for(std::size_t{0}, buckets_.buckets().size(), [&](std::size_t b) { fill_bucket(b); });
   fill_upper_levels();
   return true;
 }
 
 void SizeTree::lay_out() {
-  classes_.resize(plan_.counts.size());
-  first_box_.resize(plan_.counts.size());
+  classes_.assign(buckets_.class_count(), TreeClass{});
+  first_pack_.clear();
   std::uint32_t packs = 0;
-  std::uint32_t boxes = 0;
-  for (std::size_t c = 0; c < classes_.size(); ++c) {
-    classes_[c].packs = eighth(plan_.counts[c]);
-    classes_[c].level_begin[0] = packs;
-    first_box_[c] = boxes;
-    packs += classes_[c].packs;
-    boxes += plan_.counts[c];
+  for (const Bucket& bucket : buckets_.buckets()) {
+    TreeClass& tree = classes_[bucket.size_class];
+    if (tree.packs == 0) tree.level_begin[0] = packs;
+    first_pack_.push_back(packs);
+    tree.packs += eighth(bucket.count());
+    packs += eighth(bucket.count());
   }
   ids_.resize(std::size_t{kWidth} * packs);
   static_lanes_.resize(packs);
@@ -99,42 +98,38 @@ void SizeTree::lay_out() {
     } while (count > 1U);
   }
   packs_.resize(packs);
+  // Free lanes of the last node of level 1; buckets write all others.
+  for (const TreeClass& tree : classes_)
+    for (std::uint32_t lane = tree.packs; lane % kWidth != 0; ++lane)
+      put(packs_[tree.level_begin[1] + lane / kWidth], lane % kWidth, core::empty_box());
 }
 
-void SizeTree::fill_packs(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
-  for (std::size_t c = 0; c < classes_.size(); ++c) {
-    const TreeClass& tree = classes_[c];
-    const auto fill_node = [&](std::uint32_t node) {
-      BoxPack& parent = packs_[tree.level_begin[1] + node];
-      for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-        const std::uint32_t pack = node * kWidth + lane;
-        Box bounds = core::empty_box();
-        if (pack < tree.packs) {
-          const std::uint32_t at = tree.level_begin[0] + pack;
-          const std::uint32_t first = pack * kWidth;
-          const std::uint32_t count = std::min(kWidth, plan_.counts[c] - first);
-          std::uint32_t static_bits = 0;
-          for (std::uint32_t k = 0; k < kWidth; ++k) {
-            if (k >= count) {
-              put(packs_[at], k, core::empty_box());
-              ids_[std::size_t{kWidth} * at + k] = 0;
-              continue;
-            }
-            const std::uint32_t id = id_of(sorted_[first_box_[c] + first + k]);
-            const Box& box = boxes[id];
-            put(packs_[at], k, box);
-            bounds = core::grown(core::grown(bounds, box.min), box.max);
-            ids_[std::size_t{kWidth} * at + k] = id;
-            static_bits |= static_cast<std::uint32_t>(is_static[id] != 0) << k;
-          }
-          static_lanes_[at] = static_cast<std::uint8_t>(static_bits);
-        }
-        put(parent, lane, bounds);
-      }
-    };
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, eighth(tree.packs), kBuildGrain), [&](const auto& nodes) {
-      for (std::uint32_t node = nodes.begin(); node != nodes.end(); ++node) fill_node(node);
-    });
+// Orders a bucket's boxes, packs them by eights, and puts each pack's bounds in its lane of level 1.
+void SizeTree::fill_bucket(std::size_t bucket_index) {
+  thread_local CurveOrder curve_order;
+  const Bucket& bucket = buckets_.buckets()[bucket_index];
+  const BoxRecord* records = buckets_.records(bucket);
+  const std::span<const KeyedId> order = curve_order.order(records, bucket.count());
+  const TreeClass& tree = classes_[bucket.size_class];
+  std::uint32_t pack = first_pack_[bucket_index];
+  for (std::uint32_t first = 0; first < bucket.count(); first += kWidth, ++pack) {
+    const std::uint32_t count = std::min(kWidth, bucket.count() - first);
+    BoxPack& filled = packs_[pack];
+    std::uint32_t* ids = ids_.data() + std::size_t{kWidth} * pack;
+    std::uint32_t static_bits = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const BoxRecord& record = records[id_of(order[first + k])];
+      put(filled, k, record.box);
+      ids[k] = record.id;
+      static_bits |= record.is_static << k;
+    }
+    for (std::uint32_t k = count; k < kWidth; ++k) {
+      put(filled, k, core::empty_box());
+      ids[k] = 0;
+    }
+    static_lanes_[pack] = static_cast<std::uint8_t>(static_bits);
+    const std::uint32_t lane = pack - tree.level_begin[0];
+    put(packs_[tree.level_begin[1] + lane / kWidth], lane % kWidth, bounds_of(filled));
   }
 }
 
@@ -179,9 +174,7 @@ void SizeTree::find() {
 }
 
 void SizeTree::read_back(std::vector<core::Pair>& out) {
-  std::uint32_t bodies = 0;
-  for (const std::uint32_t count : plan_.counts) bodies += count;
-  pair_order_.order(found_.gather(), bodies, out);
+  pair_order_.order(found_.gather(), body_count_, out);
 }
 
 }  // namespace broadside::reference

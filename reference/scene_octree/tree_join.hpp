@@ -1,10 +1,16 @@
 // The search of one pack of boxes, for any vector type. Included once by each file that is compiled for an instruction
 // set; everything here has internal linkage, so that no two of them share code.
 //
+// Where boxes are spread, a test finds one overlap on average, so a branch on it is a coin toss that costs more than
+// the test. Hence lists: each stage tests everything in its list and appends what overlaps to the next stage's, writing
+// all eight lanes and advancing by the number that hold. Only the ends of lists are branches.
+//
 // Lanes is the vector code:
 //   struct Box;                                      one box in every lane
 //   Box spread(const BoxPack&, lane);                that lane's box in every lane
 //   unsigned overlapping(const BoxPack&, Box);       bit k: box k of the pack overlaps, P(6)
+//   uint32_t* append(to, base, hits);                writes base + k for each hit, and may write all 8; the new end
+//   FoundPair* emit(to, ids, id, hits);              writes the pair of id and ids[k] likewise
 #pragma once
 
 #include <cstddef>
@@ -15,8 +21,10 @@
 namespace broadside::reference {
 namespace {
 
-// Each level adds at most 7 to a stack of depth-first search.
-constexpr std::uint32_t kMostStack = 8U * kMostTreeLevels;
+// Entries of a list: enough that a box of usual size fills none, few enough that all of them stay in L1 (8 KiB).
+constexpr std::uint32_t kListSize = 256;
+// A giant's list is emptied into the next when it holds this many; one more append always fits.
+constexpr std::uint32_t kListFull = kListSize - 8U;
 
 template <typename Lanes>
 class Join {
@@ -26,75 +34,89 @@ class Join {
   // pack: its number within its class.
   void search(std::uint32_t pack_class, std::uint32_t pack) {
     const TreeClass& own = tree_.classes[pack_class];
-    a_ = own.level_begin[0] + pack;
-    const BoxPack& bounds_pack = tree_.packs[own.level_begin[1] + pack / 8U];
-    const auto bounds = Lanes::spread(bounds_pack, pack % 8U);
+    own_pack_ = own.level_begin[0] + pack;
+    bounds_ = Lanes::spread(tree_.packs[own.level_begin[1] + pack / 8U], pack % 8U);
     // core::finds: within the class, packs that come first find; from classes that are finer, all.
-    walk(own, bounds, pack);
-    for (std::uint32_t other = pack_class + 1U; other < tree_.class_count; ++other)
-      walk(tree_.classes[other], bounds, 0);
+    walk(own, pack);
+    for (std::uint32_t other = pack_class + 1U; other < tree_.class_count; ++other) walk(tree_.classes[other], 0);
   }
 
  private:
-  struct Node {
-    std::uint32_t level;
-    std::uint32_t index;
-  };
-
   // Tests every pack of the class from `first` on whose bounds overlap.
-  void walk(const TreeClass& of, const typename Lanes::Box& bounds, std::uint32_t first) {
-    Node stack[kMostStack];
-    std::uint32_t depth = 0;
-    stack[depth++] = {of.level_count - 1U, 0};
-    while (depth > 0) {
-      const Node node = stack[--depth];
-      const BoxPack& children = tree_.packs[of.level_begin[node.level] + node.index];
-      unsigned hits = Lanes::overlapping(children, bounds);
-      // Children whose packs all come before `first` were searched from there.
-      const std::uint32_t first_child = first >> (3U * (node.level - 1U));
-      const std::uint32_t child = node.index * 8U;
-      if (first_child > child) hits &= ~0U << (first_child - child);
-      if (node.level > 1U) {
-        for (; hits != 0; hits &= hits - 1U)
-          stack[depth++] = {node.level - 1U, child + static_cast<std::uint32_t>(__builtin_ctz(hits))};
-      } else {
-        for (; hits != 0; hits &= hits - 1U) {
-          const auto lane = static_cast<std::uint32_t>(__builtin_ctz(hits));
-          test(of.level_begin[0] + child + lane, children, lane);
-        }
-      }
-    }
+  void walk(const TreeClass& of, std::uint32_t first) {
+    class_ = &of;
+    first_ = first;
+    lists_[of.level_count - 1U][0] = 0;
+    descend(of.level_count - 1U, 1);
   }
 
-  // Boxes of pack a_ against boxes of pack b, whose bounds are a lane of `parent`.
-  void test(std::uint32_t b, const BoxPack& parent, std::uint32_t lane) {
-    const BoxPack& boxes_a = tree_.packs[a_];
-    const BoxPack& boxes_b = tree_.packs[b];
-    unsigned near = Lanes::overlapping(boxes_a, Lanes::spread(parent, lane));
-    if (near == 0) return;
-    if (sink_.end - sink_.next < 64) sink_.more(sink_);
-    const std::uint32_t* ids_a = tree_.ids + std::size_t{8} * a_;
-    const std::uint32_t* ids_b = tree_.ids + std::size_t{8} * b;
-    const unsigned static_a = tree_.static_lanes[a_];
-    const unsigned static_b = tree_.static_lanes[b];
-    FoundPair* next = sink_.next;
-    for (; near != 0; near &= near - 1U) {
-      const auto k = static_cast<std::uint32_t>(__builtin_ctz(near));
-      unsigned hits = Lanes::overlapping(boxes_b, Lanes::spread(boxes_a, k));
-      if (b == a_) hits &= ~1U << k;
-      if ((static_a >> k & 1U) != 0) hits &= ~static_b;
-      const std::uint32_t id = ids_a[k];
-      for (; hits != 0; hits &= hits - 1U) {
-        const std::uint32_t other = ids_b[__builtin_ctz(hits)];
-        *next++ = {id < other ? id : other, id < other ? other : id};
+  // The listed nodes of a level, by number within it, overlap: lists those of their children that do.
+  void descend(std::uint32_t level, std::uint32_t count) {
+    if (level == 0) {
+      narrow(count);
+      return;
+    }
+    const BoxPack* nodes = tree_.packs + class_->level_begin[level];
+    const std::uint32_t first_child = first_ >> (3U * (level - 1U));
+    std::uint32_t* const begin = lists_[level - 1U];
+    std::uint32_t* end = begin;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t node = lists_[level][k];
+      const std::uint32_t child = node * 8U;
+      unsigned hits = Lanes::overlapping(nodes[node], bounds_);
+      // Children whose packs all come before `first` were searched from there.
+      hits &= ~0U << (first_child > child ? first_child - child : 0U);
+      end = Lanes::append(end, child, hits);
+      if (end - begin > kListFull) {
+        descend(level - 1U, static_cast<std::uint32_t>(end - begin));
+        end = begin;
       }
     }
-    sink_.next = next;
+    if (end != begin) descend(level - 1U, static_cast<std::uint32_t>(end - begin));
+  }
+
+  // The listed packs overlap the bounds of ours: lists which of our boxes overlap the bounds of which of them.
+  void narrow(std::uint32_t count) {
+    const BoxPack& own = tree_.packs[own_pack_];
+    const BoxPack* parents = tree_.packs + class_->level_begin[1];
+    std::uint32_t* end = near_;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t pack = lists_[0][k];
+      end = Lanes::append(end, pack * 8U, Lanes::overlapping(own, Lanes::spread(parents[pack / 8U], pack % 8U)));
+      if (end - near_ > kListFull) {
+        test(static_cast<std::uint32_t>(end - near_));
+        end = near_;
+      }
+    }
+    test(static_cast<std::uint32_t>(end - near_));
+  }
+
+  // Each listed one of our boxes against the boxes of the pack listed with it: 8 pack + lane of ours.
+  void test(std::uint32_t count) {
+    const BoxPack& own = tree_.packs[own_pack_];
+    const std::uint32_t* own_ids = tree_.ids + std::size_t{8} * own_pack_;
+    const unsigned own_static = tree_.static_lanes[own_pack_];
+    const std::uint32_t packs = class_->level_begin[0];
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t lane = near_[k] % 8U;
+      const std::uint32_t pack = packs + near_[k] / 8U;
+      unsigned hits = Lanes::overlapping(tree_.packs[pack], Lanes::spread(own, lane));
+      // Of our own pack, the lanes after ours; of two static bodies, none.
+      hits &= pack == own_pack_ ? ~1U << lane : ~0U;
+      hits &= ~(tree_.static_lanes[pack] & (0U - (own_static >> lane & 1U)));
+      if (sink_.end - sink_.next < 8) sink_.more(sink_);
+      sink_.next = Lanes::emit(sink_.next, tree_.ids + std::size_t{8} * pack, own_ids[lane], hits);
+    }
   }
 
   const TreeView& tree_;
   PairSink& sink_;
-  std::uint32_t a_ = 0;
+  const TreeClass* class_ = nullptr;
+  std::uint32_t own_pack_ = 0;
+  std::uint32_t first_ = 0;
+  typename Lanes::Box bounds_;
+  std::uint32_t lists_[kMostTreeLevels][kListSize];
+  std::uint32_t near_[kListSize];
 };
 
 }  // namespace

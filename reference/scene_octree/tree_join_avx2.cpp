@@ -6,6 +6,20 @@
 namespace broadside::reference {
 namespace {
 
+// Row m: the numbers of the bits that are set in m, one byte each, lowest first.
+struct SetBits {
+  std::uint64_t rows[256];
+
+  constexpr SetBits() : rows{} {
+    for (std::uint32_t m = 0; m < 256; ++m) {
+      unsigned at = 0;
+      for (std::uint64_t bit = 0; bit < 8; ++bit)
+        if ((m >> bit & 1U) != 0) rows[m] |= bit << (8U * at++);
+    }
+  }
+};
+constexpr SetBits kSetBits;
+
 struct Avx2 {
   struct Box {
     __m256 min_x, min_y, min_z, max_x, max_y, max_z;
@@ -23,6 +37,28 @@ struct Avx2 {
     const __m256 z = _mm256_and_ps(_mm256_cmp_ps(_mm256_load_ps(pack.min_z), box.max_z, _CMP_LE_OQ),
                                    _mm256_cmp_ps(box.min_z, _mm256_load_ps(pack.max_z), _CMP_LE_OQ));
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_and_ps(_mm256_and_ps(x, y), z)));
+  }
+  static __m256i set_bits(unsigned hits) {
+    return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kSetBits.rows + hits)));
+  }
+  static std::uint32_t* append(std::uint32_t* to, std::uint32_t base, unsigned hits) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_add_epi32(set_bits(hits), _mm256_set1_epi32(static_cast<int>(base))));
+    return to + _mm_popcnt_u32(hits);
+  }
+  static FoundPair* emit(FoundPair* to, const std::uint32_t* ids, std::uint32_t id, unsigned hits) {
+    const __m256i others =
+        _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)), set_bits(hits));
+    const __m256i own = _mm256_set1_epi32(static_cast<int>(id));
+    const __m256i low = _mm256_min_epu32(others, own);
+    const __m256i high = _mm256_max_epu32(others, own);
+    // Pairs 0, 1, 4, 5 and 2, 3, 6, 7.
+    const __m256i even = _mm256_unpacklo_epi32(low, high);
+    const __m256i odd = _mm256_unpackhi_epi32(low, high);
+    auto* out = reinterpret_cast<__m256i*>(to);
+    _mm256_storeu_si256(out, _mm256_permute2x128_si256(even, odd, 0x20));
+    _mm256_storeu_si256(out + 1, _mm256_permute2x128_si256(even, odd, 0x31));
+    return to + _mm_popcnt_u32(hits);
   }
 };
 

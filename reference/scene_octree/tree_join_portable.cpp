@@ -23,6 +23,17 @@ struct Portable {
     }
     return hit[0] + hit[1] + hit[2] + hit[3] + hit[4] + hit[5] + hit[6] + hit[7];
   }
+  static std::uint32_t* append(std::uint32_t* to, std::uint32_t base, unsigned hits) {
+    for (; hits != 0; hits &= hits - 1U) *to++ = base + static_cast<std::uint32_t>(__builtin_ctz(hits));
+    return to;
+  }
+  static FoundPair* emit(FoundPair* to, const std::uint32_t* ids, std::uint32_t id, unsigned hits) {
+    for (; hits != 0; hits &= hits - 1U) {
+      const std::uint32_t other = ids[__builtin_ctz(hits)];
+      *to++ = {id < other ? id : other, id < other ? other : id};
+    }
+    return to;
+  }
 };
 
 }  // namespace
