@@ -132,8 +132,13 @@ std::string matrix_section(const SceneView& scene, std::size_t scene_number) {
       "comes from, and the worst place.";
   const std::string shared = shared_baselines(scene);
   if (!shared.empty()) out += " All were judged " + html(shared) + ".";
-  out += "</p><table class=\"matrix\"><thead><tr><th scope=\"col\">engine</th>";
-  for (const std::string& validator : scene.validators) out += "<th scope=\"col\">" + html(validator) + "</th>";
+  // More than this, and names of two lines no longer fit side by side on a wide screen.
+  constexpr std::size_t kManyColumns = 15;
+  out += "</p><table class=\"matrix";
+  if (scene.validators.size() > kManyColumns) out += " many";
+  out += "\"><thead><tr><th scope=\"col\">engine</th>";
+  for (const std::string& validator : scene.validators)
+    out += "<th scope=\"col\"><span>" + html(validator) + "</span></th>";
   out += "</tr></thead><tbody>";
   for (const TraceView& trace : scene.traces) {
     out += "<tr>" + row_head(trace, shared.empty());
