@@ -13,6 +13,7 @@ core::EngineRow bullet_sap_row();        // broad: bt32BitAxisSweep3
 core::EngineRow fcl_tree_row();          // broad: fcl::DynamicAABBTreeCollisionManager
 core::EngineRow fcl_sap_row();           // broad: fcl::SaPCollisionManager and the other managers
 core::EngineRow hash_cpu_row();          // broad, dynamics: the spatial hash and the pipeline behind it
+core::EngineRow ccd_row();               // narrow: libccd on hulls and boxes
 core::EngineRow exact_mesh_row();        // narrow: exact, the arbiter
 core::EngineRow fcl_mesh_row();          // narrow: fcl::distance and fcl::collide on meshes
 

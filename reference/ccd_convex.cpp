@@ -1,0 +1,221 @@
+// libccd on convex bodies: does the hull of A's vertices meet the hull of B's, how deep, and along which direction. It
+// tells no distance for bodies that are apart.
+#include <ccd/ccd.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/math/box.hpp"
+#include "reference/engines.hpp"
+#include "reference/pair_check.hpp"
+#include "reference/vendor_build.hpp"
+#include "reference/vendor_call.hpp"
+#include "reference/worker_count.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Separation;
+using core::Status;
+using core::Vec3;
+
+constexpr std::string_view kId = "ccd";
+// At which EPA and MPR stop refining, m: ten times the rounding of a float coordinate of 1 m, so that the library is
+// not asked for more than the poses carry. Its default, 1e-4, is a tenth of the method's slop.
+constexpr ccd_real_t kTolerance = 1e-6;
+// GJK on polytopes ends after a few tens of steps; libccd's default is 2^64 - 1, so a cycle would never end.
+constexpr unsigned long kMostIterations = 1000;
+
+// A convex body: the points whose hull it is, turned already, in float as the pipeline turns them.
+struct Points {
+  std::vector<Vec3> points;
+  ccd_vec3_t middle;  // inside the hull, before the move
+
+  explicit Points(std::vector<Vec3> turned) : points(std::move(turned)) {
+    ccdVec3Set(&middle, 0, 0, 0);
+    for (const Vec3 p : points) {
+      const ccd_vec3_t v{{p.x, p.y, p.z}};
+      ccdVec3Add(&middle, &v);
+    }
+    ccdVec3Scale(&middle, CCD_ONE / static_cast<ccd_real_t>(points.size()));
+  }
+};
+
+struct Placed {
+  const Points* shape;
+  Vec3 x;
+};
+
+void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* out) {
+  const auto& body = *static_cast<const Placed*>(object);
+  ccd_real_t most = -std::numeric_limits<ccd_real_t>::infinity();
+  Vec3 farthest;
+  for (const Vec3 p : body.shape->points) {
+    const ccd_real_t along = p.x * direction->v[0] + p.y * direction->v[1] + p.z * direction->v[2];
+    if (along > most) {
+      most = along;
+      farthest = p;
+    }
+  }
+  const Vec3 placed = farthest + body.x;
+  ccdVec3Set(out, placed.x, placed.y, placed.z);
+}
+
+void middle(const void* object, ccd_vec3_t* out) {
+  const auto& body = *static_cast<const Placed*>(object);
+  ccdVec3Copy(out, &body.shape->middle);
+  const ccd_vec3_t x{{body.x.x, body.x.y, body.x.z}};
+  ccdVec3Add(out, &x);
+}
+
+Vec3 to_core(const ccd_vec3_t& v) {
+  return {static_cast<float>(v.v[0]), static_cast<float>(v.v[1]), static_cast<float>(v.v[2])};
+}
+
+bool is_finite(const ccd_vec3_t& v) {
+  return std::isfinite(v.v[0]) && std::isfinite(v.v[1]) && std::isfinite(v.v[2]);
+}
+
+Separation measure_one(const Placed& a, const Placed& b, bool is_mpr) {
+  ccd_t ccd;
+  CCD_INIT(&ccd);
+  ccd.support1 = ccd.support2 = support;
+  ccd.center1 = ccd.center2 = middle;
+  ccd.max_iterations = kMostIterations;
+  ccd.epa_tolerance = ccd.mpr_tolerance = ccd.dist_tolerance = kTolerance;
+  ccd_real_t depth = 0;
+  ccd_vec3_t direction{};
+  ccd_vec3_t at{};
+  const int outcome = is_mpr ? ccdMPRPenetration(&a, &b, &ccd, &depth, &direction, &at)
+                             : ccdGJKPenetration(&a, &b, &ccd, &depth, &direction, &at);
+  if (outcome == -2) throw std::bad_alloc();
+  Separation out;
+  if (outcome != 0) {
+    out.distance_m = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+  out.is_touching = true;
+  // Known to happen with GJK (issue 25): then only that they meet is known.
+  if (!std::isfinite(depth) || !is_finite(direction) || !is_finite(at)) return out;
+  out.distance_m = -static_cast<double>(depth);
+  // libccd's direction moves B away from A: ours points from B to A.
+  ccdVec3Scale(&direction, -CCD_ONE);
+  out.normal = to_core(direction);
+  // One point is all that libccd tells: it stands for both witnesses.
+  out.witness_a = out.witness_b = to_core(at);
+  return out;
+}
+
+std::vector<Vec3> turned(const core::Mesh& mesh, core::Quat orientation, bool is_box) {
+  std::vector<Vec3> points = mesh.vertices;
+  for (Vec3& p : points) p = core::rotate(orientation, p);
+  if (!is_box) return points;
+  core::Box box = core::empty_box();
+  for (const Vec3 p : points) box = core::grown(box, p);
+  points.clear();
+  for (int corner = 0; corner < 8; ++corner) {
+    points.push_back({(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
+                      (corner & 4) != 0 ? box.max.z : box.min.z});
+  }
+  return points;
+}
+
+class CcdConvex final : public core::NarrowPhase {
+ public:
+  CcdConvex(bool is_mpr, bool is_box, int workers) : is_mpr_(is_mpr), is_box_(is_box), arena_(workers) {}
+
+  Status load(const core::Scene& scene) override {
+    return vendor_call("ccd: load", [&]() -> Status {
+      meshes_ = scene.meshes;
+      shapes_.clear();
+      mesh_of_body_.clear();
+      for (const core::Body& body : scene.bodies) {
+        mesh_of_body_.push_back(body.mesh);
+        shape_of(body.mesh, body.orientation);
+      }
+      return core::Done{};
+    });
+  }
+
+  Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
+    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    separations_.assign(pairs.size(), {});
+    return vendor_call("ccd: measure", [&]() -> Status {
+      // A body that turned since load needs its points turned again; made before the threads start.
+      std::vector<const Points*> shapes(poses.size(), nullptr);
+      for (const core::Pair p : pairs)
+        for (const std::uint32_t body : {p.i, p.j})
+          if (shapes[body] == nullptr) shapes[body] = &shape_of(mesh_of_body_[body], poses[body].orientation);
+      arena_.execute([&] {
+        tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
+          const auto [i, j] = pairs[k];
+          separations_[k] = measure_one({shapes[i], poses[i].position}, {shapes[j], poses[j].position}, is_mpr_);
+        });
+      });
+      return core::Done{};
+    });
+  }
+
+  core::Result<std::vector<Separation>> read_back() override { return separations_; }
+
+ private:
+  const Points& shape_of(std::uint32_t mesh, core::Quat q) {
+    auto& shape = shapes_[{mesh, q.w, q.x, q.y, q.z}];
+    if (shape == nullptr) shape = std::make_unique<Points>(turned(*meshes_[mesh], q, is_box_));
+    return *shape;
+  }
+
+  bool is_mpr_;
+  bool is_box_;
+  tbb::task_arena arena_;
+  std::vector<std::shared_ptr<const core::Mesh>> meshes_;
+  std::vector<std::uint32_t> mesh_of_body_;
+  std::map<std::tuple<std::uint32_t, float, float, float, float>, std::unique_ptr<Points>> shapes_;
+  std::vector<Separation> separations_;
+};
+
+std::span<const core::SettingRow> setting_rows() {
+  static const std::array<core::SettingRow, 3> rows{{
+      {"algorithm",
+       "gjk",
+       {"gjk", "mpr"},
+       "GJK with EPA: the least depth; or Minkowski portal refinement: a depth along the line of centers, not the "
+       "least"},
+      {"shape", "hull", {"hull", "box"}, "the hull of a body's vertices, or its axis-aligned box"},
+      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+  }};
+  return rows;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = ccd_build();
+  engine.settings = settings;
+  engine.narrow_phase = std::make_unique<CcdConvex>(
+      settings.text("algorithm") == "mpr", settings.text("shape") == "box", worker_count(settings.number("threads")));
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow ccd_row() {
+  return {.id = kId,
+          .capabilities = "narrow",
+          .what = "libccd on the hulls or boxes of bodies: touching, depth and direction; no distance when apart",
+          .settings = setting_rows(),
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference
