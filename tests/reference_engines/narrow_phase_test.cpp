@@ -50,7 +50,6 @@ std::vector<Subject> subjects() {
       {"ccd_gjk", reference::ccd_row, {}, true, 1e-5, false, true, true},
       {"ccd_mpr", reference::ccd_row, {{"algorithm", "mpr"}}, true, 1e-5, false, true, false},
       {"ccd_gjk_box", reference::ccd_row, {{"shape", "box"}}, true, 1e-5, false, true, true},
-      {"fcl_mesh_1_thread", reference::fcl_mesh_row, {{"threads", "1"}}},
   };
 }
 
