@@ -1,7 +1,7 @@
 # Everything that is chosen at configure time, and the flags that our own targets share.
 
 option(BROADSIDE_TESTS "Build the tests" ON)
-option(BROADSIDE_CUDA "Build the CUDA pipeline when nvcc is there; without it GPU cells say 'not measured: no device'" ON)
+set(BROADSIDE_CUDA ON CACHE STRING "ON: build the CUDA pipeline when nvcc is there; REQUIRED: fail without nvcc; OFF: never")
 option(BROADSIDE_WARNINGS_AS_ERRORS "Treat warnings in our own targets as errors" ON)
 set(BROADSIDE_SANITIZE "" CACHE STRING "Sanitizers for our own targets, e.g. address,undefined or thread")
 
