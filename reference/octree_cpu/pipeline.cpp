@@ -114,7 +114,7 @@ void Pipeline::confirm() {
 
 // Level 0 from the published start is a broad phase too: what it confirms is the candidate set.
 bool Pipeline::has_level0() const {
-  return broad_phase_ || options_.levels == core::Levels::kFlat;
+  return options_.make_broad_phase != nullptr || options_.levels == core::Levels::kFlat;
 }
 
 void Pipeline::touch() {
