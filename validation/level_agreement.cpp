@@ -26,14 +26,6 @@ std::optional<int> last_level(const core::Stamp& stamp) {
   return std::nullopt;
 }
 
-// Settings without those that choose levels, their start, and threads.
-std::string other_settings(const core::Stamp& stamp) {
-  std::string out;
-  for (const std::string_view key : {"solver", "variant", "vertex_stage"})
-    out += std::string(key) + "=" + std::string(setting(stamp, key)) + " ";
-  return out;
-}
-
 bool meet(const core::Box& a, core::Vec3 xa, const core::Box& b, core::Vec3 xb) {
   return !core::is_empty(a) && !core::is_empty(b) && core::overlaps(core::translated(a, xa), core::translated(b, xb));
 }
@@ -56,19 +48,19 @@ class LevelAgreement final : public Validator {
   explicit LevelAgreement(const Subject& subject)
       : header_(subject.header), shapes_(core::build_shapes(header_.scene)), level_(last_level(header_.stamp)) {
     for (const core::Body& body : header_.scene.bodies) is_static_.push_back(body.inverse_mass > 0.0F ? 0 : 1);
-    stride_ = std::max<std::uint64_t>(1, header_.scene.frames / kFramesRecomputed);
+    stride_ = std::max<std::uint64_t>(1, subject.frame_count / kFramesRecomputed);
     if (subject.baseline == nullptr || !level_) return;
     const core::TraceHeader& base = *subject.baseline;
     constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
     if (!are_twins(base.stamp.engine, header_.stamp.engine) || !lacking(base, kBoth).empty()) return;
-    if (other_settings(base.stamp) != other_settings(header_.stamp)) return;
+    if (!same_settings_but(base.stamp, header_.stamp, {"broad", "levels", "threads"})) return;
     baseline_level_ = last_level(base.stamp);
     baseline_ = base.stamp.label();
   }
 
   void look(const Evidence& evidence) override {
     const core::FrameRecord& frame = evidence.frame;
-    if (level_ && (frame.step - 1) % stride_ == 0 && frame.detected_position.size() == is_static_.size())
+    if (level_ && seen_++ % stride_ == 0 && frame.detected_position.size() == is_static_.size())
       recompute(frame);
     if (baseline_level_ && evidence.baseline != nullptr) compare(frame, *evidence.baseline);
   }
@@ -132,6 +124,7 @@ class LevelAgreement final : public Validator {
   std::string baseline_;
   std::vector<std::uint8_t> is_static_;
   std::uint64_t stride_ = 1;
+  std::uint64_t seen_ = 0;
   OverlapJoin join_;
   std::vector<core::Pair> expected_;
   std::vector<core::Pair> difference_;

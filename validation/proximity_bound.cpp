@@ -44,7 +44,7 @@ class ProximityBound final : public Validator {
       surface.covering_radius_m = core::covering_radius_m(mesh);
     }
     for (const Surface& surface : surfaces_) trees_.emplace_back(surface.vertices);
-    stride_ = std::max<std::uint64_t>(1, scene_.frames / kFramesSearched);
+    stride_ = std::max<std::uint64_t>(1, subject.frame_count / kFramesSearched);
     if (subject.baseline != nullptr && has(*subject.baseline, core::Group::kNarrow)) {
       const core::TraceHeader& base = *subject.baseline;
       baseline_ = base.stamp.label();
@@ -54,6 +54,7 @@ class ProximityBound final : public Validator {
 
   void look(const Evidence& evidence) override {
     frame_ = &evidence.frame;
+    const bool is_due = seen_++ % stride_ == 0;
     if (frame_->proximity.size() != frame_->confirmed.size()) {
       if (frame_->proximity.empty()) return;  // the vertex stage was off
       tally_.require(false, "one proximity per confirmed pair", Where::frame(frame_->step, "proximity"));
@@ -62,7 +63,7 @@ class ProximityBound final : public Validator {
     if (frame_->boxes.size() != scene_.bodies.size() || frame_->detected_position.size() != scene_.bodies.size())
       return;
     for (std::size_t k = 0; k < frame_->confirmed.size(); ++k) judge_record(frame_->confirmed[k], frame_->proximity[k]);
-    if ((frame_->step - 1) % stride_ == 0) search();
+    if (is_due) search();
     if (!baseline_.empty() && evidence.baseline != nullptr) judge_surfaces(*evidence.baseline);
   }
 
@@ -201,6 +202,7 @@ class ProximityBound final : public Validator {
   std::vector<Surface> surfaces_;
   std::vector<VertexTree> trees_;
   std::uint64_t stride_ = 1;
+  std::uint64_t seen_ = 0;
   std::string baseline_;
   bool is_fed_by_subject_ = false;
   const core::FrameRecord* frame_ = nullptr;

@@ -1,9 +1,28 @@
 #include "validation/subject_facts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 namespace broadside::validation {
+namespace {
+
+// "a=1,b=2" as keys and values.
+std::vector<std::pair<std::string_view, std::string_view>> items(const core::Stamp& stamp) {
+  std::vector<std::pair<std::string_view, std::string_view>> out;
+  std::string_view rest = stamp.settings;
+  while (!rest.empty()) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view item = rest.substr(0, comma);
+    const std::size_t equals = item.find('=');
+    if (equals != std::string_view::npos) out.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
+  }
+  return out;
+}
+
+}  // namespace
 
 bool has(const core::TraceHeader& header, core::Group group) {
   return (header.groups & core::bit(group)) != 0;
@@ -24,29 +43,21 @@ std::string lacking(const core::TraceHeader& header, std::uint32_t groups) {
 }
 
 std::string_view setting(const core::Stamp& stamp, std::string_view key) {
-  std::string_view rest = stamp.settings;
-  while (!rest.empty()) {
-    const std::size_t comma = rest.find(',');
-    const std::string_view item = rest.substr(0, comma);
-    const std::size_t equals = item.find('=');
-    if (equals != std::string_view::npos && item.substr(0, equals) == key) return item.substr(equals + 1);
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
-  }
+  for (const auto& [name, value] : items(stamp))
+    if (name == key) return value;
   return {};
 }
 
-std::string settings_that_matter(const core::Stamp& stamp) {
-  std::string out;
-  std::string_view rest = stamp.settings;
-  while (!rest.empty()) {
-    const std::size_t comma = rest.find(',');
-    const std::string_view item = rest.substr(0, comma);
-    if (!item.starts_with("threads=")) out += (out.empty() ? "" : ",") + std::string(item);
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
-  }
-  return out;
+bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initializer_list<std::string_view> but) {
+  const auto agrees = [&](const core::Stamp& from, const core::Stamp& with) {
+    for (const auto& [key, value] : items(from)) {
+      if (std::find(but.begin(), but.end(), key) != but.end()) continue;
+      const std::string_view other = setting(with, key);
+      if (other != value && !(other.empty() && a.engine != b.engine)) return false;
+    }
+    return true;
+  };
+  return agrees(a, b) && agrees(b, a);
 }
 
 bool are_twins(std::string_view engine, std::string_view other) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -17,8 +18,9 @@ bool has(const core::TraceHeader& header, core::Group group);
 // Value of one key in the stamp's canonical settings "a=1,b=2"; empty when it is not there.
 std::string_view setting(const core::Stamp& stamp, std::string_view key);
 
-// Canonical settings without the keys that must not change a bit of the result: threads.
-std::string settings_that_matter(const core::Stamp& stamp);
+// Have both the same settings, apart from these keys? One engine: every key must be equal. Twins may have keys of their
+// own, such as a device's; then only those that both have count.
+bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initializer_list<std::string_view> but);
 
 // octree-cpu and octree-gpu (and hash-cpu and hash-gpu) are twins: one method, bit-identical by design.
 bool are_twins(std::string_view engine, std::string_view other);

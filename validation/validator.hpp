@@ -31,6 +31,7 @@ class Validator {
 struct Subject {
   const core::TraceHeader& header;
   const core::TraceHeader* baseline = nullptr;
+  std::uint64_t frame_count = 0;  // of the subject's recorded frames: validators that sample spread over them
 };
 
 // One row per validator in the one table (validation/table.cpp).

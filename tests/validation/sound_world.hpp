@@ -79,6 +79,8 @@ inline core::Scene mixed_scene() {
   scene.gravity_m_s2 = {0, -9.81F, 0};
   scene.frames = 45;
   scene.parameters.delta_m = 0.01F;
+  scene.parameters.beta = 0.6F;
+  scene.parameters.alpha = 0.9F;
   scene.bodies = {
       body_at({3.0F, 5.0F, 5.0F}, {4.0F, 0.5F, 0.3F}, 2.0F), body_at({4.3F, 5.1F, 5.2F}, {-2.0F, 0.0F, -0.2F}, 0.5F),
       body_at({7.0F, 0.49F, 3.0F}, {0, 0, 0}, 0.0F),         body_at({7.2F, 1.75F, 3.1F}, {0.4F, -1.0F, 0.2F}, 1.0F),
