@@ -31,7 +31,8 @@ Overlap overlap_of(const core::Box& a, const core::Box& b) {
     const double b_high = b.max[k];
     o.depth[k] = std::min(a_high, b_high) - std::max(a_low, b_low);
     o.between[k] = 0.5 * (a_low + a_high) - 0.5 * (b_low + b_high);
-    // Each center is one rounded sum, halved exactly.
+    // Each center is one rounded sum, halved exactly. Equal bounds round to equal centers.
+    if (a_low == b_low && a_high == b_high) continue;
     o.between_rounding[k] = rounding(1) * 0.5 * (std::abs(a_low + a_high) + std::abs(b_low + b_high)) + kSubnormal;
   }
   return o;
@@ -100,7 +101,8 @@ class ContactNormal final : public Validator {
     // Rounding decides about epsilon only within its own error.
     const double apart =
         std::sqrt(o.between[0] * o.between[0] + o.between[1] * o.between[1] + o.between[2] * o.between[2]);
-    const double error = o.between_rounding[0] + o.between_rounding[1] + o.between_rounding[2] + rounding(8) * apart;
+    const double error =
+        o.between_rounding[0] + o.between_rounding[1] + o.between_rounding[2] + rounding(8) * (apart + epsilon_m_);
     const bool may_coincide = apart < epsilon_m_ + error;
     if (may_coincide && axis == 0 && sign > 0.0) {
       tally_.require(true, "METHOD 4: centers nearer than epsilon take +x", at(c, "contact.normal"));

@@ -99,8 +99,7 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
 
   std::uint32_t groups = 0;
   std::uint32_t baseline_groups = 0;
-  const Subject facts{subject.header, baseline != nullptr ? &baseline->header : nullptr,
-                      subject.steps.size()};
+  const Subject facts{subject.header, baseline != nullptr ? &baseline->header : nullptr, subject.steps.size()};
   std::vector<Entry> entries = make_entries(facts, options, groups, baseline_groups);
 
   BaselineFrames baseline_frames(baseline, baseline_groups);

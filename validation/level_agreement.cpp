@@ -60,8 +60,7 @@ class LevelAgreement final : public Validator {
 
   void look(const Evidence& evidence) override {
     const core::FrameRecord& frame = evidence.frame;
-    if (level_ && seen_++ % stride_ == 0 && frame.detected_position.size() == is_static_.size())
-      recompute(frame);
+    if (level_ && seen_++ % stride_ == 0 && frame.detected_position.size() == is_static_.size()) recompute(frame);
     if (baseline_level_ && evidence.baseline != nullptr) compare(frame, *evidence.baseline);
   }
 
