@@ -23,12 +23,8 @@ std::string tally_list(const Tally& t) {
 
 std::string scene_head(const SceneView& scene) {
   std::string out = "<h2>" + html(scene.name) + "</h2>";
-  std::string stand_in;
-  for (const TraceView& trace : scene.traces)
-    if (trace.cell != nullptr && stand_in.empty())
-      if (const auto found = trace.cell->notes.find("stand-in"); found != trace.cell->notes.end())
-        stand_in = found->second;
-  if (!stand_in.empty()) out += "<p class=\"stand-in\"><strong>Stand-in mesh.</strong> " + html(stand_in) + "</p>";
+  const std::string text = stand_in(scene);
+  if (!text.empty()) out += "<p class=\"stand-in\"><strong>Stand-in mesh.</strong> " + html(text) + "</p>";
   return out;
 }
 
@@ -47,8 +43,10 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
       "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-      html(options.title) + "</title>\n<style>\n" + std::string(kPageStyle) + "</style>\n</head>\n<body>\n";
-  out += "<header><p class=\"brand\"><b>Broadside</b> <span>" + html(options.title) + "</span>";
+      html(options.title.empty() ? kDefaultTitle : options.title) + "</title>\n<style>\n" + std::string(kPageStyle) +
+      "</style>\n</head>\n<body>\n";
+  out += "<header><p class=\"brand\"><b>Broadside</b> <span>" +
+         html(options.title.empty() ? kDefaultTitle : options.title) + "</span>";
   if (!options.generated_at.empty()) out += " <time>" + html(options.generated_at) + "</time>";
   out += "</p>\n<h1 class=\"" + std::string(outcome_class(state)) + "\"><span class=\"seal\" aria-hidden=\"true\">" +
          std::string(symbol(state)) + "</span><span>" + html(sentence) + "</span></h1>\n" + tally_list(counts) +

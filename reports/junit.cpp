@@ -115,8 +115,9 @@ std::string junit_xml(const core::RunRows& rows, const ReportOptions& options) {
       if (std::isfinite(wall_s)) total_s += wall_s;
     }
   }
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", options.title) +
-         attributes(total) + attribute("time", seconds_text(total_s)) + ">\n" + suites + "</testsuites>\n";
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
+         attribute("name", options.title.empty() ? kDefaultTitle : options.title) + attributes(total) +
+         attribute("time", seconds_text(total_s)) + ">\n" + suites + "</testsuites>\n";
 }
 
 }  // namespace broadside::reports

@@ -164,8 +164,8 @@ void add_machine(Comment& comment, const SceneView& scene) {
     if (std::find(machines.begin(), machines.end(), line) == machines.end()) machines.push_back(line);
   }
   for (const std::string& line : machines) comment.add("\nOn " + line + ".\n");
-  for (const auto& [key, text] : scene.facts)
-    if (key == "stand-in") comment.add("\n**Stand-in mesh:** " + sentence(text) + "\n");
+  const std::string text = stand_in(scene);
+  if (!text.empty()) comment.add("\n**Stand-in mesh:** " + sentence(text) + "\n");
 }
 
 }  // namespace
@@ -174,8 +174,8 @@ std::string markdown_text(const core::RunRows& rows, const ReportOptions& option
   const std::vector<SceneView> scenes = by_scene(rows);
   Comment comment;
   const core::Outcome state = overall(tally(scenes));
-  comment.add("## Broadside: " + name(options.title) + "\n\n**" + std::string(symbol(state)) + "** " +
-              sentence(headline(scenes)) + "\n");
+  comment.add("## Broadside: " + name(options.title.empty() ? kDefaultTitle : options.title) + "\n\n**" +
+              std::string(symbol(state)) + "** " + sentence(headline(scenes)) + "\n");
   add_failures(comment, scenes);
   for (const SceneView& scene : scenes) {
     add_matrix(comment, scene);

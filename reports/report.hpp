@@ -9,8 +9,10 @@
 
 namespace broadside::reports {
 
+inline constexpr const char* kDefaultTitle = "Collision engines compared";
+
 struct ReportOptions {
-  std::string title = "Collision engines compared";
+  std::string title;                // empty = kDefaultTitle
   std::string command;              // the command line that made the rows; empty = not shown
   std::vector<std::string> repeat;  // more commands for "how to repeat", in order
   std::string generated_at;         // as printed; empty = left out, and the same rows give the same bytes

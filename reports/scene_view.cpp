@@ -94,6 +94,23 @@ std::string TraceView::absence() const {
   return cell->state == core::CellState::kRecorded ? "recorded, not judged" : state_text(*cell);
 }
 
+std::string stand_in(const SceneView& scene) {
+  std::vector<std::string> said;
+  for (const TraceView& trace : scene.traces) {
+    if (trace.cell == nullptr) continue;
+    for (const auto& [key, text] : trace.cell->notes) {
+      if (key == "stand-in") {
+        add_once(said, text);
+      } else if (text.find("STAND-IN") != std::string::npos) {
+        add_once(said, key + ": " + text);
+      }
+    }
+  }
+  std::string all;
+  for (const std::string& text : said) all += (all.empty() ? "" : "; ") + text;
+  return all;
+}
+
 std::vector<SceneView> by_scene(const core::RunRows& rows) {
   std::vector<SceneView> scenes;
   for (const core::Cell& cell : rows.cells)

@@ -35,6 +35,10 @@ struct SceneView {
   std::map<std::string, std::string> facts;  // notes that every cell with notes shares word for word
 };
 
+// What the scene's meshes stand in for, from the notes of its cells (a note "stand-in", or one that says "STAND-IN");
+// empty when they are what was asked for.
+std::string stand_in(const SceneView& scene);
+
 // The rows must outlive the views.
 std::vector<SceneView> by_scene(const core::RunRows& rows);
 

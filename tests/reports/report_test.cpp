@@ -147,6 +147,16 @@ TEST(HtmlReport, NoRowsAndHalfRowsAreStillAPage) {
   EXPECT_EQ(check_markup(html_page(empty_series, {}), true).problem, "");
 }
 
+TEST(Reports, AStandInMeshIsSaidWhicheverNoteSaysIt) {
+  core::RunRows rows = sample_rows();
+  for (core::Cell& cell : rows.cells) cell.notes.erase("stand-in");
+  EXPECT_FALSE(has(html_page(rows, {}), "Stand-in mesh"));
+  EXPECT_FALSE(has(markdown_text(rows, {}), "Stand-in mesh"));
+  rows.cells[0].notes["mesh dragon"] = "a decimated scan (STAND-IN)";
+  EXPECT_TRUE(has(html_page(rows, {}), "Stand-in mesh.</strong> mesh dragon: a decimated scan (STAND-IN)"));
+  EXPECT_TRUE(has(markdown_text(rows, {}), "mesh dragon: a decimated scan (STAND-IN)"));
+}
+
 TEST(Reports, TheSameRowsGiveTheSameBytes) {
   EXPECT_EQ(html_page(sample_rows(), {}), html_page(sample_rows(), {}));
   EXPECT_EQ(markdown_text(sample_rows(), {}), markdown_text(sample_rows(), {}));
