@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/math/box.hpp"
@@ -13,22 +15,24 @@ namespace {
 using core::Box;
 using core::Vec3;
 
-// Every third bit.
-std::uint64_t spread(std::uint64_t v) {
-  v &= 0x1fffff;
-  v = (v | v << 32) & 0x1f00000000ffffULL;
-  v = (v | v << 16) & 0x1f0000ff0000ffULL;
-  v = (v | v << 8) & 0x100f00f00f00f00fULL;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
-  return (v | v << 2) & 0x1249249249249249ULL;
-}
-
-// 16 bits per axis of the longest side: cells stay cubes, so that neighbors on the curve are near on every axis.
-std::uint64_t morton(Vec3 v, const Box& box, double cells_per_m) {
-  std::uint64_t code = 0;
-  for (int k = 0; k < 3; ++k)
-    code |= spread(static_cast<std::uint64_t>((double(v[k]) - double(box.min[k])) * cells_per_m)) << k;
-  return code;
+// Orders [begin, end) of `order` so that every aligned run of leaves, of 2, 4, 8 ... leaves, is one box of a kd-tree.
+void split(std::span<std::uint32_t> order, std::span<const Vec3> vertices) {
+  if (order.size() <= kLeafVertices) return;
+  Box box = core::empty_box();
+  for (const std::uint32_t k : order) box = core::grown(box, vertices[k]);
+  const Vec3 side = box.max - box.min;
+  int axis = side.y > side.x ? 1 : 0;
+  if (side.z > side[axis]) axis = 2;
+  // The lower half is the largest power of two of leaves below the whole.
+  std::size_t half = kLeafVertices;
+  while (half * 2 < order.size()) half *= 2;
+  // Equal coordinates are told apart by their index, so that the order is one whatever the library.
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                   [&](std::uint32_t p, std::uint32_t q) {
+                     return vertices[p][axis] != vertices[q][axis] ? vertices[p][axis] < vertices[q][axis] : p < q;
+                   });
+  split(order.first(half), vertices);
+  split(order.subspan(half), vertices);
 }
 
 Box joined(const Box& a, const Box& b) {
@@ -39,22 +43,15 @@ Box joined(const Box& a, const Box& b) {
 
 void append_tree(ShapeTrees& trees, std::span<const Vec3> vertices, std::span<const std::uint32_t> indices,
                  float mean_edge_m) {
-  Box bounds = core::empty_box();
-  for (const Vec3 v : vertices) bounds = core::grown(bounds, v);
-  const Vec3 side = bounds.max - bounds.min;
-  const double longest = std::max({side.x, side.y, side.z});
-  const double cells_per_m = longest > 0.0 ? 65535.0 / longest : 0.0;
-
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-  order.reserve(vertices.size());
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) order.emplace_back(morton(vertices[i], bounds, cells_per_m), i);
-  std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0U);
+  split(order, vertices);
 
   TreeHeader header;
   header.mean_edge_m = mean_edge_m;
   header.vertex_begin = static_cast<std::uint32_t>(trees.vertices.size());
   std::vector<Box> level;
-  for (const auto& [code, k] : order) {
+  for (const std::uint32_t k : order) {
     if ((trees.vertices.size() - header.vertex_begin) % kLeafVertices == 0) level.push_back(core::empty_box());
     level.back() = core::grown(level.back(), vertices[k]);
     trees.vertices.push_back({vertices[k], std::bit_cast<float>(indices[k])});

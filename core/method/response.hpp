@@ -13,6 +13,12 @@
 
 namespace broadside::core {
 
+// The paper has no faces, so its swapped masses (E3) are a matter of pairs alone: a body that never leaves the floor
+// would hide them behind another fault.
+BROADSIDE_HD constexpr Variant face_variant(Variant variant) {
+  return variant == Variant::kE3 ? Variant::kSound : variant;
+}
+
 // P(11), P(12) in P-Alg 3's form, P(13). wA + wB > 0.
 BROADSIDE_HD void correct_positions(Contact& c, float w_a, float w_b, const Parameters& p, Variant variant) {
   const float above_slop = c.depth_m - p.delta_m;

@@ -69,7 +69,7 @@ __device__ void resolve_faces(const Team& team, const FrameView& f) {
       contact.pre_a = {x.v, v.v};
       contact.pre_b = {};
       core::respond(contact, geometry, x.w, 0.0F, core::combine(f.material[i], f.face_material), f.parameters,
-                    f.variant);
+                    core::face_variant(f.variant));
       x.v = contact.post_a.x;
       v.v = contact.post_a.v;
       if (place < f.face_contacts.capacity) f.face_contacts.items[place] = contact;

@@ -147,20 +147,17 @@ class NearestVertices {
     __syncwarp();
   }
 
-  // 16 vertices of each: a lane has one of A and meets eight of B.
+  // Eight vertices of each: a lane has one of B and meets two of A.
   __device__ void meet_leaves(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t begin_b = b_.vertex_begin + (b & 0xFFFFFFFU) * kLeafVertices;
-    const PackedVec3 mine_a = vertices_[a_.vertex_begin + (a & 0xFFFFFFFU) * kLeafVertices + lane() % 16];
-    const core::Vec3 va = mine_a.v + xa_;
-    const core::Vec3 vb = vertices_[begin_b + lane() % 16].v + xb_;
+    const PackedVec3* of_a = vertices_ + a_.vertex_begin + (a & 0xFFFFFFFU) * kLeafVertices;
+    const PackedVec3 mine = vertices_[b_.vertex_begin + (b & 0xFFFFFFFU) * kLeafVertices + lane() % 8];
+    const core::Vec3 vb = mine.v + xb_;
 #pragma unroll
-    for (std::uint32_t t = 0; t < 8; ++t) {
-      const std::uint32_t source = (lane() & 16U) / 2 + t;
-      const core::Vec3 other{__shfl_sync(kFullWarp, vb.x, source), __shfl_sync(kFullWarp, vb.y, source),
-                             __shfl_sync(kFullWarp, vb.z, source)};
-      const float d2 = core::squared_distance(va, other);
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      const PackedVec3 other = of_a[lane() / 8 + 4 * half];
+      const float d2 = core::squared_distance(other.v + xa_, vb);
       if (!(d2 < theta2_) || d2 > best_.squared_distance_m2) continue;
-      const core::Proximity found{d2, __float_as_uint(mine_a.w), __float_as_uint(vertices_[begin_b + source].w)};
+      const core::Proximity found{d2, __float_as_uint(other.w), __float_as_uint(mine.w)};
       if (core::is_nearer(found, best_)) best_ = found;
     }
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));

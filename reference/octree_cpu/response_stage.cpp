@@ -151,9 +151,7 @@ void ResponseStage::resolve_racing(Bodies& bodies, const ResponseRules& rules, s
 }
 
 void ResponseStage::resolve_faces(Bodies& bodies, const ResponseRules& rules) {
-  // The paper has no faces, so its swapped masses (E3) are a matter of pairs alone: a body that never leaves the floor
-  // would hide them behind another fault.
-  const core::Variant variant = rules.variant == core::Variant::kE3 ? core::Variant::kSound : rules.variant;
+  const core::Variant variant = core::face_variant(rules.variant);
   face_contacts_.resize(bodies.count());
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies.count(), 256), [&](const auto& range) {
     for (std::uint32_t body = range.begin(); body != range.end(); ++body) {

@@ -39,7 +39,15 @@ std::string first_difference(const core::FrameRecord& p, const core::FrameRecord
     const std::string name =
         "contact " + std::to_string(k) + " (" + std::to_string(c.a) + ", " + std::to_string(c.b) + ")";
     if (c.a != d.a || c.b != d.b || c.color != d.color) return name + ": bodies or color";
-    if (core::contact_digest(c) != core::contact_digest(d)) return name + ": numbers";
+    if (core::contact_digest(c) == core::contact_digest(d)) continue;
+    if (c.depth_m != d.depth_m || c.normal != d.normal) return name + ": depth or normal";
+    if (c.pre_a != d.pre_a || c.pre_b != d.pre_b) return name + ": state before";
+    if (c.tangent != d.tangent) return name + ": tangent";
+    if (c.normal_impulse_n_s != d.normal_impulse_n_s || c.tangent_impulse_n_s != d.tangent_impulse_n_s)
+      return name + ": impulses";
+    if (c.post_a.x != d.post_a.x || c.post_b.x != d.post_b.x) return name + ": positions after";
+    if (c.post_a.v != d.post_a.v || c.post_b.v != d.post_b.v) return name + ": velocities after";
+    return name + ": the sign of a zero";
   }
   if (p.position != q.position) return "positions";
   if (p.velocity != q.velocity) return "velocities";

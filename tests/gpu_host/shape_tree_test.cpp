@@ -76,7 +76,7 @@ TEST(ShapeTree, KeepsShapesApart) {
   append_tree(trees, first, indices, 1.0F);
   append_tree(trees, second, std::span(indices).first(40), 2.0F);
   ASSERT_EQ(trees.headers.size(), 2U);
-  EXPECT_EQ(trees.headers[1].vertex_begin, 112U);  // 100 filled up to whole leaves of 16
+  EXPECT_EQ(trees.headers[1].vertex_begin, 104U);  // 100 filled up to whole leaves of 8
   EXPECT_EQ(trees.headers[1].node_begin[0], trees.headers[0].node_begin[trees.headers[0].top] + 1);
   EXPECT_EQ(trees.headers[1].mean_edge_m, 2.0F);
 }
