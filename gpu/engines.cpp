@@ -27,7 +27,7 @@ const std::array<core::SettingRow, 5>& settings_table() {
 core::EngineRow octree_gpu_row() {
   core::EngineRow row;
   row.id = "octree-gpu";
-  row.capabilities = "dynamics";
+  row.capabilities = "broad dynamics";
   row.what = "the pipeline on CUDA, bit-identical to octree-cpu";
   row.settings = settings_table();
   row.is_reference = false;

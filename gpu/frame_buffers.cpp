@@ -49,7 +49,7 @@ core::Status FrameBuffers::load(const core::Scene& scene, bool has_grid, bool is
     BROADSIDE_TRY(bucket_count_.fill_bytes(0));
     BROADSIDE_TRY(levels_.fill_bytes(0));
   }
-  BROADSIDE_TRY(least_priority_.reserve(n, "coloring"));
+  BROADSIDE_TRY(least_priority_.reserve(3 * n, "coloring"));
   BROADSIDE_TRY(taken_.reserve(n, "coloring"));
   if (is_jacobi) BROADSIDE_TRY(sums_.reserve(n, "sums of the Jacobi solver"));
   BROADSIDE_TRY(counters_.reserve(1, "counters"));

@@ -17,10 +17,12 @@ namespace {
 constexpr std::uint32_t kThreads = 512;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
-// Up to this many contacts and bodies one block resolves them alone: its barrier takes some 30 ns, the grid's more than
-// a microsecond, and there are three for every color or so.
-constexpr std::uint64_t kOneBlockContacts = 2048;
+// Up to this many confirmed pairs and bodies one block resolves them alone: its barrier takes some 30 ns, the grid's
+// more than a microsecond, and there are two for every color or so. Its bodies' words are in shared memory: 16 bytes a
+// body.
+constexpr std::uint64_t kOneBlockPairs = 8192;
 constexpr std::uint32_t kOneBlockBodies = 4096;
+constexpr std::uint32_t kOneBlockBytes = 16 * kOneBlockBodies;
 
 __device__ unsigned long long now_ns() {
   unsigned long long t;
@@ -42,7 +44,7 @@ __device__ void report(const Team& team, const FrameView& f, bool is_aborted) {
 
 // Contacts, faces and the report: what a single block does alone when it is little.
 template <typename Team>
-__device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed) {
+__device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed, unsigned long long* words) {
   collect_touching(team, f, confirmed);
   team.sync();
   const std::uint64_t count = f.counters->touching;
@@ -51,7 +53,10 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
   } else if (f.solver == Solver::kRacing) {
     resolve_racing(team, f, count);
   } else if (count > 0) {
-    color_contacts(team, f, count);
+    if (words != nullptr && f.color_words == 1)
+      color_contacts_in_block(f, count, words);
+    else
+      color_contacts(team, f, count);
     if (f.counters->words_demanded != 0) return report(team, f, true);
     resolve_colors(team, f, count);
   }
@@ -111,11 +116,39 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
   }
   mark(grid, f, 4);
 
-  if (confirmed <= kOneBlockContacts && f.body_count <= kOneBlockBodies) {
-    if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed);
+  if (confirmed <= kOneBlockPairs && f.body_count <= kOneBlockBodies) {
+    if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed, reinterpret_cast<unsigned long long*>(shared));
     return;
   }
-  resolve(grid, f, confirmed);
+  // No more blocks than there is work for: fewer meet sooner.
+  const std::uint64_t work = max(confirmed, std::uint64_t{f.body_count});
+  const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, (work + blockDim.x - 1) / blockDim.x);
+  if (blockIdx.x >= blocks) return;
+  resolve(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed, nullptr);
+}
+
+// The broad phase alone: boxes in, pairs out.
+__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
+    pairs_kernel(const __grid_constant__ FrameView f) {
+  extern __shared__ __align__(16) unsigned char shared[];
+  const GridTeam grid;
+  if (grid.rank() == 0) *f.counters = Counters{};
+  if (f.start == Start::kGrid)
+    for (std::uint64_t i = grid.rank(); i < f.body_count; i += grid.size()) grid_count(f.grid, i, unpack(f.boxes[i]));
+  grid.sync();
+  if (f.start == Start::kGrid) {
+    grid_place_buckets(grid, f.grid, &f.counters->grid_cursor);
+    grid.sync();
+    grid_scatter(grid, f.grid, f.boxes, f.body_count);
+    grid.sync();
+    grid_find(grid, f.grid, f.body_count, f.pairs, &f.counters->pairs,
+              reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32]);
+  } else {
+    find_pairs_by_tiles(grid, f);
+  }
+  grid.sync();
+  if (f.start == Start::kGrid) grid_clear(grid, f.grid);
+  report(grid, f, f.counters->pairs > f.pairs.capacity);
 }
 
 constexpr std::uint32_t kDigestThreads = 256;
@@ -153,7 +186,7 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
   const std::uint32_t bytes_per_warp = std::max(stack_entries_of(tree_levels) * kBytesPerStackEntry,
                                                 static_cast<std::uint32_t>((sizeof(PairQueue) + 15) / 16 * 16));
   for (std::uint32_t threads = kThreads; threads >= 32; threads /= 2) {
-    const std::uint32_t bytes = threads / 32 * bytes_per_warp;
+    const std::uint32_t bytes = std::max(threads / 32 * bytes_per_warp, kOneBlockBytes);
     if (bytes + sizeof(ProximityScratch) > static_cast<std::uint32_t>(block_limit)) continue;
     BROADSIDE_CUDA_TRY(
         cudaFuncSetAttribute(frame_kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)));
@@ -171,6 +204,26 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, cudaStream_t stream) {
   void* arguments[] = {const_cast<FrameView*>(&frame)};
   BROADSIDE_CUDA_TRY(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(frame_kernel), dim3(shape.blocks),
+                                                 dim3(shape.threads), arguments, shape.shared_bytes, stream));
+  return core::Done{};
+}
+
+core::Result<LaunchShape> pairs_launch_shape() {
+  int device = 0;
+  int multiprocessors = 0;
+  int per_multiprocessor = 0;
+  const std::uint32_t bytes = kThreads / 32 * sizeof(PairQueue);
+  BROADSIDE_CUDA_TRY(cudaGetDevice(&device));
+  BROADSIDE_CUDA_TRY(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device));
+  BROADSIDE_CUDA_TRY(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_multiprocessor, pairs_kernel,
+                                                                   static_cast<int>(kThreads), bytes));
+  return LaunchShape{kThreads, static_cast<std::uint32_t>(per_multiprocessor * multiprocessors), bytes,
+                     static_cast<std::uint32_t>(multiprocessors)};
+}
+
+core::Status launch_pairs(const FrameView& view, const LaunchShape& shape, cudaStream_t stream) {
+  void* arguments[] = {const_cast<FrameView*>(&view)};
+  BROADSIDE_CUDA_TRY(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(pairs_kernel), dim3(shape.blocks),
                                                  dim3(shape.threads), arguments, shape.shared_bytes, stream));
   return core::Done{};
 }

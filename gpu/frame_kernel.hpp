@@ -26,6 +26,11 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
 // One whole frame is this one launch, whatever its counts: every stage reads them on the device. Asynchronous.
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, cudaStream_t stream);
 
+// The broad phase alone, over view.boxes; the same rules. Only the boxes, the grid, the pairs and the counters are
+// used.
+core::Result<LaunchShape> pairs_launch_shape();
+core::Status launch_pairs(const FrameView& view, const LaunchShape& shape, cudaStream_t stream);
+
 // The digest's sum over everything that the last frame left. `confirmed` and `touching` are counts. Asynchronous.
 struct DigestView {
   std::uint32_t body_count = 0;

@@ -59,6 +59,7 @@ struct Counters {
   std::uint32_t colors = 0;
   std::uint32_t words_demanded = 0;  // of 64 colors a body; 0 = there were enough
   std::uint32_t uncolored[3] = {};   // rounds of the coloring use them in turn
+  std::uint32_t arrived = 0;         // of PartialGridTeam
   std::uint32_t is_aborted = 0;
 };
 
@@ -112,7 +113,7 @@ struct FrameView {
   core::Contact* contacts = nullptr;     // one slot per touching pair; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
 
-  unsigned long long* least_priority = nullptr;  // [bodies] of the contacts not yet colored
+  unsigned long long* least_priority = nullptr;  // [3 * bodies] least of the contacts not yet colored, by rounds
   unsigned long long* taken = nullptr;           // [bodies * color_words] colors in use at each body
   std::uint32_t color_words = 1;
   core::Kinematics* sums = nullptr;  // jacobi

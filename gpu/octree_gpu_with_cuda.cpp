@@ -4,6 +4,7 @@
 
 #include "gpu/cuda_check.hpp"
 #include "gpu/octree_gpu.hpp"
+#include "gpu/pair_finder.hpp"
 #include "gpu/pipeline.hpp"
 
 namespace broadside::gpu {
@@ -40,6 +41,7 @@ core::Result<core::Engine> create_octree_gpu(const core::Settings& settings) {
   engine.id = "octree-gpu";
   engine.build = "Broadside, float32, CUDA " + version_text(CUDART_VERSION) + ", " + device_name();
   engine.settings = settings;
+  engine.broad_phase = std::make_unique<PairFinder>(options.has_broad_phase);
   engine.dynamics = std::make_unique<Pipeline>(options);
   return engine;
 }

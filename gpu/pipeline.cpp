@@ -10,22 +10,13 @@
 #include "gpu/frame_buffers.hpp"
 #include "gpu/frame_kernel.hpp"
 #include "gpu/frame_record.hpp"
+#include "gpu/host_side.hpp"
 
 namespace broadside::gpu {
 namespace {
 
 constexpr std::array<std::string_view, kStageCount> kStageNames{"integrate", "broad",    "levels",
                                                                 "vertices",  "response", "faces"};
-
-// Below this many bodies the tree start tests all pairs of body boxes: 2,080 tiles of 32 x 32 are one tile a warp on a
-// large GPU, and take less than the grid's three passes.
-constexpr std::uint32_t kLeastBodiesForGrid = 2048;
-
-// A box may grow by a few units in the last place when it is placed.
-constexpr float kCellSlack = 1.0F + 0x1p-10F;
-
-// Cells are at least this share of the coordinates, so that they are many units in the last place (see grid_level).
-constexpr float kLeastCellShare = 0x1p-17F;
 
 float coordinate_range_m(const core::Scene& scene) {
   float range = 0.0F;
@@ -34,53 +25,6 @@ float coordinate_range_m(const core::Scene& scene) {
   for (const core::Body& body : scene.bodies) widen(body.position);
   return range;
 }
-
-// Memory of the host that the device writes, with an owner.
-class OutcomeMemory {
- public:
-  OutcomeMemory() = default;
-  OutcomeMemory(const OutcomeMemory&) = delete;
-  OutcomeMemory& operator=(const OutcomeMemory&) = delete;
-  ~OutcomeMemory() {
-    if (host_ != nullptr) cudaFreeHost(host_);
-  }
-  core::Status allocate() {
-    if (host_ == nullptr) {
-      void* memory = nullptr;
-      BROADSIDE_CUDA_TRY(cudaHostAlloc(&memory, sizeof(Outcome), cudaHostAllocMapped));
-      host_ = static_cast<Outcome*>(memory);
-    }
-    *host_ = Outcome{};
-    void* device = nullptr;
-    BROADSIDE_CUDA_TRY(cudaHostGetDevicePointer(&device, host_, 0));
-    device_ = static_cast<Outcome*>(device);
-    return core::Done{};
-  }
-  [[nodiscard]] Outcome* device() const { return device_; }
-  [[nodiscard]] const Outcome& operator*() const { return *host_; }
-
- private:
-  Outcome* host_ = nullptr;
-  Outcome* device_ = nullptr;
-};
-
-class Stream {
- public:
-  Stream() = default;
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-  ~Stream() {
-    if (stream_ != nullptr) cudaStreamDestroy(stream_);
-  }
-  core::Status create() {
-    if (stream_ == nullptr) BROADSIDE_CUDA_TRY(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
-    return core::Done{};
-  }
-  [[nodiscard]] cudaStream_t get() const { return stream_; }
-
- private:
-  cudaStream_t stream_ = nullptr;
-};
 
 }  // namespace
 
@@ -155,9 +99,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;
   d.view.stack_entries = stack_entries_of(d.device_scene.tree_levels());
-  d.view.grid.cell_m =
-      std::max({d.device_scene.largest_side_m() * kCellSlack, coordinate_range_m(scene) * kLeastCellShare,
-                std::numeric_limits<float>::min() * 0x1p24F});
+  d.view.grid.cell_m = grid_cell_m(d.device_scene.largest_side_m(), coordinate_range_m(scene));
   d.view.outcome = d.outcome.device();
   d.device_scene.fill(d.view);
   // Uploads ran on the default stream, which this one does not wait for.

@@ -33,7 +33,7 @@ __device__ void integrate(const Team& team, const FrameView& f) {
     const core::Box box = core::translated(local_box(f, static_cast<std::uint32_t>(i)), s.x);
     f.boxes[i] = pack(box, static_cast<std::uint32_t>(i), x.w > 0.0F ? 0U : 1U);
     if (f.start == Start::kGrid) grid_count(f.grid, i, box);
-    f.least_priority[i] = ~0ULL;
+    for (int round = 0; round < 3; ++round) f.least_priority[std::uint64_t{f.body_count} * round + i] = ~0ULL;
     for (std::uint32_t word = 0; word < f.color_words; ++word) f.taken[i * f.color_words + word] = 0;
   }
   if (team.rank() == 0) *f.counters = Counters{};

@@ -25,14 +25,19 @@ __device__ void collect_touching(const Team& team, const FrameView& f, std::uint
   }
 }
 
-// Tells all threads of the team whether any of them has work left. Rounds use the three flags in turn: the one of the
-// next round is cleared while nobody looks at it.
+// Tells all threads of the team whether any of them has work left; one barrier. Rounds use the three flags in turn: the
+// one of the next round is cleared while nobody looks at it.
 template <typename Team>
 __device__ bool is_any_left(const Team& team, const FrameView& f, std::uint32_t round, bool mine) {
   if (team.rank() == 0) f.counters->uncolored[(round + 1) % 3] = 0;
   if (__syncthreads_or(mine ? 1 : 0) != 0 && threadIdx.x == 0) f.counters->uncolored[round % 3] = 1;
   team.sync();
   return *static_cast<volatile std::uint32_t*>(&f.counters->uncolored[round % 3]) != 0;
+}
+
+// Lowers a body's word to this value, without an atomic where it is there already.
+__device__ inline void announce(unsigned long long* least, unsigned long long value) {
+  if (*static_cast<volatile unsigned long long*>(least) > value) atomicMin(least, value);
 }
 
 // The smallest color that is free at both bodies, in words of 64 colors; color_words * 64 when there is none.
@@ -46,50 +51,97 @@ __device__ inline std::uint32_t smallest_free_color(const FrameView& f, const un
   return f.color_words * 64;
 }
 
+// Colors contact k: the smallest color free at its dynamic bodies. Only one thread at a time comes here for a body.
+__device__ inline void take_color(const FrameView& f, std::uint64_t k, unsigned long long* taken_a,
+                                  unsigned long long* taken_b) {
+  const std::uint32_t color = smallest_free_color(f, taken_a, taken_b);
+  if (color == f.color_words * 64) {
+    atomicMax(&f.counters->words_demanded, f.color_words + 1);
+  } else {
+    const unsigned long long bit = 1ULL << (color % 64);
+    if (taken_a != nullptr) taken_a[color / 64] |= bit;
+    if (taken_b != nullptr) taken_b[color / 64] |= bit;
+    if (*static_cast<volatile std::uint32_t*>(&f.counters->colors) < color + 1)
+      atomicMax(&f.counters->colors, color + 1);
+  }
+  f.color[k] = color;
+}
+
 // The sequential greedy coloring in the order of core::color_priority, by rounds: a contact whose priority is the least
 // among those without color at each of its dynamic bodies has only colored contacts before it, so it may take its
 // color. Too few words of colors end up in words_demanded.
+//
+// One barrier a round: contacts read the words of this round, announce themselves for the next, and clear those of the
+// round after it, which were last read a round ago.
 template <typename Team>
 __device__ void color_contacts(const Team& team, const FrameView& f, std::uint64_t count) {
+  for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
+    const core::Pair p = f.touching[k];
+    const unsigned long long priority = core::color_priority(p);
+    announce(&f.least_priority[p.i], priority);
+    announce(&f.least_priority[p.j], priority);
+  }
+  team.sync();
   for (std::uint32_t round = 0;; ++round) {
-    for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
-      if (f.color[k] != kUncolored) continue;
-      const core::Pair p = f.touching[k];
-      const unsigned long long priority = core::color_priority(p);
-      if (!is_static(f, p.i)) atomicMin(&f.least_priority[p.i], priority);
-      if (!is_static(f, p.j)) atomicMin(&f.least_priority[p.j], priority);
-    }
-    team.sync();
+    unsigned long long* now = f.least_priority + std::uint64_t{round % 3} * f.body_count;
+    unsigned long long* next = f.least_priority + std::uint64_t{(round + 1) % 3} * f.body_count;
+    unsigned long long* later = f.least_priority + std::uint64_t{(round + 2) % 3} * f.body_count;
     bool has_left = false;
     for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
       if (f.color[k] != kUncolored) continue;
       const core::Pair p = f.touching[k];
       const unsigned long long priority = core::color_priority(p);
-      unsigned long long* taken_a = is_static(f, p.i) ? nullptr : f.taken + std::uint64_t{p.i} * f.color_words;
-      unsigned long long* taken_b = is_static(f, p.j) ? nullptr : f.taken + std::uint64_t{p.j} * f.color_words;
+      const bool moves_a = !is_static(f, p.i);
+      const bool moves_b = !is_static(f, p.j);
+      later[p.i] = later[p.j] = ~0ULL;
+      if ((!moves_a || now[p.i] == priority) && (!moves_b || now[p.j] == priority)) {
+        take_color(f, k, moves_a ? f.taken + std::uint64_t{p.i} * f.color_words : nullptr,
+                   moves_b ? f.taken + std::uint64_t{p.j} * f.color_words : nullptr);
+        continue;
+      }
+      has_left = true;
+      announce(&next[p.i], priority);
+      announce(&next[p.j], priority);
+    }
+    if (!is_any_left(team, f, round, has_left)) return;
+  }
+}
+
+// The same by one block, with the bodies' words in shared memory; colors must fit one word.
+__device__ inline void color_contacts_in_block(const FrameView& f, std::uint64_t count, unsigned long long* words) {
+  unsigned long long* least = words;
+  unsigned long long* taken = words + f.body_count;
+  for (std::uint32_t i = threadIdx.x; i < f.body_count; i += blockDim.x) least[i] = ~0ULL, taken[i] = 0;
+  __syncthreads();
+  for (;;) {
+    for (std::uint64_t k = threadIdx.x; k < count; k += blockDim.x) {
+      if (f.color[k] != kUncolored) continue;
+      const core::Pair p = f.touching[k];
+      announce(&least[p.i], core::color_priority(p));
+      announce(&least[p.j], core::color_priority(p));
+    }
+    __syncthreads();
+    bool has_left = false;
+    for (std::uint64_t k = threadIdx.x; k < count; k += blockDim.x) {
+      if (f.color[k] != kUncolored) continue;
+      const core::Pair p = f.touching[k];
+      const unsigned long long priority = core::color_priority(p);
+      const bool moves_a = !is_static(f, p.i);
+      const bool moves_b = !is_static(f, p.j);
       // A body's word is read by all its contacts and cleared by the one whose priority it holds: whichever of the two
       // values the others see, it is not theirs.
-      const auto least = [&f](std::uint32_t body) {
-        return *static_cast<volatile unsigned long long*>(&f.least_priority[body]);
+      const auto is_least = [&](std::uint32_t body) {
+        return *static_cast<volatile unsigned long long*>(&least[body]) == priority;
       };
-      if ((taken_a != nullptr && least(p.i) != priority) || (taken_b != nullptr && least(p.j) != priority)) {
+      if ((moves_a && !is_least(p.i)) || (moves_b && !is_least(p.j))) {
         has_left = true;
         continue;
       }
-      const std::uint32_t color = smallest_free_color(f, taken_a, taken_b);
-      if (color == f.color_words * 64) {
-        atomicMax(&f.counters->words_demanded, f.color_words + 1);
-      } else {
-        const unsigned long long bit = 1ULL << (color % 64);
-        if (taken_a != nullptr) taken_a[color / 64] |= bit;
-        if (taken_b != nullptr) taken_b[color / 64] |= bit;
-        atomicMax(&f.counters->colors, color + 1);
-      }
-      f.color[k] = color;
-      if (taken_a != nullptr) f.least_priority[p.i] = ~0ULL;
-      if (taken_b != nullptr) f.least_priority[p.j] = ~0ULL;
+      take_color(f, k, moves_a ? &taken[p.i] : nullptr, moves_b ? &taken[p.j] : nullptr);
+      if (moves_a) least[p.i] = ~0ULL;
+      if (moves_b) least[p.j] = ~0ULL;
     }
-    if (!is_any_left(team, f, round, has_left)) return;
+    if (__syncthreads_or(has_left ? 1 : 0) == 0) return;
   }
 }
 

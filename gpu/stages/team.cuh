@@ -22,6 +22,29 @@ struct BlockTeam {
   __device__ void sync() const { __syncthreads(); }
 };
 
+// The first blocks of a grid whose others have nothing left to do: fewer arrivals, sooner together. `arrived` starts at
+// zero and only grows.
+struct PartialGridTeam {
+  std::uint32_t blocks = 1;
+  std::uint32_t* arrived = nullptr;
+  mutable std::uint32_t meetings = 0;
+
+  __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
+  __device__ std::uint64_t size() const { return std::uint64_t{blocks} * blockDim.x; }
+  __device__ void sync() const {
+    ++meetings;
+    __syncthreads();
+    if (threadIdx.x == 0) {
+      asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived) : "memory");
+      std::uint32_t seen = 0;
+      do {
+        asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(seen) : "l"(arrived) : "memory");
+      } while (seen < meetings * blocks);
+    }
+    __syncthreads();
+  }
+};
+
 template <typename Team>
 __device__ std::uint64_t warp_rank(const Team& team) {
   return team.rank() / 32;

@@ -1,0 +1,130 @@
+// The GPU's broad phase returns exactly the overlapping pairs, whatever the boxes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/engine/engine.hpp"
+#include "gpu/engines.hpp"
+#include "gpu/octree_gpu.hpp"
+#include "tests/gpu/small_scenes.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+using core::Box;
+using core::Pair;
+
+// By the definition, P(6).
+std::vector<Pair> all_pairs(const std::vector<Box>& boxes, const std::vector<std::uint8_t>& is_static) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+      if (core::overlaps(boxes[i], boxes[j]) && (is_static[i] == 0 || is_static[j] == 0)) pairs.push_back({i, j});
+  return pairs;
+}
+
+class PairFinderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string why = octree_gpu_absent(); !why.empty()) GTEST_SKIP() << "not run: " << why;
+  }
+
+  static core::Engine engine(const std::string& broad) {
+    const core::EngineRow row = octree_gpu_row();
+    auto settings = core::Settings::parse(row.id, row.settings, {{"broad", broad}});
+    auto made = row.create(settings.value());
+    EXPECT_TRUE(made.ok());
+    return std::move(made).value();
+  }
+
+  static void expect_exact(const std::vector<Box>& boxes) {
+    std::vector<std::uint8_t> is_static(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) is_static[i] = i % 7 == 0 ? 1 : 0;
+    const std::vector<Pair> expected = all_pairs(boxes, is_static);
+    for (const std::string broad : {"tree", "brute"}) {
+      core::Engine subject = engine(broad);
+      ASSERT_TRUE(subject.broad_phase->load(boxes, is_static).ok());
+      ASSERT_TRUE(subject.broad_phase->find().ok());
+      auto found = subject.broad_phase->read_back();
+      ASSERT_TRUE(found.ok());
+      EXPECT_EQ(found.value().pairs.size(), expected.size()) << broad;
+      EXPECT_TRUE(found.value().pairs == expected) << broad;
+    }
+  }
+};
+
+std::vector<Box> boxes_of(std::uint32_t count, auto make) {
+  std::vector<Box> boxes;
+  Dice dice(7);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto [center, half] = make(dice, i);
+    boxes.push_back({center - half, center + half});
+  }
+  return boxes;
+}
+
+struct Place {
+  core::Vec3 center;
+  core::Vec3 half;
+};
+
+TEST_F(PairFinderTest, Uniform) {
+  for (const std::uint32_t count : {0U, 1U, 2U, 100U, 2047U, 2048U, 6000U})
+    expect_exact(boxes_of(count, [count](Dice& dice, std::uint32_t) {
+      return Place{dice.cube(std::cbrt(static_cast<float>(count))),
+                   {0.25F + 0.5F * dice.next(), 0.25F + 0.5F * dice.next(), 0.25F + 0.5F * dice.next()}};
+    }));
+}
+
+TEST_F(PairFinderTest, SizesOverSixOrders) {
+  expect_exact(boxes_of(6000, [](Dice& dice, std::uint32_t) {
+    const float half = std::pow(10.0F, -4.0F + 5.0F * dice.next());
+    return Place{dice.cube(30.0F), {half, 0.5F * half, 0.1F * half}};
+  }));
+}
+
+TEST_F(PairFinderTest, LatticeOfTouchingFaces) {
+  expect_exact(boxes_of(4096, [](Dice&, std::uint32_t i) {
+    return Place{{static_cast<float>(i % 16), static_cast<float>(i / 16 % 16), static_cast<float>(i / 256) - 8.0F},
+                 {0.5F, 0.5F, 0.5F}};
+  }));
+}
+
+TEST_F(PairFinderTest, Identical) {
+  expect_exact(boxes_of(2100, [](Dice&, std::uint32_t) { return Place{{1, 2, 3}, {0.5F, 0.5F, 0.5F}}; }));
+}
+
+TEST_F(PairFinderTest, PointsOnALineAndAPlane) {
+  expect_exact(boxes_of(3000, [](Dice&, std::uint32_t i) {
+    return Place{{static_cast<float>(i / 2), 0.0F, i % 3 == 0 ? 1.0F : 0.0F}, {0.0F, 0.0F, 0.0F}};
+  }));
+}
+
+TEST_F(PairFinderTest, FarFromTheOrigin) {
+  expect_exact(boxes_of(4000, [](Dice& dice, std::uint32_t) {
+    const core::Vec3 near = dice.cube(12.0F);
+    return Place{core::Vec3{1e6F, -1e6F, 1e6F} + near, {0.4F, 0.4F, 0.4F}};
+  }));
+}
+
+TEST_F(PairFinderTest, Denormal) {
+  expect_exact(boxes_of(3000, [](Dice& dice, std::uint32_t) {
+    return Place{dice.cube(1e-38F), {1e-39F, 1e-39F, 1e-39F}};
+  }));
+}
+
+TEST_F(PairFinderTest, RefusesWhatIsNoBox) {
+  const float inf = std::numeric_limits<float>::infinity();
+  const std::vector<std::uint8_t> moving(1, 0);
+  for (const Box bad : {Box{{0, 0, 0}, {inf, 1, 1}}, Box{{1, 0, 0}, {0, 1, 1}}, Box{{NAN, 0, 0}, {1, 1, 1}}}) {
+    core::Engine subject = engine("tree");
+    const std::vector<Box> boxes{bad};
+    EXPECT_FALSE(subject.broad_phase->load(boxes, moving).ok());
+  }
+}
+
+}  // namespace
+}  // namespace broadside::gpu
