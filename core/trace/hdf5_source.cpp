@@ -52,13 +52,22 @@ herr_t take_name(hid_t /*object*/, const char* name, const H5A_info_t* /*info*/,
   return 0;
 }
 
-Handle open_file(const std::filesystem::path& path) {
+Handle open_file(const std::filesystem::path& path, unsigned flags) {
   const Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(properties.get(), 0, 1);  // a reader must not stop a writer
-  hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties.get());
-  // A writer that was killed leaves its mark in the file; so does one that is still at work.
-  if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, properties.get());
-  return {id, H5Fclose};
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | flags, properties.get()), H5Fclose};
+}
+
+bool is_in_this_file(hid_t file, const std::string& path) {
+  H5L_info_t link{};
+  return H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0 && H5Lget_info(file, path.c_str(), &link, H5P_DEFAULT) >= 0 &&
+         link.type == H5L_TYPE_HARD;
+}
+
+// External storage and virtual datasets read other files.
+bool is_stored_here(hid_t set) {
+  const Handle properties(H5Dget_create_plist(set), H5Pclose);
+  return properties && H5Pget_layout(properties.get()) != H5D_VIRTUAL && H5Pget_external_count(properties.get()) == 0;
 }
 
 }  // namespace
@@ -75,14 +84,17 @@ Result<Hdf5Source> Hdf5Source::open(const std::filesystem::path& path) {
   if (!S_ISREG(status.st_mode)) return Error{"it is not a file", where, "give the path of a trace file"};
   if (access(path.c_str(), R_OK) != 0)
     return Error{"it cannot be read (" + std::system_category().message(errno) + ")", where, "change its permissions"};
-  Handle file = open_file(path);
+  Handle file = open_file(path, 0);
+  // A writer that was killed leaves its mark in the file; so does one that is still at work.
+  const bool was_left_open = !file;
+  if (was_left_open) file = open_file(path, H5F_ACC_SWMR_READ);
   if (!file) {
     if (H5Fis_hdf5(path.c_str()) > 0)
-      return hdf5_error("it is a damaged or unfinished HDF5 file", where, "record it again");
+      return hdf5_error("it is a damaged HDF5 file, or was cut off before its first frame", where, "record it again");
     hdf5_reason();
     return Error{"it is not an HDF5 file", where, "give a trace file as broadside run --record writes it"};
   }
-  return Hdf5Source(std::move(file), path, static_cast<std::uint64_t>(status.st_size));
+  return Hdf5Source(std::move(file), path, static_cast<std::uint64_t>(status.st_size), was_left_open);
 }
 
 void Hdf5Source::fail(const std::string& at, const std::string& what, const std::string& advice) {
@@ -94,11 +106,11 @@ void Hdf5Source::fail_hdf5(const std::string& at, const std::string& what) {
 }
 
 bool Hdf5Source::has(const std::string& path) const {
-  // H5Lexists fails, rather than says no, when a parent is missing.
+  if (path == "/") return true;
+  // Part by part: HDF5 fails, rather than says no, when a parent is missing.
   for (std::size_t slash = path.find('/', 1); slash != std::string::npos; slash = path.find('/', slash + 1))
-    if (H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
-  return path == "/" || (H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0 &&
-                         H5Oexists_by_name(file_.get(), path.c_str(), H5P_DEFAULT) > 0);
+    if (!is_in_this_file(file_.get(), path.substr(0, slash))) return false;
+  return is_in_this_file(file_.get(), path);
 }
 
 bool Hdf5Source::has_attribute(const std::string& path, const std::string& name) const {
@@ -162,6 +174,7 @@ OpenArray Hdf5Source::array(const std::string& path, Element element, const std:
   if (!has(path)) return fail(path, "it is missing", kNotOurs), OpenArray();
   a.set = Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
   if (!a.set) return fail_hdf5(path, "it cannot be opened as a dataset"), OpenArray();
+  if (!is_stored_here(a.set.get())) return fail(path, "its values lie in another file", kNotOurs), OpenArray();
   const Handle type(H5Dget_type(a.set.get()), H5Tclose);
   const Handle space(H5Dget_space(a.set.get()), H5Sclose);
   if (!is_type(type.get(), element))
@@ -225,6 +238,7 @@ std::vector<std::string> Hdf5Source::texts(const std::string& path) {
   if (!has(path)) return fail(path, "it is missing", kNotOurs), values;
   const Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set) return fail_hdf5(path, "it cannot be opened as a dataset"), values;
+  if (!is_stored_here(set.get())) return fail(path, "its values lie in another file", kNotOurs), values;
   const Handle type(H5Dget_type(set.get()), H5Tclose);
   const Handle space(H5Dget_space(set.get()), H5Sclose);
   if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0 ||

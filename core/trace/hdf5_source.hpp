@@ -28,6 +28,8 @@ class Hdf5Source {
   // A finished file, or one that a writer left or is still writing.
   static Result<Hdf5Source> open(const std::filesystem::path& path);
 
+  // Whether the object exists in this very file: a link to elsewhere does not count, since following it would make
+  // another file's content pass for this one's.
   [[nodiscard]] bool has(const std::string& path) const;
   [[nodiscard]] bool has_attribute(const std::string& path, const std::string& name) const;
   std::vector<std::string> attribute_names(const std::string& path);
@@ -43,7 +45,7 @@ class Hdf5Source {
 
   // Dimensions after the first must be these; none = a plain list.
   OpenArray array(const std::string& path, Element element, const std::vector<std::uint64_t>& inner);
-  // count rows from first on; bytes are appended to out.
+  // out becomes count rows, from first on.
   bool read(const OpenArray& array, const std::string& path, std::uint64_t first, std::uint64_t count,
             std::vector<std::byte>& out);
   template <typename T>
@@ -63,6 +65,8 @@ class Hdf5Source {
   [[nodiscard]] bool ok() const { return !error_; }
   [[nodiscard]] const Error& error() const { return *error_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  // True when its writer was killed or is still at work.
+  [[nodiscard]] bool was_left_open() const { return was_left_open_; }
 
  private:
   template <typename T>
@@ -74,8 +78,8 @@ class Hdf5Source {
     else
       return sizeof(T) == 4 ? Element::kU32 : Element::kU64;
   }
-  Hdf5Source(Handle file, std::filesystem::path path, std::uint64_t file_bytes)
-      : file_(std::move(file)), path_(std::move(path)), file_bytes_(file_bytes) {}
+  Hdf5Source(Handle file, std::filesystem::path path, std::uint64_t file_bytes, bool was_left_open)
+      : file_(std::move(file)), path_(std::move(path)), file_bytes_(file_bytes), was_left_open_(was_left_open) {}
   bool read_into(const OpenArray& array, const std::string& path, std::uint64_t first, std::uint64_t count,
                  std::byte* out);
   void fail_hdf5(const std::string& at, const std::string& what);
@@ -85,6 +89,7 @@ class Hdf5Source {
   Handle file_;
   std::filesystem::path path_;
   std::uint64_t file_bytes_ = 0;
+  bool was_left_open_ = false;
   std::optional<Error> error_;
 };
 

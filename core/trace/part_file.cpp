@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <functional>
+#include <iterator>
 #include <system_error>
 
 namespace broadside::core {
@@ -146,13 +149,27 @@ Error disk_error(int code, const std::filesystem::path& path, const std::string&
   }
 }
 
-int sync_folder(const std::filesystem::path& folder) {
-  const int fd = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return errno;
+Status rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (rename(from.c_str(), to.c_str()) != 0) return disk_error(errno, to, "renaming " + from.filename().string());
+  const std::filesystem::path folder = to.has_parent_path() ? to.parent_path() : ".";
+  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return disk_error(errno, folder, "opening the folder");
   // Some file systems have nothing to sync for a folder and say EINVAL.
   const int code = fsync(fd) == 0 || errno == EINVAL ? 0 : errno;
   close(fd);
-  return code;
+  if (code != 0) return disk_error(code, folder, "syncing the folder");
+  return Done{};
+}
+
+bool is_being_written(const std::filesystem::path& path) {
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  struct flock whole = {};
+  whole.l_type = F_RDLCK;
+  whole.l_whence = SEEK_SET;
+  const bool is_held = fcntl(fd, F_OFD_SETLK, &whole) != 0;
+  close(fd);
+  return is_held;
 }
 
 Result<std::unique_ptr<PartFile>> PartFile::create(const std::filesystem::path& path) {

@@ -60,7 +60,10 @@ class PartFile {
 // A clear line for an errno met while writing path.
 Error disk_error(int code, const std::filesystem::path& path, const std::string& doing);
 
-// Makes a rename inside the folder survive a power cut; 0 or an errno.
-int sync_folder(const std::filesystem::path& folder);
+// Gives a file its final name so that it survives a power cut: renames, then syncs the folder.
+Status rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// Whether a PartFile, of this process or another, holds the file.
+bool is_being_written(const std::filesystem::path& path);
 
 }  // namespace broadside::core

@@ -73,6 +73,7 @@ void read_provenance(Hdf5Source& source, TraceHeader& header) {
   if (has("scene_digest")) header.stamp.scene_digest = source.number<std::uint64_t>(kPath, "scene_digest");
   if (has("level")) read_level(source, header);
   if (has("every")) header.every = source.number<std::uint32_t>(kPath, "every");
+  if (header.every == 0) source.fail("/provenance@every", "it is 0", "give 1 for every frame, k for every k-th");
   if (has("broad_is_exact")) header.broad_is_exact = source.number<std::uint8_t>(kPath, "broad_is_exact") != 0;
   if (has("broad_margin_m")) header.broad_margin_m = source.number<double>(kPath, "broad_margin_m");
   if (has("driver")) header.driver = source.text(kPath, "driver");

@@ -2,41 +2,63 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
-#include <map>
 #include <new>
 #include <string>
 #include <utility>
 
 #include "core/trace/columns.hpp"
+#include "core/trace/frame_index.hpp"
+#include "core/trace/group_block.hpp"
 #include "core/trace/hdf5_source.hpp"
 #include "core/trace/scene_group.hpp"
 
 namespace broadside::core {
 namespace {
 
-// Frames read ahead at once: as many as fit this, so that going through a trace in order costs one HDF5 call per
-// dataset and some 100 frames of 50 bodies.
-constexpr std::uint64_t kBlockBytes = 4U << 20U;
+void check_format(Hdf5Source& source) {
+  if (!source.has_attribute("/", "format") || source.text("/", "format") != "broadside-trace")
+    return source.fail("/@format", "it is an HDF5 file but no Broadside trace",
+                       "give a trace file as broadside run --record writes it");
+  const auto version = source.number<std::uint32_t>("/", "format_version");
+  if (!source.ok() || version == kTraceFormatVersion) return;
+  source.fail(
+      "/@format_version",
+      "it is of trace format " + std::to_string(version) + ", and this program reads format " +
+          std::to_string(kTraceFormatVersion),
+      version > kTraceFormatVersion ? "use a newer Broadside" : "record it again, or use the Broadside that wrote it");
+}
 
-constexpr std::uint64_t kMissingStep = std::numeric_limits<std::uint64_t>::max();
+bool is_bad(Pair p, std::uint32_t bodies) {
+  return p.i >= bodies || p.j >= bodies;
+}
 
-struct OpenColumn {
-  const Column* column;
-  OpenArray array;
-  std::vector<std::byte> block;  // rows of the frames that its group read ahead
-};
+bool any_bad(const std::vector<Pair>& pairs, std::uint32_t bodies) {
+  return std::any_of(pairs.begin(), pairs.end(), [bodies](Pair p) { return is_bad(p, bodies); });
+}
 
-struct OpenGroup {
-  Group group;
-  std::vector<OpenColumn> columns;
-  std::uint64_t first = 0;  // frames first .. last - 1 are in the blocks
-  std::uint64_t last = 0;
-};
+bool is_bad(const Contact& c, std::uint32_t bodies) {
+  const bool is_known_face = is_face(c.b) && c.b - kFirstFace < kFaceCount;
+  return c.a >= bodies || (c.b >= bodies && !is_known_face);
+}
 
-std::vector<std::uint64_t> inner_dimensions(const Column& c, std::uint64_t bodies) {
-  if (c.layout == Layout::kFrameBodies) return {bodies, c.width};
-  return c.width == 1 ? std::vector<std::uint64_t>{} : std::vector<std::uint64_t>{c.width};
+// The dataset that names a body which the scene does not have, "" when none does.
+const char* bad_body(const FrameRecord& r, std::uint32_t bodies) {
+  if (any_bad(r.pairs, bodies)) return "/trace/pairs/pairs";
+  if (any_bad(r.confirmed, bodies)) return "/trace/confirmed/pairs";
+  if (any_bad(r.measured, bodies)) return "/trace/narrow/pairs";
+  const auto bad = [bodies](const Contact& c) { return is_bad(c, bodies); };
+  return std::any_of(r.contacts.begin(), r.contacts.end(), bad) ? "/trace/contact" : "";
+}
+
+// After bad_body: the bodies of the confirmed pairs exist.
+bool any_bad_vertex(const FrameRecord& r, const Scene& scene) {
+  const auto vertices = [&scene](std::uint32_t body) { return scene.meshes[scene.bodies[body].mesh]->vertices.size(); };
+  for (std::size_t k = 0; k < r.proximity.size(); ++k) {
+    const Proximity& p = r.proximity[k];
+    if (!p.is_touching()) continue;
+    if (p.vertex_a >= vertices(r.confirmed[k].i) || p.vertex_b >= vertices(r.confirmed[k].j)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -44,200 +66,97 @@ std::vector<std::uint64_t> inner_dimensions(const Column& c, std::uint64_t bodie
 struct TraceReader::Impl {
   Hdf5Source source;
   TraceHeader header;
-  std::vector<std::uint64_t> steps;
-  std::vector<double> times;
-  std::vector<std::uint64_t> digests;
-  std::vector<OpenGroup> groups;
-  std::map<Records, std::vector<std::uint64_t>> offsets;
-  std::uint64_t frames_started = 0;
+  FrameIndex index;
+  std::vector<GroupBlock> groups;
 
   explicit Impl(Hdf5Source s) : source(std::move(s)) {}
 
-  [[nodiscard]] std::uint64_t frame_count() const { return steps.size(); }
-
-  void check_format() {
-    if (!source.has_attribute("/", "format") || source.text("/", "format") != "broadside-trace")
-      return source.fail("/@format", "it is an HDF5 file but no Broadside trace",
-                         "give a trace file as broadside run --record writes it");
-    const auto version = source.number<std::uint32_t>("/", "format_version");
-    if (source.ok() && version != kTraceFormatVersion)
-      source.fail("/@format_version",
-                  "it is of trace format " + std::to_string(version) + ", this program reads format " +
-                      std::to_string(kTraceFormatVersion),
-                  version > kTraceFormatVersion ? "use a newer Broadside"
-                                                : "record it again, or use the Broadside of its time");
-  }
-
-  void open_columns() {
-    const std::uint64_t bodies = header.scene.bodies.size();
+  void open() {
+    check_format(source);
+    if (source.ok()) header.scene = read_scene(source);
+    if (source.ok()) read_provenance(source, header);
+    if (source.ok()) check_stamp();
     for (const GroupRow& row : group_rows()) {
-      if (!source.has(std::string(row.path))) continue;
+      if (!source.ok() || !source.has(std::string(row.path))) continue;
       header.groups |= bit(row.group);
-      OpenGroup group{row.group, {}, 0, 0};
-      for (const Column& c : columns())
-        if (c.groups == bit(row.group) && c.layout != Layout::kWindows && c.layout != Layout::kOffsets)
-          group.columns.push_back({&c, source.array(std::string(c.path), c.element, inner_dimensions(c, bodies)), {}});
-      groups.push_back(std::move(group));
+      groups.emplace_back(row.group, header.scene.bodies.size(), source);
     }
-    for (const Column& c : columns())
-      if (c.layout == Layout::kOffsets && (c.groups & header.groups) != 0U)
-        offsets[c.records] = source.whole<std::uint64_t>(std::string(c.path), c.element, 1);
-    steps = source.whole<std::uint64_t>("/trace/step", Element::kU64, 1);
-    times = source.whole<double>("/trace/time", Element::kF64, 1);
-    digests = source.whole<std::uint64_t>("/trace/digest", Element::kU64, 1);
+    if (source.ok()) index = read_index(source, header.groups);
+    if (source.ok()) keep_frames();
+    if (source.ok()) check_order(index, source);
   }
 
-  // Rows that dataset c has for frames 0 .. frames - 1.
-  [[nodiscard]] std::uint64_t rows_before(const Column& c, std::uint64_t frame) const {
-    return c.layout == Layout::kRows ? offsets.at(offsets_of(c.records))[frame] : frame;
+  void check_stamp() {
+    const std::uint64_t digest = scene_digest(header.scene);
+    if (!source.has_attribute("/provenance", "scene_digest")) header.stamp.scene_digest = digest;
+    if (header.stamp.scene_digest != digest)
+      source.fail("/provenance@scene_digest", "the stamp is of another scene than the one in this file",
+                  "record it again");
   }
 
-  // A writer that was killed may have left some datasets longer than others. The trace ends where the shortest does.
-  void keep_complete_frames() {
-    std::uint64_t count = std::find(steps.begin(), steps.end(), kMissingStep) - steps.begin();
-    frames_started =
-        std::max({count, static_cast<std::uint64_t>(times.size()), static_cast<std::uint64_t>(digests.size())});
-    count = std::min({count, static_cast<std::uint64_t>(times.size()), static_cast<std::uint64_t>(digests.size())});
-    for (auto& [records, list] : offsets) {
-      frames_started = std::max(frames_started, list.empty() ? 0 : static_cast<std::uint64_t>(list.size()) - 1);
-      count = std::min(count, list.empty() ? 0 : static_cast<std::uint64_t>(list.size()) - 1);
-    }
-    for (const OpenGroup& g : groups)
-      for (const OpenColumn& c : g.columns) {
-        if (c.column->layout != Layout::kRows) {
-          frames_started = std::max(frames_started, c.array.rows);
-          count = std::min(count, c.array.rows);
-          continue;
-        }
-        while (count > 0 && rows_before(*c.column, count) > c.array.rows) --count;
-      }
-    steps.resize(count);
-    times.resize(count);
-    digests.resize(count);
-    for (auto& [records, list] : offsets) list.resize(std::min<std::size_t>(list.size(), count + 1));
+  void keep_frames() {
+    keep_complete(index);
+    for (const GroupBlock& g : groups) g.keep_reached(index);
+    // A trace under its final name was finished, so nothing of it may be cut off. Only what a writer left behind may.
+    if (index.frame_count() != index.frames_begun && !source.was_left_open() && source.path().extension() != ".part")
+      source.fail("/trace",
+                  "its datasets end at different frames, " + std::to_string(index.frame_count()) + " to " +
+                      std::to_string(index.frames_begun),
+                  "record it again");
   }
 
-  void check_order() {
-    if (std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) != steps.end())
-      source.fail("/trace/step", "steps do not rise", "give the frames in order, each once");
-    for (const Column& c : columns()) {
-      if (c.layout != Layout::kOffsets || !offsets.contains(c.records)) continue;
-      const std::vector<std::uint64_t>& list = offsets.at(c.records);
-      if (!list.empty() && (list.front() != 0 || !std::is_sorted(list.begin(), list.end())))
-        source.fail(std::string(c.path), "offsets do not start with 0 or they fall",
-                    "give running sums of the row counts");
-    }
-    for (std::uint64_t k = 0; offsets.contains(Records::kProximity) && k < frame_count(); ++k) {
-      const std::uint64_t given = offsets[Records::kProximity][k + 1] - offsets[Records::kProximity][k];
-      const std::uint64_t wanted = offsets[Records::kConfirmed][k + 1] - offsets[Records::kConfirmed][k];
-      if (given != 0 && given != wanted)
-        source.fail("/trace/confirmed/proximity_offsets",
-                    "frame " + std::to_string(k) + " has " + std::to_string(given) + " proximities for " +
-                        std::to_string(wanted) + " confirmed pairs",
-                    "give one per pair or none");
-    }
-  }
-
-  [[nodiscard]] std::uint64_t frame_bytes(const OpenGroup& g, std::uint64_t frame) const {
-    std::uint64_t sum = 0;
-    for (const OpenColumn& c : g.columns)
-      sum += (rows_before(*c.column, frame + 1) - rows_before(*c.column, frame)) * c.array.row_bytes;
-    return sum;
-  }
-
-  bool read_ahead(OpenGroup& g, std::uint64_t frame) {
-    if (frame >= g.first && frame < g.last) return true;
-    std::uint64_t end = frame + 1;
-    for (std::uint64_t bytes = frame_bytes(g, frame); end < frame_count(); ++end) {
-      bytes += frame_bytes(g, end);
-      if (bytes > kBlockBytes) break;
-    }
-    g.first = g.last = 0;
-    for (OpenColumn& c : g.columns) {
-      const std::uint64_t first = rows_before(*c.column, frame);
-      if (!source.read(c.array, std::string(c.column->path), first, rows_before(*c.column, end) - first, c.block))
-        return false;
-    }
-    g.first = frame;
-    g.last = end;
-    return true;
-  }
-
-  // Spreads one column of one frame over its records.
-  void take(const OpenGroup& g, const OpenColumn& c, std::uint64_t frame, FrameRecord& record) const {
-    const std::uint64_t first = rows_before(*c.column, frame);
-    const std::uint64_t rows = rows_before(*c.column, frame + 1) - first;
-    const std::size_t bytes = row_bytes(*c.column);
-    const std::uint64_t count = rows * c.array.row_bytes / bytes;
-    const RecordSpan<std::byte> records = resized_records(record, c.column->records, count);
-    const std::byte* from = c.block.data() + (first - rows_before(*c.column, g.first)) * c.array.row_bytes;
-    if (count == 0) return;
-    if (records.stride == bytes) {
-      std::memcpy(records.data, from, count * bytes);
-      return;
-    }
-    std::byte* to = records.data + c.column->offset;
-    for (std::uint64_t i = 0; i < count; ++i, from += bytes, to += records.stride) std::memcpy(to, from, bytes);
-  }
-
-  // bool has two values, and reading a third is undefined: whatever is not 0 becomes 1 before anyone looks.
-  static void normalize_flags(OpenGroup& g) {
-    for (OpenColumn& c : g.columns)
-      if (c.column->element == Element::kU8)
-        for (std::byte& b : c.block) b = b == std::byte{0} ? std::byte{0} : std::byte{1};
-  }
-
-  void check_indices(const FrameRecord& record) {
-    const std::uint32_t n = header.scene.body_count();
-    const auto fail = [&](const char* path) {
-      source.fail(path, "step " + std::to_string(record.step) + " names a body that the scene does not have",
-                  "body ids are 0 to " + std::to_string(n) + " - 1");
-    };
-    const auto is_bad = [n](Pair p) { return p.i >= n || p.j >= n; };
-    if (std::any_of(record.pairs.begin(), record.pairs.end(), is_bad)) return fail("/trace/pairs/pairs");
-    if (std::any_of(record.confirmed.begin(), record.confirmed.end(), is_bad)) return fail("/trace/confirmed/pairs");
-    if (std::any_of(record.measured.begin(), record.measured.end(), is_bad)) return fail("/trace/narrow/pairs");
-    for (const Contact& c : record.contacts) {
-      if (c.a >= n) return fail("/trace/contact/a");
-      if (c.b >= n && !(is_face(c.b) && c.b - kFirstFace < kFaceCount)) return fail("/trace/contact/b");
-    }
-    for (std::size_t i = 0; i < record.proximity.size(); ++i) {
-      const Proximity& p = record.proximity[i];
-      if (!p.is_touching()) continue;
-      const auto vertices = [&](std::uint32_t body) {
-        return header.scene.meshes[header.scene.bodies[body].mesh]->vertices.size();
-      };
-      if (p.vertex_a >= vertices(record.confirmed[i].i) || p.vertex_b >= vertices(record.confirmed[i].j))
-        return source.fail("/trace/confirmed/vertex_a",
-                           "step " + std::to_string(record.step) + " names a vertex that its mesh does not have",
-                           "vertex ids count from 0 in each body's mesh");
-    }
-  }
-
-  Result<FrameRecord> read(std::uint64_t index, std::uint32_t wanted) {
+  Result<FrameRecord> read(std::uint64_t frame, std::uint32_t wanted) {
     if (!source.ok()) return source.error();
-    if (index >= frame_count())
-      return Error{"there is no frame " + std::to_string(index), source.path().string(),
-                   "it has " + std::to_string(frame_count()) + " frames", Exit::kInternal};
+    if (frame >= index.frame_count())
+      return Error{"there is no frame " + std::to_string(frame), source.path().string(),
+                   "it has " + std::to_string(index.frame_count()) + " frames", Exit::kInternal};
     FrameRecord record;
-    record.step = steps[index];
-    record.time_s = times[index];
-    record.digest = digests[index];
-    try {
-      for (OpenGroup& g : groups) {
-        if ((bit(g.group) & wanted) == 0U) continue;
-        const bool is_new = index < g.first || index >= g.last;
-        if (!read_ahead(g, index)) return source.error();
-        if (is_new) normalize_flags(g);
-        for (const OpenColumn& c : g.columns) take(g, c, index, record);
-      }
-    } catch (const std::bad_alloc&) {
-      source.fail("step " + std::to_string(record.step), "it needs more memory than there is", "use a larger machine");
-      return source.error();
-    }
-    check_indices(record);
+    record.step = index.steps[frame];
+    record.time_s = index.times[frame];
+    record.digest = index.digests[frame];
+    for (GroupBlock& g : groups)
+      if ((bit(g.group()) & wanted) != 0U && !g.read(index, frame, source, record)) return source.error();
+    const std::string step = "step " + std::to_string(record.step);
+    if (const char* at = bad_body(record, header.scene.body_count()); *at != '\0')
+      source.fail(at, step + " names a body that the scene does not have", "ids count from 0 in /scene/body");
+    else if (any_bad_vertex(record, header.scene))
+      source.fail("/trace/confirmed", step + " names a vertex that its mesh does not have",
+                  "vertex ids count from 0 in each body's mesh");
     if (!source.ok()) return source.error();
     return record;
+  }
+
+  Result<std::vector<PenetrationStatistics>> statistics() {
+    if (!source.ok()) return source.error();
+    std::vector<PenetrationStatistics> rows;
+    if (!source.has("/trace/statistics")) return rows;
+    bool is_first = true;
+    for (const Column& c : columns()) {
+      if (c.layout != Layout::kWindows) continue;
+      const auto column = source.whole<std::byte>(std::string(c.path), c.element, c.width);
+      if (!source.ok()) return source.error();
+      // What a writer left behind may have rows that its frames do not reach, and columns of unequal length.
+      const std::size_t count = column.size() / row_bytes(c);
+      rows.resize(is_first ? count : std::min(count, rows.size()));
+      is_first = false;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        std::memcpy(reinterpret_cast<std::byte*>(&rows[i]) + c.offset, &column[i * row_bytes(c)], row_bytes(c));
+    }
+    const std::uint64_t last = index.steps.empty() ? 0 : index.steps.back();
+    std::erase_if(rows, [last](const PenetrationStatistics& r) { return r.frames == 0 || r.last_step > last; });
+    return rows;
+  }
+
+  // What work throws when a file asks for more memory than there is becomes one more thing that is wrong with it.
+  template <typename Work>
+  auto guarded(Work work) -> decltype(work()) {
+    const QuietHdf5 quiet;
+    try {
+      return work();
+    } catch (const std::bad_alloc&) {
+      source.fail("/", "it needs more memory than this machine has", "use a larger machine");
+      return source.error();
+    }
   }
 };
 
@@ -251,13 +170,12 @@ Result<TraceReader> TraceReader::open(const std::filesystem::path& path) {
   Result<Hdf5Source> source = Hdf5Source::open(path);
   if (!source) return source.error();
   auto impl = std::make_unique<Impl>(std::move(source).value());
-  impl->check_format();
-  if (impl->source.ok()) impl->header.scene = read_scene(impl->source);
-  if (impl->source.ok()) read_provenance(impl->source, impl->header);
-  if (impl->source.ok()) impl->open_columns();
-  if (impl->source.ok()) impl->keep_complete_frames();
-  if (impl->source.ok()) impl->check_order();
-  if (!impl->source.ok()) return impl->source.error();
+  const Status opened = impl->guarded([&impl]() -> Status {
+    impl->open();
+    if (!impl->source.ok()) return impl->source.error();
+    return Done{};
+  });
+  if (!opened) return opened.error();
   return TraceReader(std::move(impl));
 }
 
@@ -268,18 +186,24 @@ const std::filesystem::path& TraceReader::path() const {
   return impl_->source.path();
 }
 std::uint64_t TraceReader::frame_count() const {
-  return impl_->frame_count();
+  return impl_->index.frame_count();
+}
+std::uint64_t TraceReader::frames_begun() const {
+  return impl_->index.frames_begun;
 }
 const std::vector<std::uint64_t>& TraceReader::steps() const {
-  return impl_->steps;
+  return impl_->index.steps;
 }
 const std::vector<std::uint64_t>& TraceReader::digests() const {
-  return impl_->digests;
+  return impl_->index.digests;
 }
 
 Result<FrameRecord> TraceReader::read(std::uint64_t index, std::uint32_t groups) const {
-  const QuietHdf5 quiet;
-  return impl_->read(index, groups);
+  return impl_->guarded([&] { return impl_->read(index, groups); });
+}
+
+Result<std::vector<PenetrationStatistics>> TraceReader::statistics() const {
+  return impl_->guarded([&] { return impl_->statistics(); });
 }
 
 }  // namespace broadside::core

@@ -216,13 +216,10 @@ struct TraceWriter::Impl {
     PartFile& complete = copy ? *copy : *part;
     if (const int code = complete.sync(); code != 0)
       return stop(disk_error(code, complete.path(), "syncing the trace"));
-    std::error_code code;
-    std::filesystem::rename(complete.path(), path, code);
-    if (code) return stop(disk_error(code.value(), path, "renaming " + complete.path().filename().string()));
-    if (copy) std::filesystem::remove(part->path(), code);
+    if (const Status s = rename_durably(complete.path(), path); !s) return stop(s.error());
     finished = true;
-    if (const int error = sync_folder(path.parent_path()); error != 0)
-      return disk_error(error, path.parent_path(), "syncing the folder");
+    std::error_code ignored;
+    if (copy) std::filesystem::remove(part->path(), ignored);
     return Done{};
   }
 };
