@@ -85,6 +85,15 @@ herr_t driver_truncate(H5FD_t* f, hid_t /*p*/, hbool_t /*closing*/) {
   return 0;
 }
 
+// HDF5 marks a file as being written only when its driver can lock, and a reader asks for that mark to open what a
+// killed writer left. The lock that counts is PartFile's own.
+herr_t driver_lock(H5FD_t* /*f*/, hbool_t /*exclusive*/) {
+  return 0;
+}
+herr_t driver_unlock(H5FD_t* /*f*/) {
+  return 0;
+}
+
 Handle register_driver() {
   H5FD_class_t c{};
   c.name = "broadside_part";
@@ -101,6 +110,8 @@ Handle register_driver() {
   c.read = driver_read;
   c.write = driver_write;
   c.truncate = driver_truncate;
+  c.lock = driver_lock;
+  c.unlock = driver_unlock;
   constexpr H5FD_mem_t kMap[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
   std::copy(std::begin(kMap), std::end(kMap), std::begin(c.fl_map));
   return {H5FDregister(&c), H5FDunregister};

@@ -98,7 +98,8 @@ inline void raw_remove_attribute(const std::filesystem::path& file, const std::s
 inline void raw_set_attribute(const std::filesystem::path& file, const std::string& path, const std::string& name,
                               hid_t type, const void* value) {
   const Handle opened = raw_open(file);
-  const Handle a(H5Aopen_by_name(opened.get(), path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle object(H5Oopen(opened.get(), path.c_str(), H5P_DEFAULT), H5Oclose);
+  const Handle a(H5Aopen(object.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
   EXPECT_GE(H5Awrite(a.get(), type, value), 0) << path << "@" << name;
 }
 
