@@ -1,6 +1,7 @@
 #include "validation/proximity_bound.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -15,8 +16,8 @@
 namespace broadside::validation {
 namespace {
 
-constexpr std::uint64_t kFramesSearched = 32;
-constexpr std::size_t kPairsSearched = 512;
+// Confirmed pairs searched anew of each doubling of their number.
+constexpr std::uint64_t kPairsPerDoubling = 512;
 
 // One distinct (mesh, orientation).
 struct Surface {
@@ -44,7 +45,6 @@ class ProximityBound final : public Validator {
       surface.covering_radius_m = core::covering_radius_m(mesh);
     }
     for (const Surface& surface : surfaces_) trees_.emplace_back(surface.vertices);
-    stride_ = std::max<std::uint64_t>(1, subject.frame_count / kFramesSearched);
     if (subject.baseline != nullptr && has(*subject.baseline, core::Group::kNarrow)) {
       const core::TraceHeader& base = *subject.baseline;
       baseline_ = base.stamp.label();
@@ -54,7 +54,6 @@ class ProximityBound final : public Validator {
 
   void look(const Evidence& evidence) override {
     frame_ = &evidence.frame;
-    const bool is_due = seen_++ % stride_ == 0;
     if (frame_->proximity.size() != frame_->confirmed.size()) {
       if (frame_->proximity.empty()) return;  // the vertex stage was off
       tally_.require(false, "one proximity per confirmed pair", Where::frame(frame_->step, "proximity"));
@@ -62,14 +61,17 @@ class ProximityBound final : public Validator {
     }
     if (frame_->boxes.size() != scene_.bodies.size() || frame_->detected_position.size() != scene_.bodies.size())
       return;
-    for (std::size_t k = 0; k < frame_->confirmed.size(); ++k) judge_record(frame_->confirmed[k], frame_->proximity[k]);
-    if (is_due) search();
+    for (std::size_t k = 0; k < frame_->confirmed.size(); ++k) {
+      judge_record(frame_->confirmed[k], frame_->proximity[k]);
+      const std::uint64_t stride = std::max<std::uint64_t>(1, std::bit_floor(confirmed_ / kPairsPerDoubling));
+      if (confirmed_++ % stride == 0) search(frame_->confirmed[k], frame_->proximity[k]);
+    }
     if (!baseline_.empty() && evidence.baseline != nullptr) judge_surfaces(*evidence.baseline);
   }
 
   core::Verdict conclude() override {
-    std::string notes = std::to_string(searched_) + " pairs of " + std::to_string(frames_searched_) +
-                        " frames searched anew (every " + std::to_string(stride_) + ". frame)";
+    std::string notes =
+        std::to_string(searched_) + " of " + std::to_string(confirmed_) + " confirmed pairs searched anew";
     if (measured_ > 0) {
       notes += ", " + std::to_string(measured_) + " measured by the baseline in " + std::to_string(frames_measured_) +
                " frames";
@@ -125,24 +127,17 @@ class ProximityBound final : public Validator {
                  at(p, "proximity.squared_distance"));
   }
 
-  void search() {
-    ++frames_searched_;
-    const std::size_t count = frame_->confirmed.size();
-    const std::size_t stride = count / kPairsSearched + 1;
-    for (std::size_t k = 0; k < count; k += stride) {
-      const core::Pair p = frame_->confirmed[k];
-      if (!is_known(p)) continue;
-      ++searched_;
-      const core::Proximity& proximity = frame_->proximity[k];
-      const double claimed =
-          proximity.is_touching() ? std::sqrt(static_cast<double>(proximity.squared_distance_m2)) : theta(p);
-      const double nearest =
-          trees_[surface_of_[p.i]].nearest(Vec3d(frame_->detected_position[p.i]), trees_[surface_of_[p.j]],
-                                           Vec3d(frame_->detected_position[p.j]), claimed);
-      tally_.check(
-          claimed - nearest, {placement(p) + rounding(4) * claimed + std::sqrt(5.0 * kSubnormal), "m", kPlacement},
-          at(p, proximity.is_touching() ? "proximity: a nearer vertex pair" : "proximity: a vertex pair below theta"));
-    }
+  void search(core::Pair p, const core::Proximity& proximity) {
+    if (!is_known(p)) return;
+    ++searched_;
+    const bool touches = proximity.is_touching();
+    const double claimed = touches ? std::sqrt(static_cast<double>(proximity.squared_distance_m2)) : theta(p);
+    const double nearest =
+        trees_[surface_of_[p.i]].nearest(Vec3d(frame_->detected_position[p.i]), trees_[surface_of_[p.j]],
+                                         Vec3d(frame_->detected_position[p.j]), claimed);
+    tally_.check(claimed - nearest,
+                 {placement(p) + rounding(4) * claimed + std::sqrt(5.0 * kSubnormal), "m", kPlacement},
+                 at(p, touches ? "proximity: a nearer vertex pair" : "proximity: a vertex pair below theta"));
   }
 
   void judge_surfaces(const core::FrameRecord& baseline) {
@@ -201,15 +196,13 @@ class ProximityBound final : public Validator {
   std::vector<std::uint32_t> surface_of_;
   std::vector<Surface> surfaces_;
   std::vector<VertexTree> trees_;
-  std::uint64_t stride_ = 1;
-  std::uint64_t seen_ = 0;
   std::string baseline_;
   bool is_fed_by_subject_ = false;
   const core::FrameRecord* frame_ = nullptr;
   Tally tally_{"proximity-bound", "distances",
                "METHOD 3: d <= d_vv <= d + rho_A + rho_B, nearest vertices below theta"};
   std::uint64_t searched_ = 0;
-  std::uint64_t frames_searched_ = 0;
+  std::uint64_t confirmed_ = 0;
   std::uint64_t measured_ = 0;
   std::uint64_t frames_measured_ = 0;
   std::uint64_t meeting_ = 0;
