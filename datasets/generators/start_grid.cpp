@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "datasets/cube_root.hpp"
 #include "datasets/random.hpp"
 
 namespace broadside::datasets {
@@ -28,17 +29,6 @@ Triple middle_of(const Box& box) {
   Triple middle;
   for (int k = 0; k < 3; ++k) middle[k] = 0.5 * (double{box.max[k]} + double{box.min[k]});
   return middle;
-}
-
-// Newton's method from above falls until rounding stops it. std::cbrt differs between libraries in the last bit.
-double cube_root(double v) {
-  if (!(v > 0.0)) return 0.0;
-  double r = std::max(v, 1.0);
-  for (;;) {
-    const double next = r - (r - v / (r * r)) / 3.0;
-    if (!(next < r)) return r;
-    r = next;
-  }
 }
 
 using Cells = std::array<std::uint64_t, 3>;

@@ -1,0 +1,40 @@
+// Scenes of boxes alone, for broad-phase work on baked inputs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/math/box.hpp"
+#include "core/result.hpp"
+
+namespace broadside::datasets {
+
+// Frames are made one after another: a hundred frames of a million boxes would be 2.4 GB. All boxes are finite, min <=
+// max.
+struct BoxStream {
+  std::string name;  // "boxes:uniform:100000", or the file's name
+  std::string what;
+  std::uint32_t frames = 1;
+  std::vector<core::Box> boxes;  // frame 0
+  // Turns the boxes of one frame into those of the next. Has a state of its own, so it is called in order, from frame
+  // 0, once per further frame. Empty when there is one frame.
+  std::function<void(std::vector<core::Box>&)> advance;
+};
+
+struct BoxStreamRow {
+  std::string_view pattern;  // "boxes:uniform:N"
+  std::string_view example;
+  std::string_view what;
+};
+
+std::vector<BoxStreamRow> box_stream_table();
+
+// `spec` is a name of the table or the path of a raw box file (it ends in .boxes or .bin). Errors: unknown name, with
+// the nearest; N outside 0 ... 100,000,000; and those of read_raw_boxes.
+core::Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::uint64_t> seed = {});
+
+}  // namespace broadside::datasets
