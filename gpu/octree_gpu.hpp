@@ -7,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// Why octree-gpu cannot run here: "no device", "built without CUDA"; empty when it can.
+// Why octree-gpu cannot run here: "no device", "no device: built without CUDA"; empty when it can.
 std::string octree_gpu_absent();
 
 core::Result<core::Engine> create_octree_gpu(const core::Settings& settings);

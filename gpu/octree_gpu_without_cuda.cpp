@@ -3,7 +3,7 @@
 namespace broadside::gpu {
 
 std::string octree_gpu_absent() {
-  return "built without CUDA";
+  return "no device: built without CUDA";
 }
 
 core::Result<core::Engine> create_octree_gpu(const core::Settings& /*settings*/) {

@@ -8,13 +8,19 @@
 
 #include "core/variant.hpp"
 #include "reference/octree_cpu/pipeline.hpp"
+#include "reference/scene_octree/broad_phases.hpp"
 
 namespace broadside::reference {
 namespace {
 
 const std::array<core::SettingRow, 6>& settings_table() {
   static const std::array<core::SettingRow, 6> kTable{{
-      {"broad", "brute", {"brute"}, "where candidates come from"},
+      {"broad",
+       "tree",
+       {"tree", "octree", "brute"},
+       "where candidates come from: the fast octree, the scene octree of P-Alg 1, or the published start that tests "
+       "all "
+       "pairs; brute when levels are given and this is not"},
       {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
       {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
       {"threads", "0", {}, "threads; 0 = all. Does not change a bit of the result"},
@@ -31,6 +37,18 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   PipelineOptions options;
   options.levels = *core::levels_named(settings.text("levels"));
   options.variant = *core::variant_named(settings.text("variant"));
+  // As published, a level setting starts by brute force; a setting given for both is taken at its word.
+  const bool is_published_start = settings.is_given("levels") && !settings.is_given("broad");
+  // E2 and E7 are faults of the published scene octree: without it there would be nothing to see.
+  const bool needs_octree = options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7;
+  const std::string& broad = settings.text("broad");
+  if (needs_octree || (broad == "octree" && !is_published_start)) {
+    options.make_broad_phase = [variant = options.variant](const core::Scene& scene) {
+      return make_scene_octree_broad_phase(scene.domain, core::kSceneOctreeDepth, variant);
+    };
+  } else if (broad == "tree" && !is_published_start) {
+    options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };
+  }
   const std::string& solver = settings.text("solver");
   if (solver == "jacobi") options.solver = Solver::kJacobi;
   if (solver == "printed-E8" || options.variant == core::Variant::kE8) options.solver = Solver::kRacing;

@@ -1,0 +1,25 @@
+// An engine and the settings that somebody gave it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "core/engine/engine.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+using GivenSettings = std::map<std::string, std::string>;
+
+struct CellSpec {
+  const core::EngineRow* row = nullptr;
+  GivenSettings settings;
+};
+
+// "octree-cpu" or, as reports label it, "octree-cpu[levels=A,threads=1]".
+core::Result<CellSpec> parse_cell_spec(std::string_view text);
+
+bool offers(const core::EngineRow& row, std::string_view capability);
+
+}  // namespace broadside::bench

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "bench/commands.hpp"
+#include "bench/record.hpp"
+#include "bench/run_plan.hpp"
+#include "bench/scene_arguments.hpp"
+#include "reports/terminal_table.hpp"
+
+namespace broadside::bench {
+namespace {
+
+struct RunArguments {
+  SceneArguments scene;
+  EngineArguments engines;
+  std::string level = "full";
+  std::uint32_t every = 1;
+  std::uint32_t narrow_every = 0;
+  std::string folder = "out";
+  std::string driver;
+  std::string in_process;  // folder for the one cell's row
+  double time_limit_s = 3600.0;
+};
+
+core::RecordLevel level_named(const std::string& name) {
+  if (name == "digest") return core::RecordLevel::kDigest;
+  if (name == "none") return core::RecordLevel::kNone;
+  return core::RecordLevel::kFull;
+}
+
+core::Result<RunPlan> make_plan(const RunArguments& a) {
+  RunPlan plan;
+  auto scene = a.scene.make();
+  if (!scene) return scene.error();
+  plan.source = a.scene;
+  plan.scene = std::move(scene).value();
+  auto cells = a.engines.make();
+  if (!cells) return cells.error();
+  plan.cells = std::move(cells).value();
+  plan.frames = plan.scene.frames;
+  plan.level = level_named(a.level);
+  plan.every = a.every;
+  plan.narrow_every = a.narrow_every > 0 ? a.narrow_every : default_narrow_every(plan.frames);
+  plan.folder = a.folder;
+  plan.time_limit_s = a.time_limit_s;
+  return plan;
+}
+
+// One cell, here: what a child process of record_cell_in_child does.
+core::Exit run_in_process(const RunArguments& a, const RunPlan& plan) {
+  const CellSpec& spec = plan.cells.front();
+  const CellRequest request{plan.source, &plan.scene, spec.row,          spec.settings, plan.frames,
+                            plan.level,  plan.every,  plan.narrow_every, plan.folder,   a.driver};
+  auto cell = record_cell(request);
+  if (!cell) return complain(cell.error());
+  if (core::Status s = core::write_cells(std::filesystem::path(a.in_process) / "cells.json", {cell.value()}); !s)
+    return complain(s.error());
+  return core::Exit::kGood;
+}
+
+core::Exit run(const RunArguments& a) {
+  auto plan = make_plan(a);
+  if (!plan) return complain(plan.error());
+  if (core::Status s = prepare_folder(plan.value().folder); !s) return complain(s.error());
+  if (!a.in_process.empty()) return run_in_process(a, plan.value());
+  auto outcome = run_plan(plan.value());
+  if (!outcome) return complain(outcome.error());
+  fmt::print("{}", reports::cell_table(outcome.value().cells));
+  for (const core::Cell& cell : outcome.value().cells)
+    if (cell.state != core::CellState::kRecorded) return core::Exit::kMissing;
+  return core::Exit::kGood;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, core::Exit& exit) {
+  auto a = std::make_shared<RunArguments>();
+  CLI::App* command = program.add_subcommand("run", "Run engines over a scene and record a trace of each");
+  a->scene.add_to(*command);
+  a->engines.add_to(*command);
+  command->add_option("--record", a->level, "What to record: full, digest (one number a frame) or none")
+      ->check(CLI::IsMember({"full", "digest", "none"}))
+      ->capture_default_str();
+  command->add_option("--every", a->every, "Record every k-th frame")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--narrow-every", a->narrow_every,
+                      "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
+  command->add_option("--out", a->folder, "Folder for the traces and cells.json")->capture_default_str();
+  command->add_option("--time-limit", a->time_limit_s, "Seconds after which a reference engine's process is ended")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--driver", a->driver, "Trace that feeds engines that do not simulate")->group("");
+  command->add_option("--in-process", a->in_process, "Run one cell here and leave its row in this folder")->group("");
+  command->callback([a, &exit] { exit = run(*a); });
+}
+
+}  // namespace broadside::bench

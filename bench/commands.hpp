@@ -1,0 +1,26 @@
+// The subcommands. Each adds itself, with its options, to the program and runs when it was chosen.
+#pragma once
+
+#include "core/result.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace broadside::bench {
+
+using AddCommand = void (*)(CLI::App& program, core::Exit& exit);
+
+void add_list(CLI::App& program, core::Exit& exit);
+void add_run(CLI::App& program, core::Exit& exit);
+void add_check(CLI::App& program, core::Exit& exit);
+void add_time(CLI::App& program, core::Exit& exit);
+void add_report(CLI::App& program, core::Exit& exit);
+void add_demo(CLI::App& program, core::Exit& exit);
+void add_fetch(CLI::App& program, core::Exit& exit);
+void add_recover(CLI::App& program, core::Exit& exit);
+
+// Prints the error's one line to stderr and returns its exit code.
+core::Exit complain(const core::Error& error);
+
+}  // namespace broadside::bench

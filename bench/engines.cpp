@@ -1,0 +1,32 @@
+#include "bench/engines.hpp"
+
+#include <vector>
+
+#include "core/nearest_name.hpp"
+#include "gpu/engines.hpp"
+#include "reference/engines.hpp"
+#include "reference/octree_cpu/engine.hpp"
+
+namespace broadside::bench {
+
+// To add an engine: its file, and one line here.
+std::span<const core::EngineRow> engines() {
+  static const std::vector<core::EngineRow> kTable{
+      gpu::octree_gpu_row(),       reference::octree_cpu_row(),  reference::hash_cpu_row(),
+      reference::all_pairs_row(),  reference::bullet_dbvt_row(), reference::bullet_dbvt_tree_row(),
+      reference::bullet_sap_row(), reference::fcl_tree_row(),    reference::fcl_sap_row(),
+      reference::exact_mesh_row(), reference::fcl_mesh_row(),
+  };
+  return kTable;
+}
+
+core::Result<const core::EngineRow*> find_engine(std::string_view id) {
+  std::vector<std::string_view> ids;
+  for (const core::EngineRow& row : engines()) {
+    if (row.id == id) return &row;
+    ids.push_back(row.id);
+  }
+  return core::Error{"unknown engine '" + std::string(id) + "'", "--engine", core::advise_name(id, ids)};
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,27 @@
+// Traces in, verdicts out: what check and demo share.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+#include "core/rows.hpp"
+
+namespace broadside::bench {
+
+struct Matter {
+  std::filesystem::path trace;
+  std::filesystem::path baseline;  // empty = the trace alone
+  // Leave out what does not compare with the baseline: the trace was judged alone already.
+  bool only_against_baseline = false;
+  std::vector<std::string> only;  // validators to run; empty = all
+};
+
+core::Result<core::CellVerdicts> judge_matter(const Matter& matter);
+
+// The exit code that these verdicts lead to.
+core::Exit exit_of(const std::vector<core::CellVerdicts>& rows);
+
+}  // namespace broadside::bench

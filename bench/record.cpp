@@ -1,0 +1,164 @@
+#include "bench/record.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "bench/interrupt.hpp"
+#include "bench/near_pairs.hpp"
+#include "bench/recording.hpp"
+#include "core/scene/shapes.hpp"
+#include "core/trace/trace_reader.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using core::Group;
+
+core::TraceHeader header_for(const CellRequest& request, const core::Engine& engine) {
+  core::TraceHeader header;
+  header.stamp = stamp_of(*request.scene, engine);
+  header.scene = *request.scene;
+  header.level = request.level;
+  header.every = request.every;
+  for (const auto& mesh : request.scene->meshes)
+    header.notes["mesh " + mesh->name] = mesh->source + (mesh->is_stand_in ? " (STAND-IN)" : "");
+  const core::ShapeTable table = core::build_shapes(*request.scene);
+  for (const core::Shape& shape : table.shapes)
+    header.notes["theta_m " + request.scene->meshes[shape.mesh]->name] =
+        fmt::format("{}", core::pair_theta_m(request.scene->parameters, shape, shape));
+  return header;
+}
+
+core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engine& engine) {
+  core::Dynamics& dynamics = *engine.dynamics;
+  core::TraceHeader header = header_for(request, engine);
+  header.groups = request.level == core::RecordLevel::kFull ? dynamics.groups() : 0;
+  if (core::Status s = dynamics.load(*request.scene); !s) return s.error();
+  auto recording = Recording::start(request, std::move(header), request.frames);
+  if (!recording) return recording.error();
+  core::FrameRecord frame;
+  for (std::uint64_t step = 1; step <= request.frames; ++step) {
+    if (is_interrupted()) return recording.value().interrupted();
+    if (core::Status s = dynamics.step(request.scene->dt_s); !s) return recording.value().failed(s.error());
+    // The last frame is recorded whatever the rhythm: its digest is what a timed run is held against.
+    if (recording.value().is_due(step) || step == request.frames) {
+      if (core::Status s = dynamics.read_back(frame, request.level); !s) return recording.value().failed(s.error());
+      if (core::Status s = recording.value().add(frame); !s) return s.error();
+    }
+    recording.value().note_progress(step);
+  }
+  return recording.value().finish();
+}
+
+core::Result<core::TraceReader> open_driver(const CellRequest& request, std::uint32_t groups) {
+  auto driver = core::TraceReader::open(request.driver_trace);
+  if (!driver) return driver.error();
+  const core::TraceHeader& header = driver.value().header();
+  if ((header.groups & groups) != groups)
+    return core::Error{"the trace has no boxes and poses at detection to feed an engine with",
+                       request.driver_trace.string(), "record octree-cpu with --record full"};
+  if (header.stamp.scene_digest != core::scene_digest(*request.scene))
+    return core::Error{"the trace is of another scene", request.driver_trace.string(), "record the driver again"};
+  return driver;
+}
+
+std::vector<std::uint8_t> static_flags(const core::Scene& scene) {
+  std::vector<std::uint8_t> flags;
+  for (const core::Body& body : scene.bodies) flags.push_back(body.inverse_mass > 0.0F ? 0 : 1);
+  return flags;
+}
+
+// Fed the boxes that the driver's broad phase saw, frame by frame.
+core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& engine) {
+  auto opened = open_driver(request, bit(Group::kDetection));
+  if (!opened) return opened.error();
+  const core::TraceReader& driver = opened.value();
+  core::BroadPhase& broad = *engine.broad_phase;
+  core::TraceHeader header = header_for(request, engine);
+  header.groups = request.level == core::RecordLevel::kFull ? bit(Group::kDetection) | bit(Group::kPairs) : 0;
+  header.driver = driver.header().stamp.label();
+  header.broad_is_exact = broad.traits().exact;
+  header.broad_margin_m = broad.traits().margin_m;
+  auto started = Recording::start(request, std::move(header), driver.frame_count());
+  if (!started) return started.error();
+  Recording& recording = started.value();
+  const std::vector<std::uint8_t> is_static = static_flags(*request.scene);
+
+  for (std::uint64_t k = 0; k < driver.frame_count(); ++k) {
+    if (is_interrupted()) return recording.interrupted();
+    auto read = driver.read(k, bit(Group::kDetection));
+    if (!read) return read.error();
+    core::FrameRecord frame = std::move(read).value();
+    core::Status status = k == 0 ? broad.load(frame.boxes, is_static) : broad.update(frame.boxes);
+    if (status.ok()) status = broad.find();
+    if (!status) return recording.failed(status.error());
+    auto found = broad.read_back();
+    if (!found) return recording.failed(found.error());
+    frame.pairs = std::move(found.value().pairs);
+    frame.pairs_demanded = found.value().demanded;
+    frame.pairs_raw = found.value().raw;
+    frame.digest = core::pair_digest(frame.pairs);
+    if (core::Status s = recording.add(frame); !s) return s.error();
+    recording.note_progress(k + 1);
+  }
+  return recording.finish();
+}
+
+// Measures the pairs that the driver confirmed or that are near (bench/near_pairs.hpp), at the poses of detection, on
+// a sampled set of frames.
+core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine& engine) {
+  auto opened = open_driver(request, bit(Group::kDetection) | bit(Group::kConfirmed));
+  if (!opened) return opened.error();
+  const core::TraceReader& driver = opened.value();
+  core::NarrowPhase& narrow = *engine.narrow_phase;
+  core::TraceHeader header = header_for(request, engine);
+  header.groups = request.level == core::RecordLevel::kFull ? bit(Group::kNarrow) | bit(Group::kDetection) : 0;
+  header.driver = driver.header().stamp.label();
+  header.every = request.narrow_every;
+  header.notes["frames measured"] = fmt::format("every {}th frame of {}", request.narrow_every, driver.frame_count());
+  header.notes["pairs measured"] = "confirmed by the driver, or boxes within 2 theta";
+  if (core::Status s = narrow.load(*request.scene); !s) return s.error();
+  CellRequest sampled = request;
+  sampled.every = 1;
+  auto started = Recording::start(sampled, std::move(header), driver.frame_count());
+  if (!started) return started.error();
+  Recording& recording = started.value();
+
+  NearPairs near(*request.scene);
+  for (std::uint64_t k = 0; k < driver.frame_count(); ++k) {
+    if (driver.steps()[k] % request.narrow_every != 0) continue;
+    if (is_interrupted()) return recording.interrupted();
+    auto read = driver.read(k, bit(Group::kDetection) | bit(Group::kConfirmed));
+    if (!read) return read.error();
+    core::FrameRecord frame = std::move(read).value();
+    frame.measured = near.of(frame);
+    std::vector<core::Pose> poses;
+    for (std::size_t i = 0; i < frame.detected_position.size(); ++i)
+      poses.push_back({frame.detected_position[i], request.scene->bodies[i].orientation});
+    if (core::Status s = narrow.measure(frame.measured, poses); !s) return recording.failed(s.error());
+    auto separations = narrow.read_back();
+    if (!separations) return recording.failed(separations.error());
+    frame.separations = std::move(separations).value();
+    frame.digest = separation_digest(frame);
+    if (core::Status s = recording.add(frame); !s) return s.error();
+    recording.note_progress(k + 1);
+  }
+  return recording.finish();
+}
+
+}  // namespace
+
+core::Result<core::Cell> record_cell(const CellRequest& request) {
+  auto settings = core::Settings::parse(request.row->id, request.row->settings, request.settings);
+  if (!settings) return settings.error();
+  auto created = request.row->create(settings.value());
+  if (!created) return created.error();
+  core::Engine& engine = created.value();
+  if (engine.dynamics) return record_dynamics(request, engine);
+  if (engine.broad_phase) return record_broad(request, engine);
+  return record_narrow(request, engine);
+}
+
+}  // namespace broadside::bench

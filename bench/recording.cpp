@@ -1,0 +1,72 @@
+#include "bench/recording.hpp"
+
+#include <utility>
+
+namespace broadside::bench {
+
+core::Result<Recording> Recording::start(const CellRequest& request, core::TraceHeader header, std::uint64_t frames) {
+  Recording r;
+  r.every_ = request.every;
+  r.start_ = std::chrono::steady_clock::now();
+  r.progress_ = std::make_unique<Progress>(header.stamp.label(), frames);
+  if (request.level != core::RecordLevel::kNone) {
+    r.file_name_ = trace_file_name(header.stamp);
+    auto writer = core::TraceWriter::create(request.folder / r.file_name_, header);
+    if (!writer) return writer.error();
+    r.writer_ = std::move(writer).value();
+  }
+  r.header_ = std::move(header);
+  return r;
+}
+
+core::Status Recording::add(const core::FrameRecord& frame) {
+  last_step_ = frame.step;
+  last_digest_ = frame.digest;
+  ++frames_;
+  if (writer_) {
+    if (core::Status s = writer_->append(frame); !s) return s;
+  }
+  return core::Done{};
+}
+
+core::Cell Recording::cell(core::CellState state, const std::string& reason) {
+  core::Cell cell;
+  cell.stamp = header_.stamp;
+  cell.state = state;
+  cell.reason = reason;
+  cell.frames = frames_;
+  cell.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (frames_ > 0) cell.digests[last_step_] = last_digest_;
+  cell.notes = header_.notes;
+  progress_.reset();
+  return cell;
+}
+
+core::Result<core::Cell> Recording::finish() {
+  if (writer_) {
+    if (core::Status s = writer_->finish(); !s) return s.error();
+  }
+  core::Cell done = cell(core::CellState::kRecorded, "");
+  done.trace_file = file_name_;
+  return done;
+}
+
+core::Result<core::Cell> Recording::interrupted() {
+  core::Cell stopped = cell(core::CellState::kInterrupted, "interrupted after frame " + std::to_string(last_step_));
+  if (writer_) {
+    if (core::Status s = writer_->flush(); !s) return s.error();
+    stopped.trace_file = file_name_ + ".part";
+  }
+  return stopped;
+}
+
+core::Result<core::Cell> Recording::failed(const core::Error& error) {
+  core::Cell broken = cell(core::CellState::kFailed, error.line());
+  if (writer_) {
+    if (core::Status s = writer_->flush(); !s) return s.error();
+    broken.trace_file = file_name_ + ".part";
+  }
+  return broken;
+}
+
+}  // namespace broadside::bench

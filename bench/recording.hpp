@@ -1,0 +1,49 @@
+// The writing half of a recording run: header, frames, interrupt, progress and the finished cell.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bench/cell_request.hpp"
+#include "bench/progress.hpp"
+#include "core/result.hpp"
+#include "core/rows.hpp"
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
+#include "core/trace/trace_writer.hpp"
+
+namespace broadside::bench {
+
+class Recording {
+ public:
+  // With level none nothing is written, and the cell has no trace file.
+  static core::Result<Recording> start(const CellRequest& request, core::TraceHeader header, std::uint64_t frames);
+
+  // Appends when the frame's step is one to record, and moves the progress line.
+  core::Status add(const core::FrameRecord& frame);
+  void note_progress(std::uint64_t done) { progress_->at(done); }
+  [[nodiscard]] bool is_due(std::uint64_t step) const { return step % every_ == 0; }
+
+  // Exactly one of these ends it.
+  core::Result<core::Cell> finish();
+  core::Result<core::Cell> interrupted();
+  core::Result<core::Cell> failed(const core::Error& error);
+
+ private:
+  Recording() = default;
+  core::Cell cell(core::CellState state, const std::string& reason);
+
+  core::TraceHeader header_;
+  std::optional<core::TraceWriter> writer_;
+  std::unique_ptr<Progress> progress_;
+  std::string file_name_;
+  std::uint32_t every_ = 1;
+  std::uint64_t frames_ = 0;
+  std::uint64_t last_step_ = 0;
+  std::uint64_t last_digest_ = 0;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace broadside::bench

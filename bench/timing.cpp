@@ -1,0 +1,207 @@
+#include "bench/timing.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "bench/interrupt.hpp"
+#include "bench/near_pairs.hpp"
+#include "bench/progress.hpp"
+#include "core/trace/trace_reader.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using core::Group;
+using Clock = std::chrono::steady_clock;
+
+// First-touch of memory and start of threads are over after some frames; ten per cent more than none is measurable in
+// the first handful only.
+constexpr std::uint64_t kWarmUpFrames = 20;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void add_time(core::Sample& sample, std::string_view stage, double seconds) {
+  for (core::StageSeries& series : sample.stages) {
+    if (series.stage != stage) continue;
+    series.seconds.push_back(seconds);
+    return;
+  }
+  sample.stages.push_back({std::string(stage), {seconds}});
+}
+
+// What the driver's frames give to engines that do not simulate, in memory before any clock runs.
+struct BakedFrames {
+  std::vector<std::uint64_t> steps;
+  std::vector<core::FrameRecord> frames;
+};
+
+core::Result<BakedFrames> bake(const std::filesystem::path& trace, const core::Scene& scene, std::uint32_t groups,
+                               std::uint32_t every) {
+  auto opened = core::TraceReader::open(trace);
+  if (!opened) return opened.error();
+  const core::TraceReader& reader = opened.value();
+  if (reader.header().stamp.scene_digest != core::scene_digest(scene))
+    return core::Error{"the trace is of another scene", trace.string(), "record octree-cpu of this scene first"};
+  BakedFrames baked;
+  for (std::uint64_t k = 0; k < reader.frame_count(); ++k) {
+    if (reader.steps()[k] % every != 0) continue;
+    auto frame = reader.read(k, groups);
+    if (!frame) return frame.error();
+    baked.steps.push_back(reader.steps()[k]);
+    baked.frames.push_back(std::move(frame).value());
+  }
+  return baked;
+}
+
+core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint64_t frames, core::Sample& sample) {
+  core::Dynamics& dynamics = *engine.dynamics;
+  if (core::Status s = dynamics.load(plan.scene); !s) return s;
+  for (std::uint64_t step = 1; step <= frames && !is_interrupted(); ++step) {
+    const auto start = Clock::now();
+    if (core::Status s = dynamics.step(plan.scene.dt_s); !s) return s;
+    const double whole = seconds_since(start);
+    for (const core::StageTime& stage : dynamics.stage_times()) add_time(sample, stage.stage, stage.seconds);
+    add_time(sample, "frame", whole);
+  }
+  core::FrameRecord last;
+  if (core::Status s = dynamics.read_back(last, core::RecordLevel::kDigest); !s) return s;
+  sample.final_step = last.step;
+  sample.final_digest = last.digest;
+  return core::Done{};
+}
+
+core::Status time_broad(const RunPlan& plan, core::Engine& engine, const BakedFrames& baked, std::uint64_t frames,
+                        core::Sample& sample) {
+  std::vector<std::uint8_t> is_static;
+  for (const core::Body& body : plan.scene.bodies) is_static.push_back(body.inverse_mass > 0.0F ? 0 : 1);
+  core::BroadPhase& broad = *engine.broad_phase;
+  core::PairSet found;
+  for (std::uint64_t k = 0; k < frames && !is_interrupted(); ++k) {
+    if (k == 0) {
+      if (core::Status s = broad.load(baked.frames[0].boxes, is_static); !s) return s;
+    }
+    const auto start = Clock::now();
+    if (core::Status s = broad.update(baked.frames[k].boxes); !s) return s;
+    const double updated = seconds_since(start);
+    if (core::Status s = broad.find(); !s) return s;
+    const double both = seconds_since(start);
+    auto pairs = broad.read_back();
+    if (!pairs) return pairs.error();
+    found = std::move(pairs).value();
+    add_time(sample, "update", updated);
+    add_time(sample, "find", both - updated);
+    add_time(sample, "filter", found.filter_s);
+    add_time(sample, "frame", both + found.filter_s);
+    sample.final_step = baked.steps[k];
+  }
+  sample.final_digest = core::pair_digest(found.pairs);
+  return core::Done{};
+}
+
+core::Status time_narrow(const RunPlan& plan, core::Engine& engine, const BakedFrames& baked, std::uint64_t frames,
+                         core::Sample& sample) {
+  core::NarrowPhase& narrow = *engine.narrow_phase;
+  if (core::Status s = narrow.load(plan.scene); !s) return s;
+  const NearPairs near(plan.scene);
+  core::FrameRecord last;
+  for (std::uint64_t k = 0; k < frames && !is_interrupted(); ++k) {
+    last = baked.frames[k];
+    last.measured = near.of(last);
+    std::vector<core::Pose> poses;
+    for (std::size_t i = 0; i < last.detected_position.size(); ++i)
+      poses.push_back({last.detected_position[i], plan.scene.bodies[i].orientation});
+    const auto start = Clock::now();
+    if (core::Status s = narrow.measure(last.measured, poses); !s) return s;
+    const double seconds = seconds_since(start);
+    add_time(sample, "measure", seconds);
+    add_time(sample, "frame", seconds);
+    sample.final_step = baked.steps[k];
+    auto separations = narrow.read_back();
+    if (!separations) return separations.error();
+    last.separations = std::move(separations).value();
+  }
+  sample.final_digest = separation_digest(last);
+  return core::Done{};
+}
+
+class Timer {
+ public:
+  explicit Timer(const RunPlan& plan) : plan_(plan) {}
+
+  core::Status prepare() {
+    const auto needs = [&](auto test) { return std::any_of(plan_.cells.begin(), plan_.cells.end(), test); };
+    const std::filesystem::path driver = plan_.folder / "octree-cpu.h5";
+    if (needs([](const CellSpec& c) { return !offers(*c.row, "dynamics") && offers(*c.row, "broad"); })) {
+      auto baked = bake(driver, plan_.scene, bit(Group::kDetection), 1);
+      if (!baked) return baked.error();
+      boxes_ = std::move(baked).value();
+    }
+    if (needs([](const CellSpec& c) { return !offers(*c.row, "dynamics") && !offers(*c.row, "broad"); })) {
+      auto baked = bake(driver, plan_.scene, bit(Group::kDetection) | bit(Group::kConfirmed), plan_.narrow_every);
+      if (!baked) return baked.error();
+      poses_ = std::move(baked).value();
+    }
+    return core::Done{};
+  }
+
+  // frames = all: as many as there are for the engine's kind.
+  core::Result<core::Sample> time(const CellSpec& spec, std::uint64_t most_frames) {
+    auto settings = core::Settings::parse(spec.row->id, spec.row->settings, spec.settings);
+    if (!settings) return settings.error();
+    auto created = spec.row->create(settings.value());
+    if (!created) return created.error();
+    core::Engine& engine = created.value();
+    core::Sample sample;
+    sample.stamp = stamp_of(plan_.scene, engine);
+    core::Status status = core::Done{};
+    if (engine.dynamics)
+      status = time_dynamics(plan_, engine, std::min(most_frames, plan_.frames), sample);
+    else if (engine.broad_phase)
+      status = time_broad(plan_, engine, boxes_, std::min<std::uint64_t>(most_frames, boxes_.frames.size()), sample);
+    else
+      status = time_narrow(plan_, engine, poses_, std::min<std::uint64_t>(most_frames, poses_.frames.size()), sample);
+    if (!status) return status.error();
+    return sample;
+  }
+
+ private:
+  const RunPlan& plan_;
+  BakedFrames boxes_;
+  BakedFrames poses_;
+};
+
+}  // namespace
+
+core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions) {
+  Timer timer(plan);
+  if (core::Status s = timer.prepare(); !s) return s.error();
+  std::vector<core::Sample> samples;
+  Progress progress("timing", std::uint64_t{repetitions} * plan.cells.size());
+  for (std::uint32_t r = 0; r < repetitions; ++r) {
+    for (const CellSpec& spec : plan.cells) {
+      if (spec.row->absent != nullptr && !spec.row->absent().empty()) continue;
+      if (r == 0) {
+        // A narrow phase measures so much a frame that one frame warms it.
+        const bool is_narrow = !offers(*spec.row, "dynamics") && !offers(*spec.row, "broad");
+        auto warm = timer.time(spec, is_narrow ? 1 : kWarmUpFrames);
+        if (!warm) return warm.error();
+      }
+      auto sample = timer.time(spec, plan.frames);
+      if (!sample) return sample.error();
+      if (is_interrupted())
+        return core::Error{"interrupted: no time is kept of a run that did not end", "time", "", core::Exit::kMissing};
+      sample.value().repetition = r;
+      sample.value().warm_up_frames = kWarmUpFrames;
+      samples.push_back(std::move(sample).value());
+      progress.at(samples.size());
+    }
+  }
+  return samples;
+}
+
+}  // namespace broadside::bench

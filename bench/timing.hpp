@@ -1,0 +1,22 @@
+// Times cells: the same work as recording, with recording off.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bench/run_plan.hpp"
+#include "core/result.hpp"
+#include "core/sample.hpp"
+
+namespace broadside::bench {
+
+// One sample per cell and repetition; repetitions of different cells alternate, so that a machine that drifts drifts
+// for all. Each repetition starts from the loaded scene and runs all frames of the plan. Before the first, each cell
+// runs some frames untimed on an instance of its own, so that memory, threads and code are warm.
+// Zones: a simulating engine's own stages, and "frame" = the whole step. A broad phase: "update", "find", "filter" (its
+// own, of raw pairs), "frame" = their sum, over boxes baked from plan.folder's octree-cpu trace. A narrow phase:
+// "measure", per sampled frame.
+// The final digest is read after the clock stopped.
+core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions);
+
+}  // namespace broadside::bench

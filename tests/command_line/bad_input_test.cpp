@@ -1,0 +1,98 @@
+// Bad input: one clear line on stderr, exit code 2, and nothing left behind.
+#include <gtest/gtest.h>
+
+#include "tests/command_line/program.hpp"
+
+namespace broadside::tests {
+namespace {
+
+struct BadCase {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::string must_say;
+};
+
+void PrintTo(const BadCase& c, std::ostream* out) {
+  *out << c.name;
+}
+
+class BadArguments : public testing::TestWithParam<BadCase> {};
+
+TEST_P(BadArguments, GetOneClearLineAndExitCode2) {
+  const Ended ended = run_program(GetParam().arguments);
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_NE(ended.err.find(GetParam().must_say), std::string::npos) << ended.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadArguments,
+    testing::Values(BadCase{"NoSubcommand", {}, "subcommand"}, BadCase{"UnknownSubcommand", {"rnu"}, "rnu"},
+                    BadCase{"UnknownScene", {"run", "frefall:bunny:50", "--engine", "octree-cpu"}, "freefall"},
+                    BadCase{"MissingSceneFile", {"run", "no-such.toml", "--engine", "octree-cpu"}, "no-such.toml"},
+                    BadCase{"UnknownEngine", {"run", "errata:E3", "--engine", "octree-cup"}, "octree-cpu"},
+                    BadCase{
+                        "UnknownSetting", {"run", "errata:E3", "--engine", "octree-cpu", "--set", "level=A"}, "levels"},
+                    BadCase{"UnknownValue", {"run", "errata:E3", "--engine", "octree-cpu[levels=D]"}, "levels"},
+                    BadCase{"UnknownVariant",
+                            {"run", "errata:E3", "--engine", "octree-cpu", "--set", "variant=printed-E33"},
+                            "printed-E3"},
+                    BadCase{"UnknownMesh", {"run", "freefall:bunnny:50", "--engine", "octree-cpu"}, "bunny"},
+                    BadCase{"ZeroFrames", {"run", "errata:E3", "--engine", "octree-cpu", "--frames", "0"}, "frames"},
+                    BadCase{"NoSuchTrace", {"check", "no-such.h5"}, "no-such.h5"},
+                    BadCase{"NoSuchFolder", {"report", "no-such-folder", "--html", "x.html"}, "no-such-folder"},
+                    BadCase{"NoSuchPart", {"recover", "no-such.h5.part"}, "no-such.h5.part"}),
+    [](const auto& instance) { return instance.param.name; });
+
+struct BadScene {
+  std::string name;
+  std::string toml;
+  std::string must_say;
+};
+
+void PrintTo(const BadScene& c, std::ostream* out) {
+  *out << c.name;
+}
+
+std::string with_body(const std::string& body) {
+  return "name = \"bad\"\nframes = 2\n[domain]\nmin_m = [-5, -5, -5]\nmax_m = [5, 5, 5]\n"
+         "[[mesh]]\nname = \"cube\"\nshape = \"box\"\n[[body]]\n" +
+         body;
+}
+
+class BadSceneFile : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadSceneFile, GetsOneClearLineExitCode2AndLeavesNothing) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "bad.toml") << GetParam().toml;
+  const Ended ended = run_program(
+      {"run", (folder / "bad.toml").string(), "--engine", "octree-cpu", "--out", (folder / "out").string()});
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_NE(ended.err.find(GetParam().must_say), std::string::npos) << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadSceneFile,
+    testing::Values(BadScene{"Malformed", "name = \n", "bad.toml"},
+                    BadScene{"UnknownKey", with_body("positon_m = [0, 0, 0]\n"), "position_m"},
+                    BadScene{"NanPosition", with_body("position_m = [nan, 0, 0]\n"), "position"},
+                    BadScene{"InfinitePosition", with_body("position_m = [0, inf, 0]\n"), "position"},
+                    BadScene{"ZeroMass", with_body("position_m = [0, 0, 0]\nmass_kg = 0\n"), "mass"},
+                    BadScene{"NegativeMass", with_body("position_m = [0, 0, 0]\nmass_kg = -1\n"), "mass"},
+                    BadScene{"WrongType", with_body("position_m = \"here\"\n"), "position"}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(BadOutput, UnwritableFolder) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "a-file") << "in the way";
+  const Ended ended =
+      run_program({"run", "errata:E3", "--engine", "octree-cpu", "--out", (folder / "a-file" / "out").string()});
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_EQ(read_text(folder / "a-file"), "in the way");
+}
+
+}  // namespace
+}  // namespace broadside::tests
