@@ -7,16 +7,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/math/box.hpp"
 #include "reference/engines.hpp"
 #include "reference/pair_check.hpp"
+#include "reference/turned_shapes.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
 #include "reference/worker_count.hpp"
@@ -115,13 +114,14 @@ Separation measure_one(const Placed& a, const Placed& b, bool is_mpr) {
   return out;
 }
 
-std::vector<Vec3> turned(const core::Mesh& mesh, core::Quat orientation, bool is_box) {
+std::vector<Vec3> turned(const core::Mesh& mesh, core::Quat orientation) {
   std::vector<Vec3> points = mesh.vertices;
   for (Vec3& p : points) p = core::rotate(orientation, p);
-  if (!is_box) return points;
-  core::Box box = core::empty_box();
-  for (const Vec3 p : points) box = core::grown(box, p);
-  points.clear();
+  return points;
+}
+
+std::vector<Vec3> corners_of(const core::Box& box) {
+  std::vector<Vec3> points;
   for (int corner = 0; corner < 8; ++corner) {
     points.push_back({(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
                       (corner & 4) != 0 ? box.max.z : box.min.z});
@@ -131,30 +131,23 @@ std::vector<Vec3> turned(const core::Mesh& mesh, core::Quat orientation, bool is
 
 class CcdConvex final : public core::NarrowPhase {
  public:
-  CcdConvex(bool is_mpr, bool is_box, int workers) : is_mpr_(is_mpr), is_box_(is_box), arena_(workers) {}
+  CcdConvex(bool is_mpr, bool is_box, int workers)
+      : is_mpr_(is_mpr), arena_(workers), shapes_([is_box](const core::Mesh& mesh, core::Quat q) {
+          return std::make_unique<Points>(is_box ? corners_of(turned_bounds(mesh, q)) : turned(mesh, q));
+        }) {}
 
   Status load(const core::Scene& scene) override {
     return vendor_call("ccd: load", [&]() -> Status {
-      meshes_ = scene.meshes;
-      shapes_.clear();
-      mesh_of_body_.clear();
-      for (const core::Body& body : scene.bodies) {
-        mesh_of_body_.push_back(body.mesh);
-        shape_of(body.mesh, body.orientation);
-      }
+      shapes_.load(scene);
       return core::Done{};
     });
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    if (Status status = check_pairs(kId, pairs, poses, shapes_.body_count()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("ccd: measure", [&]() -> Status {
-      // A body that turned since load needs its points turned again; made before the threads start.
-      std::vector<const Points*> shapes(poses.size(), nullptr);
-      for (const core::Pair p : pairs)
-        for (const std::uint32_t body : {p.i, p.j})
-          if (shapes[body] == nullptr) shapes[body] = &shape_of(mesh_of_body_[body], poses[body].orientation);
+      const std::vector<const Points*> shapes = shapes_.of(pairs, poses);
       arena_.execute([&] {
         tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
           const auto [i, j] = pairs[k];
@@ -168,18 +161,9 @@ class CcdConvex final : public core::NarrowPhase {
   core::Result<std::vector<Separation>> read_back() override { return separations_; }
 
  private:
-  const Points& shape_of(std::uint32_t mesh, core::Quat q) {
-    auto& shape = shapes_[{mesh, q.w, q.x, q.y, q.z}];
-    if (shape == nullptr) shape = std::make_unique<Points>(turned(*meshes_[mesh], q, is_box_));
-    return *shape;
-  }
-
   bool is_mpr_;
-  bool is_box_;
   tbb::task_arena arena_;
-  std::vector<std::shared_ptr<const core::Mesh>> meshes_;
-  std::vector<std::uint32_t> mesh_of_body_;
-  std::map<std::tuple<std::uint32_t, float, float, float, float>, std::unique_ptr<Points>> shapes_;
+  TurnedShapes<Points> shapes_;
   std::vector<Separation> separations_;
 };
 

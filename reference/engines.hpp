@@ -15,6 +15,8 @@ core::EngineRow fcl_sap_row();           // broad: fcl::SaPCollisionManager and 
 core::EngineRow hash_cpu_row();          // broad, dynamics: the spatial hash and the pipeline behind it
 core::EngineRow ccd_row();               // narrow: libccd on hulls and boxes
 core::EngineRow exact_mesh_row();        // narrow: exact, the arbiter
+core::EngineRow bullet_box_row();        // narrow: btBoxBoxDetector on axis-aligned boxes
+core::EngineRow fcl_box_row();           // narrow: fcl::Box against fcl::Box on axis-aligned boxes
 core::EngineRow fcl_mesh_row();          // narrow: fcl::distance and fcl::collide on meshes
 
 }  // namespace broadside::reference

@@ -5,15 +5,14 @@
 
 #include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "reference/engines.hpp"
 #include "reference/exact/triangle_tree.hpp"
 #include "reference/pair_check.hpp"
+#include "reference/turned_shapes.hpp"
 #include "reference/vendor_call.hpp"
 #include "reference/worker_count.hpp"
 
@@ -47,26 +46,16 @@ class ExactMesh final : public core::NarrowPhase {
 
   Status load(const core::Scene& scene) override {
     return vendor_call("exact-mesh: load", [&]() -> Status {
-      meshes_ = scene.meshes;
-      trees_.clear();
-      mesh_of_body_.clear();
-      for (const core::Body& body : scene.bodies) {
-        mesh_of_body_.push_back(body.mesh);
-        tree_of(body.mesh, body.orientation);
-      }
+      trees_.load(scene);
       return core::Done{};
     });
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    if (Status status = check_pairs(kId, pairs, poses, trees_.body_count()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("exact-mesh: measure", [&]() -> Status {
-      // A body that turned since load needs a new tree; made before the threads start.
-      std::vector<const TriangleTree*> trees(poses.size(), nullptr);
-      for (const core::Pair p : pairs)
-        for (const std::uint32_t body : {p.i, p.j})
-          if (trees[body] == nullptr) trees[body] = &tree_of(mesh_of_body_[body], poses[body].orientation);
+      const std::vector<const TriangleTree*> trees = trees_.of(pairs, poses);
       arena_.execute([&] {
         tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
           const auto [i, j] = pairs[k];
@@ -80,17 +69,10 @@ class ExactMesh final : public core::NarrowPhase {
   core::Result<std::vector<Separation>> read_back() override { return separations_; }
 
  private:
-  const TriangleTree& tree_of(std::uint32_t mesh, core::Quat q) {
-    auto& tree = trees_[{mesh, q.w, q.x, q.y, q.z}];
-    if (tree == nullptr) tree = std::make_unique<TriangleTree>(*meshes_[mesh], q);
-    return *tree;
-  }
-
   Search search_;
   tbb::task_arena arena_;
-  std::vector<std::shared_ptr<const core::Mesh>> meshes_;
-  std::vector<std::uint32_t> mesh_of_body_;
-  std::map<std::tuple<std::uint32_t, float, float, float, float>, std::unique_ptr<TriangleTree>> trees_;
+  TurnedShapes<TriangleTree> trees_{
+      [](const core::Mesh& mesh, core::Quat q) { return std::make_unique<TriangleTree>(mesh, q); }};
   std::vector<Separation> separations_;
 };
 

@@ -33,6 +33,7 @@ struct Subject {
   bool tells_distance = true;
   bool tells_depth = false;
   bool depth_is_least = false;  // otherwise it bounds the least depth from above
+  bool is_boxes = false;        // takes bodies for their axis-aligned boxes
 };
 
 void PrintTo(const Subject& subject, std::ostream* out) {
@@ -49,7 +50,11 @@ std::vector<Subject> subjects() {
       // Stops refining at 1e-6 m.
       {"ccd_gjk", reference::ccd_row, {}, true, 1e-5, false, true, true},
       {"ccd_mpr", reference::ccd_row, {{"algorithm", "mpr"}}, true, 1e-5, false, true, false},
-      {"ccd_gjk_box", reference::ccd_row, {{"shape", "box"}}, true, 1e-5, false, true, true},
+      {"ccd_gjk_box", reference::ccd_row, {{"shape", "box"}}, true, 1e-5, false, true, true, true},
+      // Its GJK stops at 1e-6 m.
+      {"fcl_box", reference::fcl_box_row, {}, true, 1e-5, true, true, true, true},
+      // Float inside: some roundings of coordinates of up to 4 m.
+      {"bullet_box", reference::bullet_box_row, {}, true, 1e-5, false, true, true, true},
   };
 }
 
@@ -208,8 +213,7 @@ TEST_P(NarrowPhases, EdgeToCrossedEdge) {
   const float c = std::cos(0.39269908F);
   const float s = std::sin(0.39269908F);
   const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
-  // Boxes with parallel axes meet here.
-  if (GetParam().name == "ccd_gjk_box") GTEST_SKIP() << "takes bodies for their axis-aligned boxes";
+  if (GetParam().is_boxes) GTEST_SKIP() << "takes bodies for their axis-aligned boxes, which meet here";
   const Separation found =
       measure({cube, cube}, {{{0, 0, 0}, {c, 0, s, 0}}, {{2.0F * s45 + 0.25F, 0, 0}, {c, 0, 0, s}}});
   expect_apart(found, 0.25);
@@ -346,7 +350,10 @@ TEST_P(NarrowPhases, SameAnswersAgainAndOnAnyNumberOfThreads) {
   };
   const std::vector<Separation> first = answers(phase());
   Subject two_threads = GetParam();
-  two_threads.settings["threads"] = "2";
+  const core::EngineRow row = two_threads.row();
+  const bool has_threads = std::any_of(row.settings.begin(), row.settings.end(),
+                                       [](const core::SettingRow& setting) { return setting.key == "threads"; });
+  if (has_threads) two_threads.settings["threads"] = "2";
   const core::Engine other = make_engine(two_threads);
   for (core::NarrowPhase* engine : {&phase(), other.narrow_phase.get()}) {
     const std::vector<Separation> again = answers(*engine);
