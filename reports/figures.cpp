@@ -89,6 +89,7 @@ std::string time_in(TimeUnit unit, double seconds) {
   const double value = seconds * unit.per_second;
   // Three significant digits, but trailing zeros stay: they are what makes a column of figures line up.
   const double size = std::abs(value);
+  if (size > 0.0 && size < 0.0005) return "<0.001";
   return printed("%.*f", size >= 99.95 ? 0 : size >= 9.995 ? 1 : size >= 0.9995 ? 2 : 3, value);
 }
 

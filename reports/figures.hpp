@@ -27,7 +27,7 @@ struct TimeUnit {
   std::string_view name;  // "ms"
 };
 TimeUnit time_unit_for(double typical_s);
-std::string time_in(TimeUnit unit, double seconds);  // the number alone
+std::string time_in(TimeUnit unit, double seconds);  // the number alone; "<0.001" rather than a zero that is none
 
 std::string counted(std::uint64_t count);  // thousands apart: "12 345", narrow no-break spaces
 std::string counted(std::uint64_t count, std::string_view singular);  // "1 cell", "3 cells"

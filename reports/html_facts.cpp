@@ -146,6 +146,8 @@ std::string legend_section() {
          outcome_html(Outcome::kNotApplicable, true) +
          "</dt><dd>not applicable to this engine or trace; the "
          "place says why</dd></div>"
+         "<div><dt>\xC3\x97"
+         "2</dt><dd>so many verdicts: alone and against baselines; the gravest is shown, the place lists all</dd></div>"
          "<div><dt>struck out</dt><dd>A time counts only when a recording of the same scene, engine, settings, build "
          "and "
          "machine exists, at least one verdict on it passed and none failed, and the timed run ended in the recorded "

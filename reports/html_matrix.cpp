@@ -39,7 +39,7 @@ std::string matrix_place(const SceneView& scene, const TraceView& trace, std::si
   // One name: opening a place closes the one that was open, with scripts off too.
   out += "<details name=\"matrix-" + std::to_string(scene_number) + "\"><summary>" + outcome_html(outcome, true) +
          "<span class=\"unseen\"> <b>" + name + "</b> on " + html(trace.label) + "</span>";
-  if (said.size() > 1) out += "<sup>" + std::to_string(said.size()) + "</sup>";
+  if (said.size() > 1) out += "<span class=\"unseen\">,</span> <i>\xC3\x97" + std::to_string(said.size()) + "</i>";
   out += "</summary><div class=\"card";
   if (column * 2 >= scene.validators.size()) out += " leftward";
   out += "\">";

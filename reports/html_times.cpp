@@ -61,7 +61,9 @@ std::string share(double value, const Scale& scale) {
   return text.data();
 }
 
-std::string axis(const Scale& scale, TimeUnit unit) {
+// The largest engine sets the axis, so it has a unit of its own.
+std::string axis(const Scale& scale) {
+  const TimeUnit unit = time_unit_for(scale.step_s);
   std::string out = "<svg class=\"axis\" width=\"100%\" height=\"16\" aria-hidden=\"true\">";
   for (double at = 0.0; at <= scale.end_s; at += scale.step_s) {
     const char* anchor = at == 0.0 ? "start" : at > 0.93 * scale.end_s ? "end" : "middle";
@@ -170,14 +172,14 @@ std::string group_html(const Group& group) {
       "<h4>" + (work.empty() ? "whole frames" : html(work)) +
       "</h4><table class=\"times\"><thead><tr><th "
       "scope=\"col\">engine</th><th scope=\"col\" class=\"bars\"><span class=\"unseen\">time per frame</span>" +
-      axis(scale, unit) + "</th><th scope=\"col\" class=\"figure\">median<small>" + std::string(unit.name) +
+      axis(scale) + "</th><th scope=\"col\" class=\"figure\">median<small>" + std::string(unit.name) +
       " per frame</small></th><th scope=\"col\" class=\"figure\">p5 \xE2\x80\x93 p95<small>" + std::string(unit.name) +
       "</small></th><th scope=\"col\" class=\"figure\">spread<small>quartiles</small>"
       "</th><th scope=\"col\" class=\"figure\">FPS<small>mean \xC2\xB1 s.d. of runs</small></th><th "
       "scope=\"col\" class=\"figure\">frames</th></tr></thead><tbody>";
   for (const Timing* timing : group.timings) out += frame_row(*timing, scale, unit);
   out += "</tbody></table>";
-  if (!group.stages.empty()) out += stage_table(group, unit);
+  if (group.stages.size() > 1) out += stage_table(group, unit);
   return out;
 }
 

@@ -41,6 +41,17 @@ TEST(Figures, ThatWereComparedShowTheirDifference) {
   EXPECT_EQ(compared(0.5, 1.0, "m").measured, "500 mm");
 }
 
+TEST(Figures, OfTimesKeepThreeDigitsAndNeverRoundToAZero) {
+  const TimeUnit ms = time_unit_for(0.002);
+  EXPECT_EQ(ms.name, "ms");
+  EXPECT_EQ(time_in(ms, 0.001234), "1.23");
+  EXPECT_EQ(time_in(ms, 0.12345), "123");
+  EXPECT_EQ(time_in(ms, 0.000012), "0.012");
+  EXPECT_EQ(time_in(ms, 1e-8), "<0.001");
+  EXPECT_EQ(time_in(ms, 0.0), "0.000");
+  EXPECT_EQ(time_unit_for(3e-5).name, "\xC2\xB5s");
+}
+
 TEST(Places, NameStepBodiesAndFaces) {
   EXPECT_EQ(place_text({.step = 12, .bodies = {3, 17}, .field = "pairs"}), "step 12, bodies 3 and 17, pairs");
   EXPECT_EQ(place_text({.step = 12, .bodies = {3, core::kFirstFace + 2}, .field = ""}), "step 12, body 3 and face -y");
