@@ -15,6 +15,7 @@ std::span<const core::EngineRow> engines() {
       gpu::octree_gpu_row(),       reference::octree_cpu_row(),  reference::hash_cpu_row(),
       reference::all_pairs_row(),  reference::bullet_dbvt_row(), reference::bullet_dbvt_tree_row(),
       reference::bullet_sap_row(), reference::fcl_tree_row(),    reference::fcl_sap_row(),
+      reference::ccd_row(),        reference::bullet_box_row(),  reference::fcl_box_row(),
       reference::exact_mesh_row(), reference::fcl_mesh_row(),
   };
   return kTable;
