@@ -18,7 +18,7 @@ MACHINE = {
     "dpkg": "exit 0",
     "cmake": '[[ " $* " == *" --preset "* && -e $PLAYED/unconfigurable ]] && { echo "CMake Error: no compiler"; exit 1; }; '
              'if [[ " $* " == *" --preset "* ]]; then mkdir -p build/release/bench; touch build/release/build.ninja; '
-             "printf '#!/bin/sh\\necho ran \"$@\"\\n' >build/release/bench/broadside; chmod +x build/release/bench/broadside; "
+             "printf '#!/bin/sh\\necho ran \"$@\"\\n[ \"$1\" != fetch ] || [ ! -e $PLAYED/offline ]\\n' >build/release/bench/broadside; chmod +x build/release/bench/broadside; "
              'else [[ ! -e $PLAYED/uncompilable ]] || { echo "a.cpp:1: error: expected"; exit 1; }; fi',
     "ctest": 'echo "0% tests passed, 1 tests failed out of 1"; exit 8',
     "nvidia-smi": "exit 9",
@@ -72,6 +72,14 @@ class Launcher(unittest.TestCase):
     def test_demo_has_a_place_for_its_results_unless_told_another(self):
         self.assertEqual(f"ran demo --out {self.tree}/out/demo --frames 3\n", self.call("demo", "--frames", "3").stdout)
         self.assertEqual("ran demo --out=x\n", self.call("demo", "--out=x").stdout)
+
+    def test_demo_without_the_bunny_says_so_and_goes_on(self):
+        self.call("build")
+        (self.played / "offline").touch()
+        answer = self.call("demo")
+        self.assertEqual((0, f"ran demo --out {self.tree}/out/demo\n"), (answer.returncode, answer.stdout))
+        self.assertIn("a stand-in takes its place: ran fetch bunny", answer.stderr)
+        self.assertEqual("", self.call("demo", BROADSIDE_MESH_DIR="meshes").stderr, "given meshes are not fetched")
 
     def test_no_network_is_one_line_and_code_2(self):
         (self.played / "missing").write_text("libfcl-dev\n", encoding="utf-8")
