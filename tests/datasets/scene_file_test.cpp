@@ -58,7 +58,8 @@ void expect_same_scene(const char* file, const char* name) {
 }
 
 TEST(SceneFile, ShippedFilesAreTheBuiltInScenes) {
-  expect_same_scene("errata_E3.toml", "errata:E3");
+  for (const char* id : {"E2", "E3", "E4", "E5", "E6"})
+    expect_same_scene((std::string("errata_") + id + ".toml").c_str(), (std::string("errata:") + id).c_str());
   expect_same_scene("randommove_cube_100.toml", "randommove:cube:100");
 }
 
