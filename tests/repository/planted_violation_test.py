@@ -13,7 +13,8 @@ import tree_rules
 import wording
 from source_tree import SourceTree
 
-CLEAN = {"core/body.hpp": '#pragma once\n\n#include <vector>\n'}
+CLEAN = {f"{folder}/README.md": "What it is for.\n" for folder in tree_rules.FOLDERS}
+CLEAN["core/body.hpp"] = "#pragma once\n\n#include <vector>\n"
 CLEAN["cmake/packages.txt"] = "# debian-12 ubuntu-24.04 for\nlibx-dev libx-dev X\n"
 CLEAN["CMakeLists.txt"] = "find_package(X REQUIRED)\n"
 
@@ -69,6 +70,10 @@ class PlantedViolation(unittest.TestCase):
         self.one(tree_rules, {"core/a.hpp": "int a;\n"}, "#pragma once")
         self.one(tree_rules, {"tests/core/a.cpp": ""}, "nothing builds it")
         self.one(tree_rules, {"core/a.txt": "x" * (tree_rules.BIGGEST + 1)}, "larger than")
+
+    def test_folder_without_readme(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            self.assertEqual(len(tree_rules.FOLDERS), len(tree_rules.violations(SourceTree(scratch))))
 
     def test_words(self):
         self.one(wording, {"core/a.cpp": "// TO" "DO: later\n"}, "unfinished")

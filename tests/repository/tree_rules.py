@@ -8,6 +8,7 @@ TOP = {
     "broadside", "core", "gpu", "reference", "validation", "bench", "datasets", "reports", "tests", "cmake", ".ci",
     ".clang-format", ".clang-tidy", ".gitignore", ".gitattributes", ".editorconfig", ".clangd",
 }
+FOLDERS = ("core", "gpu", "reference", "validation", "bench", "datasets", "reports", "tests")
 LONGEST = 400  # lines of code in one file: above that it answers more than one question
 BIGGEST = 512 * 1024  # bytes: a larger file is data, and data is fetched or generated
 SNAKE = re.compile(r"^[a-z0-9]+(_[a-z0-9]+)*$")
@@ -18,6 +19,8 @@ CODE = {".hpp", ".cpp", ".cuh", ".cu"}
 
 def violations(tree):
     found = [f"{name}: not a top-level entry of the design" for name in sorted({p.split("/")[0] for p in tree.paths} - TOP)]
+    found += [f"{folder}/README.md: missing (purpose, allowed dependencies, decisions with dates)"
+              for folder in FOLDERS if f"{folder}/README.md" not in tree.paths]
     for name in tree.paths:
         path = Path(name)
         if path.suffix in MESHES:
