@@ -55,6 +55,9 @@ herr_t take_name(hid_t /*object*/, const char* name, const H5A_info_t* /*info*/,
 Handle open_file(const std::filesystem::path& path, unsigned flags) {
   const Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(properties.get(), 0, 1);  // a reader must not stop a writer
+  // Beside a writer, HDF5 reads again what fails its checksum, and waits twice as long before each try, from 1 ns on.
+  // Its default of 100 tries never ends on a damaged superblock; 20 wait for 1 ms, and a write of a few KiB is done.
+  H5Pset_metadata_read_attempts(properties.get(), 20);
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | flags, properties.get()), H5Fclose};
 }
 

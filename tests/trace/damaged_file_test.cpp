@@ -86,6 +86,17 @@ TEST_F(DamagedFile, ThatWasCutShort) {
   }
 }
 
+// Once HDF5 tried again and again, for ever, to read such a superblock as a writer's that is just changing.
+TEST_F(DamagedFile, WhoseSuperblockIsSpoiled) {
+  const std::string good = bytes();
+  for (std::size_t at = 8; at < 48; ++at) {
+    std::string bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ 0x10);
+    write_bytes(bad);
+    EXPECT_NE(fault(), "") << "byte " << at;
+  }
+}
+
 TEST_F(DamagedFile, ThatIsHdf5ButNoTrace) {
   raw_remove_attribute(path_, "/", "format");
   expect_fault({"/@format", "no Broadside trace"});
