@@ -50,7 +50,7 @@ core::Status FrameBuffers::load(const core::Scene& scene, bool has_grid, bool is
     BROADSIDE_TRY(levels_.fill_bytes(0));
   }
   BROADSIDE_TRY(least_priority_.reserve(3 * n, "coloring"));
-  BROADSIDE_TRY(taken_.reserve(n, "coloring"));
+  BROADSIDE_TRY(reserve_colors());
   if (is_jacobi) BROADSIDE_TRY(sums_.reserve(n, "sums of the Jacobi solver"));
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(counters_.fill_bytes(0));
@@ -65,7 +65,15 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   BROADSIDE_TRY(proximity_.reserve(count, "nearest vertices"));
   BROADSIDE_TRY(touching_.reserve(count, "touching pairs"));
   BROADSIDE_TRY(color_.reserve(count, "coloring"));
+  BROADSIDE_TRY(color_rank_.reserve(count, "coloring"));
+  for (auto& list : open_contacts_) BROADSIDE_TRY(list.reserve(count, "coloring"));
   return contacts_.reserve(count, "contacts");
+}
+
+core::Status FrameBuffers::reserve_colors() {
+  BROADSIDE_TRY(taken_.reserve(std::uint64_t{body_count_} * color_words_, "coloring"));
+  BROADSIDE_TRY(color_count_.reserve(64ULL * color_words_, "coloring"));
+  return color_begin_.reserve(64ULL * color_words_ + 1, "coloring");
 }
 
 core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_level0) {
@@ -76,7 +84,7 @@ core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_l
     BROADSIDE_TRY(face_contacts_.reserve(with_slack(demanded.faces), "contacts with faces"));
   if (demanded.words_demanded != 0) {
     color_words_ *= 2;
-    BROADSIDE_TRY(taken_.reserve(std::uint64_t{body_count_} * color_words_, "coloring"));
+    BROADSIDE_TRY(reserve_colors());
   }
   return core::Done{};
 }
@@ -98,6 +106,10 @@ void FrameBuffers::fill(FrameView& view) const {
   view.proximity = proximity_.data();
   view.touching = touching_.data();
   view.color = color_.data();
+  view.color_rank = color_rank_.data();
+  for (int k = 0; k < 2; ++k) view.open_contacts[k] = open_contacts_[k].data();
+  view.color_count = color_count_.data();
+  view.color_begin = color_begin_.data();
   view.contacts = contacts_.data();
   view.face_contacts = {face_contacts_.data(), face_contacts_.capacity()};
   view.least_priority = least_priority_.data();
@@ -113,7 +125,7 @@ std::uint64_t FrameBuffers::body_bytes() const {
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {
-  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + touching_.bytes() + color_.bytes() +
+  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + touching_.bytes() + 4 * color_.bytes() +
          contacts_.bytes() + face_contacts_.bytes();
 }
 

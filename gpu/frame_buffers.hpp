@@ -44,6 +44,7 @@ class FrameBuffers {
 
  private:
   core::Status reserve_confirmed(std::uint64_t count);
+  core::Status reserve_colors();
 
   std::uint32_t body_count_ = 0;
   std::uint32_t color_words_ = 1;
@@ -66,6 +67,10 @@ class FrameBuffers {
   DeviceBuffer<core::Proximity> proximity_;
   DeviceBuffer<core::Pair> touching_;
   DeviceBuffer<std::uint32_t> color_;
+  DeviceBuffer<std::uint32_t> color_rank_;
+  DeviceBuffer<std::uint32_t> open_contacts_[2];
+  DeviceBuffer<std::uint32_t> color_count_;
+  DeviceBuffer<std::uint32_t> color_begin_;
   DeviceBuffer<core::Contact> contacts_;
   DeviceBuffer<core::Contact> face_contacts_;
 };

@@ -58,7 +58,8 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
     else
       color_contacts(team, f, count);
     if (f.counters->words_demanded != 0) return report(team, f, true);
-    resolve_colors(team, f, count);
+    order_by_color(team, f, count);
+    resolve_colors(team, f);
   }
   mark(team, f, 5);
   resolve_faces(team, f);
@@ -116,7 +117,7 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
   }
   mark(grid, f, 4);
 
-  if (confirmed <= kOneBlockPairs && f.body_count <= kOneBlockBodies) {
+  if (confirmed <= kOneBlockPairs && confirmed <= 64ULL * blockDim.x && f.body_count <= kOneBlockBodies) {
     if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed, reinterpret_cast<unsigned long long*>(shared));
     return;
   }

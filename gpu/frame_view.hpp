@@ -58,7 +58,8 @@ struct Counters {
   unsigned long long grid_cursor = 0;  // entries given out to buckets
   std::uint32_t colors = 0;
   std::uint32_t words_demanded = 0;  // of 64 colors a body; 0 = there were enough
-  std::uint32_t uncolored[3] = {};   // rounds of the coloring use them in turn
+  std::uint32_t is_left[3] = {};     // rounds of the Jacobi solver use them in turn
+  unsigned long long open[3] = {};   // rounds of the coloring use them in turn
   std::uint32_t arrived = 0;         // of PartialGridTeam
   std::uint32_t is_aborted = 0;
 };
@@ -110,6 +111,10 @@ struct FrameView {
   std::uint32_t stack_entries = 0;       // of each warp's stack in the proximity stage
   core::Pair* touching = nullptr;        // as many as confirmed
   std::uint32_t* color = nullptr;        // one per touching pair
+  std::uint32_t* color_rank = nullptr;   // likewise: its place among the contacts of its color
+  std::uint32_t* open_contacts[2] = {};  // likewise, each: lists of contacts without color; then [0] lists all by color
+  std::uint32_t* color_count = nullptr;  // [64 * color_words]
+  std::uint32_t* color_begin = nullptr;  // [64 * color_words + 1]
   core::Contact* contacts = nullptr;     // one slot per touching pair; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
 

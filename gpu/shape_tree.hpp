@@ -10,7 +10,7 @@
 
 namespace broadside::gpu {
 
-// 8 vertices against 8 and 8 children against 8 are 64 tests, 2 a lane.
+// 8 children against 8 are 64 tests, 2 a lane; 8 vertices against 8, in groups of 8 lanes, are 8 a lane.
 constexpr std::uint32_t kLeafVertices = 8;
 constexpr std::uint32_t kFanOut = 8;
 // 8 * 8^9 vertices: more than an index of 28 bits can name, so never the limit.

@@ -36,6 +36,7 @@ __device__ void integrate(const Team& team, const FrameView& f) {
     for (int round = 0; round < 3; ++round) f.least_priority[std::uint64_t{f.body_count} * round + i] = ~0ULL;
     for (std::uint32_t word = 0; word < f.color_words; ++word) f.taken[i * f.color_words + word] = 0;
   }
+  for (std::uint64_t c = team.rank(); c < 64ULL * f.color_words; c += team.size()) f.color_count[c] = 0;
   if (team.rank() == 0) *f.counters = Counters{};
 }
 

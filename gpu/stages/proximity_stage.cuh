@@ -75,17 +75,17 @@ class NearestVertices {
   __device__ core::Proximity find() {
     if (a_.top != split_ || b_.top != split_ || is_mine(0, 0)) push_root();
     while (stack_.size > 0) {
-      --stack_.size;
-      const std::uint32_t a = stack_.a[stack_.size];
-      const std::uint32_t b = stack_.b[stack_.size];
-      const float gap2 = stack_.gap2[stack_.size];
-      __syncwarp();
       const float limit = __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_));
-      if (gap2 > limit) continue;
-      if ((a >> 28) == 0 && (b >> 28) == 0)
-        meet_leaves(a, b);
-      else
-        meet_children(a, b, limit);
+      const std::uint32_t a = stack_.a[stack_.size - 1];
+      const std::uint32_t b = stack_.b[stack_.size - 1];
+      const float gap2 = stack_.gap2[stack_.size - 1];
+      if ((a | b) >> 28 == 0) {
+        meet_leaves(limit);
+        continue;
+      }
+      --stack_.size;
+      __syncwarp();
+      if (gap2 <= limit) meet_children(a, b, limit);
     }
     return warp_nearest(best_);
   }
@@ -147,18 +147,30 @@ class NearestVertices {
     __syncwarp();
   }
 
-  // Eight vertices of each: a lane has one of B and meets two of A.
-  __device__ void meet_leaves(std::uint32_t a, std::uint32_t b) {
-    const PackedVec3* of_a = vertices_ + a_.vertex_begin + (a & 0xFFFFFFFU) * kLeafVertices;
-    const PackedVec3 mine = vertices_[b_.vertex_begin + (b & 0xFFFFFFFU) * kLeafVertices + lane() % 8];
-    const core::Vec3 vb = mine.v + xb_;
-#pragma unroll
-    for (std::uint32_t half = 0; half < 2; ++half) {
-      const PackedVec3 other = of_a[lane() / 8 + 4 * half];
-      const float d2 = core::squared_distance(other.v + xa_, vb);
-      if (!(d2 < theta2_) || d2 > best_.squared_distance_m2) continue;
-      const core::Proximity found{d2, __float_as_uint(other.w), __float_as_uint(mine.w)};
-      if (core::is_nearer(found, best_)) best_ = found;
+  // Up to four pairs of leaves from the top of the stack, eight lanes a pair: a lane has one vertex of A and meets
+  // eight of B. Four at once, because what takes the time is waiting for the vertices.
+  __device__ void meet_leaves(float limit) {
+    const std::uint32_t group = lane() / 8;
+    const std::uint32_t entry = stack_.size - 1 - min(group, stack_.size - 1);
+    const std::uint32_t a = stack_.a[entry];
+    const std::uint32_t b = stack_.b[entry];
+    const float gap2 = stack_.gap2[entry];
+    const unsigned are_leaves = __ballot_sync(kFullWarp, group < stack_.size && (a | b) >> 28 == 0);
+    // Groups from the first on, as far as they all have leaves: each has eight lanes' bits.
+    const std::uint32_t taken = are_leaves == kFullWarp ? 4U : static_cast<std::uint32_t>(__ffs(~are_leaves) - 1) / 8U;
+    stack_.size -= taken;
+    if (group < taken && gap2 <= limit) {
+      const PackedVec3 mine = vertices_[a_.vertex_begin + a * kLeafVertices + lane() % 8];
+      const PackedVec3* of_b = vertices_ + b_.vertex_begin + b * kLeafVertices;
+      const core::Vec3 va = mine.v + xa_;
+#pragma unroll 4
+      for (std::uint32_t t = 0; t < kLeafVertices; ++t) {
+        const PackedVec3 other = of_b[t];
+        const float d2 = core::squared_distance(va, other.v + xb_);
+        if (!(d2 < theta2_) || d2 > best_.squared_distance_m2) continue;
+        const core::Proximity found{d2, __float_as_uint(mine.w), __float_as_uint(other.w)};
+        if (core::is_nearer(found, best_)) best_ = found;
+      }
     }
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
     if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);
