@@ -49,9 +49,14 @@ core::Status FrameBuffers::load(const core::Scene& scene, bool has_grid, bool is
     BROADSIDE_TRY(bucket_count_.fill_bytes(0));
     BROADSIDE_TRY(levels_.fill_bytes(0));
   }
-  BROADSIDE_TRY(least_priority_.reserve(3 * n, "coloring"));
+  BROADSIDE_TRY(degree_.reserve(n, "coloring"));
+  BROADSIDE_TRY(list_begin_.reserve(n, "coloring"));
+  BROADSIDE_TRY(listed_.reserve(n, "coloring"));
+  BROADSIDE_TRY(front_.reserve(2 * n, "coloring"));
+  BROADSIDE_TRY(unpublished_.reserve(n, "coloring"));
   BROADSIDE_TRY(reserve_colors());
   if (is_jacobi) BROADSIDE_TRY(sums_.reserve(n, "sums of the Jacobi solver"));
+  if (is_jacobi) BROADSIDE_TRY(least_key_.reserve(n, "sums of the Jacobi solver"));
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(counters_.fill_bytes(0));
   const std::uint64_t pairs = std::max(kLeastPairs, kPairsPerBody * n);
@@ -66,12 +71,14 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   BROADSIDE_TRY(touching_.reserve(count, "touching pairs"));
   BROADSIDE_TRY(color_.reserve(count, "coloring"));
   BROADSIDE_TRY(color_rank_.reserve(count, "coloring"));
-  for (auto& list : open_contacts_) BROADSIDE_TRY(list.reserve(count, "coloring"));
+  BROADSIDE_TRY(by_color_.reserve(count, "coloring"));
+  BROADSIDE_TRY(list_slots_.reserve(2 * count, "coloring"));
+  BROADSIDE_TRY(lists_.reserve(2 * count, "coloring"));
   return contacts_.reserve(count, "contacts");
 }
 
 core::Status FrameBuffers::reserve_colors() {
-  BROADSIDE_TRY(taken_.reserve(std::uint64_t{body_count_} * color_words_, "coloring"));
+  BROADSIDE_TRY(taken_.reserve(2ULL * body_count_ * color_words_, "coloring"));
   BROADSIDE_TRY(color_count_.reserve(64ULL * color_words_, "coloring"));
   return color_begin_.reserve(64ULL * color_words_ + 1, "coloring");
 }
@@ -107,12 +114,19 @@ void FrameBuffers::fill(FrameView& view) const {
   view.touching = touching_.data();
   view.color = color_.data();
   view.color_rank = color_rank_.data();
-  for (int k = 0; k < 2; ++k) view.open_contacts[k] = open_contacts_[k].data();
+  view.by_color = by_color_.data();
+  view.list_slots = list_slots_.data();
+  view.lists = lists_.data();
   view.color_count = color_count_.data();
   view.color_begin = color_begin_.data();
   view.contacts = contacts_.data();
   view.face_contacts = {face_contacts_.data(), face_contacts_.capacity()};
-  view.least_priority = least_priority_.data();
+  view.degree = degree_.data();
+  view.list_begin = list_begin_.data();
+  view.listed = listed_.data();
+  view.front = front_.data();
+  view.unpublished = unpublished_.data();
+  view.least_key = least_key_.data();
   view.taken = taken_.data();
   view.color_words = color_words_;
   view.sums = sums_.data();
@@ -121,11 +135,11 @@ void FrameBuffers::fill(FrameView& view) const {
 
 std::uint64_t FrameBuffers::body_bytes() const {
   return 6 * previous_.position.bytes() + boxes_.bytes() + bucket_count_.bytes() + bucket_begin_.bytes() +
-         rank_.bytes() + entries_.bytes() + least_priority_.bytes() + taken_.bytes() + sums_.bytes();
+         rank_.bytes() + entries_.bytes() + 6 * degree_.bytes() + least_key_.bytes() + taken_.bytes() + sums_.bytes();
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {
-  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + touching_.bytes() + 4 * color_.bytes() +
+  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + touching_.bytes() + 7 * color_.bytes() +
          contacts_.bytes() + face_contacts_.bytes();
 }
 

@@ -57,7 +57,12 @@ class FrameBuffers {
   DeviceBuffer<std::uint32_t> rank_;
   DeviceBuffer<PackedBox> entries_;
   DeviceBuffer<std::uint32_t> levels_;
-  DeviceBuffer<unsigned long long> least_priority_;
+  DeviceBuffer<std::uint32_t> degree_;
+  DeviceBuffer<std::uint32_t> list_begin_;
+  DeviceBuffer<std::uint32_t> listed_;
+  DeviceBuffer<std::uint32_t> front_;
+  DeviceBuffer<std::uint32_t> unpublished_;
+  DeviceBuffer<unsigned long long> least_key_;
   DeviceBuffer<unsigned long long> taken_;
   DeviceBuffer<core::Kinematics> sums_;
   DeviceBuffer<Counters> counters_;
@@ -68,7 +73,9 @@ class FrameBuffers {
   DeviceBuffer<core::Pair> touching_;
   DeviceBuffer<std::uint32_t> color_;
   DeviceBuffer<std::uint32_t> color_rank_;
-  DeviceBuffer<std::uint32_t> open_contacts_[2];
+  DeviceBuffer<std::uint32_t> by_color_;
+  DeviceBuffer<std::uint32_t> list_slots_;
+  DeviceBuffer<std::uint32_t> lists_;
   DeviceBuffer<std::uint32_t> color_count_;
   DeviceBuffer<std::uint32_t> color_begin_;
   DeviceBuffer<core::Contact> contacts_;

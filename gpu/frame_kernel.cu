@@ -18,11 +18,9 @@ constexpr std::uint32_t kThreads = 512;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
 // Up to this many confirmed pairs and bodies one block resolves them alone: its barrier takes some 30 ns, the grid's
-// more than a microsecond, and there are two for every color or so. Its bodies' words are in shared memory: 16 bytes a
-// body.
+// more than a microsecond, and there is one for every round of the coloring and for every color.
 constexpr std::uint64_t kOneBlockPairs = 8192;
 constexpr std::uint32_t kOneBlockBodies = 4096;
-constexpr std::uint32_t kOneBlockBytes = 16 * kOneBlockBodies;
 
 __device__ unsigned long long now_ns() {
   unsigned long long t;
@@ -44,7 +42,7 @@ __device__ void report(const Team& team, const FrameView& f, bool is_aborted) {
 
 // Contacts, faces and the report: what a single block does alone when it is little.
 template <typename Team>
-__device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed, unsigned long long* words) {
+__device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed) {
   collect_touching(team, f, confirmed);
   team.sync();
   const std::uint64_t count = f.counters->touching;
@@ -53,10 +51,8 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
   } else if (f.solver == Solver::kRacing) {
     resolve_racing(team, f, count);
   } else if (count > 0) {
-    if (words != nullptr && f.color_words == 1)
-      color_contacts_in_block(f, count, words);
-    else
-      color_contacts(team, f, count);
+    list_contacts(team, f, count);
+    color_contacts(team, f);
     if (f.counters->words_demanded != 0) return report(team, f, true);
     order_by_color(team, f, count);
     resolve_colors(team, f);
@@ -117,15 +113,15 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
   }
   mark(grid, f, 4);
 
-  if (confirmed <= kOneBlockPairs && confirmed <= 64ULL * blockDim.x && f.body_count <= kOneBlockBodies) {
-    if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed, reinterpret_cast<unsigned long long*>(shared));
+  if (confirmed <= kOneBlockPairs && f.body_count <= kOneBlockBodies) {
+    if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed);
     return;
   }
   // No more blocks than there is work for: fewer meet sooner.
   const std::uint64_t work = max(confirmed, std::uint64_t{f.body_count});
   const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, (work + blockDim.x - 1) / blockDim.x);
   if (blockIdx.x >= blocks) return;
-  resolve(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed, nullptr);
+  resolve(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed);
 }
 
 // The broad phase alone: boxes in, pairs out.
@@ -187,7 +183,7 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
   const std::uint32_t bytes_per_warp = std::max(stack_entries_of(tree_levels) * kBytesPerStackEntry,
                                                 static_cast<std::uint32_t>((sizeof(PairQueue) + 15) / 16 * 16));
   for (std::uint32_t threads = kThreads; threads >= 32; threads /= 2) {
-    const std::uint32_t bytes = std::max(threads / 32 * bytes_per_warp, kOneBlockBytes);
+    const std::uint32_t bytes = threads / 32 * bytes_per_warp;
     if (bytes + sizeof(ProximityScratch) > static_cast<std::uint32_t>(block_limit)) continue;
     BROADSIDE_CUDA_TRY(
         cudaFuncSetAttribute(frame_kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)));

@@ -58,8 +58,8 @@ struct Counters {
   unsigned long long grid_cursor = 0;  // entries given out to buckets
   std::uint32_t colors = 0;
   std::uint32_t words_demanded = 0;  // of 64 colors a body; 0 = there were enough
-  std::uint32_t is_left[3] = {};     // rounds of the Jacobi solver use them in turn
-  unsigned long long open[3] = {};   // rounds of the coloring use them in turn
+  std::uint32_t is_left[3] = {};     // rounds use them in turn
+  unsigned long long listed = 0;     // places given out in the lists of bodies
   std::uint32_t arrived = 0;         // of PartialGridTeam
   std::uint32_t is_aborted = 0;
 };
@@ -112,14 +112,21 @@ struct FrameView {
   core::Pair* touching = nullptr;        // as many as confirmed
   std::uint32_t* color = nullptr;        // one per touching pair
   std::uint32_t* color_rank = nullptr;   // likewise: its place among the contacts of its color
-  std::uint32_t* open_contacts[2] = {};  // likewise, each: lists of contacts without color; then [0] lists all by color
+  std::uint32_t* by_color = nullptr;     // likewise: the contacts by color
+  std::uint32_t* list_slots = nullptr;   // [2 * touching] place in the list of each body
+  std::uint32_t* lists = nullptr;        // [2 * touching] contacts of each moving body, by priority
   std::uint32_t* color_count = nullptr;  // [64 * color_words]
   std::uint32_t* color_begin = nullptr;  // [64 * color_words + 1]
   core::Contact* contacts = nullptr;     // one slot per touching pair; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
 
-  unsigned long long* least_priority = nullptr;  // [3 * bodies] least of the contacts not yet colored, by rounds
-  unsigned long long* taken = nullptr;           // [bodies * color_words] colors in use at each body
+  std::uint32_t* degree = nullptr;          // [bodies] contacts of a moving body
+  std::uint32_t* list_begin = nullptr;      // [bodies]
+  std::uint32_t* listed = nullptr;          // [bodies] contacts of the list that have a color
+  std::uint32_t* front = nullptr;           // [2 * bodies] first contact of the list without color, by rounds
+  std::uint32_t* unpublished = nullptr;     // [bodies] color that is in one copy of `taken` only
+  unsigned long long* least_key = nullptr;  // [bodies] jacobi
+  unsigned long long* taken = nullptr;      // [2 * bodies * color_words] colors in use at each body, by rounds
   std::uint32_t color_words = 1;
   core::Kinematics* sums = nullptr;  // jacobi
 

@@ -33,8 +33,11 @@ __device__ void integrate(const Team& team, const FrameView& f) {
     const core::Box box = core::translated(local_box(f, static_cast<std::uint32_t>(i)), s.x);
     f.boxes[i] = pack(box, static_cast<std::uint32_t>(i), x.w > 0.0F ? 0U : 1U);
     if (f.start == Start::kGrid) grid_count(f.grid, i, box);
-    for (int round = 0; round < 3; ++round) f.least_priority[std::uint64_t{f.body_count} * round + i] = ~0ULL;
-    for (std::uint32_t word = 0; word < f.color_words; ++word) f.taken[i * f.color_words + word] = 0;
+    if (f.solver == Solver::kJacobi) f.least_key[i] = ~0ULL;
+    f.degree[i] = 0;
+    for (std::uint32_t copy = 0; copy < 2; ++copy)
+      for (std::uint32_t word = 0; word < f.color_words; ++word)
+        f.taken[(std::uint64_t{f.body_count} * copy + i) * f.color_words + word] = 0;
   }
   for (std::uint64_t c = team.rank(); c < 64ULL * f.color_words; c += team.size()) f.color_count[c] = 0;
   if (team.rank() == 0) *f.counters = Counters{};

@@ -10,10 +10,7 @@
 
 namespace broadside::gpu {
 
-// A contact without color, plus 1 when its body a is static and 2 when its body b is.
-constexpr std::uint32_t kUncolored = 0xFFFFFFFCU;
-constexpr std::uint32_t kStaticA = 1;
-constexpr std::uint32_t kStaticB = 2;
+constexpr std::uint32_t kNoContact = 0xFFFFFFFFU;
 
 template <typename Team>
 __device__ void collect_touching(const Team& team, const FrameView& f, std::uint64_t confirmed) {
@@ -25,7 +22,11 @@ __device__ void collect_touching(const Team& team, const FrameView& f, std::uint
     if (!touches) continue;
     const core::Pair p = f.confirmed.items[k];
     f.touching[place] = p;
-    f.color[place] = kUncolored + (is_static(f, p.i) ? kStaticA : 0U) + (is_static(f, p.j) ? kStaticB : 0U);
+    if (f.solver != Solver::kColored) continue;
+    // Its place in the list of each moving body: whatever the order of the threads makes it, the lists are sorted.
+    std::uint32_t* slots = f.list_slots + 2 * place;
+    slots[0] = is_static(f, p.i) ? kNoContact : atomicAdd(&f.degree[p.i], 1U);
+    slots[1] = is_static(f, p.j) ? kNoContact : atomicAdd(&f.degree[p.j], 1U);
   }
 }
 
@@ -39,11 +40,6 @@ __device__ bool is_any_left(const Team& team, const FrameView& f, std::uint32_t 
   return *static_cast<volatile std::uint32_t*>(&f.counters->is_left[round % 3]) != 0;
 }
 
-// Lowers a body's word to this value, without an atomic where it is there already.
-__device__ inline void announce(unsigned long long* least, unsigned long long value) {
-  if (*static_cast<volatile unsigned long long*>(least) > value) atomicMin(least, value);
-}
-
 // The smallest color that is free at both bodies, in words of 64 colors; color_words * 64 when there is none.
 __device__ inline std::uint32_t smallest_free_color(const FrameView& f, const unsigned long long* taken_a,
                                                     const unsigned long long* taken_b) {
@@ -55,123 +51,111 @@ __device__ inline std::uint32_t smallest_free_color(const FrameView& f, const un
   return f.color_words * 64;
 }
 
-// A contact on its way to a color.
-struct OpenContact {
-  core::Pair pair;
-  unsigned long long priority;
-  bool moves_a;
-  bool moves_b;
-};
-
-__device__ inline OpenContact open_contact(const FrameView& f, std::uint64_t k) {
-  const core::Pair p = f.touching[k];
-  const std::uint32_t marks = f.color[k] - kUncolored;
-  return {p, core::color_priority(p), (marks & kStaticA) == 0, (marks & kStaticB) == 0};
-}
-
-// Colors contact k: the smallest color free at its dynamic bodies, and the next place among the contacts of that color
-// (whichever thread comes first: contacts of one color are independent). Only one thread at a time comes for a body.
-__device__ inline void take_color(const FrameView& f, std::uint64_t k, const OpenContact& c, unsigned long long* taken,
-                                  std::uint32_t words) {
-  unsigned long long* taken_a = c.moves_a ? taken + std::uint64_t{c.pair.i} * words : nullptr;
-  unsigned long long* taken_b = c.moves_b ? taken + std::uint64_t{c.pair.j} * words : nullptr;
-  const std::uint32_t color = smallest_free_color(f, taken_a, taken_b);
-  f.color[k] = color;
-  if (color == words * 64) {
-    atomicMax(&f.counters->words_demanded, words + 1);
-    return;
+// Sorts one body's contacts by priority, in place. A heap sort: a giant may have thousands of them.
+__device__ inline void sort_by_priority(const FrameView& f, std::uint32_t* list, std::uint32_t count) {
+  const auto priority = [&f](std::uint32_t k) { return core::color_priority(f.touching[k]); };
+  const auto sink = [&](std::uint32_t root, std::uint32_t end) {
+    const std::uint32_t item = list[root];
+    const unsigned long long key = priority(item);
+    for (std::uint32_t child = 2 * root + 1; child < end; child = 2 * root + 1) {
+      unsigned long long child_key = priority(list[child]);
+      if (child + 1 < end) {
+        const unsigned long long other_key = priority(list[child + 1]);
+        if (other_key > child_key) ++child, child_key = other_key;
+      }
+      if (child_key <= key) break;
+      list[root] = list[child];
+      root = child;
+    }
+    list[root] = item;
+  };
+  for (std::uint32_t root = count / 2; root > 0; --root) sink(root - 1, count);
+  for (std::uint32_t end = count; end > 1; --end) {
+    const std::uint32_t last = list[end - 1];
+    list[end - 1] = list[0];
+    list[0] = last;
+    sink(0, end - 1);
   }
-  const unsigned long long bit = 1ULL << (color % 64);
-  if (taken_a != nullptr) taken_a[color / 64] |= bit;
-  if (taken_b != nullptr) taken_b[color / 64] |= bit;
-  f.color_rank[k] = atomicAdd(&f.color_count[color], 1U);
 }
 
-// The sequential greedy coloring in the order of core::color_priority, by rounds: a contact whose priority is the least
-// among those without color at each of its dynamic bodies has only colored contacts before it, so it may take its
-// color. Too few words of colors end up in words_demanded.
-//
-// One barrier a round: contacts read the words of this round, announce themselves for the next, and clear those of the
-// round after it, which were last read a round ago. Contacts that stay open move to the other of two lists, so that
-// warps stay full; the three lengths are used in turn in the same way.
+// Each moving body's list of its contacts in the order of their priority.
 template <typename Team>
-__device__ void color_contacts(const Team& team, const FrameView& f, std::uint64_t count) {
-  for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
-    const OpenContact c = open_contact(f, k);
-    if (c.moves_a) announce(&f.least_priority[c.pair.i], c.priority);
-    if (c.moves_b) announce(&f.least_priority[c.pair.j], c.priority);
+__device__ void list_contacts(const Team& team, const FrameView& f, std::uint64_t count) {
+  const std::uint64_t turns = (f.body_count + team.size() - 1) / team.size();
+  for (std::uint64_t turn = 0; turn < turns; ++turn) {
+    const std::uint64_t i = turn * team.size() + team.rank();
+    const auto begin =
+        static_cast<std::uint32_t>(warp_append(i < f.body_count ? f.degree[i] : 0U, &f.counters->listed));
+    if (i < f.body_count) f.list_begin[i] = begin;
   }
   team.sync();
-  std::uint64_t open = count;
-  for (std::uint32_t round = 0; open > 0; ++round) {
-    const unsigned long long* now = f.least_priority + std::uint64_t{round % 3} * f.body_count;
-    unsigned long long* next = f.least_priority + std::uint64_t{(round + 1) % 3} * f.body_count;
-    unsigned long long* later = f.least_priority + std::uint64_t{(round + 2) % 3} * f.body_count;
-    const std::uint32_t* list = f.open_contacts[round % 2];
-    std::uint32_t* next_list = f.open_contacts[(round + 1) % 2];
-    if (team.rank() == 0) f.counters->open[(round + 2) % 3] = 0;
-    const std::uint64_t turns = (open + team.size() - 1) / team.size();
-    for (std::uint64_t turn = 0; turn < turns; ++turn) {
-      const std::uint64_t place = turn * team.size() + team.rank();
-      std::uint32_t k = 0;
-      bool stays = false;
-      if (place < open) {
-        k = round == 0 ? static_cast<std::uint32_t>(place) : list[place];
-        const OpenContact c = open_contact(f, k);
-        if (c.moves_a) later[c.pair.i] = ~0ULL;
-        if (c.moves_b) later[c.pair.j] = ~0ULL;
-        stays = (c.moves_a && now[c.pair.i] != c.priority) || (c.moves_b && now[c.pair.j] != c.priority);
-        if (stays) {
-          if (c.moves_a) announce(&next[c.pair.i], c.priority);
-          if (c.moves_b) announce(&next[c.pair.j], c.priority);
-        } else {
-          take_color(f, k, c, f.taken, f.color_words);
+  for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
+    const core::Pair p = f.touching[k];
+    const std::uint32_t* slots = f.list_slots + 2 * k;
+    if (slots[0] != kNoContact) f.lists[f.list_begin[p.i] + slots[0]] = static_cast<std::uint32_t>(k);
+    if (slots[1] != kNoContact) f.lists[f.list_begin[p.j] + slots[1]] = static_cast<std::uint32_t>(k);
+  }
+  team.sync();
+  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
+    const std::uint32_t degree = f.degree[i];
+    std::uint32_t* list = f.lists + f.list_begin[i];
+    sort_by_priority(f, list, degree);
+    f.front[i] = f.front[f.body_count + i] = degree > 0 ? list[0] : kNoContact;
+    f.listed[i] = 0;
+    f.unpublished[i] = kNoContact;
+  }
+  team.sync();
+}
+
+// The sequential greedy coloring in the order of core::color_priority, by rounds. A contact that is the first left in
+// the lists of both its bodies has only colored contacts before it, so it takes the smallest color free at both. Both
+// bodies' threads come to the same color from the same words, and each writes its own body alone: no atomics, one
+// barrier a round. Words are double, read from one copy and written to the other; a bit that was set in one is set in
+// the other a round later. Too few words of colors end up in words_demanded.
+template <typename Team>
+__device__ void color_contacts(const Team& team, const FrameView& f) {
+  const std::uint64_t words = std::uint64_t{f.body_count} * f.color_words;
+  for (std::uint32_t round = 0;; ++round) {
+    const std::uint32_t* front = f.front + std::uint64_t{round % 2} * f.body_count;
+    std::uint32_t* next_front = f.front + std::uint64_t{(round + 1) % 2} * f.body_count;
+    const unsigned long long* taken = f.taken + (round % 2) * words;
+    unsigned long long* next_taken = f.taken + ((round + 1) % 2) * words;
+    bool has_left = false;
+    for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
+      if (f.unpublished[i] != kNoContact) {
+        const std::uint32_t color = f.unpublished[i];
+        next_taken[i * f.color_words + color / 64] |= 1ULL << (color % 64);
+        f.unpublished[i] = kNoContact;
+      }
+      const std::uint32_t k = front[i];
+      next_front[i] = k;
+      if (k == kNoContact) continue;
+      has_left = true;
+      const core::Pair p = f.touching[k];
+      const bool is_a = p.i == i;
+      const std::uint32_t other = is_a ? p.j : p.i;
+      const bool other_moves = f.list_slots[2 * std::uint64_t{k} + (is_a ? 1 : 0)] != kNoContact;
+      if (other_moves && front[other] != k) continue;
+      const std::uint32_t color = smallest_free_color(
+          f, taken + i * f.color_words, other_moves ? taken + std::uint64_t{other} * f.color_words : nullptr);
+      if (color == f.color_words * 64) {
+        atomicMax(&f.counters->words_demanded, f.color_words + 1);
+      } else {
+        next_taken[i * f.color_words + color / 64] |= 1ULL << (color % 64);
+        f.unpublished[i] = color;
+        if (is_a || !other_moves) {
+          f.color[k] = color;
+          f.color_rank[k] = atomicAdd(&f.color_count[color], 1U);
         }
       }
-      const unsigned long long next_place = warp_append(stays ? 1U : 0U, &f.counters->open[(round + 1) % 3]);
-      if (stays) next_list[next_place] = k;
+      const std::uint32_t done = ++f.listed[i];
+      next_front[i] = done < f.degree[i] ? f.lists[f.list_begin[i] + done] : kNoContact;
     }
-    team.sync();
-    open = *static_cast<volatile unsigned long long*>(&f.counters->open[(round + 1) % 3]);
+    if (!is_any_left(team, f, round, has_left)) return;
   }
 }
 
-// The same by one block, with the bodies' words in shared memory; at most 64 contacts a thread, 64 colors.
-__device__ inline void color_contacts_in_block(const FrameView& f, std::uint64_t count, unsigned long long* words) {
-  unsigned long long* least = words;
-  unsigned long long* taken = words + f.body_count;
-  for (std::uint32_t i = threadIdx.x; i < f.body_count; i += blockDim.x) least[i] = ~0ULL, taken[i] = 0;
-  std::uint64_t open = 0;  // bit s: contact threadIdx.x + s blockDim.x
-  for (std::uint64_t k = threadIdx.x, bit = 1; k < count; k += blockDim.x, bit <<= 1) open |= bit;
-  const auto contact_of = [](std::uint64_t bits) {
-    return threadIdx.x + static_cast<std::uint64_t>(__ffsll(static_cast<long long>(bits)) - 1) * blockDim.x;
-  };
-  while (__syncthreads_or(open != 0 ? 1 : 0) != 0) {
-    for (std::uint64_t bits = open; bits != 0; bits &= bits - 1) {
-      const OpenContact c = open_contact(f, contact_of(bits));
-      if (c.moves_a) atomicMin(&least[c.pair.i], c.priority);
-      if (c.moves_b) atomicMin(&least[c.pair.j], c.priority);
-    }
-    __syncthreads();
-    std::uint64_t firsts = 0;
-    for (std::uint64_t bits = open; bits != 0; bits &= bits - 1) {
-      const OpenContact c = open_contact(f, contact_of(bits));
-      if ((!c.moves_a || least[c.pair.i] == c.priority) && (!c.moves_b || least[c.pair.j] == c.priority))
-        firsts |= bits & -bits;
-    }
-    __syncthreads();
-    for (std::uint64_t bits = firsts; bits != 0; bits &= bits - 1) {
-      const std::uint64_t k = contact_of(bits);
-      const OpenContact c = open_contact(f, k);
-      take_color(f, k, c, taken, 1);
-      if (c.moves_a) least[c.pair.i] = ~0ULL;
-      if (c.moves_b) least[c.pair.j] = ~0ULL;
-    }
-    open &= ~firsts;
-  }
-}
-
-// Lists the contacts by color: those of color c are open_contacts[0][color_begin[c] .. color_begin[c + 1]).
+// Lists the contacts by color: those of color c are by_color[color_begin[c] .. color_begin[c + 1]).
 template <typename Team>
 __device__ void order_by_color(const Team& team, const FrameView& f, std::uint64_t count) {
   const std::uint32_t most = f.color_words * 64;
@@ -193,7 +177,7 @@ __device__ void order_by_color(const Team& team, const FrameView& f, std::uint64
   }
   team.sync();
   for (std::uint64_t k = team.rank(); k < count; k += team.size())
-    f.open_contacts[0][f.color_begin[f.color[k]] + f.color_rank[k]] = static_cast<std::uint32_t>(k);
+    f.by_color[f.color_begin[f.color[k]] + f.color_rank[k]] = static_cast<std::uint32_t>(k);
   team.sync();
 }
 
@@ -215,6 +199,15 @@ __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint3
   return true;
 }
 
+// 144 bytes in nine wide stores: with one store a float, a block's stores are what a color waits for.
+__device__ inline void store_contact(const FrameView& f, std::uint64_t k, const core::Contact& contact) {
+  uint4 words[sizeof(core::Contact) / sizeof(uint4)];
+  memcpy(words, &contact, sizeof contact);
+  auto* to = reinterpret_cast<uint4*>(f.contacts + k);
+#pragma unroll
+  for (std::size_t w = 0; w < sizeof(core::Contact) / sizeof(uint4); ++w) to[w] = words[w];
+}
+
 __device__ inline void store_state(const FrameView& f, std::uint32_t body, const core::Kinematics& s) {
   f.next.position[body].v = s.x;
   f.next.velocity[body].v = s.v;
@@ -226,8 +219,8 @@ __device__ void resolve_colors(const Team& team, const FrameView& f) {
   const std::uint32_t colors = f.counters->colors;
   for (std::uint32_t color = 0; color < colors; ++color) {
     const std::uint64_t end = f.color_begin[color + 1];
-    for (std::uint64_t place = f.color_begin[color] + team.rank(); place < end; place += team.size()) {
-      const std::uint32_t k = f.open_contacts[0][place];
+    for (std::uint64_t place = f.color_begin[color] + team.spread_rank(); place < end; place += team.size()) {
+      const std::uint32_t k = f.by_color[place];
       const core::Pair p = f.touching[k];
       core::Contact contact;
       if (fill_contact(f, p, color, contact)) {
@@ -235,7 +228,7 @@ __device__ void resolve_colors(const Team& team, const FrameView& f) {
         if (!is_static(f, p.i) || f.variant == core::Variant::kE3) store_state(f, p.i, contact.post_a);
         if (!is_static(f, p.j) || f.variant == core::Variant::kE3) store_state(f, p.j, contact.post_b);
       }
-      f.contacts[k] = contact;
+      store_contact(f, k, contact);
     }
     team.sync();
   }
@@ -251,7 +244,7 @@ __device__ void resolve_racing(const Team& team, const FrameView& f, std::uint64
       store_state(f, p.i, contact.post_a);
       store_state(f, p.j, contact.post_b);
     }
-    f.contacts[k] = contact;
+    store_contact(f, k, contact);
   }
   team.sync();
 }
@@ -265,7 +258,7 @@ __device__ void resolve_jacobi(const Team& team, const FrameView& f, std::uint64
   for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
     core::Contact contact;
     fill_contact(f, f.touching[k], 0, contact);
-    f.contacts[k] = contact;
+    store_contact(f, k, contact);
     f.color[k] = contact.depth_m > 0.0F ? 0 : kDoneA | kDoneB;
   }
   for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) f.sums[i] = core::Kinematics{};
@@ -274,13 +267,13 @@ __device__ void resolve_jacobi(const Team& team, const FrameView& f, std::uint64
     core::Kinematics& sum = f.sums[body];
     sum.x = sum.x + (post.x - pre.x);
     sum.v = sum.v + (post.v - pre.v);
-    f.least_priority[body] = ~0ULL;
+    f.least_key[body] = ~0ULL;
   };
   for (std::uint32_t round = 0;; ++round) {
     for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
       const core::Pair p = f.touching[k];
-      if ((f.color[k] & kDoneA) == 0) atomicMin(&f.least_priority[p.i], core::pair_key(p));
-      if ((f.color[k] & kDoneB) == 0) atomicMin(&f.least_priority[p.j], core::pair_key(p));
+      if ((f.color[k] & kDoneA) == 0) atomicMin(&f.least_key[p.i], core::pair_key(p));
+      if ((f.color[k] & kDoneB) == 0) atomicMin(&f.least_key[p.j], core::pair_key(p));
     }
     team.sync();
     bool has_left = false;
@@ -289,7 +282,7 @@ __device__ void resolve_jacobi(const Team& team, const FrameView& f, std::uint64
       const core::Contact& c = f.contacts[k];
       const std::uint64_t key = core::pair_key(p);
       const auto is_next = [&](std::uint32_t body) {
-        return *static_cast<volatile unsigned long long*>(&f.least_priority[body]) == key;
+        return *static_cast<volatile unsigned long long*>(&f.least_key[body]) == key;
       };
       std::uint32_t done = f.color[k];
       if ((done & kDoneA) == 0 && is_next(p.i)) add(p.i, c.pre_a, c.post_a), done |= kDoneA;

@@ -18,6 +18,7 @@ struct GridTeam {
 
 struct BlockTeam {
   __device__ std::uint64_t rank() const { return threadIdx.x; }
+  __device__ std::uint64_t spread_rank() const { return threadIdx.x; }
   __device__ std::uint64_t size() const { return blockDim.x; }
   __device__ void sync() const { __syncthreads(); }
 };
@@ -30,6 +31,10 @@ struct PartialGridTeam {
   mutable std::uint32_t meetings = 0;
 
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
+  // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
+  __device__ std::uint64_t spread_rank() const {
+    return (std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x) * 32 + threadIdx.x % 32;
+  }
   __device__ std::uint64_t size() const { return std::uint64_t{blocks} * blockDim.x; }
   __device__ void sync() const {
     ++meetings;
