@@ -20,8 +20,8 @@
 namespace broadside::bench {
 namespace {
 
-constexpr std::array<AddCommand, 8> kCommands{add_list,   add_run,  add_check, add_time,
-                                              add_report, add_demo, add_fetch, add_recover};
+constexpr std::array<AddCommand, 10> kCommands{add_list,   add_run,     add_pairs, add_check, add_time,
+                                               add_report, add_compare, add_demo,  add_fetch, add_recover};
 
 std::vector<std::string> subcommands(const CLI::App& program) {
   std::vector<std::string> names;

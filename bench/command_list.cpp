@@ -7,6 +7,7 @@
 
 #include "bench/commands.hpp"
 #include "bench/engines.hpp"
+#include "datasets/box_streams/box_stream.hpp"
 #include "datasets/mesh/mesh_catalogue.hpp"
 #include "datasets/scenes.hpp"
 #include "validation/judge.hpp"
@@ -37,6 +38,8 @@ Rows scene_rows() {
   Rows rows = Rows::array();
   for (const datasets::SceneRow& scene : datasets::scene_table())
     rows.push_back({{"name", scene.pattern}, {"what", scene.what}, {"example", scene.example}});
+  for (const datasets::BoxStreamRow& stream : datasets::box_stream_table())
+    rows.push_back({{"name", stream.pattern}, {"what", stream.what}, {"example", stream.example}});
   return rows;
 }
 

@@ -22,6 +22,8 @@ core::TraceHeader header_for(const CellRequest& request, const core::Engine& eng
   header.scene = *request.scene;
   header.level = request.level;
   header.every = request.every;
+  header.notes["command"] = fmt::format("broadside run {} --engine '{}' --frames {}", request.source.spec,
+                                        header.stamp.label(), request.frames);
   for (const auto& mesh : request.scene->meshes)
     header.notes["mesh " + mesh->name] = mesh->source + (mesh->is_stand_in ? " (STAND-IN)" : "");
   const core::ShapeTable table = core::build_shapes(*request.scene);

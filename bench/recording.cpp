@@ -1,5 +1,7 @@
 #include "bench/recording.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace broadside::bench {
@@ -23,10 +25,25 @@ core::Status Recording::add(const core::FrameRecord& frame) {
   last_step_ = frame.step;
   last_digest_ = frame.digest;
   ++frames_;
+  count(frame);
   if (writer_) {
     if (core::Status s = writer_->append(frame); !s) return s;
   }
   return core::Done{};
+}
+
+void Recording::count(const core::FrameRecord& frame) {
+  const auto has = [&](core::Group g) { return (header_.groups & bit(g)) != 0; };
+  if (has(core::Group::kPairs)) {
+    counts_["pairs: candidates, mean"] += frame.pairs.size();
+    counts_["pairs: raw, mean"] += frame.pairs_raw;
+  }
+  if (has(core::Group::kConfirmed)) {
+    counts_["pairs: confirmed, mean"] += frame.confirmed.size();
+    for (const core::Proximity& p : frame.proximity) counts_["pairs: touching, mean"] += p.is_touching() ? 1 : 0;
+  }
+  if (has(core::Group::kContacts)) counts_["pairs: contacts, mean"] += frame.contacts.size();
+  if (has(core::Group::kNarrow)) counts_["pairs: measured, mean"] += frame.measured.size();
 }
 
 core::Cell Recording::cell(core::CellState state, const std::string& reason) {
@@ -38,6 +55,8 @@ core::Cell Recording::cell(core::CellState state, const std::string& reason) {
   cell.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (frames_ > 0) cell.digests[last_step_] = last_digest_;
   cell.notes = header_.notes;
+  for (const auto& [what, sum] : counts_)
+    cell.notes[what] = fmt::format("{:.1f}", static_cast<double>(sum) / static_cast<double>(frames_));
   progress_.reset();
   return cell;
 }

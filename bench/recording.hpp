@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -34,6 +36,7 @@ class Recording {
  private:
   Recording() = default;
   core::Cell cell(core::CellState state, const std::string& reason);
+  void count(const core::FrameRecord& frame);
 
   core::TraceHeader header_;
   std::optional<core::TraceWriter> writer_;
@@ -43,6 +46,8 @@ class Recording {
   std::uint64_t frames_ = 0;
   std::uint64_t last_step_ = 0;
   std::uint64_t last_digest_ = 0;
+  // Sums over the recorded frames of what each group holds, for the report's table of counts.
+  std::map<std::string, std::uint64_t> counts_;
   std::chrono::steady_clock::time_point start_;
 };
 

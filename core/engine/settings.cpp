@@ -21,7 +21,7 @@ Result<Settings> Settings::parse(std::string_view engine_id, std::span<const Set
   std::vector<std::string_view> keys;
   for (const SettingRow& row : table) {
     keys.push_back(row.key);
-    settings.values_[std::string(row.key)] = {std::string(row.default_value), false, true};
+    settings.values_[std::string(row.key)] = {std::string(row.default_value), true};
   }
   for (const auto& [key, text] : given) {
     const auto row = std::find_if(table.begin(), table.end(), [&](const SettingRow& r) { return r.key == key; });
@@ -34,7 +34,7 @@ Result<Settings> Settings::parse(std::string_view engine_id, std::span<const Set
       return Error{"setting '" + key + "' cannot be '" + text + "'", std::string(engine_id),
                    row->allowed.empty() ? "give a whole number of 0 or more" : advise_name(text, row->allowed)};
     }
-    settings.values_[key] = {text, true, text == row->default_value};
+    settings.values_[key] = {text, text == row->default_value};
   }
   return settings;
 }
@@ -45,10 +45,6 @@ const std::string& Settings::text(std::string_view key) const {
 
 unsigned long Settings::number(std::string_view key) const {
   return std::strtoul(text(key).c_str(), nullptr, 10);
-}
-
-bool Settings::is_given(std::string_view key) const {
-  return values_.find(key)->second.is_given;
 }
 
 std::string Settings::canonical() const {

@@ -28,8 +28,6 @@ class Settings {
 
   [[nodiscard]] const std::string& text(std::string_view key) const;
   [[nodiscard]] unsigned long number(std::string_view key) const;
-  // Was the key given by the user rather than filled from the table?
-  [[nodiscard]] bool is_given(std::string_view key) const;
   // "levels=A,variant=sound,...": every key in alphabetical order, for the stamp.
   [[nodiscard]] std::string canonical() const;
   // Only what differs from the defaults, for names that people read: "levels=A"; empty when nothing does.
@@ -38,7 +36,6 @@ class Settings {
  private:
   struct Value {
     std::string text;
-    bool is_given = false;
     bool is_default = true;
   };
   std::map<std::string, Value, std::less<>> values_;

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/version.h>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -18,9 +19,7 @@ const std::array<core::SettingRow, 6>& settings_table() {
       {"broad",
        "tree",
        {"tree", "octree", "brute"},
-       "where candidates come from: the fast octree, the scene octree of P-Alg 1, or the published start that tests "
-       "all "
-       "pairs; brute when levels are given and this is not"},
+       "where candidates come from: tree = the fast octree; octree = P-Alg 1; brute = the levels' published start"},
       {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
       {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
       {"threads", "0", {}, "threads; 0 = all. Does not change a bit of the result"},
@@ -37,29 +36,31 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   PipelineOptions options;
   options.levels = *core::levels_named(settings.text("levels"));
   options.variant = *core::variant_named(settings.text("variant"));
-  // As published, a level setting starts by brute force; a setting given for both is taken at its word.
-  const bool is_published_start = settings.is_given("levels") && !settings.is_given("broad");
+  const int threads = static_cast<int>(settings.number("threads"));
+  std::unique_ptr<core::BroadPhase> alone;
   // E2 and E7 are faults of the published scene octree: without it there would be nothing to see.
   const bool needs_octree = options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7;
-  const std::string& broad = settings.text("broad");
-  if (needs_octree || (broad == "octree" && !is_published_start)) {
+  if (needs_octree || settings.text("broad") == "octree") {
     options.make_broad_phase = [variant = options.variant](const core::Scene& scene) {
       return make_scene_octree_broad_phase(scene.domain, core::kSceneOctreeDepth, variant);
     };
-  } else if (broad == "tree" && !is_published_start) {
+    alone = make_scene_octree_broad_phase(core::empty_box(), core::kSceneOctreeDepth, options.variant, threads);
+  } else if (settings.text("broad") == "tree") {
     options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };
+    alone = make_tree_broad_phase(threads);
   }
   const std::string& solver = settings.text("solver");
   if (solver == "jacobi") options.solver = Solver::kJacobi;
   if (solver == "printed-E8" || options.variant == core::Variant::kE8) options.solver = Solver::kRacing;
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
-  options.threads = static_cast<int>(settings.number("threads"));
+  options.threads = threads;
 
   core::Engine engine;
   engine.id = "octree-cpu";
   engine.build =
       "Broadside, float32, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
+  engine.broad_phase = std::move(alone);
   engine.dynamics = std::make_unique<Pipeline>(std::move(options));
   return engine;
 }

@@ -132,6 +132,33 @@ TEST(Run, EmptySceneAndOneBody) {
   }
 }
 
+TEST(Pairs, EnginesAgreeOnBoxesAndADifferenceIsAFailure) {
+  const Ended agreed = run_program({"pairs", "boxes:heaps:3000", "--engine", "octree-cpu", "--engine", "all-pairs",
+                                    "--engine", "bullet-dbvt", "--engine", "fcl-tree"});
+  EXPECT_EQ(agreed.exit_code, 0) << agreed.out << agreed.err;
+  // The printed P-Alg 2 loses pairs across cells, and is told so.
+  const Ended lost = run_program({"pairs", "boxes:uniform:3000", "--engine", "all-pairs", "--engine",
+                                  "octree-cpu[variant=printed-E2]", "--digest"});
+  EXPECT_EQ(lost.exit_code, 1) << lost.out << lost.err;
+}
+
+TEST(Compare, ARunAgainstItselfIsGoodAndAVanishedCellIsNot) {
+  const ScratchFolder folder;
+  const std::string base = (folder / "base").string();
+  const std::string head = (folder / "head").string();
+  const std::vector<std::string> run{"run", "freefall:sphere:4", "--frames", "5", "--engine", "octree-cpu", "--out"};
+  std::vector<std::string> both = run;
+  both.insert(both.end(), {base, "--engine", "all-pairs"});
+  std::vector<std::string> one = run;
+  one.push_back(head);
+  ASSERT_EQ(run_program(both).exit_code, 0);
+  ASSERT_EQ(run_program(one).exit_code, 0);
+  EXPECT_EQ(run_program({"compare", base, base}).exit_code, 0);
+  const Ended vanished = run_program({"compare", base, head});
+  EXPECT_EQ(vanished.exit_code, 3) << vanished.out;
+  EXPECT_NE(vanished.out.find("all-pairs"), std::string::npos) << vanished.out;
+}
+
 TEST(MainJob, SecondCallTakesOverWhatIsThere) {
   const ScratchFolder folder;
   const std::vector<std::string> demo{"demo", "--scene", "freefall:sphere:6", "--frames", "60", "--repetitions",
