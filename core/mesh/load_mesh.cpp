@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/check_ply.hpp"
 #include "core/nearest_name.hpp"
 
 namespace broadside::core {
@@ -47,6 +48,7 @@ Status check_file(const std::filesystem::path& path) {
   if (size > kMaxMeshFileBytes)
     return bad(path, "the file has " + std::to_string(size >> 20) + " MiB, more than a mesh here may (2048 MiB)",
                "decimate it first");
+  if (extension == ".ply") return check_ply(path);
   return Done{};
 }
 
@@ -105,14 +107,16 @@ std::uint64_t unreferenced_count(const aiScene& scene) {
   return count;
 }
 
-// Joining looks vertices up by index unchecked, and a scene of points alone fails there without a clear word: so this
-// comes before it.
+// Joining looks vertices up by index unchecked, cutting ends the program on a face without corners, and a scene of
+// points alone fails without a clear word: so this comes before them.
 Status check_faces(const std::filesystem::path& path, const aiScene& scene) {
   bool has_area = false;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices == 0)
+        return bad(path, "face " + std::to_string(f) + " has no corners", "repair the mesh file");
       has_area = has_area || face.mNumIndices >= 3;
       for (unsigned k = 0; k < face.mNumIndices; ++k)
         if (face.mIndices[k] >= part.mNumVertices)

@@ -182,6 +182,43 @@ TEST(LoadMesh, ADamagedPlyIsRefused) {
             "");
 }
 
+// assimp's own PLY reader runs off the end of such files, and hangs on some.
+TEST(LoadMesh, APlyDamagedAnywhereIsRefusedOrReadButNeverCrashes) {
+  const TemporaryFolder folder;
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::size_t body = ply.size();
+  const float v[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  ply.append(reinterpret_cast<const char*>(v), sizeof v);
+  for (const core::Triangle& t : {Triangle{0, 2, 1}, Triangle{0, 1, 3}, Triangle{0, 3, 2}, Triangle{1, 2, 3}}) {
+    ply += '\3';
+    ply.append(reinterpret_cast<const char*>(t.data()), sizeof t);
+  }
+  ASSERT_TRUE(load_mesh(folder.file("whole.ply", ply)).ok());
+  // Cut anywhere: always an error.
+  for (std::size_t size = 0; size < ply.size(); size += size < body ? 7 : 3)
+    error_line(folder.file("cut.ply", ply.substr(0, size)));
+  // One byte changed anywhere in the header, or in the lists' lengths: whatever comes back, the process lives.
+  for (std::size_t at = 0; at < ply.size(); ++at) {
+    std::string damaged = ply;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x15);
+    const auto loaded = load_mesh(folder.file("damaged.ply", damaged));
+    const std::string line = loaded.ok() ? "" : loaded.error().line();
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = ply;
+    changed.replace(changed.find(from), from.size(), to);
+    return error_line(folder.file("changed.ply", changed));
+  };
+  EXPECT_NE(with("vertex 4", "vertex 40").find("shorter than its header says"), std::string::npos);
+  EXPECT_NE(with("face 4", "face 4000000000").find("shorter than its header says"), std::string::npos);
+  EXPECT_NE(with("float y", "flaot y").find("line 5 of its header"), std::string::npos);
+  EXPECT_NE(with("uchar int", "uchar float").find("whole numbers"), std::string::npos);
+  EXPECT_NE(with("float z", "float w").find("no vertices with x, y and z"), std::string::npos);
+}
+
 TEST(Normalized, LongestSideIsExactAndTheCenterIsTheOrigin) {
   Mesh mesh;
   mesh.vertices = {{1, 2, 3}, {5, 3, 4}, {1, 4, 3.5F}};
