@@ -126,6 +126,7 @@ void SizeTree::fill_bucket(std::size_t bucket_index) {
     for (std::uint32_t k = count; k < kWidth; ++k) {
       put(filled, k, core::empty_box());
       ids[k] = 0;
+      static_bits |= 1U << k;
     }
     static_lanes_[pack] = static_cast<std::uint8_t>(static_bits);
     const std::uint32_t lane = pack - tree.level_begin[0];

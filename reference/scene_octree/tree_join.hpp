@@ -78,11 +78,16 @@ class Join {
   // The listed packs overlap the bounds of ours: lists which of our boxes overlap the bounds of which of them.
   void narrow(std::uint32_t count) {
     const BoxPack& own = tree_.packs[own_pack_];
+    const unsigned own_static = tree_.static_lanes[own_pack_];
     const BoxPack* parents = tree_.packs + class_->level_begin[1];
+    const std::uint8_t* static_lanes = tree_.static_lanes + class_->level_begin[0];
     std::uint32_t* end = near_;
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t pack = lists_[0][k];
-      end = Lanes::append(end, pack * 8U, Lanes::overlapping(own, Lanes::spread(parents[pack / 8U], pack % 8U)));
+      unsigned near = Lanes::overlapping(own, Lanes::spread(parents[pack / 8U], pack % 8U));
+      // A static box has nothing to look for in a pack of static ones.
+      near &= ~(static_lanes[pack] == 0xFFU ? own_static : 0U);
+      end = Lanes::append(end, pack * 8U, near);
       if (end - near_ > kListFull) {
         test(static_cast<std::uint32_t>(end - near_));
         end = near_;

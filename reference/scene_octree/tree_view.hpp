@@ -34,7 +34,7 @@ struct TreeView {
   const BoxPack* packs;
   const TreeClass* classes;
   const std::uint32_t* ids;          // 8 for each pack of level 0
-  const std::uint8_t* static_lanes;  // for each pack of level 0, a bit for each lane with a static body
+  const std::uint8_t* static_lanes;  // for each pack of level 0, a bit for each lane with a static body or none
   std::uint32_t class_count;
 };
 
