@@ -79,7 +79,7 @@ class PlantedViolation(unittest.TestCase):
         self.one(wording, {"core/a.cpp": "// TO" "DO: later\n"}, "unfinished")
         self.one(wording, {"core/a.md": "See /ho" "me/somebody/x\n"}, "a path of one machine")
         self.one(wording, {"broadside": "curl http://deb.debian" ".org/\n"}, "registry")
-        self.assertEqual([], self.found(wording, {"core/a.cpp": "// out/demo/report.html, ../shared/work/x\n"}))
+        self.assertEqual([], self.found(wording, {"core/a.cpp": "// out/demo/report.html, ../shared/wo" "rk/x\n"}))
 
     def test_package_that_is_not_in_the_table(self):
         self.one(packages, {"core/CMakeLists.txt": "find_package(Y)\n"}, "Y is searched for")
