@@ -84,6 +84,42 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"WrongType", with_body("position_m = \"here\"\n"), "position"}),
     [](const auto& instance) { return instance.param.name; });
 
+struct BadMesh {
+  std::string name;
+  std::string file;
+  std::string content;  // empty = there is no such file
+  std::string must_say;
+};
+
+void PrintTo(const BadMesh& c, std::ostream* out) {
+  *out << c.name;
+}
+
+class BadMeshFile : public testing::TestWithParam<BadMesh> {};
+
+TEST_P(BadMeshFile, GetsOneClearLineWithTheSceneFilesLine) {
+  const ScratchFolder folder;
+  if (!GetParam().content.empty()) std::ofstream(folder / GetParam().file) << GetParam().content;
+  std::ofstream(folder / "scene.toml")
+      << "name = \"bad\"\nframes = 2\n[domain]\nmin_m = [-5, -5, -5]\nmax_m = [5, 5, 5]\n"
+      << "[[mesh]]\nname = \"m\"\nfile = \"" << GetParam().file << "\"\n[[body]]\nposition_m = [0, 0, 0]\n";
+  const Ended ended = run_program(
+      {"run", (folder / "scene.toml").string(), "--engine", "octree-cpu", "--out", (folder / "out").string()});
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_NE(ended.err.find("scene.toml:8"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(GetParam().must_say), std::string::npos) << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadMeshFile,
+    testing::Values(BadMesh{"Missing", "no-such.ply", "", "no such mesh file"},
+                    BadMesh{"Empty", "empty.obj", "o nothing\n", "empty.obj"},
+                    BadMesh{"AllDegenerate", "line.obj", "o a\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "degenerate"},
+                    BadMesh{"NanVertex", "nan.obj", "o a\nv 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n", "NaN"}),
+    [](const auto& instance) { return instance.param.name; });
+
 TEST(BadOutput, UnwritableFolder) {
   const ScratchFolder folder;
   std::ofstream(folder / "a-file") << "in the way";

@@ -132,6 +132,23 @@ TEST(Run, EmptySceneAndOneBody) {
   }
 }
 
+TEST(Run, AllBodiesAtOnePointIsAScene) {
+  const ScratchFolder folder;
+  std::ofstream scene(folder / "point.toml");
+  scene
+      << "name = \"point\"\nframes = 10\n[domain]\nmin_m = [-5, -5, -5]\nmax_m = [5, 5, 5]\n[[mesh]]\nname = \"cube\"\n"
+         "shape = \"box\"\nsides_m = [1, 1, 1]\nsegments = [4, 4, 4]\n";
+  for (int k = 0; k < 5; ++k) scene << "[[body]]\nposition_m = [0, 0, 0]\n";
+  scene.close();
+  const Ended ended =
+      run_program({"run", (folder / "point.toml").string(), "--engine", "octree-cpu", "--engine", "all-pairs",
+                   "--engine", "bullet-dbvt", "--engine", "fcl-tree", "--engine", "fcl-mesh", "--out", folder.text()});
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  const Ended checked =
+      run_program({"check", (folder / "octree-cpu.h5").string(), "--against", (folder / "all-pairs.h5").string()});
+  EXPECT_EQ(checked.exit_code, 0) << checked.out;
+}
+
 TEST(Pairs, EnginesAgreeOnBoxesAndADifferenceIsAFailure) {
   const Ended agreed = run_program({"pairs", "boxes:heaps:3000", "--engine", "octree-cpu", "--engine", "all-pairs",
                                     "--engine", "bullet-dbvt", "--engine", "fcl-tree"});
