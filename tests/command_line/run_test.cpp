@@ -1,6 +1,7 @@
 // Runs that go well, runs that are cut short, and what each leaves behind.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -118,6 +119,21 @@ TEST(Run, FullDiskIsOneClearLineAndNoFinalName) {
   EXPECT_NE(ended.exit_code, -1) << "ended by a signal";
   EXPECT_NE(ended.err.find("space"), std::string::npos) << ended.err;
   EXPECT_FALSE(has_final_name);
+}
+
+TEST(Run, FileSizeLimitIsOneClearLineToo) {
+  const ScratchFolder folder;
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{1U << 20U, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);  // the child inherits it
+  const pid_t child = start_program(folder, {"run", "randommove:sphere:100", "--frames", "2000", "--engine",
+                                             "octree-cpu", "--out", (folder / "out").string()});
+  setrlimit(RLIMIT_FSIZE, &before);
+  const Ended ended = wait_for(folder, child);
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_FALSE(fs::exists(folder / "out" / "octree-cpu.h5"));
 }
 
 TEST(Run, EmptySceneAndOneBody) {
