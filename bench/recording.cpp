@@ -56,7 +56,7 @@ core::Cell Recording::cell(core::CellState state, const std::string& reason) {
   if (frames_ > 0) cell.digests[last_step_] = last_digest_;
   cell.notes = header_.notes;
   for (const auto& [what, sum] : counts_)
-    cell.notes[what] = fmt::format("{:.1f}", static_cast<double>(sum) / static_cast<double>(frames_));
+    cell.notes[what] = fmt::format("{:.4g}", static_cast<double>(sum) / static_cast<double>(frames_));
   progress_.reset();
   return cell;
 }
