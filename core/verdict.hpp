@@ -24,6 +24,21 @@ constexpr std::string_view outcome_word(Outcome o) {
   return "unknown";
 }
 
+// For "the worst of": a fail outweighs an inconclusive verdict, that a pass, and a pass one that did not apply.
+constexpr int severity(Outcome o) {
+  switch (o) {
+    case Outcome::kFail:
+      return 3;
+    case Outcome::kInconclusive:
+      return 2;
+    case Outcome::kPass:
+      return 1;
+    case Outcome::kNotApplicable:
+      return 0;
+  }
+  return 3;
+}
+
 // Where the measured value was worst.
 struct Place {
   std::int64_t step = -1;             // the frame's step; -1 = no single frame

@@ -23,21 +23,6 @@ constexpr std::string_view symbol(core::Outcome outcome) {
   return "";
 }
 
-// A fail outweighs an inconclusive verdict, that a pass, and a pass one that did not apply.
-constexpr int severity(core::Outcome outcome) {
-  switch (outcome) {
-    case core::Outcome::kFail:
-      return 3;
-    case core::Outcome::kInconclusive:
-      return 2;
-    case core::Outcome::kPass:
-      return 1;
-    case core::Outcome::kNotApplicable:
-      return 0;
-  }
-  return 0;
-}
-
 // "body 3", "face -y".
 std::string body_name(std::uint32_t body);
 // "bodies 3 and 17", "body 3 and face -y"; empty without bodies.

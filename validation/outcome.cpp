@@ -1,28 +1,10 @@
 #include "validation/outcome.hpp"
 
 namespace broadside::validation {
-namespace {
-
-int rank(core::Outcome outcome) {
-  switch (outcome) {
-    case core::Outcome::kFail:
-      return 3;
-    case core::Outcome::kInconclusive:
-      return 2;
-    case core::Outcome::kPass:
-      return 1;
-    case core::Outcome::kNotApplicable:
-      return 0;
-  }
-  return 3;
-}
-
-}  // namespace
-
 core::Outcome worst_outcome(std::span<const core::Verdict> verdicts) {
   core::Outcome worst = core::Outcome::kNotApplicable;
   for (const core::Verdict& verdict : verdicts)
-    if (rank(verdict.outcome) > rank(worst)) worst = verdict.outcome;
+    if (core::severity(verdict.outcome) > core::severity(worst)) worst = verdict.outcome;
   return worst;
 }
 
