@@ -13,8 +13,8 @@
 #include <memory>
 #include <string>
 
-#include "bench/benchmarks/box_sets.hpp"
 #include "core/engine/engine.hpp"
+#include "datasets/box_streams/box_sets.hpp"
 #include "reference/engines.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
 
@@ -29,7 +29,8 @@ struct BoxSet {
   std::string_view name;
   Boxes (*make)(std::uint32_t n, std::uint64_t seed);
 };
-constexpr BoxSet kBoxSets[] = {{"uniform", uniform_boxes}, {"heaps", heap_boxes}, {"mixed", mixed_boxes}};
+constexpr BoxSet kBoxSets[] = {
+    {"uniform", datasets::uniform_boxes}, {"heaps", datasets::heap_boxes}, {"mixed", datasets::mixed_boxes}};
 constexpr std::uint32_t kCounts[] = {10'000, 100'000, 1'000'000};
 constexpr std::uint64_t kSeed = 1;
 

@@ -1,4 +1,4 @@
-// The candidate's own broad phases behind core's interface: `broad=tree` and `broad=scene-octree`.
+// The candidate's own broad phases behind core's interface: `broad=tree` and `broad=octree`.
 #pragma once
 
 #include <memory>
