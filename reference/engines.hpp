@@ -12,6 +12,8 @@ core::EngineRow bullet_dbvt_tree_row();  // broad: btDbvt::collideTT without the
 core::EngineRow bullet_sap_row();        // broad: bt32BitAxisSweep3
 core::EngineRow fcl_tree_row();          // broad: fcl::DynamicAABBTreeCollisionManager
 core::EngineRow fcl_sap_row();           // broad: fcl::SaPCollisionManager and the other managers
+core::EngineRow embree_collide_row();    // broad: rtcCollide
+core::EngineRow cgal_boxes_row();        // broad: CGAL::box_self_intersection_d
 core::EngineRow hash_cpu_row();          // broad, dynamics: the spatial hash and the pipeline behind it
 core::EngineRow ccd_row();               // narrow: libccd on hulls and boxes
 core::EngineRow exact_mesh_row();        // narrow: exact, the arbiter
