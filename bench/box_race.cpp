@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "bench/engines.hpp"
 #include "datasets/box_streams/box_stream.hpp"
 
 namespace broadside::bench {
@@ -35,7 +36,7 @@ core::Status run_frame(core::BroadPhase& broad, const std::vector<core::Box>& bo
 }
 
 core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell, std::uint32_t frames) {
-  const std::string reason = cell.row->absent != nullptr ? cell.row->absent() : "";
+  const std::string reason = why_absent(*cell.row);
   if (!reason.empty())
     return core::Error{"not measured: " + reason, std::string(cell.row->id), "leave it out", core::Exit::kMissing};
   auto settings = core::Settings::parse(cell.row->id, cell.row->settings, cell.settings);

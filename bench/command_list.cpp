@@ -21,7 +21,7 @@ using Rows = nlohmann::ordered_json;
 Rows engine_rows() {
   Rows rows = Rows::array();
   for (const core::EngineRow& engine : engines()) {
-    const std::string reason = engine.absent != nullptr ? engine.absent() : "";
+    const std::string reason = why_absent(engine);
     Rows settings = Rows::array();
     for (const core::SettingRow& s : engine.settings)
       settings.push_back({{"key", s.key}, {"default", s.default_value}, {"allowed", s.allowed}, {"what", s.what}});

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/commands.hpp"
+#include "bench/engines.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
 #include "bench/timing.hpp"
@@ -39,7 +40,7 @@ core::Exit time(const TimeArguments& a) {
 
   core::Exit exit = core::Exit::kGood;
   for (const CellSpec& spec : plan.cells) {
-    const std::string reason = spec.row->absent != nullptr ? spec.row->absent() : "";
+    const std::string reason = why_absent(*spec.row);
     if (reason.empty()) continue;
     fmt::print("{}: not measured: {}\n", spec.row->id, reason);
     exit = core::Exit::kMissing;

@@ -31,4 +31,8 @@ core::Result<const core::EngineRow*> find_engine(std::string_view id) {
   return core::Error{"unknown engine '" + std::string(id) + "'", "--engine", core::advise_name(id, ids)};
 }
 
+std::string why_absent(const core::EngineRow& row) {
+  return row.absent != nullptr ? row.absent() : std::string();
+}
+
 }  // namespace broadside::bench

@@ -16,4 +16,7 @@ std::span<const core::EngineRow> engines();
 // An unknown id is an error that names the nearest known one.
 core::Result<const core::EngineRow*> find_engine(std::string_view id);
 
+// Why the engine cannot run on this machine, in words for a cell; empty when it can.
+std::string why_absent(const core::EngineRow& row);
+
 }  // namespace broadside::bench

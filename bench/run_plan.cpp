@@ -71,7 +71,7 @@ class Runner {
   }
 
   core::Status run_cell(const CellSpec& spec) {
-    const std::string reason = spec.row->absent != nullptr ? spec.row->absent() : "";
+    const std::string reason = why_absent(*spec.row);
     if (!reason.empty()) {
       done_.push_back(absent_cell(plan_, spec, reason));
       return save();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "bench/engines.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/near_pairs.hpp"
 #include "bench/progress.hpp"
@@ -184,7 +185,7 @@ core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint
   Progress progress("timing", std::uint64_t{repetitions} * plan.cells.size());
   for (std::uint32_t r = 0; r < repetitions; ++r) {
     for (const CellSpec& spec : plan.cells) {
-      if (spec.row->absent != nullptr && !spec.row->absent().empty()) continue;
+      if (!why_absent(*spec.row).empty()) continue;
       if (r == 0) {
         // A narrow phase measures so much a frame that one frame warms it.
         const bool is_narrow = !offers(*spec.row, "dynamics") && !offers(*spec.row, "broad");

@@ -8,14 +8,15 @@
 // medians of one run.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <memory>
 #include <string>
 
+#include "bench/engines.hpp"
 #include "core/engine/engine.hpp"
 #include "datasets/box_streams/box_sets.hpp"
-#include "reference/engines.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
 
 namespace broadside::bench {
@@ -23,7 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Boxes = std::vector<core::Box>;
-using Maker = std::unique_ptr<core::BroadPhase> (*)();
 
 struct BoxSet {
   std::string_view name;
@@ -34,31 +34,52 @@ constexpr BoxSet kBoxSets[] = {
 constexpr std::uint32_t kCounts[] = {10'000, 100'000, 1'000'000};
 constexpr std::uint64_t kSeed = 1;
 
-template <core::EngineRow (*Row)()>
-std::unique_ptr<core::BroadPhase> from_row() {
-  const core::EngineRow row = Row();
-  auto settings = core::Settings::parse(row.id, row.settings, {});
-  if (!settings) return nullptr;
-  auto engine = row.create(settings.value());
-  return engine.ok() ? std::move(engine.value().broad_phase) : nullptr;
-}
-
-struct Racer {
+// Every broad phase of the table of engines takes part as it is; these rows say what differs from that.
+struct Entry {
   std::string_view name;
-  Maker make;
+  std::string_view engine;
+  std::map<std::string, std::string> settings;
   std::uint32_t most_boxes;  // beyond this a run takes minutes
 };
-constexpr Racer kRacers[] = {
-    {"tree", [] { return reference::make_tree_broad_phase(); }, 10'000'000},
-    {"tree-1-thread", [] { return reference::make_tree_broad_phase(1); }, 10'000'000},
-    {"scene-octree", [] { return reference::make_scene_octree_broad_phase(core::empty_box()); }, 20'000},
-    {"scene-octree-depth-6", [] { return reference::make_scene_octree_broad_phase(core::empty_box(), 6); }, 20'000},
-    {"all-pairs", from_row<reference::all_pairs_row>, 20'000},
-    {"hash-cpu", from_row<reference::hash_cpu_row>, 20'000},
-    {"bullet-dbvt", from_row<reference::bullet_dbvt_row>, 1'000'000},
-    {"bullet-dbvt-tree", from_row<reference::bullet_dbvt_tree_row>, 1'000'000},
-    {"fcl-tree", from_row<reference::fcl_tree_row>, 1'000'000},
-};
+
+const std::vector<Entry>& exceptions() {
+  static const std::vector<Entry> rows{
+      {"all-pairs", "all-pairs", {}, 20'000},
+      {"hash-cpu", "hash-cpu", {}, 20'000},  // its cell is a quarter of a metre, the boxes are of a metre and more
+      {"octree-cpu", "octree-cpu", {}, 10'000'000},
+      {"octree-cpu-1-thread", "octree-cpu", {{"threads", "1"}}, 10'000'000},
+      {"octree-cpu-complete", "octree-cpu", {{"broad", "octree"}}, 20'000},
+      {"octree-gpu", "octree-gpu", {}, 10'000'000},
+      {"bullet-dbvt-deferred", "bullet-dbvt", {{"deferred", "on"}}, 1'000'000},
+      {"bullet-sap", "bullet-sap", {}, 20'000},  // inserts one box after another: quadratic
+      {"fcl-sap", "fcl-sap", {}, 20'000},
+  };
+  return rows;
+}
+
+constexpr std::uint32_t kMostBoxes = 1'000'000;
+
+std::vector<Entry> racers() {
+  std::vector<Entry> all = exceptions();
+  for (const core::EngineRow& row : engines()) {
+    const bool is_named = std::any_of(all.begin(), all.end(), [&](const Entry& e) { return e.name == row.id; });
+    if (!is_named && row.capabilities.find("broad") != std::string_view::npos)
+      all.push_back({row.id, row.id, {}, kMostBoxes});
+  }
+  return all;
+}
+
+// Null where the engine cannot run here, with the reason in `why`.
+std::unique_ptr<core::BroadPhase> broad_phase_of(const Entry& entry, std::string& why) {
+  const auto row = find_engine(entry.engine);
+  if (!row) return why = row.error().line(), nullptr;
+  if (why = why_absent(*row.value()); !why.empty()) return nullptr;
+  auto settings = core::Settings::parse(row.value()->id, row.value()->settings, entry.settings);
+  if (!settings) return why = settings.error().line(), nullptr;
+  auto engine = row.value()->create(settings.value());
+  if (!engine) return why = engine.error().line(), nullptr;
+  return std::move(engine.value().broad_phase);
+}
 
 // Made once for all racers.
 const Boxes& boxes_of(const BoxSet& set, std::uint32_t n) {
@@ -106,10 +127,11 @@ bool answers_agree(core::BroadPhase& broad, const BoxSet& set, std::uint32_t n) 
   return found.ok() && core::pair_digest(found.value().pairs) == expected_digest(set, n);
 }
 
-void race(benchmark::State& state, const Racer& racer, const BoxSet& set, std::uint32_t n, Work work) {
-  const auto broad = racer.make();
+void race(benchmark::State& state, const Entry& entry, const BoxSet& set, std::uint32_t n, Work work) {
+  std::string why;
+  const auto broad = broad_phase_of(entry, why);
   if (!broad) {
-    state.SkipWithError("not measured: the engine cannot be made here");
+    state.SkipWithError(("not measured: " + why).c_str());
     return;
   }
   if (!answers_agree(*broad, set, n)) {
@@ -142,14 +164,15 @@ void race(benchmark::State& state, const Racer& racer, const BoxSet& set, std::u
 }
 
 void register_work(std::string_view name, Work work) {
+  static const std::vector<Entry> all = racers();
   for (const BoxSet& set : kBoxSets)
     for (const std::uint32_t n : kCounts)
-      for (const Racer& racer : kRacers) {
-        if (n > racer.most_boxes) continue;
+      for (const Entry& entry : all) {
+        if (n > entry.most_boxes) continue;
         std::string path(name);
-        path.append("/").append(set.name).append("/").append(std::to_string(n)).append("/").append(racer.name);
+        path.append("/").append(set.name).append("/").append(std::to_string(n)).append("/").append(entry.name);
         benchmark::RegisterBenchmark(path.c_str(),
-                                     [&racer, &set, n, work](benchmark::State& s) { race(s, racer, set, n, work); })
+                                     [&entry, &set, n, work](benchmark::State& s) { race(s, entry, set, n, work); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }
