@@ -1,0 +1,85 @@
+#include "reports/plots/chart_area.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/escape.hpp"
+
+namespace broadside::reports::plots {
+namespace {
+
+constexpr double kMargin = 12.0;
+constexpr double kLegendLine = 17.0;
+
+}  // namespace
+
+double draw_head(Drawing& drawing, std::string_view title, const std::vector<LegendEntry>& legend) {
+  drawing.text("heading", {kMargin, 22.0}, Anchor::kStart, title);
+  double x = kMargin;
+  double y = 42.0;
+  if (legend.empty()) return 34.0;
+  for (const LegendEntry& entry : legend) {
+    const double taken = 22.0 + text_width(entry.name) + 14.0;
+    if (x > kMargin && x + taken > kPlotWidth - kMargin) {
+      x = kMargin;
+      y += kLegendLine;
+    }
+    if (entry.mark == LegendEntry::kSwatch)
+      drawing.rect(entry.style, {x + 2.0, y - 9.0}, 10.0, 10.0);
+    else if (entry.mark == LegendEntry::kLineOnly)
+      drawing.line(entry.style, {x, y - 4.0}, {x + 16.0, y - 4.0});
+    else
+      drawing.mark(entry.style, entry.mark, {x + 8.0, y - 4.0});
+    drawing.text("name", {x + 20.0, y}, Anchor::kStart, entry.name);
+    x += taken;
+  }
+  return y + 8.0;
+}
+
+Area area_below(double head, const Axis& y) {
+  double widest = 0.0;
+  for (const Tick& tick : y.ticks()) widest = std::max(widest, text_width(tick.label));
+  return {kMargin + 20.0 + widest, head + 8.0, kPlotWidth - 18.0, kPlotHeight - 44.0};
+}
+
+void draw_y_axis(Drawing& drawing, const Area& area, const Axis& y, std::string_view label) {
+  for (const Tick& tick : y.ticks()) {
+    const double at = area.y(y.share(tick.value));
+    drawing.line("grid", {area.left, at}, {area.right, at});
+    drawing.text("tick", {area.left - 6.0, at + 3.7}, Anchor::kEnd, tick.label);
+  }
+  drawing.line("frame", {area.left, area.top}, {area.left, area.bottom});
+  drawing.upright_text("name", {kMargin + 3.0, 0.5 * (area.top + area.bottom)}, label);
+}
+
+void draw_x_axis(Drawing& drawing, const Area& area, const Axis& x, std::string_view label) {
+  double free_from = -1e9;  // labels that would run into each other are left out; their grid lines stay
+  for (const Tick& tick : x.ticks()) {
+    const double at = area.x(x.share(tick.value));
+    drawing.line("grid", {at, area.top}, {at, area.bottom});
+    const double half = 0.5 * text_width(tick.label);
+    if (at - half < free_from) continue;
+    drawing.text("tick", {at, area.bottom + 15.0}, Anchor::kMiddle, tick.label);
+    free_from = at + half + 4.0;
+  }
+  drawing.line("frame", {area.left, area.bottom}, {area.right, area.bottom});
+  drawing.text("name", {0.5 * (area.left + area.right), area.bottom + 33.0}, Anchor::kMiddle, label);
+}
+
+void draw_x_names(Drawing& drawing, const Area& area, const std::vector<std::string>& names, std::string_view label) {
+  drawing.line("frame", {area.left, area.bottom}, {area.right, area.bottom});
+  drawing.text("name", {0.5 * (area.left + area.right), area.bottom + 33.0}, Anchor::kMiddle, label);
+  if (names.empty()) return;
+  const double part = 1.0 / static_cast<double>(names.size());
+  const auto columns =
+      static_cast<std::size_t>(std::max(3.0, std::floor(part * (area.right - area.left) / text_width("x") - 0.5)));
+  for (std::size_t k = 0; k < names.size(); ++k)
+    drawing.text("tick", {area.x((static_cast<double>(k) + 0.5) * part), area.bottom + 15.0}, Anchor::kMiddle,
+                 clipped(printable(names[k]), columns));
+}
+
+void draw_absence(Drawing& drawing, const Area& area) {
+  drawing.text("name", {0.5 * (area.left + area.right), 0.5 * (area.top + area.bottom)}, Anchor::kMiddle, "no data");
+}
+
+}  // namespace broadside::reports::plots

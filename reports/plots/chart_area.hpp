@@ -1,0 +1,57 @@
+// What charts with two axes share: where the data lie on the picture, grid, axis names, heading and legend.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/plots/axis.hpp"
+#include "reports/plots/drawing.hpp"
+
+namespace broadside::reports::plots {
+
+// What a plot says in words. The description stands in for the picture where it is not seen: say what it shows.
+struct PlotText {
+  std::string title;
+  std::string description;
+  std::string x_label;  // with the unit: "frame", "bodies", "time per frame, ms"
+  std::string y_label;
+};
+
+inline constexpr double kPlotWidth = 640.0;
+inline constexpr double kPlotHeight = 380.0;
+
+struct LegendEntry {
+  std::string name;
+  std::string style;  // of the sample: "s2", or "fitted l2" for a dashed line
+  int mark = 0;       // shape of Drawing::mark; kSwatch = a square of color, kLineOnly = a dashed line
+  static constexpr int kSwatch = -1;
+  static constexpr int kLineOnly = -2;
+};
+
+// The rectangle of the data; the rest of the picture is for words.
+struct Area {
+  double left = 0.0;
+  double top = 0.0;
+  double right = 0.0;
+  double bottom = 0.0;
+
+  [[nodiscard]] double x(double share) const { return left + share * (right - left); }
+  [[nodiscard]] double y(double share) const { return bottom - share * (bottom - top); }
+};
+
+// Draws heading and legend, and returns the height that they take.
+double draw_head(Drawing& drawing, std::string_view title, const std::vector<LegendEntry>& legend);
+
+// Room for the labels of the y axis and the words around the data.
+Area area_below(double head, const Axis& y);
+
+void draw_y_axis(Drawing& drawing, const Area& area, const Axis& y, std::string_view label);
+void draw_x_axis(Drawing& drawing, const Area& area, const Axis& x, std::string_view label);
+// A frame alone, with these names under equal parts of it.
+void draw_x_names(Drawing& drawing, const Area& area, const std::vector<std::string>& names, std::string_view label);
+
+// "no data": absence is a word, never an empty frame.
+void draw_absence(Drawing& drawing, const Area& area);
+
+}  // namespace broadside::reports::plots

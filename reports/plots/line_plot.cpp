@@ -1,0 +1,137 @@
+#include "reports/plots/line_plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures.hpp"
+#include "reports/plots/plot_style.hpp"
+
+namespace broadside::reports::plots {
+namespace {
+
+constexpr std::size_t kMostMarks = 60;  // more would hide the curve
+
+struct Columns {
+  std::size_t count;
+  bool has_band;
+};
+
+Columns columns_of(const Curve& curve) {
+  const bool has_band = !curve.low.empty() && !curve.high.empty();
+  std::size_t count = std::min(curve.x.size(), curve.y.size());
+  if (has_band) count = std::min({count, curve.low.size(), curve.high.size()});
+  return {count, has_band};
+}
+
+std::vector<double> all_x(const LinePlot& plot) {
+  std::vector<double> values;
+  for (const Curve& curve : plot.curves) values.insert(values.end(), curve.x.begin(), curve.x.end());
+  return values;
+}
+
+std::vector<double> all_y(const LinePlot& plot) {
+  std::vector<double> values;
+  for (const Curve& curve : plot.curves)
+    for (const std::vector<double>* column : {&curve.y, &curve.low, &curve.high})
+      values.insert(values.end(), column->begin(), column->end());
+  return values;
+}
+
+class Curves {
+ public:
+  Curves(Drawing& drawing, const Area& area, const Axis& x, const Axis& y)
+      : drawing_(drawing), area_(area), x_(x), y_(y) {}
+
+  // Each run of frames with a finite band is one polygon.
+  void band(const Curve& curve, const std::string& style) {
+    std::vector<Point> upper;
+    std::vector<Point> lower;
+    const auto close = [&] {
+      upper.insert(upper.end(), lower.rbegin(), lower.rend());
+      drawing_.polygon(style, upper);
+      upper.clear();
+      lower.clear();
+    };
+    for (std::size_t k = 0; k < columns_of(curve).count; ++k) {
+      // Below a log scale there is no place: the band ends at the axis.
+      const double low = std::isfinite(y_.share(curve.low[k])) ? curve.low[k] : y_.low();
+      const Point high_point = at(curve.x[k], curve.high[k]);
+      if (!std::isfinite(curve.low[k]) || !std::isfinite(high_point.x) || !std::isfinite(high_point.y)) {
+        close();
+        continue;
+      }
+      upper.push_back(high_point);
+      lower.push_back(at(curve.x[k], low));
+    }
+    close();
+  }
+
+  void line(const Curve& curve, const std::string& style) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < columns_of(curve).count; ++k) points.push_back(at(curve.x[k], curve.y[k]));
+    drawing_.polyline(style, points);
+  }
+
+  void marks(const Curve& curve, const std::string& style, int shape, const PlotText& words) {
+    const std::size_t count = columns_of(curve).count;
+    const std::size_t stride = (count + kMostMarks - 1) / kMostMarks;
+    for (std::size_t k = 0; k < count; k += std::max<std::size_t>(1, stride))
+      drawing_.mark(style, shape, at(curve.x[k], curve.y[k]),
+                    curve.name + ": " + figure(curve.y[k], 4) + " at " + words.x_label + " " + tick_label(curve.x[k]));
+  }
+
+ private:
+  [[nodiscard]] Point at(double x, double y) const { return {area_.x(x_.share(x)), area_.y(y_.share(y))}; }
+
+  Drawing& drawing_;
+  const Area& area_;
+  const Axis& x_;
+  const Axis& y_;
+};
+
+// Fitted lines take the color of the measured curve before them.
+std::vector<int> colors_of(const LinePlot& plot) {
+  std::vector<int> colors;
+  int next = 0;
+  for (const Curve& curve : plot.curves) colors.push_back(curve.is_fitted && next > 0 ? next - 1 : next++);
+  return colors;
+}
+
+}  // namespace
+
+std::string svg(const LinePlot& plot, Placement placement) {
+  const std::vector<double> xs = all_x(plot);
+  const std::vector<double> ys = all_y(plot);
+  const Axis x(plot.x_scale, xs, false);
+  const Axis y(plot.y_scale, ys, plot.y_from_zero);
+  const std::vector<int> colors = colors_of(plot);
+
+  Drawing drawing(kPlotWidth, kPlotHeight, plot.text.title, plot.text.description);
+  std::vector<LegendEntry> legend;
+  for (std::size_t k = 0; k < plot.curves.size(); ++k) {
+    const std::string number = std::to_string(colors[k] % kSeriesColors);
+    if (plot.curves[k].is_fitted)
+      legend.push_back({plot.curves[k].name, "fitted l" + number, LegendEntry::kLineOnly});
+    else
+      legend.push_back({plot.curves[k].name, "s" + number, colors[k] % 4});
+  }
+  const Area area = area_below(draw_head(drawing, plot.text.title, legend), y);
+  draw_y_axis(drawing, area, y, plot.text.y_label);
+  draw_x_axis(drawing, area, x, plot.text.x_label);
+
+  Curves curves(drawing, area, x, y);
+  for (std::size_t k = 0; k < plot.curves.size(); ++k)
+    if (columns_of(plot.curves[k]).has_band)
+      curves.band(plot.curves[k], "band b" + std::to_string(colors[k] % kSeriesColors));
+  for (std::size_t k = 0; k < plot.curves.size(); ++k) {
+    const Curve& curve = plot.curves[k];
+    const std::string number = std::to_string(colors[k] % kSeriesColors);
+    curves.line(curve, (curve.is_fitted ? "fitted l" : "curve l") + number);
+    if (!curve.is_fitted) curves.marks(curve, "s" + number, colors[k] % 4, plot.text);
+  }
+  const bool is_empty = std::none_of(ys.begin(), ys.end(), [&](double v) { return std::isfinite(y.share(v)); });
+  if (is_empty) draw_absence(drawing, area);
+  return drawing.finish(placement);
+}
+
+}  // namespace broadside::reports::plots
