@@ -1,11 +1,11 @@
 #include "datasets/box_streams/box_sets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
 
+#include "datasets/box_streams/box_of.hpp"
 #include "datasets/cube_root.hpp"
 #include "datasets/random.hpp"
 
@@ -13,25 +13,8 @@ namespace broadside::datasets {
 namespace {
 
 using core::Box;
-using Triple = std::array<double, 3>;
 
 constexpr double kPi = 3.14159265358979323846;
-
-Box box_of(const Triple& center, const Triple& sides) {
-  Box box;
-  for (int k = 0; k < 3; ++k) {
-    box.min[k] = static_cast<float>(center[k] - 0.5 * sides[k]);
-    box.max[k] = static_cast<float>(center[k] + 0.5 * sides[k]);
-  }
-  return box;
-}
-
-// The order of the draws is part of a set's definition: x, then y, then z.
-Triple drawn(RandomStream& random, double low, double high) {
-  Triple t;
-  for (double& v : t) v = random.between(low, high);
-  return t;
-}
 
 struct MovingState {
   RandomStream random{0};

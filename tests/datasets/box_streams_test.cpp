@@ -9,6 +9,7 @@
 
 #include "datasets/box_streams/box_sets.hpp"
 #include "datasets/box_streams/box_stream.hpp"
+#include "datasets/box_streams/box_sweeps.hpp"
 #include "datasets/box_streams/raw_boxes.hpp"
 #include "datasets/cube_root.hpp"
 #include "tests/datasets/temporary_folder.hpp"
@@ -53,6 +54,38 @@ TEST(CubeRoot, IsTheCubeRoot) {
   for (const double v : {1e-9, 0.5, 1.0, 8.0, 27.0, 520e6, 1e12})
     // Newton ends within a few roundings of the root.
     EXPECT_NEAR(datasets::cube_root(v) / std::cbrt(v), 1.0, 4.0 * std::numeric_limits<double>::epsilon()) << v;
+}
+
+double overlaps_a_box(const std::vector<Box>& boxes) {
+  expect_sound(boxes);
+  return 2.0 * static_cast<double>(overlap_count(boxes)) / static_cast<double>(boxes.size());
+}
+
+// 20,000 boxes lose some overlaps at the walls: within 15 %.
+TEST(BoxSweeps, DensityIsOverlapsABoxOverEight) {
+  for (const double density : {0.1, 1.0, 4.0})
+    EXPECT_NEAR(overlaps_a_box(datasets::boxes_of_density(20000, 3, density)) / (8.0 * density), 1.0, 0.15) << density;
+}
+
+TEST(BoxSweeps, SizeRatioLeavesTheOverlapsABox) {
+  for (const double ratio : {1.0, 4.0, 16.0}) {
+    const std::vector<Box> boxes = datasets::boxes_of_size_ratio(20000, 3, ratio);
+    EXPECT_NEAR(overlaps_a_box(boxes) / 8.0, 1.0, 0.25) << ratio;
+    double largest = 0.0;
+    for (const Box& box : boxes) largest = std::max(largest, side(box, 0));
+    EXPECT_GT(largest, 0.7 * ratio);
+    EXPECT_LE(largest, 1.2 * ratio + 1e-3);
+  }
+}
+
+TEST(BoxSweeps, GapWidensTheWorldAndLeavesTheOverlapsABox) {
+  for (const double gap : {2.0, 64.0}) {
+    const std::vector<Box> boxes = datasets::boxes_of_gap(20000, 3, gap);
+    EXPECT_NEAR(overlaps_a_box(boxes) / 8.0, 1.0, 0.2) << gap;
+    double right = 0.0;
+    for (const Box& box : boxes) right = std::max(right, double{box.max.x});
+    EXPECT_NEAR(right, (3.0 * gap + 1.0) * std::cbrt(20000.0 / 16.0), 2.0);
+  }
 }
 
 TEST(UniformBoxes, OverlapAsOftenAsTheirFormulaSays) {
