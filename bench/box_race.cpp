@@ -59,7 +59,8 @@ core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell,
   if (core::Status s = broad->load(stream.boxes, is_static); !s) return s.error();
   const std::uint32_t count = frames > 0 ? std::min(frames, stream.frames) : stream.frames;
   for (std::uint32_t k = 0; k < count; ++k) {
-    if (k > 0) stream.advance(stream.boxes);
+    if (k > 0)
+      if (core::Status s = stream.advance(stream.boxes); !s) return s.error();
     if (core::Status s = run_frame(*broad, stream.boxes, k, row); !s) return s.error();
   }
   return row;

@@ -68,7 +68,10 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<PairsArguments>();
   CLI::App* command = program.add_subcommand(
       "pairs", "Overlapping pairs of boxes: engines must agree (exit 1 if they do not); times are of this one call");
-  command->add_option("BOXES", a->boxes, "boxes:uniform:N and the like (broadside list scenes), or a raw .boxes file")
+  command
+      ->add_option(
+          "BOXES", a->boxes,
+          "boxes:uniform:N and the like (broadside list scenes), a raw .boxes file, an .h5 box stream, or a trace")
       ->required();
   a->engines.add_to(*command);
   command->add_option("--frames", a->frames, "Frames of a moving stream (default: all)")->check(CLI::PositiveNumber);

@@ -7,7 +7,6 @@
 
 #include "datasets/box_streams/box_of.hpp"
 #include "datasets/cube_root.hpp"
-#include "datasets/random.hpp"
 
 namespace broadside::datasets {
 namespace {
@@ -122,7 +121,10 @@ BoxStream moving_boxes(std::uint32_t n, std::uint64_t seed, std::uint32_t frames
     state->steps.push_back({step * d.x, step * d.y, step * d.z});
     stream.boxes.push_back(box_of(center, sides));
   }
-  stream.advance = [state](std::vector<Box>& boxes) { state->advance(boxes); };
+  stream.advance = [state](std::vector<Box>& boxes) {
+    state->advance(boxes);
+    return core::Status(core::Done{});
+  };
   return stream;
 }
 

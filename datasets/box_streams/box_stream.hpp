@@ -21,20 +21,23 @@ struct BoxStream {
   std::uint32_t frames = 1;
   std::vector<core::Box> boxes;  // frame 0
   // Turns the boxes of one frame into those of the next. Has a state of its own, so it is called in order, from frame
-  // 0, once per further frame. Empty when there is one frame.
-  std::function<void(std::vector<core::Box>&)> advance;
+  // 0, once per further frame. Empty when there is one frame. Only a stream from a file can fail.
+  std::function<core::Status(std::vector<core::Box>&)> advance;
 };
 
 struct BoxStreamRow {
   std::string_view pattern;  // "boxes:uniform:N"
   std::string_view example;
   std::string_view what;
+  bool is_seeded = true;  // another seed gives other boxes
 };
 
 std::vector<BoxStreamRow> box_stream_table();
 
-// `spec` is a name of the table or the path of a raw box file (it ends in .boxes or .bin). Errors: unknown name, with
-// the nearest; N outside 0 ... 100,000,000; and those of read_raw_boxes.
+// `spec` is a name of the table, the path of a raw box file (it ends in .boxes or .bin), or of an HDF5 file (.h5,
+// .h5.part): a stream of boxes, or a trace, whose detection boxes are then the stream. Errors: unknown name, with the
+// nearest; N outside 0 to the set's most; a file that cannot be read; and the first box that is NaN, infinite, or has
+// min above max, by frame, number and axis.
 core::Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::uint64_t> seed = {});
 
 }  // namespace broadside::datasets

@@ -1,13 +1,13 @@
 #include "datasets/box_streams/raw_boxes.hpp"
 
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <string>
 #include <system_error>
 
+#include "datasets/box_streams/check_boxes.hpp"
 #include "datasets/mesh/whole_file.hpp"
 
 namespace broadside::datasets {
@@ -18,21 +18,6 @@ using core::Error;
 
 static_assert(std::endian::native == std::endian::little, "the bytes are read and written as they lie in memory");
 static_assert(sizeof(Box) == 24);
-
-constexpr char kAxes[] = "xyz";
-
-core::Status check(const Box& box, std::size_t number, const std::filesystem::path& path) {
-  const auto bad = [&](std::string what, std::string advice) {
-    return Error{std::move(what), path.string() + ": box " + std::to_string(number), std::move(advice)};
-  };
-  for (int k = 0; k < 3; ++k) {
-    const std::string axis(1, kAxes[k]);
-    if (!std::isfinite(box.min[k]) || !std::isfinite(box.max[k]))
-      return bad("it is NaN or infinite on " + axis, "give finite bounds");
-    if (box.min[k] > box.max[k]) return bad("its min is above its max on " + axis, "give min <= max");
-  }
-  return core::Done{};
-}
 
 }  // namespace
 
@@ -56,8 +41,7 @@ core::Result<std::vector<Box>> read_raw_boxes(const std::filesystem::path& path)
   std::vector<Box> boxes(count);
   if (count > 0 && !file.read(reinterpret_cast<char*>(boxes.data()), static_cast<std::streamsize>(count * sizeof(Box))))
     return Error{"cannot be read to its end", path.string(), "check the disk"};
-  for (std::size_t n = 0; n < boxes.size(); ++n)
-    if (core::Status s = check(boxes[n], n, path); !s) return s.error();
+  if (core::Status s = check_boxes(boxes, path.string()); !s) return s.error();
   return boxes;
 }
 
