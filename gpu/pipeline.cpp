@@ -74,6 +74,8 @@ core::Status Pipeline::load(const core::Scene& scene) {
       return core::Error{"angular_velocity is not zero, and this pipeline's bodies translate only",
                          scene.name + ": body " + std::to_string(i), "set angular_velocity to 0 0 0"};
   }
+  if (!scene.springs.empty())
+    return core::Error{"the scene has springs, which are not simulated on the GPU", scene.name, "use octree-cpu"};
   Impl& d = *impl_;
   d.scene = &scene;
   d.steps = d.repeats = 0;

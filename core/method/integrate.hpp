@@ -6,15 +6,23 @@
 #include "core/attributes.hpp"
 #include "core/contact.hpp"
 #include "core/math/vec3.hpp"
+#include "core/scene/spring.hpp"
 
 namespace broadside::core {
 
+// w F of one spring, P(1): F = -k (x - anchor) - c v.
+BROADSIDE_HD Vec3 spring_acceleration(const Spring& spring, const Kinematics& s, float inverse_mass) {
+  const Vec3 pull = spring.stiffness_n_m * (spring.anchor - s.x);
+  return inverse_mass * (pull - spring.damping_n_s_m * s.v);
+}
+
 // P(1) to P(3). The paper says explicit Euler; its position uses the NEW velocity, so it is semi-implicit (symplectic)
-// Euler. The only force is gravity, F = m g, so a = w F = g: taken as such, because w * (g / w) would round.
+// Euler. Gravity is F = m g, so a = w F = g: taken as such, because w * (g / w) would round; springs add theirs
+// to it.
 // A static body (w = 0) is returned unchanged.
-BROADSIDE_HD Kinematics semi_implicit_euler(Kinematics s, float inverse_mass, Vec3 gravity_m_s2, float dt_s) {
+BROADSIDE_HD Kinematics semi_implicit_euler(Kinematics s, float inverse_mass, Vec3 acceleration_m_s2, float dt_s) {
   if (!(inverse_mass > 0.0F)) return s;
-  s.v = s.v + dt_s * gravity_m_s2;
+  s.v = s.v + dt_s * acceleration_m_s2;
   s.x = s.x + dt_s * s.v;
   return s;
 }

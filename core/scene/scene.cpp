@@ -86,6 +86,21 @@ Status check_mesh(const Scene& scene, const Mesh& mesh) {
   return Done{};
 }
 
+Status check_spring(const Scene& scene, std::size_t index) {
+  const Spring& s = scene.springs[index];
+  const std::string where = "spring " + std::to_string(index);
+  const auto is_least_zero = [](float v) { return std::isfinite(v) && v >= 0.0F; };
+  if (s.body >= scene.bodies.size()) return bad(scene, where, "its body does not exist", "name a body of this scene");
+  if (!(scene.bodies[s.body].inverse_mass > 0.0F))
+    return bad(scene, where, "its body is static", "name a body that can move");
+  if (!is_finite(s.anchor)) return bad(scene, where, "anchor is NaN or infinite", "give three finite numbers, in m");
+  if (!is_least_zero(s.stiffness_n_m))
+    return bad(scene, where, "stiffness is negative or not finite", "give 0 or more, in N/m");
+  if (!is_least_zero(s.damping_n_s_m))
+    return bad(scene, where, "damping is negative or not finite", "give 0 or more, in N s/m");
+  return Done{};
+}
+
 class CanonicalHash {
  public:
   CanonicalHash() : state_(XXH64_createState()) { XXH64_reset(state_, 0); }
@@ -114,6 +129,8 @@ Status check_scene(const Scene& scene) {
     if (Status s = check_body(scene, i); !s) return s;
   if (scene.bodies.size() >= kFirstFace)
     return bad(scene, "bodies", "too many bodies", "the ids from 0xFFFFFFF0 are faces of the domain");
+  for (std::size_t i = 0; i < scene.springs.size(); ++i)
+    if (Status s = check_spring(scene, i); !s) return s;
   if (Status s = check_material(scene, "faces", scene.face_material); !s) return s;
   if (!is_finite(scene.gravity_m_s2))
     return bad(scene, "gravity_m_s2", "it is NaN or infinite", "give three finite numbers, in m/s^2");
@@ -143,6 +160,8 @@ std::uint64_t scene_digest(const Scene& scene) {
   }
   hash.add(scene.domain), hash.add(scene.face_material), hash.add(scene.gravity_m_s2), hash.add(scene.dt_s);
   hash.add(scene.frames), hash.add(scene.seed), hash.add(scene.parameters);
+  // Only where there are some: the digests of scenes without springs are older than springs.
+  for (const Spring& s : scene.springs) hash.add(s);
   return hash.value();
 }
 

@@ -13,6 +13,7 @@
 #include "core/parameters.hpp"
 #include "core/result.hpp"
 #include "core/scene/mesh.hpp"
+#include "core/scene/spring.hpp"
 
 namespace broadside::core {
 
@@ -31,7 +32,8 @@ struct Scene {
   std::string description;  // one sentence for reports
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Body> bodies;
-  Box domain;  // its faces are static half-spaces
+  std::vector<Spring> springs;  // most scenes have none
+  Box domain;                   // its faces are static half-spaces
   Material face_material;
   Vec3 gravity_m_s2;
   float dt_s = 1.0F / 60.0F;

@@ -18,6 +18,8 @@ constexpr std::uint32_t kOfPairs = bit(Group::kPairs);
 constexpr std::uint32_t kOfConfirmed = bit(Group::kConfirmed);
 constexpr std::uint32_t kOfContacts = bit(Group::kContacts);
 constexpr std::uint32_t kOfNarrow = bit(Group::kNarrow);
+constexpr std::uint32_t kOfOctree = bit(Group::kOctree);
+constexpr std::uint32_t kOfBodyOctree = bit(Group::kBodyOctree);
 
 constexpr std::size_t in_contact(std::size_t kinematics, std::size_t field) {
   return kinematics + field;
@@ -95,6 +97,23 @@ constexpr std::array kColumns{
            "m"},
     Column{"/trace/narrow/offsets", kOfNarrow, kOffsets, kU64, 1, Records::kMeasured, 0, "1"},
 
+    Column{"/trace/octree/box", kOfOctree, kRows, kF32, 6, Records::kOctreeNodes, offsetof(OctreeNode, box), "m"},
+    Column{"/trace/octree/level", kOfOctree, kRows, kU32, 1, Records::kOctreeNodes, offsetof(OctreeNode, level), "1"},
+    Column{"/trace/octree/parent", kOfOctree, kRows, kU32, 1, Records::kOctreeNodes, offsetof(OctreeNode, parent), "1"},
+    Column{"/trace/octree/first_child", kOfOctree, kRows, kU32, 1, Records::kOctreeNodes,
+           offsetof(OctreeNode, first_child), "1"},
+    Column{"/trace/octree/child_count", kOfOctree, kRows, kU32, 1, Records::kOctreeNodes,
+           offsetof(OctreeNode, child_count), "1"},
+    Column{"/trace/octree/node_offsets", kOfOctree, kOffsets, kU64, 1, Records::kOctreeNodes, 0, "1"},
+    Column{"/trace/octree/node_of_body", kOfOctree, kFrameBodies, kU32, 1, Records::kOctreeNodeOfBody, 0, "1"},
+
+    Column{"/trace/body_octree/shape", kOfBodyOctree, kRows, kU32, 1, Records::kShapeOfBody, 0, "1"},
+    Column{"/trace/body_octree/shape_offsets", kOfBodyOctree, kOffsets, kU64, 1, Records::kShapeOfBody, 0, "1"},
+    Column{"/trace/body_octree/box", kOfBodyOctree, kRows, kF32, 6, Records::kBodyOctreeBoxes, 0, "m"},
+    Column{"/trace/body_octree/box_offsets", kOfBodyOctree, kOffsets, kU64, 1, Records::kBodyOctreeBoxes, 0, "1"},
+    Column{"/trace/body_octree/leaf", kOfBodyOctree, kRows, kU32, 1, Records::kLeafOfVertex, 0, "1"},
+    Column{"/trace/body_octree/leaf_offsets", kOfBodyOctree, kOffsets, kU64, 1, Records::kLeafOfVertex, 0, "1"},
+
     Column{"/trace/statistics/first_step", kOfContacts, kWindows, kU64, 1, Records::kStatistics,
            offsetof(Stat, first_step), "1"},
     Column{"/trace/statistics/last_step", kOfContacts, kWindows, kU64, 1, Records::kStatistics,
@@ -117,6 +136,7 @@ constexpr std::array kGroupRows{
     GroupRow{Group::kBodies, "/trace/body"},      GroupRow{Group::kDetection, "/trace/detection"},
     GroupRow{Group::kPairs, "/trace/pairs"},      GroupRow{Group::kConfirmed, "/trace/confirmed"},
     GroupRow{Group::kContacts, "/trace/contact"}, GroupRow{Group::kNarrow, "/trace/narrow"},
+    GroupRow{Group::kOctree, "/trace/octree"},    GroupRow{Group::kBodyOctree, "/trace/body_octree"},
 };
 
 static_assert(sizeof(Vec3) == 12 && sizeof(Quat) == 16 && sizeof(Box) == 24 && sizeof(Pair) == 8 && sizeof(bool) == 1,
@@ -160,6 +180,16 @@ auto visit_records(Frame& f, Records which, Visit visit) {
       return visit(f.measured);
     case Records::kSeparations:
       return visit(f.separations);
+    case Records::kOctreeNodes:
+      return visit(f.octree_nodes);
+    case Records::kOctreeNodeOfBody:
+      return visit(f.octree_node_of_body);
+    case Records::kShapeOfBody:
+      return visit(f.shape_of_body);
+    case Records::kBodyOctreeBoxes:
+      return visit(f.body_octree_boxes);
+    case Records::kLeafOfVertex:
+      return visit(f.leaf_of_vertex);
     case Records::kStep:
     case Records::kStatistics:
       break;

@@ -46,6 +46,11 @@ enum class Records : std::uint8_t {
   kContacts,
   kMeasured,
   kSeparations,
+  kOctreeNodes,
+  kOctreeNodeOfBody,
+  kShapeOfBody,
+  kBodyOctreeBoxes,
+  kLeafOfVertex,
   kStatistics,
 };
 

@@ -11,6 +11,7 @@
 #include "core/math/vec3.hpp"
 #include "core/method/proximity.hpp"
 #include "core/pair.hpp"
+#include "core/scene/octree_node.hpp"
 
 namespace broadside::core {
 
@@ -18,12 +19,14 @@ enum class RecordLevel { kFull, kDigest, kNone };
 
 // Groups of a frame; a trace has each group in all of its frames or in none.
 enum class Group : std::uint32_t {
-  kBodies = 1U << 0,     // states at the end of the step
-  kDetection = 1U << 1,  // states and boxes that collision detection saw: after integration, before any response
-  kPairs = 1U << 2,      // candidate pairs of the broad phase
-  kConfirmed = 1U << 3,  // pairs whose body-octree boxes overlap at the last level, and their vertex proximity
-  kContacts = 1U << 4,   // every application of the response, in the order of application
-  kNarrow = 1U << 5,     // separations measured by a narrow-phase engine
+  kBodies = 1U << 0,      // states at the end of the step
+  kDetection = 1U << 1,   // states and boxes that collision detection saw: after integration, before any response
+  kPairs = 1U << 2,       // candidate pairs of the broad phase
+  kConfirmed = 1U << 3,   // pairs whose body-octree boxes overlap at the last level, and their vertex proximity
+  kContacts = 1U << 4,    // every application of the response, in the order of application
+  kNarrow = 1U << 5,      // separations measured by a narrow-phase engine
+  kOctree = 1U << 6,      // the scene octree, and the node that each body is stored in
+  kBodyOctree = 1U << 7,  // the octrees over the shapes' vertices, told once: with the first frame that is recorded
 };
 
 constexpr std::uint32_t bit(Group g) {
@@ -56,6 +59,14 @@ struct FrameRecord {
 
   std::vector<Pair> measured;
   std::vector<Separation> separations;
+
+  std::vector<OctreeNode> octree_nodes;
+  std::vector<std::uint32_t> octree_node_of_body;  // [n] index into octree_nodes
+
+  // A shape is a distinct (mesh, orientation); bodies of one shape share its octree of 1 + 8 + 64 nodes.
+  std::vector<std::uint32_t> shape_of_body;   // [n], or none in later frames
+  std::vector<Box> body_octree_boxes;         // 73 a shape, relative to the body's position; empty octants min > max
+  std::vector<std::uint32_t> leaf_of_vertex;  // one a vertex of each shape's mesh, shape after shape: 0 to 63
 };
 
 }  // namespace broadside::core

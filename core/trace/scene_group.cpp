@@ -69,34 +69,45 @@ void read_attributes(Hdf5Source& source, const std::string& path, const Table& t
     source.numbers(path, f.name, f.element, static_cast<std::byte*>(object) + f.offset, f.width);
 }
 
-void write_bodies(Hdf5Sink& sink, const std::vector<Body>& bodies) {
-  sink.group("/scene/body");
+constexpr std::array kSpringFields{
+    Field{"body", Element::kU32, offsetof(Spring, body), 1, "1"},
+    Field{"anchor", Element::kF32, offsetof(Spring, anchor), 3, "m"},
+    Field{"stiffness", Element::kF32, offsetof(Spring, stiffness_n_m), 1, "N/m"},
+    Field{"damping", Element::kF32, offsetof(Spring, damping_n_s_m), 1, "N s/m"},
+};
+static_assert(sizeof(Spring) == 6 * sizeof(float), "a new property of a spring needs its row");
+
+// An array of structs as one dataset a field.
+template <typename Table, typename Row>
+void write_rows(Hdf5Sink& sink, const std::string& group, const Table& table, const std::vector<Row>& rows) {
+  sink.group(group);
   std::vector<std::byte> column;
-  for (const Field& f : kBodyFields) {
+  for (const Field& f : table) {
     const std::size_t bytes = f.width * size_of(f.element);
-    column.resize(bodies.size() * bytes);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      std::memcpy(&column[i * bytes], reinterpret_cast<const std::byte*>(&bodies[i]) + f.offset, bytes);
-    sink.array(std::string("/scene/body/") + f.name, f.element, f.width, bodies.size(), column.data(), f.unit);
+    column.resize(rows.size() * bytes);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      std::memcpy(&column[i * bytes], reinterpret_cast<const std::byte*>(&rows[i]) + f.offset, bytes);
+    sink.array(group + "/" + f.name, f.element, f.width, rows.size(), column.data(), f.unit);
   }
 }
 
-std::vector<Body> read_bodies(Hdf5Source& source) {
-  std::vector<Body> bodies;
-  for (const Field& f : kBodyFields) {
-    const std::string path = std::string("/scene/body/") + f.name;
+template <typename Row, typename Table>
+std::vector<Row> read_rows(Hdf5Source& source, const std::string& group, const Table& table, const std::string& row) {
+  std::vector<Row> rows;
+  for (const Field& f : table) {
+    const std::string path = group + "/" + f.name;
     const std::size_t bytes = f.width * size_of(f.element);
     const std::vector<std::byte> column = source.whole<std::byte>(path, f.element, f.width);
     if (!source.ok()) return {};
-    if (&f == kBodyFields.data()) bodies.resize(column.size() / bytes);
-    if (column.size() != bodies.size() * bytes) {
-      source.fail(path, "it does not have one row per body", "give every array of /scene/body the same length");
+    if (&f == table.data()) rows.resize(column.size() / bytes);
+    if (column.size() != rows.size() * bytes) {
+      source.fail(path, "it does not have one row per " + row, "give every array of " + group + " the same length");
       return {};
     }
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      std::memcpy(reinterpret_cast<std::byte*>(&bodies[i]) + f.offset, &column[i * bytes], bytes);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      std::memcpy(reinterpret_cast<std::byte*>(&rows[i]) + f.offset, &column[i * bytes], bytes);
   }
-  return bodies;
+  return rows;
 }
 
 void write_meshes(Hdf5Sink& sink, const std::vector<std::shared_ptr<const Mesh>>& meshes) {
@@ -175,7 +186,8 @@ void write_scene(Hdf5Sink& sink, const Scene& scene) {
   write_attributes(sink, "/scene/parameters", kParameterFields, &scene.parameters);
   sink.group("/scene/face_material");
   write_attributes(sink, "/scene/face_material", kMaterialFields, &scene.face_material);
-  write_bodies(sink, scene.bodies);
+  write_rows(sink, "/scene/body", kBodyFields, scene.bodies);
+  if (!scene.springs.empty()) write_rows(sink, "/scene/spring", kSpringFields, scene.springs);
   write_meshes(sink, scene.meshes);
 }
 
@@ -186,7 +198,9 @@ Scene read_scene(Hdf5Source& source) {
   read_attributes(source, "/scene", kSceneFields, &scene);
   read_attributes(source, "/scene/parameters", kParameterFields, &scene.parameters);
   read_attributes(source, "/scene/face_material", kMaterialFields, &scene.face_material);
-  scene.bodies = read_bodies(source);
+  scene.bodies = read_rows<Body>(source, "/scene/body", kBodyFields, "body");
+  if (source.ok() && source.has("/scene/spring"))
+    scene.springs = read_rows<Spring>(source, "/scene/spring", kSpringFields, "spring");
   scene.meshes = read_meshes(source);
   if (!source.ok()) return scene;
   if (const Status s = check_scene(scene); !s)

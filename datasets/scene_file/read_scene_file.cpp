@@ -42,6 +42,7 @@ class SceneFileReader {
     for (const Node* node : top.tables("mesh")) read_mesh(*node);
     if (const Node* node = top.table("generator")) read_generator(*node);
     for (const Node* node : top.tables("body")) read_body(*node);
+    for (const Node* node : top.tables("spring")) read_spring(*node);
     top.finish();
     if (!has_domain_)
       errors_.add(1, "the scene has no domain", "add [domain] with min_m and max_m, or a generator that makes one");
@@ -171,6 +172,21 @@ class SceneFileReader {
     table.finish();
     lines_["body " + std::to_string(scene_.bodies.size())] = node.line;
     scene_.bodies.push_back(body);
+  }
+
+  void read_spring(const Node& node) {
+    if (errors_.first) return;
+    TableReader table(node, "this spring", errors_);
+    core::Spring spring;
+    const bool has_body = table.whole("body", 0U, kMaxBodies, spring.body);
+    const bool has_anchor = table.vec3("anchor_m", spring.anchor);
+    table.number("stiffness_n_m", spring.stiffness_n_m);
+    table.number("damping_n_s_m", spring.damping_n_s_m);
+    table.finish();
+    if (!has_body || !has_anchor)
+      errors_.add(node.line, "the spring is not complete", "give body = 0, counted from 0, and anchor_m = [x, y, z]");
+    lines_["spring " + std::to_string(scene_.springs.size())] = node.line;
+    scene_.springs.push_back(spring);
   }
 
   // Rounded once from the normalized doubles; written digits are rarely a unit quaternion to the last bit.

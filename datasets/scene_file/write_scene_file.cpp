@@ -89,6 +89,9 @@ std::string whole_scene(const Scene& scene, const std::string& stem) {
     text +=
         "\n[[mesh]]\nname = " + quoted(mesh_name(m)) + "\nfile = " + quoted(stem + "." + mesh_name(m) + ".ply") + "\n";
   for (const core::Body& b : scene.bodies) text += body(b, common);
+  for (const core::Spring& s : scene.springs)
+    text += "\n[[spring]]\nbody = " + std::to_string(s.body) + "\nanchor_m = " + vec3(s.anchor) +
+            "\nstiffness_n_m = " + number(s.stiffness_n_m) + "\ndamping_n_s_m = " + number(s.damping_n_s_m) + "\n";
   return text;
 }
 

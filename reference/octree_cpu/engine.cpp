@@ -25,7 +25,8 @@ const std::array<core::SettingRow, 6>& settings_table() {
       {"threads", "0", {}, "threads; 0 = all. Does not change a bit of the result"},
       {"variant",
        "sound",
-       {"sound", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7", "printed-E8"},
+       {"sound", "printed-E1", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7",
+        "printed-E8"},
        "a printed, wrong form of the paper to run instead"},
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
   }};
@@ -44,6 +45,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
     options.make_broad_phase = [variant = options.variant](const core::Scene& scene) {
       return make_scene_octree_broad_phase(scene.domain, core::kSceneOctreeDepth, variant);
     };
+    options.records_octree = true;
     alone = make_scene_octree_broad_phase(core::empty_box(), core::kSceneOctreeDepth, options.variant, threads);
   } else if (settings.text("broad") == "tree") {
     options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };

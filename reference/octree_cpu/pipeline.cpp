@@ -4,11 +4,14 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/method/frame_digest.hpp"
 #include "core/method/integrate.hpp"
 #include "reference/octree_cpu/vertex_stage.hpp"
+#include "reference/scene_octree/octree_record.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -52,11 +55,33 @@ core::Status Pipeline::load(const core::Scene& scene) {
   bodies_ = make_bodies(scene);
   rules_ = {scene.parameters, options_.variant, options_.solver, scene.domain, scene.face_material};
   steps_ = 0;
+  told_at_.reset();
+  if (core::Status s = check_step(); !s) return s;
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
   for (std::uint32_t i = 0; i < bodies_.count(); ++i)
     bodies_.boxes[i] = core::translated(bodies_.local_box(i), bodies_.state[i].x);
   return broad_phase_->load(bodies_.boxes, bodies_.is_static);
+}
+
+// A step above the limit would be simulated, and diverge. printed-E1 takes P(4) at its word and lets it through.
+core::Status Pipeline::check_step() const {
+  for (std::uint32_t i = 0; i < bodies_.count(); ++i) {
+    double stiffness = 0.0;
+    double damping = 0.0;
+    for (const core::Spring& s : bodies_.springs_of(i)) stiffness += s.stiffness_n_m, damping += s.damping_n_s_m;
+    const double w = bodies_.inverse_mass[i];
+    const double w0 = std::sqrt(stiffness * w);
+    const double g = damping * w;
+    if (w0 == 0.0 && g == 0.0) continue;
+    const double limit_s =
+        options_.variant == core::Variant::kE1 ? core::step_limit_printed(w0, g) : core::step_limit_sound(w0, g);
+    if (scene_->dt_s < limit_s) continue;
+    return core::Error{"dt_s is " + std::to_string(scene_->dt_s) + ", and the springs of body " + std::to_string(i) +
+                           " are stable only below " + std::to_string(limit_s) + " s",
+                       scene_->name, "take a shorter step, softer springs or less damping"};
+  }
+  return core::Done{};
 }
 
 core::Status Pipeline::step(float dt_s) {
@@ -87,8 +112,10 @@ core::Status Pipeline::run_stages(float dt_s) {
 void Pipeline::integrate(float dt_s) {
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies_.count(), 1024), [&](const auto& range) {
     for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
-      bodies_.state[i] =
-          core::semi_implicit_euler(bodies_.state[i], bodies_.inverse_mass[i], scene_->gravity_m_s2, dt_s);
+      core::Vec3 acceleration = scene_->gravity_m_s2;
+      for (const core::Spring& s : bodies_.springs_of(i))
+        acceleration = acceleration + core::spring_acceleration(s, bodies_.state[i], bodies_.inverse_mass[i]);
+      bodies_.state[i] = core::semi_implicit_euler(bodies_.state[i], bodies_.inverse_mass[i], acceleration, dt_s);
       bodies_.detected[i] = bodies_.state[i];
       bodies_.boxes[i] = core::translated(bodies_.local_box(i), bodies_.state[i].x);
     }
@@ -131,8 +158,9 @@ void Pipeline::touch() {
 std::uint32_t Pipeline::groups() const {
   using core::Group;
   std::uint32_t groups = core::bit(Group::kBodies) | core::bit(Group::kDetection) | core::bit(Group::kConfirmed) |
-                         core::bit(Group::kContacts);
+                         core::bit(Group::kContacts) | core::bit(Group::kBodyOctree);
   if (has_level0()) groups |= core::bit(Group::kPairs);
+  if (options_.records_octree) groups |= core::bit(Group::kOctree);
   return groups;
 }
 
@@ -144,6 +172,20 @@ std::uint64_t Pipeline::digest() const {
   for (const core::Pair p : confirmed_) sum += core::confirmed_digest(p);
   for (const core::Contact& c : contacts_) sum += core::contact_digest(c);
   return sum;
+}
+
+void Pipeline::tell_octrees(core::FrameRecord& frame) {
+  if (const auto* octree = dynamic_cast<const OctreeRecord*>(broad_phase_.get()))
+    octree->tell_octree(frame.octree_nodes, frame.octree_node_of_body);
+  // Shapes do not change, so one frame says it all: the first that is recorded, however often it is read.
+  if (!told_at_) told_at_ = steps_;
+  if (*told_at_ != steps_) return;
+  frame.shape_of_body = bodies_.shape;
+  for (const ShapeData& s : bodies_.shapes) {
+    const core::BodyOctree& tree = s.shape.octree;
+    frame.body_octree_boxes.insert(frame.body_octree_boxes.end(), tree.boxes.begin(), tree.boxes.end());
+    frame.leaf_of_vertex.insert(frame.leaf_of_vertex.end(), tree.leaf_of_vertex.begin(), tree.leaf_of_vertex.end());
+  }
 }
 
 core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
@@ -174,6 +216,7 @@ core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel lev
   frame.confirmed = confirmed_;
   if (options_.has_vertex_stage) frame.proximity = proximity_;
   frame.contacts = contacts_;
+  tell_octrees(frame);
   return core::Done{};
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/engine/broad_phase.hpp"
@@ -24,6 +25,8 @@ struct PipelineOptions {
   Solver solver = Solver::kColored;
   core::Variant variant = core::Variant::kSound;
   bool has_vertex_stage = true;
+  // The broad phase is one that tells its octree (reference/scene_octree/octree_record.hpp): record it.
+  bool records_octree = false;
   int threads = 0;  // 0 = all
 };
 
@@ -42,12 +45,14 @@ class Pipeline final : public core::Dynamics {
 
  private:
   core::Status run_stages(float dt_s);
+  [[nodiscard]] core::Status check_step() const;
   void integrate(float dt_s);
   core::Status find_candidates();
   void confirm();
   void touch();
   [[nodiscard]] bool has_level0() const;
   [[nodiscard]] std::uint64_t digest() const;
+  void tell_octrees(core::FrameRecord& frame);
 
   struct Threads;  // oneTBB's arena: vendor headers stay in the source
 
@@ -67,6 +72,7 @@ class Pipeline final : public core::Dynamics {
   std::array<core::StageTime, 6> times_{};
   float dt_s_ = 0.0F;
   std::uint64_t steps_ = 0;
+  std::optional<std::uint64_t> told_at_;  // the step whose record has the body octrees
 };
 
 }  // namespace broadside::reference

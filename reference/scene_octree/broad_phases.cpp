@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/scene_octree/box_check.hpp"
+#include "reference/scene_octree/octree_record.hpp"
 #include "reference/scene_octree/scene_octree.hpp"
 #include "reference/scene_octree/size_tree.hpp"
 
@@ -37,7 +38,7 @@ core::Box bounds_of(std::span<const core::Box> boxes) {
   return bounds;
 }
 
-class SceneOctreeBroadPhase final : public core::BroadPhase {
+class SceneOctreeBroadPhase final : public core::BroadPhase, public OctreeRecord {
  public:
   SceneOctreeBroadPhase(const core::Box& domain, int depth, core::Variant variant, int threads)
       : arena_(threads), octree_(depth, variant), domain_(domain), domain_is_given_(!core::is_empty(domain)) {
@@ -72,6 +73,10 @@ class SceneOctreeBroadPhase final : public core::BroadPhase {
     arena_.execute([&] { octree_.read_back(set.pairs); });
     set.demanded = set.raw = set.pairs.size();
     return set;
+  }
+
+  void tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const override {
+    octree_.tell_octree(nodes, node_of_body);
   }
 
  private:

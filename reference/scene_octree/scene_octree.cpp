@@ -27,6 +27,7 @@ SceneOctree::SceneOctree(int depth, core::Variant variant)
 
 void SceneOctree::build(std::span<const Box> boxes, std::span<const std::uint8_t> is_static, const Box& domain) {
   const std::size_t n = boxes.size();
+  domain_ = domain;
   const core::SceneGrid grid = core::make_scene_grid(domain, depth_);
   nodes_.resize(n);
   order_.resize(n);
@@ -102,6 +103,33 @@ void SceneOctree::find() {
       }
     }
   });
+}
+
+void SceneOctree::tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const {
+  nodes.clear();
+  nodes.push_back({domain_, 0, core::kNoNode, core::kNoNode, 0});
+  // Of each level: its first node. Node k of a level has the Morton code k.
+  std::array<std::uint32_t, core::kMaxSceneOctreeDepth + 2> first{0, 1};
+  for (int level = 1; level <= depth_; ++level) {
+    const std::uint32_t parents = first[level] - first[level - 1];
+    for (std::uint32_t p = first[level - 1]; p < first[level - 1] + parents; ++p) {
+      nodes[p].first_child = static_cast<std::uint32_t>(nodes.size());
+      nodes[p].child_count = 8;
+      const Box cell = nodes[p].box;
+      const core::Vec3 middle = core::center(cell);
+      for (int octant = 0; octant < 8; ++octant) {
+        Box child = cell;
+        for (int axis = 0; axis < 3; ++axis) ((octant >> axis & 1) != 0 ? child.min : child.max)[axis] = middle[axis];
+        nodes.push_back({child, static_cast<std::uint32_t>(level), p, core::kNoNode, 0});
+      }
+    }
+    first[level + 1] = static_cast<std::uint32_t>(nodes.size());
+  }
+  node_of_body.clear();
+  for (const core::SceneNode& node : nodes_) {
+    const std::uint32_t code = node.key >> 4U >> (3U * static_cast<std::uint32_t>(depth_ - node.level()));
+    node_of_body.push_back(first[node.level()] + code);
+  }
 }
 
 void SceneOctree::read_back(std::vector<Pair>& out) {

@@ -8,6 +8,7 @@
 #include "core/math/box.hpp"
 #include "core/method/scene_octree.hpp"
 #include "core/pair.hpp"
+#include "core/scene/octree_node.hpp"
 #include "core/variant.hpp"
 #include "reference/scene_octree/pair_blocks.hpp"
 #include "reference/scene_octree/pair_order.hpp"
@@ -34,12 +35,15 @@ class SceneOctree {
   [[nodiscard]] int depth() const { return depth_; }
   // Of each body, in order of id: the node that it is stored in. Valid after build.
   [[nodiscard]] std::span<const core::SceneNode> nodes() const { return nodes_; }
+  // The complete octree that these nodes are of, as OctreeRecord::tell_octree says it.
+  void tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const;
   // Box tests of the last find.
   [[nodiscard]] std::uint64_t tests() const { return tests_; }
 
  private:
   int depth_;
   bool same_node_only_;
+  core::Box domain_;
   std::vector<core::SceneNode> nodes_;
   std::vector<std::uint64_t> order_;      // node key above body id, sorted
   std::vector<std::uint32_t> range_end_;  // of each place in the order: one past its last candidate's place

@@ -192,7 +192,7 @@ TEST(Scenes, EachBadNameIsOneClearLine) {
     return scene.error().line();
   };
   const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
-  EXPECT_TRUE(has(line("errata:E7"), "did you mean 'errata:E"));
+  EXPECT_TRUE(has(line("errata:E9"), "did you mean 'errata:E"));
   EXPECT_TRUE(has(line("frefall:bunny:50"), "did you mean 'freefall:bunny:50'?"));
   EXPECT_TRUE(has(line("freefall:buny:50"), "did you mean 'bunny'?"));
   EXPECT_TRUE(has(line("freefall:cube"), "freefall:MESH:N"));

@@ -20,7 +20,8 @@ using core::bit;
 using core::Group;
 
 constexpr std::uint32_t kAllGroups = bit(Group::kBodies) | bit(Group::kDetection) | bit(Group::kPairs) |
-                                     bit(Group::kConfirmed) | bit(Group::kContacts) | bit(Group::kNarrow);
+                                     bit(Group::kConfirmed) | bit(Group::kContacts) | bit(Group::kNarrow) |
+                                     bit(Group::kOctree) | bit(Group::kBodyOctree);
 
 inline core::Scene tetrahedra_scene(std::uint32_t bodies) {
   auto mesh = std::make_shared<core::Mesh>();
@@ -56,6 +57,9 @@ inline core::Scene tetrahedra_scene(std::uint32_t bodies) {
     body.material = {0.6F, 0.1F * static_cast<float>(i % 5), 0.5F};
     scene.bodies.push_back(body);
   }
+  if (bodies > 1)
+    scene.springs = {
+        {1, {0.5F, -0.0F, 3.0F}, 100.0F, 0.25F}, {1, {0, 1, 0}, 1e-40F, 0.0F}, {1, {}, 2, 1}, {1, {}, 0, 0}};
   return scene;
 }
 
@@ -163,6 +167,16 @@ inline core::FrameRecord random_frame(Bits& bits, std::uint64_t step, std::uint3
       f.separations.push_back(
           {std::bit_cast<double>(bits.word()), bits.below(2) == 0, bits.vec(), bits.vec(), bits.vec()});
     }
+  if (has(Group::kOctree)) {
+    for (std::uint32_t i = rows(); i > 0; --i)
+      f.octree_nodes.push_back({{bits.vec(), bits.vec()}, bits.below(4), bits.below(9), bits.below(9), bits.below(9)});
+    for (std::uint32_t i = 0; i < bodies; ++i) f.octree_node_of_body.push_back(bits.below(73));
+  }
+  if (has(Group::kBodyOctree)) {
+    for (std::uint32_t i = rows(); i > 0; --i) f.shape_of_body.push_back(bits.below(5));
+    for (std::uint32_t i = rows(); i > 0; --i) f.body_octree_boxes.push_back({bits.vec(), bits.vec()});
+    for (std::uint32_t i = rows(); i > 0; --i) f.leaf_of_vertex.push_back(bits.below(64));
+  }
   return f;
 }
 
@@ -190,6 +204,11 @@ inline std::string first_difference(const core::FrameRecord& p, const core::Fram
   if (!same_bits(p.proximity, q.proximity)) return "proximity";
   if (!same_bits(p.contacts, q.contacts)) return "contacts";
   if (!same_bits(p.measured, q.measured)) return "measured";
+  if (!same_bits(p.octree_nodes, q.octree_nodes)) return "octree_nodes";
+  if (!same_bits(p.octree_node_of_body, q.octree_node_of_body)) return "octree_node_of_body";
+  if (!same_bits(p.shape_of_body, q.shape_of_body)) return "shape_of_body";
+  if (!same_bits(p.body_octree_boxes, q.body_octree_boxes)) return "body_octree_boxes";
+  if (!same_bits(p.leaf_of_vertex, q.leaf_of_vertex)) return "leaf_of_vertex";
   if (p.separations.size() != q.separations.size()) return "separations";
   for (std::size_t i = 0; i < p.separations.size(); ++i) {
     const core::Separation& a = p.separations[i];

@@ -67,7 +67,7 @@ Sizes write_trace(const std::filesystem::path& path) {
   auto writer = TraceWriter::create(path, header_of(scene, kAllGroups));
   EXPECT_TRUE(writer.ok());
   Bits bits(3);
-  std::uint64_t p = 0, c = 0, x = 0, k = 0, s = 0;
+  std::uint64_t p = 0, c = 0, x = 0, k = 0, s = 0, o = 0, b = 0, u = 0, l = 0;
   for (std::uint64_t step = 0; step < 250; ++step) {
     const FrameRecord f = random_frame(bits, step, 13, kAllGroups);
     p += f.pairs.size();
@@ -75,6 +75,10 @@ Sizes write_trace(const std::filesystem::path& path) {
     x += f.proximity.size();
     k += f.contacts.size();
     s += f.measured.size();
+    o += f.octree_nodes.size();
+    b += f.shape_of_body.size();
+    u += f.body_octree_boxes.size();
+    l += f.leaf_of_vertex.size();
     EXPECT_TRUE(writer.value().append(f).ok());
   }
   EXPECT_TRUE(writer.value().finish().ok());
@@ -91,7 +95,12 @@ Sizes write_trace(const std::filesystem::path& path) {
                {"C", c},
                {"X", x},
                {"K", k},
-               {"S", s}}};
+               {"S", s},
+               {"O", o},
+               {"B", b},
+               {"U", u},
+               {"L", l},
+               {"Q", 4}}};
   std::set<std::uint64_t> distinct;
   for (const auto& [name, value] : sizes.of)
     EXPECT_TRUE(name == "M+1" || distinct.insert(value).second) << name << " is as large as another size";

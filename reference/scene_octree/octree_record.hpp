@@ -1,0 +1,19 @@
+// What a broad phase over a scene octree adds to a trace: its nodes, and where it stored each body.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/octree_node.hpp"
+
+namespace broadside::reference {
+
+// Offered by broad phases that have one, beside core::BroadPhase.
+class OctreeRecord {
+ public:
+  virtual ~OctreeRecord() = default;
+  // Of the last update: nodes level by level, siblings next to each other in Morton order; node_of_body by body.
+  virtual void tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const = 0;
+};
+
+}  // namespace broadside::reference
