@@ -1,0 +1,37 @@
+// Where a plug-in wants its arrays: on the host or on the device. The adapter knows only this interface.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "core/result.hpp"
+
+namespace broadside::core {
+
+// A block of bytes that ends at a place behind which nothing can be written, where the space can do so.
+class MemoryBlock {
+ public:
+  virtual ~MemoryBlock() = default;
+
+  // What the plug-in is given.
+  [[nodiscard]] virtual void* data() const = 0;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+  virtual Status upload(const void* from, std::size_t bytes) = 0;
+  virtual Status download(void* to, std::size_t bytes) const = 0;
+  // Inputs are locked while a plug-in runs: a write into one ends its process.
+  virtual void lock() = 0;
+  virtual void unlock() = 0;
+};
+
+class MemorySpace {
+ public:
+  virtual ~MemorySpace() = default;
+
+  // At least one byte. Error: out of memory, with the amount.
+  virtual Result<std::unique_ptr<MemoryBlock>> allocate(std::size_t bytes) = 0;
+};
+
+// Pages of their own with one before and one behind that cannot be touched; the block ends where the last one begins.
+std::unique_ptr<MemorySpace> make_host_space();
+
+}  // namespace broadside::core
