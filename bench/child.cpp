@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/interrupt.hpp"
+#include "bench/plugin_engines.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -24,7 +25,7 @@ std::vector<std::string> arguments(const CellRequest& r, const std::filesystem::
                                 "run",
                                 r.source.spec,
                                 "--engine",
-                                std::string(r.row->id),
+                                engine_argument(*r.row),
                                 "--frames",
                                 std::to_string(r.frames),
                                 "--every",

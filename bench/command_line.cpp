@@ -20,8 +20,9 @@
 namespace broadside::bench {
 namespace {
 
-constexpr std::array<AddCommand, 10> kCommands{add_list,   add_run,     add_pairs, add_check, add_time,
-                                               add_report, add_compare, add_demo,  add_fetch, add_recover};
+constexpr std::array<AddCommand, 11> kCommands{add_list,  add_run,     add_pairs,          add_check,
+                                               add_time,  add_report,  add_compare,        add_demo,
+                                               add_fetch, add_recover, add_describe_plugin};
 
 std::vector<std::string> subcommands(const CLI::App& program) {
   std::vector<std::string> names;

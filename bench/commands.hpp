@@ -21,6 +21,7 @@ void add_report(CLI::App& program, core::Exit& exit);
 void add_demo(CLI::App& program, core::Exit& exit);
 void add_fetch(CLI::App& program, core::Exit& exit);
 void add_recover(CLI::App& program, core::Exit& exit);
+void add_describe_plugin(CLI::App& program, core::Exit& exit);
 
 // Prints the error's one line to stderr and returns its exit code.
 core::Exit complain(const core::Error& error);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bench/plugin_engines.hpp"
 #include "core/nearest_name.hpp"
 #include "gpu/engines.hpp"
 #include "reference/engines.hpp"
@@ -23,6 +24,7 @@ std::span<const core::EngineRow> engines() {
 }
 
 core::Result<const core::EngineRow*> find_engine(std::string_view id) {
+  if (is_plugin_path(id)) return plugin_row(id);
   std::vector<std::string_view> ids;
   for (const core::EngineRow& row : engines()) {
     if (row.id == id) return &row;

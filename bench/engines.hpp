@@ -13,7 +13,8 @@ namespace broadside::bench {
 
 std::span<const core::EngineRow> engines();
 
-// An unknown id is an error that names the nearest known one.
+// An id of the table, or the path of a plug-in (bench/plugin_engines.hpp). An unknown id is an error that names the
+// nearest known one.
 core::Result<const core::EngineRow*> find_engine(std::string_view id);
 
 // Why the engine cannot run on this machine, in words for a cell; empty when it can.

@@ -13,3 +13,9 @@ add_plugin(empty_plugin plugins/refused_engine.c EMPTY)
 add_plugin(later_plugin plugins/refused_engine.c LATER)
 add_plugin(half_plugin plugins/refused_engine.c HALF)
 target_compile_definitions(tests_plugins PRIVATE BROADSIDE_PLUGIN_DIR="${plugin_folder}")
+
+# The examples as a project of somebody who installed Broadside.
+add_test(NAME plugins.examples_build_against_an_installed_tree
+  COMMAND ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D FOLDER=${CMAKE_CURRENT_BINARY_DIR}/installed
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/plugins/installed_examples.cmake)
+set_tests_properties(plugins.examples_build_against_an_installed_tree PROPERTIES TIMEOUT 300)

@@ -1,0 +1,155 @@
+#include "bench/plugin_engines.hpp"
+
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bench/program_output.hpp"
+#include "gpu/device_space.hpp"
+#include "reference/plugin/plugin_engine.hpp"
+
+namespace broadside::bench {
+namespace {
+
+constexpr double kDescribeLimit_s = 10.0;
+// The setting that carries the path into create(), which is a plain function like every row's.
+constexpr std::string_view kLibraryKey = "library";
+
+// What a row's views point to.
+struct Plugin {
+  std::string path;
+  std::string name;  // "libmine.so": what stamps and settings say
+  reference::PluginDescription description;
+  std::vector<std::string> defaults;
+  std::vector<core::SettingRow> settings;
+  core::EngineRow row;
+};
+
+// A deque: rows are pointed to.
+std::deque<Plugin>& plugins() {
+  static std::deque<Plugin> all;
+  return all;
+}
+
+const Plugin* plugin_named(std::string_view library) {
+  for (const Plugin& plugin : plugins())
+    if (plugin.name == library) return &plugin;
+  return nullptr;
+}
+
+// Content, not only name: a library that was built again is another engine.
+std::string content_digest(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::uint64_t digest = 0;
+  std::uint64_t at = 0;
+  for (char byte = 0; in.get(byte);) digest += core::splitmix64((at++ << 8) | static_cast<unsigned char>(byte));
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
+  return text;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  const Plugin* plugin = plugin_named(settings.text(kLibraryKey));
+  if (plugin == nullptr)
+    return core::Error{"no such plug-in was named", settings.text(kLibraryKey), "", core::Exit::kInternal};
+  std::shared_ptr<core::MemorySpace> space = core::make_host_space();
+  if (plugin->description.on_device) {
+    auto on_device = gpu::make_device_space();
+    if (!on_device) return on_device.error();
+    space = std::move(on_device).value();
+  }
+  auto engine = reference::create_plugin_engine(plugin->path, settings, std::move(space));
+  if (engine.ok()) engine.value().build += " (" + plugin->name + ", content " + content_digest(plugin->path) + ")";
+  return engine;
+}
+
+core::Result<reference::PluginDescription> description_from(const std::string& json, const std::string& path) {
+  try {
+    const auto parsed = nlohmann::json::parse(json);
+    reference::PluginDescription description{.id = parsed.at("id"),
+                                             .capabilities = parsed.at("capabilities"),
+                                             .build = parsed.at("build"),
+                                             .what = parsed.at("what"),
+                                             .on_device = parsed.at("on_device"),
+                                             .settings = {}};
+    for (const auto& setting : parsed.at("settings"))
+      description.settings.push_back({setting.at("key"), setting.at("default"), setting.at("what")});
+    return description;
+  } catch (const nlohmann::json::exception& e) {
+    return core::Error{std::string("it could not be described: ") + e.what(), path,
+                       "a plug-in must not print to standard output"};
+  }
+}
+
+// The message of the child's one clear line: "broadside: FILE: what; advice".
+std::string last_line(const std::string& text) {
+  std::string line = text;
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  const auto start = line.rfind('\n');
+  return start == std::string::npos ? line : line.substr(start + 1);
+}
+
+core::Result<reference::PluginDescription> described(const std::string& path) {
+  auto output = run_this_program({"describe-plugin", path}, kDescribeLimit_s);
+  if (!output)
+    return core::Error{"loading it in a child process: " + output.error().what, path,
+                       "it must load and describe itself without work"};
+  if (output.value().exit_code != 0) {
+    const std::string prefix = "broadside: " + path + ": ";
+    std::string line = last_line(output.value().err);
+    if (line.starts_with(prefix)) line = line.substr(prefix.size());
+    return core::Error{line.empty() ? "it could not be described" : line, path};
+  }
+  return description_from(output.value().out, path);
+}
+
+void fill_row(Plugin& plugin) {
+  const reference::PluginDescription& d = plugin.description;
+  plugin.settings.push_back({kLibraryKey, plugin.name, {plugin.name}, "the file that it came from"});
+  for (const auto& setting : d.settings) plugin.defaults.push_back(std::to_string(setting.default_value));
+  for (std::size_t k = 0; k < d.settings.size(); ++k)
+    plugin.settings.push_back({d.settings[k].key, plugin.defaults[k], {}, d.settings[k].what});
+  plugin.row.id = d.id;
+  plugin.row.capabilities = d.capabilities;
+  plugin.row.what = d.what;
+  plugin.row.settings = plugin.settings;
+  plugin.row.is_reference = true;  // in a child process, like every engine that is not ours
+  plugin.row.create = create;
+  plugin.row.absent = d.on_device ? gpu::device_absent : nullptr;
+}
+
+}  // namespace
+
+bool is_plugin_path(std::string_view text) {
+  return text.find('/') != std::string_view::npos || text.ends_with(".so");
+}
+
+core::Result<const core::EngineRow*> plugin_row(std::string_view given) {
+  const std::string path(given);
+  for (const Plugin& plugin : plugins())
+    if (plugin.path == path) return &plugin.row;
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed))
+    return core::Error{"there is no such file", path, "name a shared library that exports broadside_engine_v1"};
+  const std::string name = std::filesystem::path(path).filename().string();
+  if (plugin_named(name) != nullptr)
+    return core::Error{"another plug-in of this run has the file name " + name, path, "rename one of them"};
+  auto description = described(path);
+  if (!description) return description.error();
+  Plugin& plugin = plugins().emplace_back();
+  plugin.path = path;
+  plugin.name = name;
+  plugin.description = std::move(description).value();
+  fill_row(plugin);
+  return &plugin.row;
+}
+
+std::string engine_argument(const core::EngineRow& row) {
+  for (const Plugin& plugin : plugins())
+    if (&plugin.row == &row) return plugin.path;
+  return std::string(row.id);
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,23 @@
+// Engines from shared libraries that the user names on the command line: --engine ./libmine.so.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/engine/engine.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+// A path, not an id: it has a slash or ends in .so. Nothing is searched for, and nothing but this file is loaded.
+bool is_plugin_path(std::string_view text);
+
+// The row of the engine in that file. A child process loads the library and describes it: this process never runs code
+// of it before an engine is created. Errors: no such file, the description crashed, hung or was refused. The row lives
+// as long as the program; the same path gives the same row.
+core::Result<const core::EngineRow*> plugin_row(std::string_view path);
+
+// What to write after --engine for this row: its path for a plug-in, its id otherwise.
+std::string engine_argument(const core::EngineRow& row);
+
+}  // namespace broadside::bench

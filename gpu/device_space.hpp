@@ -1,0 +1,17 @@
+// The device's memory for plug-ins that want their arrays there (core/plugin/memory_space.hpp).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/plugin/memory_space.hpp"
+
+namespace broadside::gpu {
+
+// Error: no device, or built without CUDA.
+core::Result<std::unique_ptr<core::MemorySpace>> make_device_space();
+
+// Why there is none; empty when there is.
+std::string device_absent();
+
+}  // namespace broadside::gpu
