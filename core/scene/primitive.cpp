@@ -1,0 +1,171 @@
+#include "core/scene/primitive.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace broadside::core {
+namespace {
+
+// A vertex coordinate is one float rounding of its formula, and a distance takes a few of them: 8 of 2^-24.
+constexpr double kOnSurface = 8.0 * 0x1p-24;
+// Facets of a drawing lie inside the true surface. At 5 % a sphere needs some 80 of them; an icosahedron (20 %) is one
+// in its own right.
+constexpr double kMostGap = 0.05;
+
+struct Point {
+  double x, y, z;
+
+  double operator[](int axis) const { return axis == 0 ? x : (axis == 1 ? y : z); }
+};
+
+Point point(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+Point operator+(Point p, Point q) {
+  return {p.x + q.x, p.y + q.y, p.z + q.z};
+}
+Point operator-(Point p, Point q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+Point operator*(double s, Point p) {
+  return {s * p.x, s * p.y, s * p.z};
+}
+double dot(Point p, Point q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+Point cross(Point p, Point q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+double length(Point p) {
+  return std::sqrt(dot(p, p));
+}
+
+// Every edge belongs to two triangles, once in each direction.
+bool is_closed(const Mesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
+  std::sort(edges.begin(), edges.end());
+  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& e) {
+    return std::binary_search(edges.begin(), edges.end(), std::pair{e.second, e.first});
+  });
+}
+
+bool is_centered(const Box& b, double size) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(static_cast<double>(b.min[k]) + b.max[k]) > kOnSurface * size) return false;
+  return true;
+}
+
+bool is_box(const Mesh& mesh, const Box& b) {
+  std::array<bool, 8> has_corner{};
+  for (const Vec3 v : mesh.vertices) {
+    unsigned corner = 0;
+    int on_faces = 0;
+    for (int k = 0; k < 3; ++k) {
+      on_faces += v[k] == b.min[k] || v[k] == b.max[k] ? 1 : 0;
+      corner |= v[k] == b.max[k] ? 1U << static_cast<unsigned>(k) : 0U;
+    }
+    if (on_faces == 0) return false;
+    if (on_faces == 3) has_corner[corner] = true;
+  }
+  if (!std::all_of(has_corner.begin(), has_corner.end(), [](bool has) { return has; })) return false;
+  // Triangles that cover the faces and nothing else: their area is the box's, and each lies in a face.
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Point p = point(mesh.vertices[t[0]]);
+    area += 0.5 * length(cross(point(mesh.vertices[t[1]]) - p, point(mesh.vertices[t[2]]) - p));
+  }
+  const Point s = point(b.max) - point(b.min);
+  const double whole = 2.0 * (s.x * s.y + s.y * s.z + s.z * s.x);
+  return std::abs(area - whole) <= 1e-5 * whole;
+}
+
+double distance_to_axis_segment(Point p, int axis, double half_length) {
+  Point d = p;
+  const double along = std::clamp(p[axis], -half_length, half_length);
+  (axis == 0 ? d.x : (axis == 1 ? d.y : d.z)) -= along;
+  return length(d);
+}
+
+// A ball swept along a segment on an axis: a sphere when the segment has no length. The gap, or nothing when it is
+// none.
+std::optional<double> swept_ball_gap(const Mesh& mesh, int axis, double half_length, double radius) {
+  const double size = radius + half_length;
+  for (const Vec3 v : mesh.vertices)
+    if (std::abs(distance_to_axis_segment(point(v), axis, half_length) - radius) > kOnSurface * size)
+      return std::nullopt;
+  // The surface bulges out between vertices, most in the middle of a facet or of an edge.
+  double least = radius;
+  for (const Triangle& t : mesh.triangles) {
+    const Point a = point(mesh.vertices[t[0]]);
+    const Point b = point(mesh.vertices[t[1]]);
+    const Point c = point(mesh.vertices[t[2]]);
+    for (const Point middle : {(1.0 / 3.0) * (a + b + c), 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)})
+      least = std::min(least, distance_to_axis_segment(middle, axis, half_length));
+  }
+  const double gap = radius - least;
+  return gap <= kMostGap * radius ? std::optional(gap) : std::nullopt;
+}
+
+}  // namespace
+
+std::string_view primitive_word(PrimitiveKind kind) {
+  switch (kind) {
+    case PrimitiveKind::kBox:
+      return "box";
+    case PrimitiveKind::kSphere:
+      return "sphere";
+    case PrimitiveKind::kCapsule:
+      return "capsule";
+  }
+  return "unknown";
+}
+
+std::optional<Primitive> primitive_of(const Mesh& mesh) {
+  if (mesh.vertices.size() < 8 || mesh.triangles.size() < 12) return std::nullopt;
+  const Box b = bounds(mesh);
+  const Vec3 half = 0.5F * (b.max - b.min);
+  const float size = std::max({half.x, half.y, half.z});
+  const float least = std::min({half.x, half.y, half.z});
+  if (!(least > 0.0F) || !is_centered(b, size)) return std::nullopt;
+  if (is_box(mesh, b)) return Primitive{PrimitiveKind::kBox, half, 0.0F, 0, 0.0};
+  if (!is_closed(mesh)) return std::nullopt;
+
+  // A sphere's vertices need not reach the ends of its axes, so the radius is that of the vertices.
+  float radius = 0.0F;
+  for (const Vec3 v : mesh.vertices) radius = std::max(radius, static_cast<float>(length(point(v))));
+  if (const auto gap = swept_ball_gap(mesh, 0, 0.0, radius))
+    return Primitive{PrimitiveKind::kSphere, {radius, radius, radius}, radius, 0, *gap};
+  const int axis = half.x == size ? 0 : (half.y == size ? 1 : 2);
+  const float thick = half[(axis + 1) % 3];
+  if (const auto gap = swept_ball_gap(mesh, axis, size - thick, thick)) {
+    Vec3 extents{thick, thick, thick};
+    extents[axis] = size;
+    return Primitive{PrimitiveKind::kCapsule, extents, thick, axis, *gap};
+  }
+  return std::nullopt;
+}
+
+bool is_convex(const Mesh& mesh) {
+  if (mesh.vertices.size() < 4 || !is_closed(mesh)) return false;
+  const Box b = bounds(mesh);
+  const double size = length(point(b.max) - point(b.min));
+  for (const Triangle& t : mesh.triangles) {
+    const Point a = point(mesh.vertices[t[0]]);
+    const Point normal = cross(point(mesh.vertices[t[1]]) - a, point(mesh.vertices[t[2]]) - a);
+    const double scale = length(normal);
+    if (!(scale > 0.0)) continue;
+    for (const Vec3 v : mesh.vertices)
+      if (dot(point(v) - a, normal) > 4.0 * kOnSurface * size * scale) return false;
+  }
+  return true;
+}
+
+}  // namespace broadside::core

@@ -1,0 +1,84 @@
+// Which meshes count as primitives: those that draw one, and nothing that merely resembles one.
+#include "core/scene/primitive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "datasets/shapes/box_mesh.hpp"
+#include "datasets/shapes/capsule_mesh.hpp"
+#include "datasets/shapes/sphere_mesh.hpp"
+
+namespace broadside {
+namespace {
+
+using core::PrimitiveKind;
+
+TEST(Primitive, BoxesWithAnyCutAreBoxes) {
+  for (const int cut : {1, 3, 8}) {
+    const auto found = core::primitive_of(datasets::box_mesh({0.1, 2.0, 0.7}, {cut, 1, 2}).value());
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->kind, PrimitiveKind::kBox);
+    EXPECT_EQ(found->half_extents, (core::Vec3{0.05F, 1.0F, 0.35F}));
+    EXPECT_EQ(found->facet_gap_m, 0.0);
+  }
+}
+
+TEST(Primitive, SpheresTellHowFarTheirFacetsLieInside) {
+  const auto found = core::primitive_of(datasets::sphere_mesh(0.5, 8).value());
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->kind, PrimitiveKind::kSphere);
+  EXPECT_NEAR(found->radius_m, 0.5, 1e-7);
+  // Facets subtend about 63.4 / 8 degrees a side: sagitta 0.5 (1 - cos(4.6 degrees)) at their middles.
+  EXPECT_NEAR(found->facet_gap_m, 0.5 * (1.0 - std::cos(0.08)), 0.0015);
+}
+
+TEST(Primitive, Capsules) {
+  const core::Mesh mesh = datasets::capsule_mesh(0.25, 0.5, 8).value();
+  EXPECT_EQ(mesh.vertices.size(), 4U * 64U + 4U * 8U + 2U);
+  EXPECT_EQ(mesh.triangles.size(), 8U * 64U + 8U * 8U);
+  const auto found = core::primitive_of(mesh);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->kind, PrimitiveKind::kCapsule);
+  EXPECT_EQ(found->axis, 2);
+  EXPECT_EQ(found->radius_m, 0.25F);
+  EXPECT_EQ(found->half_length_m(), 0.5F);
+  EXPECT_TRUE(core::is_convex(mesh));
+}
+
+TEST(Primitive, CapsuleIsClosedAndTurnsOutward) {
+  const core::Mesh mesh = datasets::capsule_mesh(0.25, 0.5, 4).value();
+  double six_volumes = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const core::Vec3 p = mesh.vertices[a], q = mesh.vertices[b], r = mesh.vertices[c];
+    six_volumes += static_cast<double>(p.x) * (q.y * r.z - q.z * r.y) + p.y * (q.z * r.x - q.x * r.z) +
+                   p.z * (q.x * r.y - q.y * r.x);
+  }
+  const double pi = std::acos(-1.0);
+  const double whole = pi * 0.0625 * 1.0 + 4.0 / 3.0 * pi * 0.015625;
+  EXPECT_GT(six_volumes / 6.0, 0.85 * whole);
+  EXPECT_LT(six_volumes / 6.0, whole);
+}
+
+TEST(Primitive, LookalikesAreNone) {
+  EXPECT_FALSE(core::primitive_of(datasets::lumpy_mesh(1280, 3).value()).has_value());
+  EXPECT_FALSE(core::primitive_of(datasets::sphere_mesh(0.5, 1).value()).has_value()) << "an icosahedron";
+  core::Mesh off_center = datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value();
+  for (core::Vec3& v : off_center.vertices) v.x += 0.25F;
+  EXPECT_FALSE(core::primitive_of(off_center).has_value());
+  core::Mesh open = datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value();
+  open.triangles.pop_back();
+  EXPECT_FALSE(core::primitive_of(open).has_value());
+  core::Mesh dented = datasets::sphere_mesh(0.5, 8).value();
+  dented.vertices[17] = 0.99F * dented.vertices[17];
+  EXPECT_FALSE(core::primitive_of(dented).has_value());
+}
+
+TEST(Primitive, ConvexBodies) {
+  EXPECT_TRUE(core::is_convex(datasets::sphere_mesh(0.5, 1).value()));
+  EXPECT_TRUE(core::is_convex(datasets::sphere_mesh(0.5, 8).value()));
+  EXPECT_FALSE(core::is_convex(datasets::lumpy_mesh(320, 3).value()));
+}
+
+}  // namespace
+}  // namespace broadside
