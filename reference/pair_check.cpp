@@ -21,4 +21,9 @@ core::Status check_pairs(std::string_view engine, std::span<const core::Pair> pa
   return core::Done{};
 }
 
+core::Error no_shape(std::string_view engine, const core::Mesh& mesh) {
+  return {"mesh '" + mesh.name + "' is no box, sphere, capsule or convex body", std::string(engine) + ": load",
+          "measure it with fcl-mesh or exact-mesh", core::Exit::kMissing};
+}
+
 }  // namespace broadside::reference

@@ -1,7 +1,10 @@
 #include "reference/exact/triangle_distance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "reference/exact/predicates.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -72,17 +75,27 @@ bool passes_through(Point from, Point to, const Corners& t, Point& at) {
   return true;
 }
 
-}  // namespace
+// Nearer than this share of the largest coordinate, exact predicates decide whether triangles meet. Double's rounding
+// is 1e-16 of it; thin triangles lose a good part of the digits that are left.
+constexpr double kDoubt = 1e-7;
 
-// Two triangles meet where an edge of one passes through the other. Otherwise the least distance is between a corner
-// and a face, a corner and an edge, or the insides of two edges.
-Nearest nearest_of_triangles(const Corners& a, const Corners& b) {
-  Point at;
-  for (int k = 0; k < 3; ++k) {
-    if (passes_through(a[k], a[(k + 1) % 3], b, at)) return {0.0, at, at};
-    if (passes_through(b[k], b[(k + 1) % 3], a, at)) return {0.0, at, at};
-  }
-  Nearest best{std::numeric_limits<double>::infinity(), {}, {}};
+double largest_coordinate(const Corners& t) {
+  double most = 0.0;
+  for (const Point p : t) most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return most;
+}
+
+bool passes_through(const Corners& a, const Corners& b, Point& at) {
+  for (int k = 0; k < 3; ++k)
+    if (passes_through(a[k], a[(k + 1) % 3], b, at) || passes_through(b[k], b[(k + 1) % 3], a, at)) return true;
+  return false;
+}
+
+constexpr Nearest kFar{std::numeric_limits<double>::infinity(), {}, {}};
+
+// Of triangles that do not cross: between a corner and a face, a corner and an edge, or the insides of two edges.
+Nearest nearest_of_parts(const Corners& a, const Corners& b) {
+  Nearest best = kFar;
   Point on_a;
   Point on_b;
   for (int i = 0; i < 3; ++i) {
@@ -96,6 +109,40 @@ Nearest nearest_of_triangles(const Corners& a, const Corners& b) {
       if (nearest_inside_segments(a[i], a1, b[j], b1, on_a, on_b)) keep_nearer(best, on_a, on_b);
     }
   }
+  return best;
+}
+
+}  // namespace
+
+Nearest nearest_of_triangles(const Corners& a, const Corners& b) {
+  Point at;
+  const bool crosses = passes_through(a, b, at);
+  if (crosses && triangles_meet(a, b)) return {0.0, at, at};
+  Nearest best = nearest_of_parts(a, b);
+  const double doubt = kDoubt * std::max(largest_coordinate(a), largest_coordinate(b));
+  if (best.squared_m2 > doubt * doubt) return best;
+  if (!crosses && triangles_meet(a, b)) return {0.0, best.on_a, best.on_a};
+  best.squared_m2 = std::max(best.squared_m2, std::numeric_limits<double>::min());
+  return best;
+}
+
+Nearest nearest_of_point_and_triangle(Point p, const Corners& t) {
+  Nearest best = kFar;
+  Point foot;
+  if (foot_in_triangle(p, t, foot)) keep_nearer(best, p, foot);
+  for (int k = 0; k < 3; ++k) keep_nearer(best, p, nearest_on_segment(p, t[k], t[(k + 1) % 3]));
+  return best;
+}
+
+Nearest nearest_of_segments(Point p0, Point p1, Point q0, Point q1) {
+  Nearest best = kFar;
+  keep_nearer(best, p0, nearest_on_segment(p0, q0, q1));
+  keep_nearer(best, p1, nearest_on_segment(p1, q0, q1));
+  keep_nearer(best, nearest_on_segment(q0, p0, p1), q0);
+  keep_nearer(best, nearest_on_segment(q1, p0, p1), q1);
+  Point on_p;
+  Point on_q;
+  if (nearest_inside_segments(p0, p1, q0, q1, on_p, on_q)) keep_nearer(best, on_p, on_q);
   return best;
 }
 

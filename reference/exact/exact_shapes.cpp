@@ -1,0 +1,99 @@
+// The arbiter of convex bodies: boxes, spheres, capsules and convex meshes in closed form, in double.
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/version.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reference/engines.hpp"
+#include "reference/exact/convex_core.hpp"
+#include "reference/pair_check.hpp"
+#include "reference/vendor_call.hpp"
+#include "reference/worker_count.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Separation;
+using core::Status;
+
+constexpr std::string_view kId = "exact-shapes";
+
+core::Vec3 to_core(Point p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+class ExactShapes final : public core::NarrowPhase {
+ public:
+  explicit ExactShapes(int workers) : arena_(workers) {}
+
+  Status load(const core::Scene& scene) override {
+    cores_.clear();
+    mesh_of_body_.clear();
+    for (const auto& mesh : scene.meshes) {
+      auto core = convex_core_of(*mesh);
+      if (!core) return no_shape(kId, *mesh);
+      cores_.push_back(std::move(*core));
+    }
+    for (const core::Body& body : scene.bodies) mesh_of_body_.push_back(body.mesh);
+    return core::Done{};
+  }
+
+  Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
+    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    separations_.assign(pairs.size(), {});
+    return vendor_call("exact-shapes: measure", [&]() -> Status {
+      arena_.execute([&] {
+        tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
+          const auto [i, j] = pairs[k];
+          const SignedDistance found =
+              signed_distance(placed(cores_[mesh_of_body_[i]], poses[i]), placed(cores_[mesh_of_body_[j]], poses[j]));
+          separations_[k] = {found.distance_m, found.distance_m <= 0.0, to_core(found.normal), to_core(found.on_a),
+                             to_core(found.on_b)};
+        });
+      });
+      return core::Done{};
+    });
+  }
+
+  core::Result<std::vector<Separation>> read_back() override { return separations_; }
+
+ private:
+  tbb::task_arena arena_;
+  std::vector<ConvexCore> cores_;
+  std::vector<std::uint32_t> mesh_of_body_;
+  std::vector<Separation> separations_;
+};
+
+std::span<const core::SettingRow> setting_rows() {
+  static const std::array<core::SettingRow, 1> rows{{
+      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+  }};
+  return rows;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = "own, double, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
+  engine.settings = settings;
+  engine.narrow_phase = std::make_unique<ExactShapes>(worker_count(settings.number("threads")));
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow exact_shapes_row() {
+  return {.id = kId,
+          .capabilities = "narrow",
+          .what = "signed distance of boxes, spheres, capsules and convex meshes in closed form: the arbiter of these",
+          .settings = setting_rows(),
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference
