@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/equivalence.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/near_pairs.hpp"
 #include "bench/recording.hpp"
@@ -30,6 +31,7 @@ core::TraceHeader header_for(const CellRequest& request, const core::Engine& eng
   for (const core::Shape& shape : table.shapes)
     header.notes["theta_m " + request.scene->meshes[shape.mesh]->name] =
         fmt::format("{}", core::pair_theta_m(request.scene->parameters, shape, shape));
+  core::add_notes(equivalence_of(engine, *request.scene), header.notes);
   return header;
 }
 

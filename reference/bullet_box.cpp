@@ -95,6 +95,11 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.build = bullet_build();
   engine.settings = settings;
   engine.narrow_phase = std::make_unique<BulletBox>();
+  engine.equivalence = [](const core::Scene&) {
+    core::EquivalenceCard card = bullet_card();
+    card.push_back({"shape", "axis-aligned boxes of the bodies", "triangle surfaces"});
+    return card;
+  };
   return engine;
 }
 

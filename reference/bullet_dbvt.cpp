@@ -11,6 +11,7 @@
 #include "reference/given_boxes.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
+#include "reference/vendor_defects.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -42,7 +43,8 @@ std::uint32_t body_of(const btBroadphaseProxy* proxy) {
 
 class BulletDbvt final : public core::BroadPhase {
  public:
-  BulletDbvt(btScalar margin, bool is_deferred) : margin_(margin), is_deferred_(is_deferred) {}
+  BulletDbvt(btScalar margin, bool is_deferred, SharedDefectCounter stale)
+      : margin_(margin), is_deferred_(is_deferred), stale_(std::move(stale)) {}
 
   [[nodiscard]] core::BroadPhaseTraits traits() const override {
     return {.exact = true, .margin_m = static_cast<double>(margin_), .keeps_stale_pairs = true};
@@ -95,7 +97,9 @@ class BulletDbvt final : public core::BroadPhase {
       raw.reserve(static_cast<std::size_t>(cache.size()));
       for (int k = 0; k < cache.size(); ++k)
         raw.push_back(core::make_pair_of(body_of(cache[k].m_pProxy0), body_of(cache[k].m_pProxy1)));
-      return given_.tighten(std::move(raw));
+      core::PairSet set = given_.tighten(std::move(raw));
+      stale_->note(set.raw - set.pairs.size(), set.raw);
+      return set;
     });
   }
 
@@ -111,6 +115,7 @@ class BulletDbvt final : public core::BroadPhase {
 
   btScalar margin_;
   bool is_deferred_;
+  SharedDefectCounter stale_;
   GivenBoxes given_;
   std::unique_ptr<btDbvtBroadphase> broad_phase_;
   std::vector<btBroadphaseProxy*> proxies_;
@@ -133,8 +138,16 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.build = bullet_build();
   engine.settings = settings;
   // Nobody leaves gDbvtMargin changed, so this is the value that the loaded library ships: 0.05 m in 3.24.
-  engine.broad_phase = std::make_unique<BulletDbvt>(settings.text("margin") == "0" ? btScalar(0) : gDbvtMargin,
-                                                    settings.text("deferred") == "on");
+  const btScalar margin = settings.text("margin") == "0" ? btScalar(0) : gDbvtMargin;
+  const auto stale = std::make_shared<DefectCounter>(Defect::kBulletStalePairs);
+  engine.broad_phase = std::make_unique<BulletDbvt>(margin, settings.text("deferred") == "on", stale);
+  engine.equivalence = [margin](const core::Scene&) {
+    core::EquivalenceCard card = bullet_card();
+    card.push_back(bullet_margin_fact(margin));
+    card.push_back({"pair cache", "a tenth of it is re-checked a frame; filtered in a zone of its own", "exact pairs"});
+    return card;
+  };
+  engine.defects = defects_of(stale);
   return engine;
 }
 

@@ -115,8 +115,13 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = bullet_build();
   engine.settings = settings;
-  engine.broad_phase =
-      std::make_unique<BulletDbvtTree>(settings.text("margin") == "bullet" ? gDbvtMargin : btScalar(0));
+  const btScalar margin = settings.text("margin") == "bullet" ? gDbvtMargin : btScalar(0);
+  engine.broad_phase = std::make_unique<BulletDbvtTree>(margin);
+  engine.equivalence = [margin](const core::Scene&) {
+    core::EquivalenceCard card = bullet_card();
+    card.push_back(bullet_margin_fact(margin));
+    return card;
+  };
   return engine;
 }
 

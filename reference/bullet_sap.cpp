@@ -118,6 +118,11 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.build = bullet_build();
   engine.settings = settings;
   engine.broad_phase = std::make_unique<BulletSap>();
+  engine.equivalence = [](const core::Scene&) {
+    core::EquivalenceCard card = bullet_card();
+    card.push_back({"broad-phase margin", "quantized outward to float's spacing", "none"});
+    return card;
+  };
   return engine;
 }
 

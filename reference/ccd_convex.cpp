@@ -1,5 +1,5 @@
-// libccd on convex bodies: does the hull of A's vertices meet the hull of B's, how deep, and along which direction. It
-// tells no distance for bodies that are apart.
+// libccd on convex bodies: does the hull of A's vertices, or the primitive that they draw, meet B's, how deep, and
+// along which direction. It tells no distance for bodies that are apart.
 #include <ccd/ccd.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -13,11 +13,13 @@
 #include <vector>
 
 #include "core/math/box.hpp"
+#include "core/scene/primitive.hpp"
 #include "reference/engines.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/turned_shapes.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
+#include "reference/vendor_defects.hpp"
 #include "reference/worker_count.hpp"
 
 namespace broadside::reference {
@@ -34,12 +36,14 @@ constexpr ccd_real_t kTolerance = 1e-6;
 // GJK on polytopes ends after a few tens of steps; libccd's default is 2^64 - 1, so a cycle would never end.
 constexpr unsigned long kMostIterations = 1000;
 
-// A convex body: the points whose hull it is, turned already, in float as the pipeline turns them.
+// A convex body: the points whose hull it is, turned already, in float as the pipeline turns them, with a ball of this
+// radius around each (METHOD knows none; a sphere is one point, a capsule two).
 struct Points {
   std::vector<Vec3> points;
+  double radius_m = 0.0;
   ccd_vec3_t middle;  // inside the hull, before the move
 
-  explicit Points(std::vector<Vec3> turned) : points(std::move(turned)) {
+  explicit Points(std::vector<Vec3> turned, double radius = 0.0) : points(std::move(turned)), radius_m(radius) {
     ccdVec3Set(&middle, 0, 0, 0);
     for (const Vec3 p : points) {
       const ccd_vec3_t v{{p.x, p.y, p.z}};
@@ -67,6 +71,12 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* out) {
   }
   const Vec3 placed = farthest + body.x;
   ccdVec3Set(out, placed.x, placed.y, placed.z);
+  if (body.shape->radius_m == 0.0) return;
+  const ccd_real_t size = std::sqrt(ccdVec3Len2(direction));
+  if (!(size > 0.0)) return;
+  ccd_vec3_t ball = *direction;
+  ccdVec3Scale(&ball, body.shape->radius_m / size);
+  ccdVec3Add(out, &ball);
 }
 
 void middle(const void* object, ccd_vec3_t* out) {
@@ -84,7 +94,7 @@ bool is_finite(const ccd_vec3_t& v) {
   return std::isfinite(v.v[0]) && std::isfinite(v.v[1]) && std::isfinite(v.v[2]);
 }
 
-Separation measure_one(const Placed& a, const Placed& b, bool is_mpr) {
+Separation measure_one(const Placed& a, const Placed& b, bool is_mpr, DefectCounter& not_numbers) {
   ccd_t ccd;
   CCD_INIT(&ccd);
   ccd.support1 = ccd.support2 = support;
@@ -104,7 +114,9 @@ Separation measure_one(const Placed& a, const Placed& b, bool is_mpr) {
   }
   out.is_touching = true;
   // Known to happen with GJK (issue 25): then only that they meet is known.
-  if (!std::isfinite(depth) || !is_finite(direction) || !is_finite(at)) return out;
+  const bool is_number = std::isfinite(depth) && is_finite(direction) && is_finite(at);
+  not_numbers.note(is_number ? 0 : 1, 1);
+  if (!is_number) return out;
   out.distance_m = -static_cast<double>(depth);
   // libccd's direction moves B away from A: ours points from B to A.
   ccdVec3Scale(&direction, -CCD_ONE);
@@ -129,12 +141,35 @@ std::vector<Vec3> corners_of(const core::Box& box) {
   return points;
 }
 
+enum class ShapeChoice { kHull, kBox, kPrimitive };
+
+// The primitive that the mesh draws, or its hull where it draws none.
+std::unique_ptr<Points> primitive_points(const core::Mesh& mesh, core::Quat q) {
+  const auto primitive = core::primitive_of(mesh);
+  if (!primitive) return std::make_unique<Points>(turned(mesh, q));
+  if (primitive->kind == core::PrimitiveKind::kSphere)
+    return std::make_unique<Points>(std::vector<Vec3>{{}}, primitive->radius_m);
+  if (primitive->kind == core::PrimitiveKind::kCapsule) {
+    const Vec3 end = core::rotate(q, core::axis_vector(primitive->axis, primitive->half_length_m()));
+    return std::make_unique<Points>(std::vector<Vec3>{-1.0F * end, end}, primitive->radius_m);
+  }
+  std::vector<Vec3> corners = corners_of({-1.0F * primitive->half_extents, primitive->half_extents});
+  for (Vec3& p : corners) p = core::rotate(q, p);
+  return std::make_unique<Points>(std::move(corners));
+}
+
+std::unique_ptr<Points> points_of(ShapeChoice choice, const core::Mesh& mesh, core::Quat q) {
+  if (choice == ShapeChoice::kPrimitive) return primitive_points(mesh, q);
+  return std::make_unique<Points>(choice == ShapeChoice::kBox ? corners_of(turned_bounds(mesh, q)) : turned(mesh, q));
+}
+
 class CcdConvex final : public core::NarrowPhase {
  public:
-  CcdConvex(bool is_mpr, bool is_box, int workers)
-      : is_mpr_(is_mpr), arena_(workers), shapes_([is_box](const core::Mesh& mesh, core::Quat q) {
-          return std::make_unique<Points>(is_box ? corners_of(turned_bounds(mesh, q)) : turned(mesh, q));
-        }) {}
+  CcdConvex(bool is_mpr, ShapeChoice choice, int workers, SharedDefectCounter not_numbers)
+      : is_mpr_(is_mpr),
+        arena_(workers),
+        not_numbers_(std::move(not_numbers)),
+        shapes_([choice](const core::Mesh& mesh, core::Quat q) { return points_of(choice, mesh, q); }) {}
 
   Status load(const core::Scene& scene) override {
     return vendor_call("ccd: load", [&]() -> Status {
@@ -151,7 +186,8 @@ class CcdConvex final : public core::NarrowPhase {
       arena_.execute([&] {
         tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
           const auto [i, j] = pairs[k];
-          separations_[k] = measure_one({shapes[i], poses[i].position}, {shapes[j], poses[j].position}, is_mpr_);
+          separations_[k] =
+              measure_one({shapes[i], poses[i].position}, {shapes[j], poses[j].position}, is_mpr_, *not_numbers_);
         });
       });
       return core::Done{};
@@ -163,6 +199,7 @@ class CcdConvex final : public core::NarrowPhase {
  private:
   bool is_mpr_;
   tbb::task_arena arena_;
+  SharedDefectCounter not_numbers_;
   TurnedShapes<Points> shapes_;
   std::vector<Separation> separations_;
 };
@@ -174,7 +211,10 @@ std::span<const core::SettingRow> setting_rows() {
        {"gjk", "mpr"},
        "GJK with EPA: the least depth; or Minkowski portal refinement: a depth along the line of centers, not the "
        "least"},
-      {"shape", "hull", {"hull", "box"}, "the hull of a body's vertices, or its axis-aligned box"},
+      {"shape",
+       "hull",
+       {"hull", "box", "primitive"},
+       "the hull of a body's vertices, its axis-aligned box, or the box, sphere or capsule that its mesh draws"},
       {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
   }};
   return rows;
@@ -185,8 +225,20 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = ccd_build();
   engine.settings = settings;
-  engine.narrow_phase = std::make_unique<CcdConvex>(
-      settings.text("algorithm") == "mpr", settings.text("shape") == "box", worker_count(settings.number("threads")));
+  const std::string& shape = settings.text("shape");
+  const ShapeChoice choice = shape == "box"         ? ShapeChoice::kBox
+                             : shape == "primitive" ? ShapeChoice::kPrimitive
+                                                    : ShapeChoice::kHull;
+  const int workers = worker_count(settings.number("threads"));
+  const auto not_numbers = std::make_shared<DefectCounter>(Defect::kCcdGjkNan);
+  engine.narrow_phase = std::make_unique<CcdConvex>(settings.text("algorithm") == "mpr", choice, workers, not_numbers);
+  engine.equivalence = [workers, shape](const core::Scene&) {
+    core::EquivalenceCard card = ccd_card(workers);
+    card.push_back({"tolerance", "1e-6 m, where EPA and MPR stop", "none"});
+    card.push_back({"shape", shape, shape == "primitive" ? "" : "triangle surfaces"});
+    return card;
+  };
+  engine.defects = defects_of(not_numbers);
   return engine;
 }
 

@@ -121,7 +121,13 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = fcl_build();
   engine.settings = settings;
-  engine.narrow_phase = std::make_unique<FclBox>(worker_count(settings.number("threads")));
+  const int workers = worker_count(settings.number("threads"));
+  engine.narrow_phase = std::make_unique<FclBox>(workers);
+  engine.equivalence = [workers](const core::Scene&) {
+    core::EquivalenceCard card = fcl_card(workers);
+    card.push_back({"shape", "axis-aligned boxes of the bodies", "triangle surfaces"});
+    return card;
+  };
   return engine;
 }
 

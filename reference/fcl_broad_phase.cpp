@@ -157,6 +157,11 @@ core::Result<core::Engine> make_engine(std::string_view id, const core::Settings
   engine.build = fcl_build();
   engine.settings = settings;
   engine.broad_phase = std::make_unique<FclBroadPhase>(id, settings.text("manager"));
+  engine.equivalence = [](const core::Scene&) {
+    core::EquivalenceCard card = fcl_card(1);
+    card.push_back({"broad-phase margin", "none", ""});
+    return card;
+  };
   return engine;
 }
 

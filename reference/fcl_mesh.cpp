@@ -17,6 +17,7 @@
 #include "reference/pair_check.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
+#include "reference/vendor_defects.hpp"
 #include "reference/worker_count.hpp"
 
 namespace broadside::reference {
@@ -79,7 +80,7 @@ Separation measure_one(const Model& a, const fcl::Transform3<double>& pose_a, co
 
 class FclMesh final : public core::NarrowPhase {
  public:
-  explicit FclMesh(int workers) : arena_(workers) {}
+  FclMesh(int workers, SharedDefectCounter no_depth) : arena_(workers), no_depth_(std::move(no_depth)) {}
 
   Status load(const core::Scene& scene) override {
     return vendor_call("fcl-mesh: load", [&]() -> Status {
@@ -102,6 +103,7 @@ class FclMesh final : public core::NarrowPhase {
           const auto [i, j] = pairs[k];
           separations_[k] =
               measure_one(*model_of_body_[i], transform(poses[i]), *model_of_body_[j], transform(poses[j]));
+          no_depth_->note(separations_[k].is_touching ? 1 : 0, 1);
         });
       });
       return core::Done{};
@@ -112,6 +114,7 @@ class FclMesh final : public core::NarrowPhase {
 
  private:
   tbb::task_arena arena_;
+  SharedDefectCounter no_depth_;
   std::vector<std::unique_ptr<Model>> models_;
   std::vector<const Model*> model_of_body_;
   std::vector<Separation> separations_;
@@ -129,7 +132,16 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = fcl_build();
   engine.settings = settings;
-  engine.narrow_phase = std::make_unique<FclMesh>(worker_count(settings.number("threads")));
+  const int workers = worker_count(settings.number("threads"));
+  const auto no_depth = std::make_shared<DefectCounter>(Defect::kFclMeshDepth);
+  engine.narrow_phase = std::make_unique<FclMesh>(workers, no_depth);
+  engine.equivalence = [workers](const core::Scene&) {
+    core::EquivalenceCard card = fcl_card(workers);
+    card.push_back({"shape", "BVHModel<OBBRSS> of the triangles, turned in double", ""});
+    card.push_back({"tolerance", "none for distances; 0 in overlap", ""});
+    return card;
+  };
+  engine.defects = defects_of(no_depth);
   return engine;
 }
 

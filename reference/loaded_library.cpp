@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
 namespace broadside::reference {
@@ -16,6 +18,15 @@ std::string loaded_library(const void* address) {
   std::error_code failed;
   const std::filesystem::path file = std::filesystem::canonical(library.dli_fname, failed);
   return failed ? "unknown" : file.filename().string();
+}
+
+std::optional<bool> library_mentions(const void* address, std::string_view text) {
+  Dl_info library;
+  if (dladdr(address, &library) == 0 || library.dli_fname == nullptr) return std::nullopt;
+  std::ifstream file(library.dli_fname, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file || bytes.empty()) return std::nullopt;
+  return bytes.find(text) != std::string::npos;
 }
 
 }  // namespace broadside::reference

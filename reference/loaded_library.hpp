@@ -1,12 +1,18 @@
 // The shared library that an address really came from, for the build stamp.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace broadside::reference {
 
 // File name after links are followed: "libfcl.so.0.7.0". "static" when the address is in this program itself,
 // "unknown" when the loader cannot tell.
 std::string loaded_library(const void* address);
+
+// Does the file of that library hold this text, such as the name of a symbol that it imports? Nothing when it cannot be
+// read.
+std::optional<bool> library_mentions(const void* address, std::string_view text);
 
 }  // namespace broadside::reference

@@ -6,9 +6,32 @@
 #include <fcl/common/time.h>
 #include <fcl/config.h>
 
+#include <Eigen/Core>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
 #include "reference/loaded_library.hpp"
 
 namespace broadside::reference {
+namespace {
+
+std::string build_of(const void* address) {
+  const std::optional<bool> asserts = library_mentions(address, "__assert_fail");
+  if (!asserts) return "unknown";
+  return *asserts ? "asserts are compiled in, and abort" : "no asserts";
+}
+
+core::EquivalenceCard card_of(std::string loaded, const void* address, const char* precision, std::string simd,
+                              int threads) {
+  return {{"library loaded", std::move(loaded), ""},
+          {"library build", build_of(address), ""},
+          {"precision", precision, ""},
+          {"SIMD", std::move(simd), ""},
+          {"threads", std::to_string(threads), ""}};
+}
+
+}  // namespace
 
 std::string bullet_build() {
   const int version = btGetVersion();  // 324 is 3.24
@@ -26,6 +49,32 @@ std::string ccd_build() {
   // Its headers carry no version; the file that was loaded does.
   return "libccd (" + loaded_library(reinterpret_cast<const void*>(&ccdGJKIntersect)) + "), " +
          (sizeof(ccd_real_t) == sizeof(float) ? "float" : "double");
+}
+
+core::EquivalenceCard bullet_card() {
+#ifdef BT_USE_SSE
+  const char* simd = "SSE, as its headers are compiled here";
+#else
+  const char* simd = "none in its headers; the library's own code as the compiler made it";
+#endif
+  return card_of(bullet_build(), &gDbvtMargin, sizeof(btScalar) == sizeof(float) ? "float32" : "float64", simd, 1);
+}
+
+core::EquivalenceFact bullet_margin_fact(float margin_m) {
+  if (margin_m == 0.0F) return {"broad-phase margin", "none", ""};
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4g m on leaves that moved", static_cast<double>(margin_m));
+  return {"broad-phase margin", text, "none"};
+}
+
+core::EquivalenceCard fcl_card(int threads) {
+  return card_of(fcl_build(), reinterpret_cast<const void*>(&fcl::time::now), "float64",
+                 std::string("Eigen: ") + Eigen::SimdInstructionSetsInUse(), threads);
+}
+
+core::EquivalenceCard ccd_card(int threads) {
+  return card_of(ccd_build(), reinterpret_cast<const void*>(&ccdGJKIntersect),
+                 sizeof(ccd_real_t) == sizeof(float) ? "float32" : "float64", "none", threads);
 }
 
 }  // namespace broadside::reference

@@ -3,10 +3,19 @@
 
 #include <string>
 
+#include "core/engine/equivalence.hpp"
+
 namespace broadside::reference {
 
 std::string bullet_build();  // "Bullet 3.24 (libBulletCollision.so.3.24), float"
 std::string fcl_build();     // "FCL 0.7.0 (libfcl.so.0.7.0), double"
 std::string ccd_build();     // "libccd 2.1 (libccd.so.2.0), double"
+
+// The facts of a library that hold for every engine made of it: file loaded, its build as far as it shows, precision,
+// SIMD, threads. `threads` is what the adapter uses.
+core::EquivalenceCard bullet_card();
+core::EquivalenceFact bullet_margin_fact(float margin_m);  // of a broad phase with leaves fattened by so much
+core::EquivalenceCard fcl_card(int threads);
+core::EquivalenceCard ccd_card(int threads);
 
 }  // namespace broadside::reference

@@ -1,13 +1,16 @@
 // A named thing that offers one or more capabilities, and how tables list it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/engine/broad_phase.hpp"
 #include "core/engine/dynamics.hpp"
+#include "core/engine/equivalence.hpp"
 #include "core/engine/narrow_phase.hpp"
 #include "core/engine/settings.hpp"
 #include "core/result.hpp"
@@ -21,6 +24,10 @@ struct Engine {
   std::unique_ptr<BroadPhase> broad_phase;    // null = not offered
   std::unique_ptr<NarrowPhase> narrow_phase;  // null = not offered
   std::unique_ptr<Dynamics> dynamics;         // null = not offered
+  // How its world differs from this scene; null = nothing to say beyond its build. Any time after construction.
+  std::function<EquivalenceCard(const Scene&)> equivalence;
+  // Known defects of its library and how often they were met since construction; null = none are known.
+  std::function<std::vector<DefectHits>()> defects;
 };
 
 // One row per engine in the one table (bench/engines.cpp). A row exists also where the engine cannot run on this

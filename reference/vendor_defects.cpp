@@ -1,0 +1,52 @@
+#include "reference/vendor_defects.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace broadside::reference {
+namespace {
+
+constexpr std::string_view kBullet = "Bullet 3.24";
+constexpr std::string_view kFcl = "FCL 0.7.0";
+constexpr std::string_view kCcd = "libccd 2.1";
+
+constexpr std::array<DefectRow, 9> kRows{{
+    {Defect::kBulletStalePairs, kBullet, "none known",
+     "the dbvt broad phase reports a pair whose boxes do not overlap (fat leaves, pairs kept after they parted)",
+     "filtered on the given boxes; raw and tight pairs are counted apart"},
+    {Defect::kFclMeshDepth, kFcl, "fcl#221, fcl#491", "overlapping meshes get no penetration depth",
+     "reported as distance 0, touching taken from collide"},
+    {Defect::kFclBoxAxis, kFcl, "none known",
+     "box against box is deeper by its answer than the least depth (a factor of 1.05 favors faces)",
+     "counted as depth off, outside the touching band"},
+    {Defect::kFclConvexNormal, kFcl, "fcl#545",
+     "convex bodies are deeper by its answer than the least depth, along another direction",
+     "counted as depth off, outside the touching band"},
+    {Defect::kFclAbort, kFcl, "fcl#322, fcl#578", "a query ends in a failed assertion and takes the process along",
+     "queries run in a process of their own, which starts again behind the pair"},
+    {Defect::kFclThrow, kFcl, "fcl#319, fcl#415", "a query throws std::logic_error about a degenerate polytope",
+     "caught, counted as exception"},
+    {Defect::kFclHang, kFcl, "fcl#578", "a query does not come back", "ended after a time limit"},
+    {Defect::kCcdGjkNan, kCcd, "libccd#25, libccd#68", "GJK's depth or direction is not a number where bodies overlap",
+     "reported as touching with depth 0 and no normal"},
+    {Defect::kCcdMprDepth, kCcd, "libccd#71", "MPR's depth, along the line of centers, is more than the least depth",
+     "an upper bound of the depth"},
+}};
+
+}  // namespace
+
+std::span<const DefectRow> vendor_defects() {
+  return kRows;
+}
+
+const DefectRow& row_of(Defect defect) {
+  return *std::find_if(kRows.begin(), kRows.end(), [&](const DefectRow& row) { return row.defect == defect; });
+}
+
+core::DefectHits DefectCounter::hits() const {
+  const DefectRow& row = row_of(defect_);
+  return {std::string(row.library), std::string(row.upstream), std::string(row.predicate), hits_, asked_};
+}
+
+}  // namespace broadside::reference
