@@ -51,6 +51,13 @@ std::vector<Subject> subjects() {
       {"ccd_gjk", reference::ccd_row, {}, true, 1e-5, false, true, true},
       {"ccd_mpr", reference::ccd_row, {{"algorithm", "mpr"}}, true, 1e-5, false, true, false},
       {"ccd_gjk_box", reference::ccd_row, {{"shape", "box"}}, true, 1e-5, false, true, true, true},
+      {"ccd_gjk_primitive", reference::ccd_row, {{"shape", "primitive"}}, true, 1e-5, false, true, true},
+      {"exact_shapes", reference::exact_shapes_row, {}, true, 1e-6, true, true, true},
+      {"fcl_shapes", reference::fcl_shapes_row, {}, true, 1e-5, true, true, true},
+      {"fcl_shapes_collide", reference::fcl_shapes_row, {{"query", "collide"}}, true, 1e-5, true, true, true},
+      {"fcl_shapes_indep", reference::fcl_shapes_row, {{"solver", "indep"}}, true, 1e-4, true, true, true},
+      // Float inside, and EPA's own tolerance of 1e-4.
+      {"bullet_shapes", reference::bullet_shapes_row, {}, true, 2e-4, true, true, true},
       // Its GJK stops at 1e-6 m.
       {"fcl_box", reference::fcl_box_row, {}, true, 1e-5, true, true, true, true},
       // Float inside: some roundings of coordinates of up to 4 m.

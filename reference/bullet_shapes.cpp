@@ -1,0 +1,133 @@
+// Bullet's GJK and EPA on the shapes that bullet-world gives the scene's meshes: signed distance in float.
+#include "reference/bullet_world/bullet_shapes.hpp"
+
+#include <BulletCollision/CollisionShapes/btConvexShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene/primitive.hpp"
+#include "reference/engines.hpp"
+#include "reference/pair_check.hpp"
+#include "reference/vendor_build.hpp"
+#include "reference/vendor_call.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Separation;
+using core::Status;
+
+constexpr std::string_view kId = "bullet-shapes";
+
+btVector3 bullet(core::Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+core::Vec3 to_core(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+btTransform transform(const core::Pose& pose) {
+  const core::Quat q = pose.orientation;
+  return btTransform(btQuaternion(q.x, q.y, q.z, q.w), bullet(pose.position));
+}
+
+class BulletShapes final : public core::NarrowPhase {
+ public:
+  Status load(const core::Scene& scene) override {
+    return vendor_call("bullet-shapes: load", [&]() -> Status {
+      shapes_.clear();
+      mesh_of_body_.clear();
+      for (const auto& mesh : scene.meshes) {
+        if (!core::primitive_of(*mesh) && !core::is_convex(*mesh)) return no_shape(kId, *mesh);
+        shapes_.push_back(make_bullet_shape(mesh, {}));
+      }
+      for (const core::Body& body : scene.bodies) mesh_of_body_.push_back(body.mesh);
+      return core::Done{};
+    });
+  }
+
+  Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
+    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    separations_.assign(pairs.size(), {});
+    return vendor_call("bullet-shapes: measure", [&]() -> Status {
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        separations_[k] = measure_one(shape(pairs[k].i), shape(pairs[k].j), poses[pairs[k].i], poses[pairs[k].j]);
+      return core::Done{};
+    });
+  }
+
+  core::Result<std::vector<Separation>> read_back() override { return separations_; }
+
+ private:
+  [[nodiscard]] const btConvexShape& shape(std::uint32_t body) const {
+    return static_cast<const btConvexShape&>(*shapes_[mesh_of_body_[body]].shape);
+  }
+
+  Separation measure_one(const btConvexShape& a, const btConvexShape& b, const core::Pose& pose_a,
+                         const core::Pose& pose_b) {
+    btGjkPairDetector detector(&a, &b, &simplex_, &depth_);
+    btDiscreteCollisionDetectorInterface::ClosestPointInput input;
+    input.m_transformA = transform(pose_a);
+    input.m_transformB = transform(pose_b);
+    btPointCollector found;
+    detector.getClosestPoints(input, found, nullptr);
+    Separation out;
+    if (!found.m_hasResult) {
+      out.distance_m = std::numeric_limits<double>::quiet_NaN();
+      return out;
+    }
+    out.distance_m = found.m_distance;
+    out.is_touching = found.m_distance <= 0;
+    out.normal = to_core(found.m_normalOnBInWorld);  // from B to A, as ours
+    out.witness_b = to_core(found.m_pointInWorld);
+    out.witness_a = out.witness_b + found.m_distance * out.normal;
+    return out;
+  }
+
+  std::vector<BulletShape> shapes_;
+  std::vector<std::uint32_t> mesh_of_body_;
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver depth_;
+  std::vector<Separation> separations_;
+};
+
+core::EquivalenceCard card_of(const core::Scene& scene) {
+  core::EquivalenceCard card = bullet_card();
+  for (const auto& mesh : scene.meshes) {
+    const BulletShape shape = make_bullet_shape(mesh, {});
+    card.push_back({"shape of " + mesh->name, shape.what, shape.differs});
+  }
+  card.push_back({"shape margin", "none", ""});
+  return card;
+}
+
+core::Result<core::Engine> create(const core::Settings& settings) {
+  core::Engine engine;
+  engine.id = kId;
+  engine.build = bullet_build();
+  engine.settings = settings;
+  engine.narrow_phase = std::make_unique<BulletShapes>();
+  engine.equivalence = card_of;
+  return engine;
+}
+
+}  // namespace
+
+core::EngineRow bullet_shapes_row() {
+  return {.id = kId,
+          .capabilities = "narrow",
+          .what = "Bullet's GJK and EPA on boxes, spheres, capsules and convex meshes: signed distance",
+          .settings = {},
+          .is_reference = true,
+          .create = create,
+          .absent = [] { return std::string(); }};
+}
+
+}  // namespace broadside::reference

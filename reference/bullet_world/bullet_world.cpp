@@ -1,0 +1,250 @@
+// Bullet's own simulation of the scene: btDiscreteDynamicsWorld with the dbvt broad phase and its sequential impulses.
+#include "reference/bullet_world/bullet_world.hpp"
+
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/method/frame_digest.hpp"
+#include "reference/bullet_world/contact_readout.hpp"
+#include "reference/vendor_call.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Status;
+
+btVector3 bullet(core::Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+core::Vec3 to_core(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+// Bullet asks two global functions how surfaces combine. They are ours for the length of one step: the scene's rules
+// (core/material.hpp), on the one coefficient of friction that Bullet has.
+class SceneRules {
+ public:
+  explicit SceneRules(bool apply) {
+    if (!apply) return;
+    gCalculateCombinedFrictionCallback = [](const btCollisionObject* a, const btCollisionObject* b) {
+      return std::sqrt(a->getFriction() * b->getFriction());
+    };
+    gCalculateCombinedRestitutionCallback = [](const btCollisionObject* a, const btCollisionObject* b) {
+      return std::max(a->getRestitution(), b->getRestitution());
+    };
+  }
+  ~SceneRules() {
+    gCalculateCombinedFrictionCallback = friction_;
+    gCalculateCombinedRestitutionCallback = restitution_;
+  }
+  SceneRules(const SceneRules&) = delete;
+  SceneRules& operator=(const SceneRules&) = delete;
+
+ private:
+  CalculateCombinedCallback friction_ = gCalculateCombinedFrictionCallback;
+  CalculateCombinedCallback restitution_ = gCalculateCombinedRestitutionCallback;
+};
+
+// Members in the order in which Bullet's objects need each other.
+struct World {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broad_phase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld dynamics{&dispatcher, &broad_phase, &solver, &configuration};
+  std::vector<BulletShape> shapes;  // one per mesh
+  std::vector<std::unique_ptr<btStaticPlaneShape>> planes;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;  // the scene's, then the faces of its domain
+
+  World() { btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher); }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  ~World() {
+    for (const auto& body : bodies) dynamics.removeRigidBody(body.get());
+  }
+};
+
+class BulletWorld final : public core::Dynamics {
+ public:
+  explicit BulletWorld(BulletWorldOptions options) : options_(options) {}
+
+  Status load(const core::Scene& scene) override {
+    return vendor_call("bullet-world: load", [&]() -> Status {
+      scene_ = &scene;
+      step_ = 0;
+      rotates_ = bullet_world_rotates(scene, options_);
+      world_ = std::make_unique<World>();
+      world_->dynamics.setGravity(bullet(scene.gravity_m_s2));
+      btContactSolverInfo& info = world_->dynamics.getSolverInfo();
+      info.m_numIterations = options_.iterations;
+      if (!options_.warm_starting) info.m_solverMode &= ~SOLVER_USE_WARMSTARTING;
+      info.m_restitutionVelocityThreshold = scene.parameters.v_threshold_m_s;
+      for (const auto& mesh : scene.meshes) world_->shapes.push_back(make_bullet_shape(mesh, options_.shapes));
+      for (std::uint32_t i = 0; i < scene.body_count(); ++i) add_body(i);
+      for (std::uint32_t face = 0; face < core::kFaceCount; ++face) add_face(face);
+      before_.resize(scene.bodies.size());
+      after_.resize(scene.bodies.size());
+      read_states(after_);
+      return core::Done{};
+    });
+  }
+
+  Status step(float dt_s) override {
+    return vendor_call("bullet-world: step", [&]() -> Status {
+      std::swap(before_, after_);
+      {
+        const SceneRules rules(options_.uses_scene_rules);
+        // No substeps: one step of exactly dt.
+        world_->dynamics.stepSimulation(dt_s, 0);
+      }
+      read_states(after_);
+      dt_s_ = dt_s;
+      ++step_;
+      return core::Done{};
+    });
+  }
+
+  Status read_back(core::FrameRecord& frame, core::RecordLevel level) override {
+    return vendor_call("bullet-world: read_back", [&]() -> Status {
+      frame = {};
+      frame.step = step_;
+      frame.time_s = static_cast<double>(step_) * scene_->dt_s;
+      std::vector<core::Kinematics> seen = before_;  // positions at detection, velocities as the solver sees them
+      for (std::size_t i = 0; i < seen.size(); ++i)
+        if (scene_->bodies[i].inverse_mass > 0.0F) seen[i].v = seen[i].v + dt_s_ * scene_->gravity_m_s2;
+      std::vector<core::Contact> contacts = read_contacts(world_->dispatcher, {seen, after_});
+      for (std::uint32_t i = 0; i < scene_->body_count(); ++i)
+        frame.digest += core::body_digest(i, after_[i].x, orientation(i), after_[i].v, angular_velocity(i));
+      for (const core::Contact& c : contacts) frame.digest += core::contact_digest(c);
+      if (level != core::RecordLevel::kFull) return core::Done{};
+      for (std::uint32_t i = 0; i < scene_->body_count(); ++i) read_body(frame, i);
+      read_pairs(frame);
+      frame.contacts = std::move(contacts);
+      return core::Done{};
+    });
+  }
+
+  [[nodiscard]] std::uint32_t groups() const override {
+    return bit(core::Group::kBodies) | bit(core::Group::kDetection) | bit(core::Group::kPairs) |
+           bit(core::Group::kContacts);
+  }
+
+ private:
+  void add_body(std::uint32_t i) {
+    const core::Body& given = scene_->bodies[i];
+    btCollisionShape* shape = world_->shapes[given.mesh].shape.get();
+    const btScalar mass = given.inverse_mass > 0.0F ? 1.0F / given.inverse_mass : 0.0F;
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0 && rotates_) shape->calculateLocalInertia(mass, inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
+    const core::Quat q = given.orientation;
+    info.m_startWorldTransform = btTransform(btQuaternion(q.x, q.y, q.z, q.w), bullet(given.position));
+    auto body = std::make_unique<btRigidBody>(info);
+    body->setLinearVelocity(bullet(given.velocity));
+    if (rotates_) body->setAngularVelocity(bullet(given.angular_velocity));
+    if (!rotates_) body->setAngularFactor(0);
+    // The scene knows no sleep: a body at rest is still simulated.
+    body->setActivationState(DISABLE_DEACTIVATION);
+    add(std::move(body), given.material, i);
+  }
+
+  void add_face(std::uint32_t face) {
+    const int axis = static_cast<int>(face / 2);
+    const bool is_upper = face % 2 == 1;
+    const float wall = is_upper ? -scene_->domain.max[axis] : scene_->domain.min[axis];
+    world_->planes.push_back(
+        std::make_unique<btStaticPlaneShape>(bullet(core::axis_vector(axis, is_upper ? -1.0F : 1.0F)), wall));
+    const btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, world_->planes.back().get());
+    add(std::make_unique<btRigidBody>(info), scene_->face_material, core::kFirstFace + face);
+  }
+
+  void add(std::unique_ptr<btRigidBody> body, const core::Material& material, std::uint32_t id) {
+    body->setFriction(material.mu_kinetic);
+    body->setRestitution(material.restitution);
+    body->setUserIndex(static_cast<int>(id));
+    world_->dynamics.addRigidBody(body.get());
+    world_->bodies.push_back(std::move(body));
+  }
+
+  void read_states(std::vector<core::Kinematics>& states) const {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const btRigidBody& body = *world_->bodies[i];
+      states[i] = {to_core(body.getWorldTransform().getOrigin()), to_core(body.getLinearVelocity())};
+    }
+  }
+
+  // A body that only translates keeps the quaternion that it was given, bit for bit: Bullet holds a matrix.
+  [[nodiscard]] core::Quat orientation(std::uint32_t i) const {
+    if (!rotates_) return scene_->bodies[i].orientation;
+    const btQuaternion q = world_->bodies[i]->getWorldTransform().getRotation();
+    return {q.w(), q.x(), q.y(), q.z()};
+  }
+
+  [[nodiscard]] core::Vec3 angular_velocity(std::uint32_t i) const {
+    return rotates_ ? to_core(world_->bodies[i]->getAngularVelocity()) : core::Vec3{};
+  }
+
+  void read_body(core::FrameRecord& frame, std::uint32_t i) const {
+    frame.position.push_back(after_[i].x);
+    frame.velocity.push_back(after_[i].v);
+    frame.orientation.push_back(orientation(i));
+    frame.angular_velocity.push_back(angular_velocity(i));
+    // Bullet detects at the start of a step and moves bodies at its end.
+    frame.detected_position.push_back(before_[i].x);
+    frame.detected_velocity.push_back(before_[i].v);
+    const btBroadphaseProxy* proxy = world_->bodies[i]->getBroadphaseProxy();
+    frame.boxes.push_back({to_core(proxy->m_aabbMin), to_core(proxy->m_aabbMax)});
+  }
+
+  // Bullet's cache, without the faces, filtered on the boxes that its broad phase was given.
+  void read_pairs(core::FrameRecord& frame) {
+    const btBroadphasePairArray& cache = world_->broad_phase.getOverlappingPairCache()->getOverlappingPairArray();
+    const auto body_of = [](const btBroadphaseProxy* proxy) {
+      return static_cast<std::uint32_t>(static_cast<btCollisionObject*>(proxy->m_clientObject)->getUserIndex());
+    };
+    for (int k = 0; k < cache.size(); ++k) {
+      const core::Pair pair = core::make_pair_of(body_of(cache[k].m_pProxy0), body_of(cache[k].m_pProxy1));
+      if (core::is_face(pair.j)) continue;
+      ++frame.pairs_raw;
+      if (core::overlaps(frame.boxes[pair.i], frame.boxes[pair.j])) frame.pairs.push_back(pair);
+    }
+    std::sort(frame.pairs.begin(), frame.pairs.end());
+    frame.pairs_demanded = frame.pairs.size();
+  }
+
+  BulletWorldOptions options_;
+  const core::Scene* scene_ = nullptr;
+  bool rotates_ = false;
+  std::unique_ptr<World> world_;
+  std::vector<core::Kinematics> before_;
+  std::vector<core::Kinematics> after_;
+  std::uint64_t step_ = 0;
+  float dt_s_ = 0.0F;
+};
+
+}  // namespace
+
+bool bullet_world_rotates(const core::Scene& scene, const BulletWorldOptions& options) {
+  return options.always_rotates || std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const core::Body& b) {
+           return !(b.angular_velocity == core::Vec3{});
+         });
+}
+
+std::unique_ptr<core::Dynamics> make_bullet_world(const BulletWorldOptions& options) {
+  return std::make_unique<BulletWorld>(options);
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,26 @@
+// Bullet's dynamics world behind our interface, and the facts of it that its equivalence card needs.
+#pragma once
+
+#include <memory>
+
+#include "core/engine/dynamics.hpp"
+#include "core/scene/scene.hpp"
+#include "reference/bullet_world/bullet_shapes.hpp"
+
+namespace broadside::reference {
+
+struct BulletWorldOptions {
+  BulletShapeOptions shapes;
+  bool uses_scene_rules = true;  // for friction and restitution of two surfaces; otherwise Bullet's products
+  bool always_rotates = false;   // otherwise only where a body of the scene has angular velocity
+  bool warm_starting = true;
+  int iterations = 10;
+};
+
+// Records states, boxes and pairs of its broad phase at detection (the start of the step), and contacts as
+// read_contacts describes them.
+std::unique_ptr<core::Dynamics> make_bullet_world(const BulletWorldOptions& options);
+
+bool bullet_world_rotates(const core::Scene& scene, const BulletWorldOptions& options);
+
+}  // namespace broadside::reference
