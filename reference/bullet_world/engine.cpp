@@ -38,7 +38,8 @@ core::EquivalenceCard card_of(const core::Scene& scene, const BulletWorldOptions
   add_shapes(scene, o, card);
   const btContactSolverInfo info;
   const core::Parameters& p = scene.parameters;
-  card.push_back({"shape margin", number(o.shapes.margin_m) + " m around hulls and triangles, and rounding the edges of boxes",
+  card.push_back({"shape margin",
+                  number(o.shapes.margin_m) + " m around hulls and triangles, and rounding the edges of boxes",
                   o.shapes.margin_m > 0.0F ? "none" : ""});
   card.push_back({"contact margin", number(gContactBreakingThreshold) + " m: contacts are kept to this distance", "0"});
   card.push_back({"broad-phase margin",
