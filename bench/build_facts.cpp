@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "broadside_version.hpp"  // made by CMake
-#include "gpu/octree_gpu.hpp"
+#include "gpu/engines_on_cuda.hpp"
 
 namespace broadside::bench {
 namespace {

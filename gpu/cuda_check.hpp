@@ -23,8 +23,3 @@ inline core::Status cuda_status(cudaError_t code, const char* what) {
     if (auto broadside_status = ::broadside::gpu::cuda_status((call), #call); !broadside_status.ok()) \
       return broadside_status.error();                                                                \
   } while (false)
-
-#define BROADSIDE_TRY(call)                                                                      \
-  do {                                                                                           \
-    if (auto broadside_status = (call); !broadside_status.ok()) return broadside_status.error(); \
-  } while (false)

@@ -1,23 +1,16 @@
 // Device memory with an owner.
 #pragma once
 
-#include <cuda_runtime_api.h>
-
 #include <cstddef>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/result.hpp"
-#include "gpu/cuda_check.hpp"
+#include "gpu/device_runtime.hpp"
 
 namespace broadside::gpu {
-
-// Raw bytes, so that the text of an error is not instantiated per type. Returns null and an error when there is not
-// enough memory; the error names the amount.
-core::Result<void*> allocate_device_bytes(std::size_t bytes, const char* what);
 
 template <typename T>
 class DeviceBuffer {
@@ -47,22 +40,22 @@ class DeviceBuffer {
     return core::Done{};
   }
 
-  // Synchronizes with the host's memory: returns when the host's bytes were read.
+  // Returns when the host's bytes were read.
   core::Status upload(std::span<const T> from, const char* what) {
     BROADSIDE_TRY(reserve(from.size(), what));
-    if (!from.empty()) BROADSIDE_CUDA_TRY(cudaMemcpy(data_, from.data(), from.size_bytes(), cudaMemcpyHostToDevice));
+    if (!from.empty()) BROADSIDE_TRY(copy_to_device(data_, from.data(), from.size_bytes()));
     return core::Done{};
   }
 
   // Synchronizes: returns when the bytes are there.
   core::Status download(std::vector<T>& to, std::size_t count) const {
     to.resize(count);
-    if (count != 0) BROADSIDE_CUDA_TRY(cudaMemcpy(to.data(), data_, count * sizeof(T), cudaMemcpyDeviceToHost));
+    if (count != 0) BROADSIDE_TRY(copy_to_host(to.data(), data_, count * sizeof(T)));
     return core::Done{};
   }
 
   core::Status fill_bytes(int value) {
-    if (data_ != nullptr) BROADSIDE_CUDA_TRY(cudaMemset(data_, value, capacity_ * sizeof(T)));
+    if (data_ != nullptr) BROADSIDE_TRY(fill_device_bytes(data_, value, capacity_ * sizeof(T)));
     return core::Done{};
   }
 
@@ -77,7 +70,7 @@ class DeviceBuffer {
 
  private:
   void release() {
-    if (data_ != nullptr) cudaFree(data_);  // an error here has nobody to hear it
+    if (data_ != nullptr) release_device_bytes(data_);
     data_ = nullptr;
     capacity_ = 0;
   }

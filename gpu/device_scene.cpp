@@ -1,19 +1,38 @@
 #include "gpu/device_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/method/levels.hpp"
 #include "core/scene/shapes.hpp"
 
 namespace broadside::gpu {
+namespace {
 
-core::Status DeviceScene::load(const core::Scene& scene) {
+BoxFacts facts_of(const core::Scene& scene) {
+  BoxFacts facts;
+  facts.count = scene.body_count();
+  facts.domain = scene.domain;
+  facts.low_corner = scene.domain.min;
+  const auto widen = [&facts](core::Vec3 v) {
+    for (int axis = 0; axis < 3; ++axis)
+      facts.coordinate_range_m = std::max(facts.coordinate_range_m, std::abs(v[axis]));
+  };
+  widen(scene.domain.min), widen(scene.domain.max);
+  for (const core::Body& body : scene.bodies) widen(body.position);
+  return facts;
+}
+
+}  // namespace
+
+core::Status DeviceScene::load(const core::Scene& scene, float hash_cell_m) {
   const core::ShapeTable table = core::build_shapes(scene);
   std::vector<PackedBox> octree;
   std::vector<PackedBox> level2;
   std::vector<std::uint32_t> level2_count;
   ShapeTrees trees;
-  largest_side_m_ = 0.0F;
+  box_facts_ = facts_of(scene);
+  std::vector<std::uint64_t> hash_cells;
   tree_levels_ = 1;
   for (const core::Shape& shape : table.shapes) {
     for (const core::Box& box : shape.octree.boxes) octree.push_back(pack(box));
@@ -23,8 +42,10 @@ core::Status DeviceScene::load(const core::Scene& scene) {
     append_tree(trees, shape.octree.sorted_vertices, shape.octree.sorted_indices, shape.mean_edge_m);
     tree_levels_ = std::max(tree_levels_, trees.headers.back().top + 1);
     const core::Vec3 side = nodes.root.max - nodes.root.min;
-    largest_side_m_ = std::max({largest_side_m_, side.x, side.y, side.z});
+    box_facts_.largest_side_m = std::max({box_facts_.largest_side_m, side.x, side.y, side.z});
+    hash_cells.push_back(hash_cells_of(side, hash_cell_m));
   }
+  for (const std::uint32_t shape : table.shape_of_body) box_facts_.hash_entries += hash_cells[shape];
   std::vector<core::Material> material;
   std::vector<core::Quat> orientation;
   for (const core::Body& body : scene.bodies) {

@@ -6,6 +6,7 @@
 
 #include "core/math/quat.hpp"
 #include "core/scene/scene.hpp"
+#include "gpu/broad_buffers.hpp"
 #include "gpu/device_buffer.hpp"
 #include "gpu/frame_view.hpp"
 
@@ -13,15 +14,16 @@ namespace broadside::gpu {
 
 class DeviceScene {
  public:
-  core::Status load(const core::Scene& scene);
+  // hash_cell_m: of the spatial hash, if that is the broad phase.
+  core::Status load(const core::Scene& scene, float hash_cell_m);
   // Fills what of the view is fixed by the scene.
   void fill(FrameView& view) const;
 
   [[nodiscard]] const core::Quat* orientation() const { return orientation_.data(); }
   // Of the deepest vertex tree.
   [[nodiscard]] std::uint32_t tree_levels() const { return tree_levels_; }
-  // Longest side of any body's box, before it is placed.
-  [[nodiscard]] float largest_side_m() const { return largest_side_m_; }
+  // What the broad phase must know before the first frame: a body's box is its shape's, wherever it is.
+  [[nodiscard]] const BoxFacts& box_facts() const { return box_facts_; }
   [[nodiscard]] std::uint64_t shape_bytes() const;
   [[nodiscard]] std::uint64_t body_bytes() const;
 
@@ -36,7 +38,7 @@ class DeviceScene {
   DeviceBuffer<core::Material> material_;
   DeviceBuffer<core::Quat> orientation_;
   std::uint32_t tree_levels_ = 1;
-  float largest_side_m_ = 0.0F;
+  BoxFacts box_facts_;
 };
 
 }  // namespace broadside::gpu

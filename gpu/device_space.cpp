@@ -1,6 +1,6 @@
 #include "gpu/device_space.hpp"
 
-#include "gpu/octree_gpu.hpp"
+#include "gpu/engines_on_cuda.hpp"
 
 #ifdef BROADSIDE_HAS_CUDA
 #include <cuda_runtime_api.h>
@@ -9,7 +9,7 @@
 namespace broadside::gpu {
 
 std::string device_absent() {
-  return octree_gpu_absent();
+  return gpu_absent();
 }
 
 #ifdef BROADSIDE_HAS_CUDA

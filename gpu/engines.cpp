@@ -2,21 +2,34 @@
 
 #include <array>
 
-#include "gpu/octree_gpu.hpp"
+#include "gpu/engines_on_cuda.hpp"
 
 namespace broadside::gpu {
 namespace {
 
 // The keys and values of octree-cpu, but for its threads.
-const std::array<core::SettingRow, 5>& settings_table() {
+const std::array<core::SettingRow, 5>& octree_settings() {
   static const std::array<core::SettingRow, 5> kTable{{
-      {"broad", "tree", {"tree", "brute"}, "where candidates come from; brute = the levels' published start"},
+      {"broad",
+       "tree",
+       {"tree", "octree", "brute"},
+       "where candidates come from: tree = the fast octree; octree = P-Alg 1; brute = the levels' published start"},
       {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
       {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
       {"variant",
        "sound",
        {"sound", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7", "printed-E8"},
        "a printed, wrong form of the paper to run instead"},
+      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
+  }};
+  return kTable;
+}
+
+// Those of hash-cpu, but for its threads.
+const std::array<core::SettingRow, 3>& hash_settings() {
+  static const std::array<core::SettingRow, 3> kTable{{
+      {"cell_mm", "0", {}, "edge of a cell in mm; 0 = the scene's hash_cell_m, and 250 for boxes alone"},
+      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
   }};
   return kTable;
@@ -29,10 +42,22 @@ core::EngineRow octree_gpu_row() {
   row.id = "octree-gpu";
   row.capabilities = "broad dynamics";
   row.what = "the pipeline on CUDA, bit-identical to octree-cpu";
-  row.settings = settings_table();
+  row.settings = octree_settings();
   row.is_reference = false;
   row.create = create_octree_gpu;
-  row.absent = octree_gpu_absent;
+  row.absent = gpu_absent;
+  return row;
+}
+
+core::EngineRow hash_gpu_row() {
+  core::EngineRow row;
+  row.id = "hash-gpu";
+  row.capabilities = "broad dynamics";
+  row.what = "the paper's comparison on CUDA: a spatial hash as broad phase, bit-identical to hash-cpu";
+  row.settings = hash_settings();
+  row.is_reference = false;
+  row.create = create_hash_gpu;
+  row.absent = gpu_absent;
   return row;
 }
 

@@ -5,7 +5,8 @@
 
 namespace broadside::gpu {
 
-// `octree-gpu`: the row exists also where it cannot run; absent() then says why.
+// The rows exist also where the engines cannot run; absent() then says why.
 core::EngineRow octree_gpu_row();
+core::EngineRow hash_gpu_row();
 
 }  // namespace broadside::gpu

@@ -1,4 +1,5 @@
-// What changes from frame to frame, on the device: states, and the buffers that grow to what a frame demands.
+// What changes from frame to frame, on the device: states, and the buffers that grow to what a frame demands. The broad
+// phase's own are in broad_buffers.hpp.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ struct DeviceState {
 class FrameBuffers {
  public:
   // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
-  core::Status load(const core::Scene& scene, bool has_grid, bool is_jacobi);
+  core::Status load(const core::Scene& scene);
   void fill(FrameView& view) const;
   // Makes room for what the aborted frame demanded, and a quarter more. Contents are lost.
   core::Status grow(const Counters& demanded, bool is_confirmed_by_level0);
@@ -44,40 +45,24 @@ class FrameBuffers {
 
  private:
   core::Status reserve_confirmed(std::uint64_t count);
-  core::Status reserve_colors();
 
   std::uint32_t body_count_ = 0;
-  std::uint32_t color_words_ = 1;
   DeviceState previous_;
   DeviceState detected_;
   DeviceState next_;
   DeviceBuffer<PackedBox> boxes_;
-  DeviceBuffer<std::uint32_t> bucket_count_;
-  DeviceBuffer<std::uint32_t> bucket_begin_;
-  DeviceBuffer<std::uint32_t> rank_;
-  DeviceBuffer<PackedBox> entries_;
-  DeviceBuffer<std::uint32_t> levels_;
   DeviceBuffer<std::uint32_t> degree_;
   DeviceBuffer<std::uint32_t> list_begin_;
   DeviceBuffer<std::uint32_t> listed_;
-  DeviceBuffer<std::uint32_t> front_;
-  DeviceBuffer<std::uint32_t> unpublished_;
-  DeviceBuffer<unsigned long long> least_key_;
-  DeviceBuffer<unsigned long long> taken_;
-  DeviceBuffer<core::Kinematics> sums_;
+  DeviceBuffer<LiveBody> live_;
   DeviceBuffer<Counters> counters_;
 
   DeviceBuffer<core::Pair> pairs_;
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<core::Proximity> proximity_;
-  DeviceBuffer<core::Pair> touching_;
-  DeviceBuffer<std::uint32_t> color_;
-  DeviceBuffer<std::uint32_t> color_rank_;
-  DeviceBuffer<std::uint32_t> by_color_;
-  DeviceBuffer<std::uint32_t> list_slots_;
+  DeviceBuffer<Link> links_;
+  DeviceBuffer<unsigned long long> keys_;
   DeviceBuffer<std::uint32_t> lists_;
-  DeviceBuffer<std::uint32_t> color_count_;
-  DeviceBuffer<std::uint32_t> color_begin_;
   DeviceBuffer<core::Contact> contacts_;
   DeviceBuffer<core::Contact> face_contacts_;
 };

@@ -1,18 +1,18 @@
-// Launches of the device code, as plain functions: the rest of gpu/ is compiled by the host compiler.
+// Launches of the device code, as plain functions: the rest of gpu/ is compiled by the host compiler. frame_kernel.cu
+// implements them on CUDA, on_host/frame_on_host.cpp with fibers.
 #pragma once
-
-#include <cuda_runtime_api.h>
 
 #include <cstdint>
 
 #include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
 #include "core/result.hpp"
+#include "gpu/device_runtime.hpp"
 #include "gpu/frame_view.hpp"
 
 namespace broadside::gpu {
 
-// How the frame kernel fits this GPU.
+// How a kernel fits this GPU.
 struct LaunchShape {
   std::uint32_t threads = 0;  // of a block; a power of two of warps
   std::uint32_t blocks = 0;   // that are resident at once: all of them meet at barriers
@@ -24,12 +24,19 @@ struct LaunchShape {
 core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
 
 // One whole frame is this one launch, whatever its counts: every stage reads them on the device. Asynchronous.
-core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, cudaStream_t stream);
+core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream);
 
-// The broad phase alone, over view.boxes; the same rules. Only the boxes, the grid, the pairs and the counters are
-// used.
+// The broad phase alone; the same rules.
+struct PairsView {
+  std::uint32_t box_count = 0;
+  const PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
+  BroadView broad;
+  AppendView<core::Pair> pairs;
+  Counters* counters = nullptr;
+  Outcome* outcome = nullptr;
+};
 core::Result<LaunchShape> pairs_launch_shape();
-core::Status launch_pairs(const FrameView& view, const LaunchShape& shape, cudaStream_t stream);
+core::Status launch_pairs(const PairsView& view, const LaunchShape& shape, StreamHandle stream);
 
 // The digest's sum over everything that the last frame left. `confirmed` and `touching` are counts. Asynchronous.
 struct DigestView {
@@ -44,6 +51,6 @@ struct DigestView {
   std::uint64_t face_contact_count = 0;
   unsigned long long* sum = nullptr;
 };
-core::Status launch_digest(const DigestView& view, cudaStream_t stream);
+core::Status launch_digest(const DigestView& view, StreamHandle stream);
 
 }  // namespace broadside::gpu

@@ -1,29 +1,11 @@
 // What the host owns of a running GPU engine: its stream, and the words that the device writes into the host's memory.
 #pragma once
 
-#include <cuda_runtime_api.h>
-
-#include <algorithm>
-#include <cstdint>
-
 #include "core/result.hpp"
-#include "gpu/cuda_check.hpp"
+#include "gpu/device_runtime.hpp"
 #include "gpu/frame_view.hpp"
 
 namespace broadside::gpu {
-
-// Below this many bodies the tree start tests all pairs of body boxes: 2,080 tiles of 32 x 32 are one tile a warp on a
-// large GPU, and take less than the grid's three passes.
-constexpr std::uint32_t kLeastBodiesForGrid = 2048;
-
-// The size of the grid's largest cells: a box may grow by a few units in the last place when it is placed, and a cell
-// must be many such units of the coordinates, whatever it holds (see grid_level).
-inline float grid_cell_m(float largest_side_m, float coordinate_range_m) {
-  constexpr float kSlack = 1.0F + 0x1p-10F;
-  constexpr float kLeastShare = 0x1p-17F;
-  constexpr float kLeast = 0x1p-100F;  // halved twenty times, it is still a normal number, and so is its inverse
-  return std::max({largest_side_m * kSlack, coordinate_range_m * kLeastShare, kLeast});
-}
 
 // Memory of the host that the device writes, with an owner.
 class OutcomeMemory {
@@ -32,26 +14,22 @@ class OutcomeMemory {
   OutcomeMemory(const OutcomeMemory&) = delete;
   OutcomeMemory& operator=(const OutcomeMemory&) = delete;
   ~OutcomeMemory() {
-    if (host_ != nullptr) cudaFreeHost(host_);
+    if (memory_.host != nullptr) release_mapped_bytes(memory_);
   }
   core::Status allocate() {
-    if (host_ == nullptr) {
-      void* memory = nullptr;
-      BROADSIDE_CUDA_TRY(cudaHostAlloc(&memory, sizeof(Outcome), cudaHostAllocMapped));
-      host_ = static_cast<Outcome*>(memory);
+    if (memory_.host == nullptr) {
+      auto memory = allocate_mapped_bytes(sizeof(Outcome));
+      if (!memory.ok()) return memory.error();
+      memory_ = memory.value();
     }
-    *host_ = Outcome{};
-    void* device = nullptr;
-    BROADSIDE_CUDA_TRY(cudaHostGetDevicePointer(&device, host_, 0));
-    device_ = static_cast<Outcome*>(device);
+    *static_cast<Outcome*>(memory_.host) = Outcome{};
     return core::Done{};
   }
-  [[nodiscard]] Outcome* device() const { return device_; }
-  [[nodiscard]] const Outcome& operator*() const { return *host_; }
+  [[nodiscard]] Outcome* device() const { return static_cast<Outcome*>(memory_.device); }
+  [[nodiscard]] const Outcome& operator*() const { return *static_cast<const Outcome*>(memory_.host); }
 
  private:
-  Outcome* host_ = nullptr;
-  Outcome* device_ = nullptr;
+  MappedMemory memory_;
 };
 
 class Stream {
@@ -60,16 +38,22 @@ class Stream {
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
   ~Stream() {
-    if (stream_ != nullptr) cudaStreamDestroy(stream_);
+    if (is_created_) release_stream(stream_);
   }
   core::Status create() {
-    if (stream_ == nullptr) BROADSIDE_CUDA_TRY(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+    if (is_created_) return core::Done{};
+    auto stream = create_stream();
+    if (!stream.ok()) return stream.error();
+    stream_ = stream.value();
+    is_created_ = true;
     return core::Done{};
   }
-  [[nodiscard]] cudaStream_t get() const { return stream_; }
+  core::Status wait(const char* what) const { return wait_for_stream(stream_, what); }
+  [[nodiscard]] StreamHandle get() const { return stream_; }
 
  private:
-  cudaStream_t stream_ = nullptr;
+  StreamHandle stream_ = nullptr;
+  bool is_created_ = false;
 };
 
 }  // namespace broadside::gpu

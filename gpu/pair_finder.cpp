@@ -1,9 +1,7 @@
 #include "gpu/pair_finder.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,92 +20,94 @@ constexpr std::uint64_t kPairsPerBox = 8;
 }  // namespace
 
 struct PairFinder::Impl {
-  bool has_tree = true;
+  PairFinderOptions options;
   Stream stream;
+  StreamTimer timer;
   OutcomeMemory outcome;
   LaunchShape launch;
-  FrameView view;
+  PairsView view;
+  BoxFacts facts;
   std::vector<std::uint8_t> is_static;
   std::vector<PackedBox> packed;
   Counters counts;
   DeviceBuffer<PackedBox> boxes;
-  DeviceBuffer<std::uint32_t> bucket_count;
-  DeviceBuffer<std::uint32_t> bucket_begin;
-  DeviceBuffer<std::uint32_t> rank;
-  DeviceBuffer<PackedBox> entries;
-  DeviceBuffer<std::uint32_t> levels;
+  BroadBuffers broad;
   DeviceBuffer<core::Pair> pairs;
   DeviceBuffer<Counters> counters;
 
-  core::Status reserve(std::size_t count);
+  [[nodiscard]] Start start() const;
+  core::Status reserve();
   core::Status pack_boxes(std::span<const Box> given);
 };
 
-PairFinder::PairFinder(bool has_tree) : impl_(std::make_unique<Impl>()) {
-  impl_->has_tree = has_tree;
+PairFinder::PairFinder(const PairFinderOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
 }
 PairFinder::~PairFinder() = default;
 
-core::Status PairFinder::Impl::reserve(std::size_t count) {
+core::BroadPhaseTraits PairFinder::traits() const {
+  core::BroadPhaseTraits traits;
+  traits.exact = impl_->options.variant != core::Variant::kE2;
+  return traits;
+}
+
+Start PairFinder::Impl::start() const {
+  if (options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7) return Start::kOctree;
+  if (options.broad == Broad::kOctree) return Start::kOctree;
+  if (options.broad == Broad::kHash) return Start::kHash;
+  return options.broad == Broad::kTree && is_static.size() >= options.least_for_grid ? Start::kGrid : Start::kTiles;
+}
+
+core::Status PairFinder::Impl::reserve() {
+  const std::size_t count = is_static.size();
   BROADSIDE_TRY(stream.create());
   BROADSIDE_TRY(outcome.allocate());
   BROADSIDE_TRY(boxes.reserve(count, "boxes"));
   BROADSIDE_TRY(counters.reserve(1, "counters"));
   BROADSIDE_TRY(pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBox * count), "pairs"));
-  view = {};
-  view.start = has_tree && count >= kLeastBodiesForGrid ? Start::kGrid : Start::kTiles;
-  if (view.start == Start::kGrid) {
-    const std::uint64_t buckets = std::bit_ceil(2 * std::uint64_t{count});
-    BROADSIDE_TRY(bucket_count.reserve(buckets, "grid"));
-    BROADSIDE_TRY(bucket_begin.reserve(buckets, "grid"));
-    BROADSIDE_TRY(rank.reserve(count, "grid"));
-    BROADSIDE_TRY(entries.reserve(count, "grid"));
-    BROADSIDE_TRY(levels.reserve(1, "grid"));
-    BROADSIDE_TRY(bucket_count.fill_bytes(0));
-    BROADSIDE_TRY(levels.fill_bytes(0));
-  }
+  BROADSIDE_TRY(broad.load(start(), facts, options.hash_cell_m, options.variant));
   auto shape = pairs_launch_shape();
   if (!shape.ok()) return shape.error();
   launch = shape.value();
-  view.body_count = static_cast<std::uint32_t>(count);
+  view.box_count = static_cast<std::uint32_t>(count);
   view.boxes = boxes.data();
-  view.grid = {static_cast<std::uint32_t>(bucket_count.capacity()) - 1,
-               bucket_count.data(),
-               bucket_begin.data(),
-               rank.data(),
-               entries.data(),
-               levels.data(),
-               1.0F};
   view.counters = counters.data();
   view.outcome = outcome.device();
-  return cuda_status(cudaDeviceSynchronize(), "clearing the grid");
+  return wait_for_device("clearing the broad phase");
 }
 
-// Checks and packs, and sizes the cells of the coarsest level: as large as the largest box, and so large that they are
-// many units in the last place of the coordinates.
+// Checks and packs, and learns what the cells' sizes depend on.
 core::Status PairFinder::Impl::pack_boxes(std::span<const Box> given) {
   packed.resize(given.size());
-  float side = 0.0F;
-  float range = 0.0F;
+  facts = {};
+  facts.count = static_cast<std::uint32_t>(given.size());
+  Box bounds = core::empty_box();
   for (std::size_t i = 0; i < given.size(); ++i) {
     const Box& box = given[i];
     for (int k = 0; k < 3; ++k) {
       if (!(std::isfinite(box.min[k]) && std::isfinite(box.max[k]) && box.min[k] <= box.max[k]))
-        return core::Error{"a box has min > max, or is NaN or infinite", "octree-gpu: box " + std::to_string(i),
+        return core::Error{"a box has min > max, or is NaN or infinite", "box " + std::to_string(i),
                            "give finite boxes with min <= max"};
-      side = std::max(side, box.max[k] - box.min[k]);
-      range = std::max({range, std::abs(box.min[k]), std::abs(box.max[k])});
+      facts.largest_side_m = std::max(facts.largest_side_m, box.max[k] - box.min[k]);
+      facts.coordinate_range_m = std::max({facts.coordinate_range_m, std::abs(box.min[k]), std::abs(box.max[k])});
     }
+    bounds = core::grown(core::grown(bounds, box.min), box.max);
+    if (options.broad == Broad::kHash) facts.hash_entries += hash_cells_of(box.max - box.min, options.hash_cell_m);
     packed[i] = pack(box, static_cast<std::uint32_t>(i), is_static[i] != 0 ? 1U : 0U);
   }
-  view.grid.cell_m = grid_cell_m(side, range);
+  if (!given.empty()) {
+    facts.low_corner = bounds.min;
+    facts.domain = bounds;
+  }
   return core::Done{};
 }
 
 core::Status PairFinder::load(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
-  impl_->is_static.assign(is_static.begin(), is_static.end());
-  BROADSIDE_TRY(impl_->reserve(boxes.size()));
-  return update(boxes);
+  Impl& d = *impl_;
+  d.is_static.assign(is_static.begin(), is_static.end());
+  BROADSIDE_TRY(d.pack_boxes(boxes));
+  BROADSIDE_TRY(d.reserve());
+  return d.boxes.upload(d.packed, "boxes");
 }
 
 core::Status PairFinder::update(std::span<const Box> boxes) {
@@ -115,19 +115,24 @@ core::Status PairFinder::update(std::span<const Box> boxes) {
   if (boxes.size() != d.is_static.size())
     return core::Error{"update was given " + std::to_string(boxes.size()) + " boxes after a load of " +
                            std::to_string(d.is_static.size()),
-                       "octree-gpu", "load again when the number of boxes changes"};
+                       "broad phase on the GPU", "load again when the number of boxes changes"};
   BROADSIDE_TRY(d.pack_boxes(boxes));
+  d.broad.refit(d.facts);
   return d.boxes.upload(d.packed, "boxes");
 }
 
 core::Status PairFinder::find() {
   Impl& d = *impl_;
   for (;;) {
+    d.broad.fill(d.view.broad);
     d.view.pairs = {d.pairs.data(), d.pairs.capacity()};
+    BROADSIDE_TRY(d.timer.start(d.stream.get()));
     BROADSIDE_TRY(launch_pairs(d.view, d.launch, d.stream.get()));
-    BROADSIDE_TRY(cuda_status(cudaStreamSynchronize(d.stream.get()), "finding pairs"));
+    BROADSIDE_TRY(d.timer.stop(d.stream.get()));
+    BROADSIDE_TRY(d.stream.wait("finding pairs"));
     d.counts = (*d.outcome).counters;
     if (d.counts.is_aborted == 0) return core::Done{};
+    BROADSIDE_TRY(d.broad.grow(d.counts));
     BROADSIDE_TRY(d.pairs.reserve(d.counts.pairs, "pairs"));
   }
 }
@@ -138,6 +143,12 @@ core::Result<core::PairSet> PairFinder::read_back() {
   std::sort(set.pairs.begin(), set.pairs.end());
   set.demanded = set.raw = set.pairs.size();
   return set;
+}
+
+FindTime PairFinder::find_time() const {
+  const auto& end = (*impl_->outcome).stage_end_ns;
+  const auto seconds = [&end](int stage) { return static_cast<double>(end[stage] - end[stage - 1]) * 1e-9; };
+  return {impl_->timer.elapsed_s(), seconds(1), seconds(2), seconds(3), seconds(4)};
 }
 
 }  // namespace broadside::gpu

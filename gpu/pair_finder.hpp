@@ -1,25 +1,45 @@
-// The broad phase of octree-gpu on its own: boxes in, the exact set of overlapping pairs out.
+// The broad phases of the GPU engines on their own: boxes in, the exact set of overlapping pairs out.
 #pragma once
 
 #include <memory>
 
 #include "core/engine/broad_phase.hpp"
+#include "core/variant.hpp"
+#include "gpu/broad_buffers.hpp"
 
 namespace broadside::gpu {
+
+struct PairFinderOptions {
+  Broad broad = Broad::kTree;  // the hashed octree; for few boxes, and with kBrute, all pairs in tiles
+  core::Variant variant = core::Variant::kSound;
+  float hash_cell_m = 0.25F;
+  std::uint32_t least_for_grid = kLeastBodiesForGrid;
+};
+
+// Where the time of the last find() went. `whole_s` is the time between two events around the launch; the stages are
+// read off the GPU's clock within it.
+struct FindTime {
+  double whole_s = 0.0;
+  double count_s = 0.0;    // boxes into cells
+  double place_s = 0.0;    // cells into memory
+  double scatter_s = 0.0;  // boxes by cell
+  double find_s = 0.0;
+};
 
 // update() copies the boxes to the device and is charged for it; find() leaves the pairs on the device, in no order;
 // read_back() copies and sorts them. Boxes that are not finite, or have min > max, are refused.
 class PairFinder final : public core::BroadPhase {
  public:
-  // has_tree: from 2048 boxes on, the hashed octree; otherwise all pairs in 32 x 32 tiles.
-  explicit PairFinder(bool has_tree);
+  explicit PairFinder(const PairFinderOptions& options);
   ~PairFinder() override;
 
-  [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
+  [[nodiscard]] core::BroadPhaseTraits traits() const override;
   core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override;
   core::Status update(std::span<const core::Box> boxes) override;
   core::Status find() override;
   core::Result<core::PairSet> read_back() override;
+
+  [[nodiscard]] FindTime find_time() const;
 
  private:
   struct Impl;

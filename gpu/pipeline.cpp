@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 
-#include "gpu/cuda_check.hpp"
+#include "gpu/broad_buffers.hpp"
 #include "gpu/device_scene.hpp"
 #include "gpu/frame_buffers.hpp"
 #include "gpu/frame_kernel.hpp"
@@ -18,14 +17,6 @@ namespace {
 constexpr std::array<std::string_view, kStageCount> kStageNames{"integrate", "broad",    "levels",
                                                                 "vertices",  "response", "faces"};
 
-float coordinate_range_m(const core::Scene& scene) {
-  float range = 0.0F;
-  const auto widen = [&range](core::Vec3 v) { range = std::max({range, std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
-  widen(scene.domain.min), widen(scene.domain.max);
-  for (const core::Body& body : scene.bodies) widen(body.position);
-  return range;
-}
-
 }  // namespace
 
 struct Pipeline::Impl {
@@ -35,6 +26,7 @@ struct Pipeline::Impl {
   OutcomeMemory outcome;
   DeviceScene device_scene;
   FrameBuffers buffers;
+  BroadBuffers broad;
   DeviceBuffer<unsigned long long> digest_sum;
   LaunchShape launch;
   FrameView view;
@@ -45,10 +37,11 @@ struct Pipeline::Impl {
   double dt_s = 0.0;
 
   [[nodiscard]] bool is_confirmed_by_level0() const {
-    return view.start != Start::kNone && view.levels == core::Levels::kFlat;
+    return view.broad.start != Start::kNone && view.levels == core::Levels::kFlat;
   }
   [[nodiscard]] std::uint64_t confirmed_count() const { return is_confirmed_by_level0() ? last.pairs : last.confirmed; }
-  void choose_start();
+  [[nodiscard]] Start chosen_start() const;
+  [[nodiscard]] bool starts_at_level0() const { return chosen_start() != Start::kNone; }
   core::Status run_frame();
   core::Result<std::uint64_t> digest();
 };
@@ -58,14 +51,21 @@ Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl
 }
 Pipeline::~Pipeline() = default;
 
-void Pipeline::Impl::choose_start() {
+Start Pipeline::Impl::chosen_start() const {
+  // E2 and E7 are faults of the published scene octree: without it there would be nothing to see.
+  if (options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7) return Start::kOctree;
+  switch (options.broad) {
+    case Broad::kTree:
+      return scene != nullptr && scene->body_count() < options.least_for_grid ? Start::kTiles : Start::kGrid;
+    case Broad::kOctree:
+      return Start::kOctree;
+    case Broad::kHash:
+      return Start::kHash;
+    case Broad::kBrute:
+      break;
+  }
   const bool has_level0 = options.levels == core::Levels::kFlat || options.levels == core::Levels::kC;
-  if (options.variant == core::Variant::kE2)
-    view.start = Start::kSameNode;
-  else if (options.has_broad_phase)
-    view.start = scene->body_count() < kLeastBodiesForGrid ? Start::kTiles : Start::kGrid;
-  else
-    view.start = has_level0 ? Start::kTiles : Start::kNone;
+  return has_level0 ? Start::kTiles : Start::kNone;
 }
 
 core::Status Pipeline::load(const core::Scene& scene) {
@@ -82,11 +82,12 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.last = {};
   d.times = {};
   d.view = {};
-  d.choose_start();
+  const float hash_cell_m = d.options.hash_cell_m > 0.0F ? d.options.hash_cell_m : scene.parameters.hash_cell_m;
   BROADSIDE_TRY(d.stream.create());
   BROADSIDE_TRY(d.outcome.allocate());
-  BROADSIDE_TRY(d.device_scene.load(scene));
-  BROADSIDE_TRY(d.buffers.load(scene, d.view.start == Start::kGrid, d.options.solver == Solver::kJacobi));
+  BROADSIDE_TRY(d.device_scene.load(scene, hash_cell_m));
+  BROADSIDE_TRY(d.broad.load(d.chosen_start(), d.device_scene.box_facts(), hash_cell_m, d.options.variant));
+  BROADSIDE_TRY(d.buffers.load(scene));
   BROADSIDE_TRY(d.digest_sum.reserve(1, "digest"));
   auto launch = frame_launch_shape(d.device_scene.tree_levels());
   if (!launch.ok()) return launch.error();
@@ -101,21 +102,23 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;
   d.view.stack_entries = stack_entries_of(d.device_scene.tree_levels());
-  d.view.grid.cell_m = grid_cell_m(d.device_scene.largest_side_m(), coordinate_range_m(scene));
+  d.view.block_bodies = static_cast<std::uint32_t>(d.launch.shared_bytes / sizeof(LiveBody));
   d.view.outcome = d.outcome.device();
   d.device_scene.fill(d.view);
   // Uploads ran on the default stream, which this one does not wait for.
-  return cuda_status(cudaDeviceSynchronize(), "loading the scene");
+  d.broad.fill(d.view.broad);
+  return wait_for_device("loading the scene");
 }
 
 core::Status Pipeline::Impl::run_frame() {
   buffers.fill(view);
+  broad.fill(view.broad);
   if (is_confirmed_by_level0()) view.confirmed.items = view.pairs.items;
   // Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them.
   LaunchShape shape = launch;
   if (view.body_count < kLeastBodiesForGrid) shape.blocks = std::min(shape.blocks, shape.multiprocessors);
   BROADSIDE_TRY(launch_frame(view, shape, stream.get()));
-  return cuda_status(cudaStreamSynchronize(stream.get()), "a frame");
+  return stream.wait("a frame");
 }
 
 core::Status Pipeline::step(float dt_s) {
@@ -125,6 +128,7 @@ core::Status Pipeline::step(float dt_s) {
     BROADSIDE_TRY(d.run_frame());
     d.last = (*d.outcome).counters;
     if (d.last.is_aborted == 0) break;
+    BROADSIDE_TRY(d.broad.grow(d.last));
     BROADSIDE_TRY(d.buffers.grow(d.last, d.is_confirmed_by_level0()));
     ++d.repeats;
   }
@@ -149,7 +153,7 @@ core::Result<std::uint64_t> Pipeline::Impl::digest() {
   digest.face_contact_count = last.faces;
   digest.sum = digest_sum.data();
   BROADSIDE_TRY(launch_digest(digest, stream.get()));
-  BROADSIDE_CUDA_TRY(cudaStreamSynchronize(stream.get()));
+  BROADSIDE_TRY(stream.wait("the digest"));
   std::vector<unsigned long long> sum;
   BROADSIDE_TRY(digest_sum.download(sum, 1));
   return std::uint64_t{sum[0]};
@@ -159,10 +163,7 @@ std::uint32_t Pipeline::groups() const {
   using core::Group;
   std::uint32_t groups = core::bit(Group::kBodies) | core::bit(Group::kDetection) | core::bit(Group::kConfirmed) |
                          core::bit(Group::kContacts);
-  const bool starts_at_level0 = impl_->options.has_broad_phase || impl_->options.variant == core::Variant::kE2 ||
-                                impl_->options.levels == core::Levels::kFlat ||
-                                impl_->options.levels == core::Levels::kC;
-  if (starts_at_level0) groups |= core::bit(Group::kPairs);
+  if (impl_->starts_at_level0()) groups |= core::bit(Group::kPairs);
   return groups;
 }
 
@@ -203,7 +204,7 @@ const Counters& Pipeline::counters() const {
 
 MemoryUse Pipeline::memory_use() const {
   const Impl& d = *impl_;
-  return {d.device_scene.shape_bytes(), d.device_scene.body_bytes() + d.buffers.body_bytes(),
+  return {d.device_scene.shape_bytes(), d.device_scene.body_bytes() + d.buffers.body_bytes() + d.broad.bytes(),
           d.buffers.appended_bytes()};
 }
 

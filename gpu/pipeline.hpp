@@ -8,13 +8,16 @@
 #include "core/engine/dynamics.hpp"
 #include "core/method/levels.hpp"
 #include "core/variant.hpp"
+#include "gpu/broad_buffers.hpp"
 #include "gpu/frame_view.hpp"
 
 namespace broadside::gpu {
 
 struct PipelineOptions {
-  // From the scene octree; false = the published start, the first of the levels by brute force.
-  bool has_broad_phase = true;
+  // kBrute = the published start, the first of the levels by brute force.
+  Broad broad = Broad::kTree;
+  float hash_cell_m = 0.0F;                            // of kHash; 0 = the scene's
+  std::uint32_t least_for_grid = kLeastBodiesForGrid;  // kTree tests all pairs of fewer bodies
   core::Levels levels = core::Levels::kC;
   Solver solver = Solver::kColored;
   core::Variant variant = core::Variant::kSound;

@@ -19,6 +19,11 @@ inline constexpr int kMaxSceneOctreeDepth = 9;
 // P-Alg 1's MAX_LEVEL: 1 + 8 + 64 = 73 nodes.
 inline constexpr int kSceneOctreeDepth = 2;
 
+// Nodes of a complete octree of this depth: 1, 9, 73 ...
+BROADSIDE_HD constexpr std::uint32_t complete_octree_nodes(int depth) {
+  return ((1U << (3U * (static_cast<std::uint32_t>(depth) + 1U))) - 1U) / 7U;
+}
+
 // Node of the octree: its preorder key, and one past the largest key in its subtree.
 struct SceneNode {
   std::uint32_t key = 0;

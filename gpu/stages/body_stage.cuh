@@ -6,6 +6,7 @@
 #include "core/method/response.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/grid_stage.cuh"
+#include "gpu/stages/octree_stage.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
@@ -32,14 +33,10 @@ __device__ void integrate(const Team& team, const FrameView& f) {
     f.detected.velocity[i] = f.next.velocity[i] = new_v;
     const core::Box box = core::translated(local_box(f, static_cast<std::uint32_t>(i)), s.x);
     f.boxes[i] = pack(box, static_cast<std::uint32_t>(i), x.w > 0.0F ? 0U : 1U);
-    if (f.start == Start::kGrid) grid_count(f.grid, i, box);
-    if (f.solver == Solver::kJacobi) f.least_key[i] = ~0ULL;
+    if (f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, box);
+    if (f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, box);
     f.degree[i] = 0;
-    for (std::uint32_t copy = 0; copy < 2; ++copy)
-      for (std::uint32_t word = 0; word < f.color_words; ++word)
-        f.taken[(std::uint64_t{f.body_count} * copy + i) * f.color_words + word] = 0;
   }
-  for (std::uint64_t c = team.rank(); c < 64ULL * f.color_words; c += team.size()) f.color_count[c] = 0;
   if (team.rank() == 0) *f.counters = Counters{};
 }
 

@@ -29,15 +29,6 @@ __device__ inline float squared_gap(const core::Box& a, const core::Box& b) {
   return core::dot(g, g);
 }
 
-__device__ inline std::uint32_t warp_min(std::uint32_t value) {
-#if __CUDA_ARCH__ >= 800
-  return __reduce_min_sync(kFullWarp, value);
-#else
-  for (unsigned step = 16; step > 0; step /= 2) value = min(value, __shfl_xor_sync(kFullWarp, value, step));
-  return value;
-#endif
-}
-
 __device__ inline core::Proximity warp_nearest(core::Proximity mine) {
   for (unsigned step = 16; step > 0; step /= 2) {
     core::Proximity other;

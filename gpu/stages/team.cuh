@@ -1,9 +1,9 @@
 // Who works on a stage together: the whole grid, or one block where the work is too small to share.
 #pragma once
 
-#include <cooperative_groups.h>
-
 #include <cstdint>
+
+#include "gpu/stages/device.cuh"
 
 namespace broadside::gpu {
 
@@ -13,7 +13,7 @@ constexpr unsigned kFullWarp = 0xFFFFFFFFU;
 struct GridTeam {
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
   __device__ std::uint64_t size() const { return std::uint64_t{gridDim.x} * blockDim.x; }
-  __device__ void sync() const { cooperative_groups::this_grid().sync(); }
+  __device__ void sync() const { sync_grid(); }
 };
 
 struct BlockTeam {
@@ -39,13 +39,7 @@ struct PartialGridTeam {
   __device__ void sync() const {
     ++meetings;
     __syncthreads();
-    if (threadIdx.x == 0) {
-      asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived) : "memory");
-      std::uint32_t seen = 0;
-      do {
-        asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(seen) : "l"(arrived) : "memory");
-      } while (seen < meetings * blocks);
-    }
+    if (threadIdx.x == 0) arrive_and_wait(arrived, meetings * blocks);
     __syncthreads();
   }
 };

@@ -1,8 +1,8 @@
-// The published start: the first level by brute force, over tiles of bodies. METHOD section 2.
+// Tests of all pairs over tiles of bodies: the published start, and the pairs of the published octree. METHOD
+// section 2.
 #pragma once
 
 #include "core/method/levels.hpp"
-#include "core/method/scene_octree.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/confirm_stage.cuh"
 #include "gpu/stages/team.cuh"
@@ -25,35 +25,38 @@ __device__ inline Tile tile_at(std::uint64_t t, std::uint32_t side) {
   return {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row + (t - before(row)))};
 }
 
-// P-Alg 2 as printed (E2).
-__device__ inline bool are_in_same_node(const FrameView& f, const PackedBox& a, const PackedBox& b) {
-  const core::SceneGrid grid = core::make_scene_grid(f.domain, core::kSceneOctreeDepth);
-  return core::scene_node(grid, unpack(a)) == core::scene_node(grid, unpack(b));
-}
-
-// Level 0: a warp per tile of 32 x 32 bodies. Each lane holds one column's box and meets the 32 rows.
+// A warp per tile of 32 x 32 bodies of `boxes`, whose low tags name them: each lane holds one column's box and meets
+// the 32 rows. `range_end`: a row meets the columns before its own end only; null: all.
 template <typename Team>
-__device__ void find_pairs_by_tiles(const Team& team, const FrameView& f) {
-  const std::uint32_t side = (f.body_count + 31) / 32;
+__device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, std::uint32_t count,
+                                    const std::uint32_t* range_end, AppendView<core::Pair> out,
+                                    unsigned long long* demanded) {
+  const std::uint32_t side = (count + 31) / 32;
   const std::uint64_t tiles = std::uint64_t{side} * (side + 1) / 2;
   for (std::uint64_t t = warp_rank(team); t < tiles; t += warp_count(team)) {
     const Tile tile = tile_at(t, side);
     const std::uint32_t j = tile.column * 32 + lane();
     const std::uint32_t first = tile.row * 32;
-    const std::uint32_t last = min(first + 32, f.body_count);
+    const std::uint32_t last = min(first + 32, count);
+    if (range_end != nullptr) {
+      const std::uint32_t end = first + lane() < last ? range_end[first + lane()] : 0U;
+      if (!__any_sync(kFullWarp, end > tile.column * 32)) continue;
+    }
     PackedBox mine = pack(core::empty_box());
-    if (j < f.body_count) mine = f.boxes[j];
+    if (j < count) mine = boxes[j];
     unsigned hits = 0;
 #pragma unroll 4
     for (std::uint32_t i = first; i < last; ++i) {
-      const PackedBox other = f.boxes[i];
+      const PackedBox other = boxes[i];
       const bool hit = i < j && core::overlaps(unpack(other), unpack(mine)) && (other.high_tag & mine.high_tag) == 0 &&
-                       (f.start != Start::kSameNode || are_in_same_node(f, other, mine));
+                       (range_end == nullptr || j < range_end[i]);
       hits |= (hit ? 1U : 0U) << (i - first);
     }
-    unsigned long long place = warp_append(__popc(hits), &f.counters->pairs);
-    for (; hits != 0; hits &= hits - 1, ++place)
-      if (place < f.pairs.capacity) f.pairs.items[place] = {first + static_cast<std::uint32_t>(__ffs(hits)) - 1, j};
+    unsigned long long place = warp_append(__popc(hits), demanded);
+    for (; hits != 0; hits &= hits - 1, ++place) {
+      const std::uint32_t row = first + static_cast<std::uint32_t>(__ffs(hits)) - 1;
+      if (place < out.capacity) out.items[place] = core::make_pair_of(boxes[row].low_tag, mine.low_tag);
+    }
   }
 }
 

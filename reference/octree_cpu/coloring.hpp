@@ -1,4 +1,4 @@
-// Colors contacts so that contacts of one color share no dynamic body.
+// Colors contacts so that contacts of one color share no written body.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace broadside::reference {
 
-// The greedy coloring in the order of core::color_priority: one fixed function of the set of pairs.
+// Color by color is the order of core::color_priority: a contact's color is one more than the largest of the earlier
+// contacts that share a written body with it. One fixed function of the set of pairs.
 class Coloring {
  public:
   // pairs: sorted. Bodies with never_written != 0 conflict with nothing. Afterwards order() lists their indices by
@@ -22,16 +23,11 @@ class Coloring {
   [[nodiscard]] std::uint32_t color_count() const { return static_cast<std::uint32_t>(begin_.size()) - 1; }
 
  private:
-  std::uint32_t smallest_free(core::Pair p, std::span<const std::uint8_t> never_written);
-  void widen(std::size_t bodies);
-
   std::vector<std::uint32_t> by_priority_;
   std::vector<std::uint32_t> color_;
   std::vector<std::uint32_t> begin_{0};
   std::vector<std::uint32_t> order_;
-  // Colors taken at each body, words_ words of 64 colors a body.
-  std::vector<std::uint64_t> taken_;
-  std::size_t words_ = 1;
+  std::vector<std::uint32_t> next_;  // per body: the least color of its next contact
 };
 
 }  // namespace broadside::reference

@@ -8,7 +8,7 @@
 
 #include "core/engine/engine.hpp"
 #include "gpu/engines.hpp"
-#include "gpu/octree_gpu.hpp"
+#include "gpu/engines_on_cuda.hpp"
 #include "tests/gpu/small_scenes.hpp"
 
 namespace broadside::gpu {
@@ -29,12 +29,13 @@ std::vector<Pair> all_pairs(const std::vector<Box>& boxes, const std::vector<std
 class PairFinderTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (const std::string why = octree_gpu_absent(); !why.empty()) GTEST_SKIP() << "not run: " << why;
+    if (const std::string why = gpu_absent(); !why.empty()) GTEST_SKIP() << "not run: " << why;
   }
 
   static core::Engine engine(const std::string& broad) {
-    const core::EngineRow row = octree_gpu_row();
-    auto settings = core::Settings::parse(row.id, row.settings, {{"broad", broad}});
+    const core::EngineRow row = broad == "hash" ? hash_gpu_row() : octree_gpu_row();
+    auto settings = broad == "hash" ? core::Settings::parse(row.id, row.settings, {})
+                                    : core::Settings::parse(row.id, row.settings, {{"broad", broad}});
     auto made = row.create(settings.value());
     EXPECT_TRUE(made.ok());
     return std::move(made).value();
@@ -44,7 +45,7 @@ class PairFinderTest : public testing::Test {
     std::vector<std::uint8_t> is_static(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) is_static[i] = i % 7 == 0 ? 1 : 0;
     const std::vector<Pair> expected = all_pairs(boxes, is_static);
-    for (const std::string broad : {"tree", "brute"}) {
+    for (const std::string broad : {"tree", "octree", "brute", "hash"}) {
       core::Engine subject = engine(broad);
       ASSERT_TRUE(subject.broad_phase->load(boxes, is_static).ok());
       ASSERT_TRUE(subject.broad_phase->find().ok());

@@ -3,13 +3,15 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "core/engine/engine.hpp"
-#include "core/method/frame_digest.hpp"
 #include "gpu/engines.hpp"
-#include "gpu/octree_gpu.hpp"
+#include "gpu/engines_on_cuda.hpp"
+#include "reference/engines.hpp"
 #include "reference/octree_cpu/engine.hpp"
 #include "tests/gpu/small_scenes.hpp"
+#include "tests/gpu/twin_comparison.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -24,68 +26,16 @@ core::Engine make(const core::EngineRow& row, const Given& given) {
   return std::move(engine).value();
 }
 
-// Names what differs first, in the order in which the pipeline makes it.
-std::string first_difference(const core::FrameRecord& p, const core::FrameRecord& q) {
-  if (p.detected_position != q.detected_position) return "positions at detection";
-  if (p.boxes != q.boxes) return "boxes";
-  if (p.confirmed != q.confirmed)
-    return "confirmed pairs: " + std::to_string(p.confirmed.size()) + " against " + std::to_string(q.confirmed.size());
-  if (p.proximity != q.proximity) return "nearest vertices";
-  if (p.contacts.size() != q.contacts.size())
-    return "contacts: " + std::to_string(p.contacts.size()) + " against " + std::to_string(q.contacts.size());
-  for (std::size_t k = 0; k < p.contacts.size(); ++k) {
-    const core::Contact& c = p.contacts[k];
-    const core::Contact& d = q.contacts[k];
-    const std::string name =
-        "contact " + std::to_string(k) + " (" + std::to_string(c.a) + ", " + std::to_string(c.b) + ")";
-    if (c.a != d.a || c.b != d.b || c.color != d.color) return name + ": bodies or color";
-    if (core::contact_digest(c) == core::contact_digest(d)) continue;
-    if (c.depth_m != d.depth_m || c.normal != d.normal) return name + ": depth or normal";
-    if (c.pre_a != d.pre_a || c.pre_b != d.pre_b) return name + ": state before";
-    if (c.tangent != d.tangent) return name + ": tangent";
-    if (c.normal_impulse_n_s != d.normal_impulse_n_s || c.tangent_impulse_n_s != d.tangent_impulse_n_s)
-      return name + ": impulses";
-    if (c.post_a.x != d.post_a.x || c.post_b.x != d.post_b.x) return name + ": positions after";
-    if (c.post_a.v != d.post_a.v || c.post_b.v != d.post_b.v) return name + ": velocities after";
-    return name + ": the sign of a zero";
-  }
-  if (p.position != q.position) return "positions";
-  if (p.velocity != q.velocity) return "velocities";
-  return "nothing that is recorded";
-}
-
 class Twin : public testing::Test {
  protected:
   void SetUp() override {
-    if (const std::string why = octree_gpu_absent(); !why.empty()) GTEST_SKIP() << "not run: " << why;
+    if (const std::string why = gpu_absent(); !why.empty()) GTEST_SKIP() << "not run: " << why;
   }
 
-  // Steps both for so many frames; ends at the first frame that differs. Returns all contacts seen, so that a test can
-  // tell that something happened.
   static std::uint64_t compare(const core::Scene& scene, const Given& gpu, const Given& cpu, int frames) {
-    EXPECT_TRUE(core::check_scene(scene).ok()) << core::check_scene(scene).error().line();
     core::Engine subject = make(octree_gpu_row(), gpu);
     core::Engine twin = make(reference::octree_cpu_row(), cpu);
-    const auto good = [](const core::Status& s) {
-      EXPECT_TRUE(s.ok()) << s.error().line();
-      return s.ok();
-    };
-    if (!good(subject.dynamics->load(scene)) || !good(twin.dynamics->load(scene))) return 0;
-    std::uint64_t contacts = 0;
-    for (int k = 0; k < frames; ++k) {
-      core::FrameRecord p;
-      core::FrameRecord q;
-      if (!good(subject.dynamics->step(scene.dt_s)) || !good(twin.dynamics->step(scene.dt_s))) return contacts;
-      const auto level = k % 10 == 0 ? core::RecordLevel::kFull : core::RecordLevel::kDigest;
-      if (!good(subject.dynamics->read_back(p, level)) || !good(twin.dynamics->read_back(q, level))) return contacts;
-      contacts += p.contacts.size();
-      if (p.digest == q.digest) continue;
-      EXPECT_TRUE(subject.dynamics->read_back(p, core::RecordLevel::kFull).ok());
-      EXPECT_TRUE(twin.dynamics->read_back(q, core::RecordLevel::kFull).ok());
-      ADD_FAILURE() << "frame " << k + 1 << " differs in " << first_difference(p, q);
-      return contacts;
-    }
-    return contacts;
+    return compare_pipelines(scene, *subject.dynamics, *twin.dynamics, frames);
   }
 
   static std::uint64_t compare(const core::Scene& scene, const Given& both, int frames) {
@@ -132,6 +82,26 @@ TEST_F(Twin, JacobiAndEveryPrintedFormOfTheResponse) {
   }
 }
 
+TEST_F(Twin, PublishedOctreeAndItsPrintedForms) {
+  EXPECT_GT(compare(spheres(60, 4.0F), {{"broad", "octree"}}, 200), 0U);
+  for (const std::string variant : {"printed-E2", "printed-E7"}) {
+    SCOPED_TRACE(variant);
+    EXPECT_GT(compare(spheres(60, 4.0F), {{"variant", variant}}, 200), 0U);
+  }
+}
+
+TEST_F(Twin, SpatialHash) {
+  for (const std::string cell_mm : {"0", "100", "20", "3000"}) {
+    SCOPED_TRACE(cell_mm);
+    SceneShape shape;
+    shape.static_every = 5;
+    const core::Scene scene = thrown({bumpy_sphere(12, 0.5F), bumpy_sphere(25, 0.6F)}, shape);
+    core::Engine subject = make(hash_gpu_row(), {{"cell_mm", cell_mm}});
+    core::Engine twin = make(reference::hash_cpu_row(), {{"cell_mm", cell_mm}});
+    EXPECT_GT(compare_pipelines(scene, *subject.dynamics, *twin.dynamics, 100), 0U);
+  }
+}
+
 TEST_F(Twin, NoBodyAndOneBody) {
   compare(spheres(0, 4.0F), {{"broad", "brute"}}, 3);
   EXPECT_GT(compare(spheres(1, 4.0F), {{"broad", "brute"}}, 600), 0U);  // it meets the domain's faces
@@ -141,11 +111,14 @@ TEST_F(Twin, StaticBodies) {
   SceneShape shape;
   shape.static_every = 3;
   EXPECT_GT(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"broad", "brute"}}, 300), 0U);
+  // Swapped masses move them, which is what that form shows.
+  EXPECT_GT(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"variant", "printed-E3"}}, 300), 0U);
+  EXPECT_GT(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"solver", "jacobi"}}, 300), 0U);
   shape.static_every = 1;
   EXPECT_EQ(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"broad", "brute"}}, 3), 0U);
 }
 
-// 80 bodies at one point are 3160 contacts of one clique: more than 64 colors, so the words of colors must grow.
+// 80 bodies at one point are 3160 contacts of one clique: as many waits of each for each as there can be.
 TEST_F(Twin, AllAtOnePoint) {
   SceneShape shape;
   shape.bodies = 80;

@@ -7,10 +7,11 @@
 
 namespace broadside::gpu {
 
-// Why octree-gpu cannot run here: "no device", "no device: built without CUDA"; empty when it can.
-std::string octree_gpu_absent();
+// Why GPU engines cannot run here: "no device", "no device: built without CUDA"; empty when they can.
+std::string gpu_absent();
 
 core::Result<core::Engine> create_octree_gpu(const core::Settings& settings);
+core::Result<core::Engine> create_hash_gpu(const core::Settings& settings);
 
 // The GPU and its driver, for stamps and results: "NVIDIA H100 80GB HBM3, driver 13.0"; "no device" where there is
 // none.

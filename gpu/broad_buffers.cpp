@@ -1,0 +1,137 @@
+#include "gpu/broad_buffers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "core/method/scene_octree.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+// Buckets of the grid per body: a lookup is a run of some three of them, most of them empty.
+constexpr std::uint64_t kBucketsPerBody = 2;
+constexpr std::uint64_t kLeastBuckets = 1024;
+constexpr std::uint64_t kMostBuckets = 1ULL << 31U;
+constexpr std::uint64_t kMostHashCells = 4096;  // as in stages/hash_stage.cuh
+
+// The size of the grid's largest cells: a box may grow by a few units in the last place when it is placed, and a cell
+// must be many such units of the coordinates, whatever it holds (see grid_level).
+float grid_cell_m(const BoxFacts& facts) {
+  constexpr float kSlack = 1.0F + 0x1p-10F;
+  constexpr float kLeastShare = 0x1p-17F;
+  constexpr float kLeast = 0x1p-100F;  // halved twenty times, it is still a normal number, and so is its inverse
+  return std::max({facts.largest_side_m * kSlack, facts.coordinate_range_m * kLeastShare, kLeast});
+}
+
+// The most bits an axis that fit beside the 5 bits of a row, which x shares.
+std::uint32_t axis_bits(std::uint64_t buckets) {
+  const auto all = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U;
+  std::uint32_t bits = 1;
+  while (std::max(bits + 1, 5U) + 2 * (bits + 1) <= all) ++bits;
+  return bits;
+}
+
+}  // namespace
+
+std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m) {
+  double cells = 1.0;
+  for (int axis = 0; axis < 3; ++axis) cells *= std::floor(static_cast<double>(side_m[axis] / cell_m)) + 2.0;
+  return cells > static_cast<double>(kMostHashCells) ? kMostHashCells : static_cast<std::uint64_t>(cells);
+}
+
+core::Status BroadBuffers::reserve_buckets(std::uint64_t buckets, const char* what) {
+  BROADSIDE_TRY(bucket_count_.reserve(buckets, what));
+  BROADSIDE_TRY(bucket_begin_.reserve(bucket_words(buckets), what));
+  return bucket_count_.fill_bytes(0);
+}
+
+core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant) {
+  const std::size_t n = facts.count;
+  view_ = {};
+  view_.start = start;
+  if (start == Start::kGrid) {
+    const std::uint64_t buckets = std::bit_ceil(std::max<std::uint64_t>(kBucketsPerBody * n, kLeastBuckets));
+    BROADSIDE_TRY(reserve_buckets(buckets, "grid"));
+    BROADSIDE_TRY(rank_.reserve(n, "grid"));
+    BROADSIDE_TRY(entries_.reserve(n, "grid"));
+    BROADSIDE_TRY(levels_.reserve(1, "grid"));
+    BROADSIDE_TRY(levels_.fill_bytes(0));
+    view_.grid.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
+    view_.grid.axis_bits = axis_bits(buckets);
+    refit(facts);
+  } else if (start == Start::kHash) {
+    view_.hash.cells_per_m = 1.0F / hash_cell_m;
+    Counters expected;
+    expected.entries = std::max<std::uint64_t>(facts.hash_entries, kLeastBuckets);
+    BROADSIDE_TRY(oversized_.reserve(n, "spatial hash"));
+    BROADSIDE_TRY(grow(expected));
+  } else if (start == Start::kOctree) {
+    OctreeView& octree = view_.octree;
+    octree.domain = facts.domain;
+    octree.depth = variant == core::Variant::kE7 ? 1 : core::kSceneOctreeDepth;
+    octree.same_node_only = variant == core::Variant::kE2;
+    const std::uint32_t nodes = core::complete_octree_nodes(octree.depth);
+    BROADSIDE_TRY(node_count_.reserve(nodes, "scene octree"));
+    BROADSIDE_TRY(node_begin_.reserve(nodes + 1, "scene octree"));
+    BROADSIDE_TRY(rank_.reserve(n, "scene octree"));
+    BROADSIDE_TRY(entries_.reserve(n, "scene octree"));
+    BROADSIDE_TRY(range_end_.reserve(n, "scene octree"));
+    BROADSIDE_TRY(node_count_.fill_bytes(0));
+  }
+  return core::Done{};
+}
+
+void BroadBuffers::refit(const BoxFacts& facts) {
+  GridView& grid = view_.grid;
+  grid.cell_m = grid_cell_m(facts);
+  // Half a cell of room below, so that what lies a little outside is still near in the table.
+  for (int axis = 0; axis < 3; ++axis)
+    grid.first_cell[axis] = static_cast<std::int32_t>(
+        std::clamp(std::floor(facts.low_corner[axis] / grid.cell_m) - 1.0F, -1048576.0F, 1048576.0F));
+}
+
+core::Status BroadBuffers::grow(const Counters& demanded) {
+  if (view_.start != Start::kHash || demanded.entries <= hash_entries_.capacity()) return core::Done{};
+  if (demanded.entries > kMostBuckets)
+    return core::Error{"the spatial hash needs " + std::to_string(demanded.entries) + " entries of bodies in cells",
+                       "hash-gpu", "use larger cells", core::Exit::kMissing};
+  const std::uint64_t buckets = std::bit_ceil(demanded.entries);
+  BROADSIDE_TRY(hash_entries_.reserve(demanded.entries, "spatial hash"));
+  BROADSIDE_TRY(reserve_buckets(buckets, "spatial hash"));
+  BROADSIDE_TRY(bucket_cursor_.reserve(buckets, "spatial hash"));
+  BROADSIDE_TRY(bucket_cursor_.fill_bytes(0));
+  view_.hash.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
+  return wait_for_device("clearing the spatial hash");
+}
+
+void BroadBuffers::fill(BroadView& view) const {
+  view = view_;
+  GridView& grid = view.grid;
+  grid.count = bucket_count_.data();
+  grid.begin = bucket_begin_.data();
+  grid.rank = rank_.data();
+  grid.entries = entries_.data();
+  grid.levels = levels_.data();
+  HashView& hash = view.hash;
+  hash.count = bucket_count_.data();
+  hash.begin = bucket_begin_.data();
+  hash.cursor = bucket_cursor_.data();
+  hash.entries = {hash_entries_.data(), hash_entries_.capacity()};
+  hash.oversized = oversized_.data();
+  OctreeView& octree = view.octree;
+  octree.node_count = node_count_.data();
+  octree.node_begin = node_begin_.data();
+  octree.rank = rank_.data();
+  octree.sorted = entries_.data();
+  octree.range_end = range_end_.data();
+}
+
+std::uint64_t BroadBuffers::bytes() const {
+  return bucket_count_.bytes() + bucket_begin_.bytes() + bucket_cursor_.bytes() + rank_.bytes() + levels_.bytes() +
+         entries_.bytes() + hash_entries_.bytes() + oversized_.bytes() + node_count_.bytes() + node_begin_.bytes() +
+         range_end_.bytes();
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,74 @@
+#include <cuda_runtime_api.h>
+
+#include <string>
+
+#include "gpu/engines_on_cuda.hpp"
+#include "gpu/pair_finder.hpp"
+#include "gpu/pipeline.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+std::string version_text(int version) {
+  return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
+}
+
+core::Result<core::Engine> engine_of(std::string_view id, const core::Settings& settings,
+                                     const PipelineOptions& options, const PairFinderOptions& alone) {
+  if (const std::string why = gpu_absent(); !why.empty())
+    return core::Error{why, std::string(id), "run on a machine with an NVIDIA GPU", core::Exit::kMissing};
+  core::Engine engine;
+  engine.id = id;
+  engine.build = "Broadside, float32, CUDA " + version_text(CUDART_VERSION) + ", " + device_name();
+  engine.settings = settings;
+  engine.broad_phase = std::make_unique<PairFinder>(alone);
+  engine.dynamics = std::make_unique<Pipeline>(options);
+  return engine;
+}
+
+}  // namespace
+
+std::string gpu_absent() {
+  int count = 0;
+  const cudaError_t code = cudaGetDeviceCount(&count);
+  if (code == cudaSuccess && count > 0) return {};
+  (void)cudaGetLastError();  // so that the answer is the same when asked again
+  if (code == cudaErrorInsufficientDriver) return "no device: the CUDA driver is absent or older than this build needs";
+  return "no device";
+}
+
+core::Result<core::Engine> create_octree_gpu(const core::Settings& settings) {
+  PipelineOptions options;
+  const std::string& broad = settings.text("broad");
+  if (broad == "octree") options.broad = Broad::kOctree;
+  if (broad == "brute") options.broad = Broad::kBrute;
+  options.levels = *core::levels_named(settings.text("levels"));
+  options.variant = *core::variant_named(settings.text("variant"));
+  const std::string& solver = settings.text("solver");
+  if (solver == "jacobi") options.solver = Solver::kJacobi;
+  if (solver == "printed-E8" || options.variant == core::Variant::kE8) options.solver = Solver::kRacing;
+  options.has_vertex_stage = settings.text("vertex_stage") == "on";
+  return engine_of("octree-gpu", settings, options, {options.broad, options.variant});
+}
+
+core::Result<core::Engine> create_hash_gpu(const core::Settings& settings) {
+  PipelineOptions options;
+  options.broad = Broad::kHash;
+  options.hash_cell_m = static_cast<float>(settings.number("cell_mm")) / 1000.0F;
+  options.levels = *core::levels_named(settings.text("levels"));
+  options.has_vertex_stage = settings.text("vertex_stage") == "on";
+  const float alone_m = options.hash_cell_m > 0.0F ? options.hash_cell_m : core::Parameters{}.hash_cell_m;
+  return engine_of("hash-gpu", settings, options, {Broad::kHash, core::Variant::kSound, alone_m});
+}
+
+std::string device_name() {
+  int device = 0;
+  cudaDeviceProp properties;
+  int driver = 0;
+  if (!gpu_absent().empty() || cudaGetDevice(&device) != cudaSuccess ||
+      cudaGetDeviceProperties(&properties, device) != cudaSuccess || cudaDriverGetVersion(&driver) != cudaSuccess)
+    return "no device";
+  return std::string(properties.name) + ", driver for CUDA " + version_text(driver);
+}
+
+}  // namespace broadside::gpu

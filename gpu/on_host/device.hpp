@@ -1,0 +1,153 @@
+// The part of CUDA's device language that the stages use, for the host's compiler: the threads of a kernel are fibers
+// of one OS thread (fibers.hpp), and every barrier, vote and shuffle is a place where they meet. Slow and exact: a
+// missing participant is a deadlock that is reported, and the order in which fibers run is shuffled by a seed.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "gpu/on_host/fibers.hpp"
+
+// The two function attributes that stages are written with.
+#define __device__
+#define __forceinline__ inline
+
+struct alignas(16) uint4 {
+  unsigned x;
+  unsigned y;
+  unsigned z;
+  unsigned w;
+};
+
+namespace broadside::gpu {
+
+using std::max;
+using std::min;
+
+// As CUDA's names; each is the running fiber's.
+#define threadIdx (::broadside::gpu::on_host::self().thread)
+#define blockIdx (::broadside::gpu::on_host::self().block)
+#define blockDim (::broadside::gpu::on_host::launch().block_size)
+#define gridDim (::broadside::gpu::on_host::launch().grid_size)
+
+inline void relax() {
+  on_host::yield();
+}
+inline void sync_grid() {
+  on_host::meet_grid();
+}
+inline void __syncthreads() {
+  on_host::meet_block(false);
+}
+inline int __syncthreads_or(int value) {
+  return on_host::meet_block(value != 0) ? 1 : 0;
+}
+inline void __syncwarp() {
+  on_host::exchange(0);
+}
+inline void __threadfence_block() {}
+
+template <typename T>
+T on_host_shuffle(T value, unsigned lane) {
+  static_assert(sizeof(T) <= sizeof(std::uint64_t));
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof value);
+  const std::uint64_t* all = on_host::exchange(bits);
+  T out;
+  std::memcpy(&out, &all[lane % 32], sizeof out);
+  return out;
+}
+
+template <typename T>
+T __shfl_sync(unsigned, T value, unsigned from) {
+  return on_host_shuffle(value, from);
+}
+template <typename T>
+T __shfl_up_sync(unsigned, T value, unsigned step) {
+  const unsigned own = threadIdx.x % 32;
+  return on_host_shuffle(value, own >= step ? own - step : own);
+}
+template <typename T>
+T __shfl_xor_sync(unsigned, T value, unsigned step) {
+  return on_host_shuffle(value, (threadIdx.x % 32) ^ step);
+}
+inline unsigned __ballot_sync(unsigned, bool value) {
+  const std::uint64_t* all = on_host::exchange(value ? 1 : 0);
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 32; ++k) bits |= static_cast<unsigned>(all[k]) << k;
+  return bits;
+}
+inline bool __any_sync(unsigned mask, bool value) {
+  return __ballot_sync(mask, value) != 0;
+}
+// Fibers never run side by side.
+inline unsigned __activemask() {
+  return 1U << (threadIdx.x % 32);
+}
+inline std::uint32_t warp_min(std::uint32_t value) {
+  const std::uint64_t* all = on_host::exchange(value);
+  return static_cast<std::uint32_t>(*std::min_element(all, all + 32));
+}
+
+template <typename T>
+T atomicAdd(T* to, T value) {
+  const T old = *to;
+  *to = old + value;
+  return old;
+}
+template <typename T>
+T atomicMin(T* to, T value) {
+  const T old = *to;
+  *to = std::min(old, value);
+  return old;
+}
+template <typename T>
+T atomicMax(T* to, T value) {
+  const T old = *to;
+  *to = std::max(old, value);
+  return old;
+}
+template <typename T>
+T atomicOr(T* to, T value) {
+  const T old = *to;
+  *to = old | value;
+  return old;
+}
+
+inline int __popc(unsigned v) {
+  return std::popcount(v);
+}
+inline int __ffs(unsigned v) {
+  return v == 0 ? 0 : std::countr_zero(v) + 1;
+}
+inline int __ffsll(long long v) {
+  return v == 0 ? 0 : std::countr_zero(static_cast<unsigned long long>(v)) + 1;
+}
+inline int __clz(unsigned v) {
+  return std::countl_zero(v);
+}
+inline float __uint_as_float(unsigned v) {
+  return std::bit_cast<float>(v);
+}
+inline unsigned __float_as_uint(float v) {
+  return std::bit_cast<unsigned>(v);
+}
+
+inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
+  ++*arrived;
+  while (*static_cast<volatile std::uint32_t*>(arrived) < awaited) on_host::yield();
+}
+inline uint4 load_whole(const uint4* from) {
+  return *from;
+}
+inline void store_whole(uint4* to, uint4 v) {
+  *to = v;
+}
+inline unsigned long long now_ns() {
+  return on_host::now_ns();
+}
+
+}  // namespace broadside::gpu

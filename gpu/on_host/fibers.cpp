@@ -1,0 +1,172 @@
+#include "gpu/on_host/fibers.hpp"
+
+#include <ucontext.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace broadside::gpu::on_host {
+namespace {
+
+constexpr std::size_t kStackBytes = 128 * 1024;
+// Rounds over all fibers without one of them meeting, returning or being let go: far more than any spin needs.
+constexpr std::uint64_t kMostIdleRounds = 1'000'000;
+
+// A meeting of a fixed number of fibers, again and again. Two sets of slots in turn: nobody can bring a value to the
+// meeting after next before all have left this one.
+struct Meeting {
+  unsigned members = 0;
+  unsigned arrived = 0;
+  std::uint64_t held = 0;  // meetings so far
+  bool any[2] = {};
+  std::uint64_t slots[2][32] = {};
+};
+
+struct Fiber {
+  ucontext_t context;
+  std::unique_ptr<unsigned char[]> stack;
+  Place place;
+  bool is_done = false;
+};
+
+struct Grid {
+  Launch launch;
+  const std::function<void(unsigned char*)>* body = nullptr;
+  std::vector<Fiber> fibers;
+  std::vector<Meeting> warps;
+  std::vector<Meeting> blocks;
+  Meeting all;
+  std::vector<std::vector<unsigned char>> shared;
+  ucontext_t scheduler;
+  Fiber* running = nullptr;
+  std::uint64_t events = 0;
+};
+
+Grid* grid = nullptr;
+
+void enter() {
+  Fiber& own = *grid->running;
+  (*grid->body)(grid->shared[own.place.block.x].data());
+  own.is_done = true;
+  ++grid->events;
+  yield();
+}
+
+void meet(Meeting& meeting) {
+  const std::uint64_t held = meeting.held;
+  if (++meeting.arrived == meeting.members) {
+    meeting.arrived = 0;
+    ++meeting.held;
+    meeting.any[meeting.held % 2] = false;  // of the next one
+    ++grid->events;
+    return;
+  }
+  while (meeting.held == held) yield();
+}
+
+std::uint64_t scrambled(std::uint64_t& state) {
+  state ^= state << 13;
+  state ^= state >> 7;
+  return state ^= state << 17;
+}
+
+void schedule() {
+  std::vector<std::uint32_t> order(grid->fibers.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::uint64_t state = grid->launch.seed * 2 + 1;
+  std::uint64_t idle = 0;
+  for (std::size_t left = order.size(); left > 0;) {
+    if (grid->launch.seed != 0)
+      for (std::size_t k = left - 1; k > 0; --k) std::swap(order[k], order[scrambled(state) % (k + 1)]);
+    const std::uint64_t before = grid->events;
+    for (std::size_t k = 0; k < left; ++k) {
+      grid->running = &grid->fibers[order[k]];
+      swapcontext(&grid->scheduler, &grid->running->context);
+    }
+    idle = grid->events == before ? idle + 1 : 0;
+    if (idle > kMostIdleRounds) {
+      std::fprintf(stderr, "on_host: %zu threads of the kernel wait for threads that never come\n", left);
+      std::abort();
+    }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < left; ++k)
+      if (!grid->fibers[order[k]].is_done) order[kept++] = order[k];
+    left = kept;
+  }
+}
+
+}  // namespace
+
+void run(const Launch& launch, std::size_t shared_bytes, const std::function<void(unsigned char*)>& body) {
+  Grid own;
+  own.launch = launch;
+  own.body = &body;
+  const unsigned threads = launch.grid_size.x * launch.block_size.x;
+  own.fibers.resize(threads);
+  own.warps.resize(threads / 32);
+  own.blocks.resize(launch.grid_size.x);
+  // What a kernel reads before it was written is not zero by chance.
+  own.shared.assign(launch.grid_size.x, std::vector<unsigned char>(shared_bytes + 1, 0xA5));
+  for (Meeting& warp : own.warps) warp.members = 32;
+  for (Meeting& block : own.blocks) block.members = launch.block_size.x;
+  own.all.members = threads;
+  grid = &own;
+  for (unsigned k = 0; k < threads; ++k) {
+    Fiber& fiber = own.fibers[k];
+    fiber.place = {{k % launch.block_size.x}, {k / launch.block_size.x}};
+    fiber.stack = std::make_unique<unsigned char[]>(kStackBytes);
+    getcontext(&fiber.context);
+    fiber.context.uc_stack.ss_sp = fiber.stack.get();
+    fiber.context.uc_stack.ss_size = kStackBytes;
+    fiber.context.uc_link = nullptr;
+    makecontext(&fiber.context, enter, 0);
+  }
+  schedule();
+  grid = nullptr;
+}
+
+const Place& self() {
+  return grid->running->place;
+}
+
+const Launch& launch() {
+  return grid->launch;
+}
+
+void yield() {
+  Fiber& own = *grid->running;
+  swapcontext(&own.context, &grid->scheduler);
+}
+
+void meet_grid() {
+  meet(grid->all);
+}
+
+bool meet_block(bool value) {
+  Meeting& block = grid->blocks[self().block.x];
+  const std::size_t set = block.held % 2;
+  block.any[set] = block.any[set] || value;
+  meet(block);
+  return block.any[set];
+}
+
+const std::uint64_t* exchange(std::uint64_t value) {
+  const Place& own = self();
+  Meeting& warp = grid->warps[(own.block.x * grid->launch.block_size.x + own.thread.x) / 32];
+  std::uint64_t* slots = warp.slots[warp.held % 2];
+  slots[own.thread.x % 32] = value;
+  meet(warp);
+  return slots;
+}
+
+std::uint64_t now_ns() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+}  // namespace broadside::gpu::on_host

@@ -1,0 +1,41 @@
+// Runs a kernel on the host: every thread of the grid is a fiber, and all of them are alive at once, as in a
+// cooperative launch.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace broadside::gpu::on_host {
+
+struct Index {
+  unsigned x = 0;
+};
+
+struct Launch {
+  Index grid_size;   // blocks
+  Index block_size;  // threads; whole warps
+  std::uint64_t seed = 0;
+};
+
+// The running fiber's place in the grid.
+struct Place {
+  Index thread;
+  Index block;
+};
+
+// Runs `body` once per thread, with its block's `shared_bytes` of shared memory, until all have returned. A meeting
+// that can never be complete ends the program with a line that says so. Not re-entrant.
+void run(const Launch& launch, std::size_t shared_bytes, const std::function<void(unsigned char* shared)>& body);
+
+// For code that runs in a fiber.
+const Place& self();
+const Launch& launch();
+void yield();
+void meet_grid();
+// True when any thread of the block brought true.
+bool meet_block(bool value);
+// Meets the warp; the values that its 32 lanes brought, good until the warp meets once more.
+const std::uint64_t* exchange(std::uint64_t value);
+std::uint64_t now_ns();
+
+}  // namespace broadside::gpu::on_host

@@ -1,0 +1,69 @@
+// What device code takes from CUDA beyond the language, in one place: nvcc gives it, and in a build for the host
+// gpu/on_host does, where the threads of a kernel are fibers. So the stages run, and are tested, where there is no GPU.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__CUDACC__)
+
+#include <cooperative_groups.h>
+
+namespace broadside::gpu {
+
+// A spin on another thread's write goes through here: nothing to do where threads run at once.
+__device__ inline void relax() {}
+
+__device__ inline void sync_grid() {
+  cooperative_groups::this_grid().sync();
+}
+
+// One more arrival at *arrived, and waiting until there were `awaited`; orders memory over the grid. By one thread.
+__device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
+  asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived) : "memory");
+  std::uint32_t seen = 0;
+  do {
+    asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(seen) : "l"(arrived) : "memory");
+  } while (seen < awaited);
+}
+
+// 16 bytes of global memory in one access that is never torn, and never served from this multiprocessor's own cache.
+__device__ inline uint4 load_whole(const uint4* from) {
+  unsigned long long low;
+  unsigned long long high;
+  asm volatile("{ .reg .b128 t; ld.relaxed.gpu.global.b128 t, [%2]; mov.b128 {%0, %1}, t; }"
+               : "=l"(low), "=l"(high)
+               : "l"(from)
+               : "memory");
+  return {static_cast<unsigned>(low), static_cast<unsigned>(low >> 32), static_cast<unsigned>(high),
+          static_cast<unsigned>(high >> 32)};
+}
+__device__ inline void store_whole(uint4* to, uint4 v) {
+  const unsigned long long low = v.x | static_cast<unsigned long long>(v.y) << 32;
+  const unsigned long long high = v.z | static_cast<unsigned long long>(v.w) << 32;
+  asm volatile("{ .reg .b128 t; mov.b128 t, {%1, %2}; st.relaxed.gpu.global.b128 [%0], t; }" ::"l"(to), "l"(low),
+               "l"(high)
+               : "memory");
+}
+
+__device__ inline unsigned long long now_ns() {
+  unsigned long long t;
+  asm volatile("mov.u64 %0, %globaltimer;" : "=l"(t));
+  return t;
+}
+
+__device__ inline std::uint32_t warp_min(std::uint32_t value) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_min_sync(0xFFFFFFFFU, value);
+#else
+  for (unsigned step = 16; step > 0; step /= 2) value = min(value, __shfl_xor_sync(0xFFFFFFFFU, value, step));
+  return value;
+#endif
+}
+
+}  // namespace broadside::gpu
+
+#else
+
+#include "gpu/on_host/device.hpp"
+
+#endif

@@ -1,0 +1,145 @@
+// A whole frame, as the threads of one launch run it. Counts are read after barriers, so all threads decide alike.
+#pragma once
+
+#include "core/method/frame_digest.hpp"
+#include "gpu/frame_kernel.hpp"
+#include "gpu/frame_view.hpp"
+#include "gpu/stages/body_stage.cuh"
+#include "gpu/stages/broad_stage.cuh"
+#include "gpu/stages/confirm_stage.cuh"
+#include "gpu/stages/contact_stage.cuh"
+#include "gpu/stages/order_stage.cuh"
+#include "gpu/stages/proximity_stage.cuh"
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+// Up to this many confirmed pairs, of bodies that fit its shared memory, one block resolves alone: its threads see each
+// other's writes in some 30 ns, those of the grid in some 700.
+constexpr std::uint64_t kOneBlockPairs = 8192;
+
+template <typename Team>
+__device__ void mark(const Team& team, const FrameView& f, int stage) {
+  if (team.rank() == 0) f.outcome->stage_end_ns[stage] = now_ns();
+}
+
+template <typename Team>
+__device__ void report(const Team& team, const FrameView& f, bool is_aborted) {
+  if (team.rank() != 0) return;
+  f.counters->is_aborted = is_aborted ? 1 : 0;
+  f.outcome->counters = *f.counters;
+}
+
+// Contacts, faces and the report: what a single block does alone when it is little.
+template <typename Team, typename Live>
+__device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed, const Live& live) {
+  collect_touching(team, f, confirmed);
+  team.sync();
+  const std::uint64_t count = f.counters->touching;
+  if (count > 0 && f.solver == Solver::kRacing) {
+    resolve_racing(team, f, count);
+  } else if (count > 0) {
+    if (f.solver == Solver::kColored) start_live(team, f, live);
+    list_contacts(team, f, count);
+    if (f.solver == Solver::kJacobi) {
+      resolve_jacobi(team, f, count);
+    } else {
+      resolve_in_order(team, f, live);
+      team.sync();
+      finish_live(team, f, live);
+    }
+  }
+  mark(team, f, 5);
+  resolve_faces(team, f);
+  team.sync();
+  mark(team, f, 6);
+  report(team, f, f.counters->faces > f.face_contacts.capacity);
+}
+
+// `shared`: what LaunchShape says, a block's own.
+__device__ inline void run_frame(const FrameView& f, ProximityScratch& scratch, unsigned char* shared) {
+  const GridTeam grid;
+  mark(grid, f, 0);
+  integrate(grid, f);
+  grid.sync();
+  mark(grid, f, 1);
+
+  const bool starts_at_level0 = f.broad.start != Start::kNone;
+  if (starts_at_level0) {
+    PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
+    if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
+      return report(grid, f, true);
+  } else {
+    confirm_by_brute_force(grid, f);
+  }
+  grid.sync();
+  mark(grid, f, 2);
+  if (f.counters->pairs > f.pairs.capacity) return report(grid, f, true);
+
+  // From level 0 alone, what was found is what is confirmed.
+  const bool is_confirmed_by_level0 = starts_at_level0 && f.levels == core::Levels::kFlat;
+  if (starts_at_level0 && !is_confirmed_by_level0) {
+    confirm_pairs(grid, f);
+    grid.sync();
+  }
+  const std::uint64_t confirmed = is_confirmed_by_level0 ? f.counters->pairs : f.counters->confirmed;
+  mark(grid, f, 3);
+  if (confirmed > f.confirmed.capacity) return report(grid, f, true);
+
+  if (f.has_vertex_stage && confirmed > 0) {
+    measure_proximity(f, confirmed, scratch, shared);
+    grid.sync();
+  }
+  mark(grid, f, 4);
+
+  if (confirmed <= kOneBlockPairs && f.body_count <= f.block_bodies) {
+    if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed, BlockLive{reinterpret_cast<LiveBody*>(shared)});
+    return;
+  }
+  // No more blocks than there is work for: fewer meet sooner.
+  const std::uint64_t work = max(confirmed, std::uint64_t{f.body_count});
+  const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, (work + blockDim.x - 1) / blockDim.x);
+  if (blockIdx.x >= blocks) return;
+  resolve(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed, GridLive{f.live});
+}
+
+// The broad phase alone: boxes in, pairs out.
+__device__ inline void run_pairs(const PairsView& view, unsigned char* shared) {
+  const GridTeam grid;
+  const auto marked = [&](int stage) {
+    if (grid.rank() == 0) view.outcome->stage_end_ns[stage] = now_ns();
+  };
+  marked(0);
+  if (grid.rank() == 0) *view.counters = Counters{};
+  for (std::uint64_t i = grid.rank(); i < view.box_count; i += grid.size())
+    count_box(view.broad, i, unpack(view.boxes[i]));
+  grid.sync();
+  marked(1);
+  const bool has_room =
+      find_candidates(grid, view.broad, view.boxes, view.box_count, view.pairs, view.counters,
+                      reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32], view.outcome->stage_end_ns);
+  grid.sync();
+  if (grid.rank() != 0) return;
+  marked(4);
+  view.counters->is_aborted = !has_room || view.counters->pairs > view.pairs.capacity ? 1 : 0;
+  view.outcome->counters = *view.counters;
+}
+
+// The sum of the digests of everything that the last frame left; `sum` starts at zero.
+__device__ inline void run_digest(const DigestView& view) {
+  const GridTeam grid;
+  unsigned long long sum = 0;
+  for (std::uint64_t i = grid.rank(); i < view.body_count; i += grid.size())
+    sum += core::body_digest(static_cast<std::uint32_t>(i), view.state.position[i].v, view.orientation[i],
+                             view.state.velocity[i].v, core::Vec3{});
+  for (std::uint64_t k = grid.rank(); k < view.confirmed_count; k += grid.size())
+    sum += core::confirmed_digest(view.confirmed[k]);
+  for (std::uint64_t k = grid.rank(); k < view.contact_count; k += grid.size())
+    if (view.contacts[k].depth_m > 0.0F) sum += core::contact_digest(view.contacts[k]);
+  for (std::uint64_t k = grid.rank(); k < view.face_contact_count; k += grid.size())
+    sum += core::contact_digest(view.face_contacts[k]);
+  for (unsigned step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(kFullWarp, sum, step);
+  if (lane() == 0 && sum != 0) atomicAdd(view.sum, sum);
+}
+
+}  // namespace broadside::gpu

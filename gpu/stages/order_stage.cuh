@@ -1,0 +1,85 @@
+// Which pairs touch, and in which order the contacts of each body are resolved. METHOD sections 3 and 5.
+#pragma once
+
+#include "core/method/coloring.hpp"
+#include "gpu/frame_view.hpp"
+#include "gpu/stages/body_stage.cuh"
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+// Printed form E3 moves static bodies, which is the point of it.
+__device__ inline bool is_written(const FrameView& f, std::uint32_t body) {
+  return !is_static(f, body) || f.variant == core::Variant::kE3;
+}
+
+// The touching pairs become links. Each written body's contacts are counted; a link's ranks are, for now, the places in
+// which they came.
+template <typename Team>
+__device__ void collect_touching(const Team& team, const FrameView& f, std::uint64_t confirmed) {
+  const std::uint64_t rounds = (confirmed + team.size() - 1) / team.size();
+  for (std::uint64_t round = 0; round < rounds; ++round) {
+    const std::uint64_t k = round * team.size() + team.rank();
+    const bool touches = k < confirmed && (!f.has_vertex_stage || f.proximity[k].is_touching());
+    const unsigned long long place = warp_append(touches ? 1U : 0U, &f.counters->touching);
+    if (!touches) continue;
+    const core::Pair p = f.confirmed.items[k];
+    Link link{p.i, p.j, kNoRank, kNoRank};
+    if (f.solver != Solver::kRacing) {
+      if (is_written(f, p.i)) link.rank_i = atomicAdd(&f.degree[p.i], 1U);
+      if (is_written(f, p.j)) link.rank_j = atomicAdd(&f.degree[p.j], 1U);
+    }
+    f.links[place] = link;
+  }
+}
+
+// The colored solver's order, and the Jacobi solver's order of addition.
+__device__ inline unsigned long long order_key(const FrameView& f, const Link& link) {
+  const core::Pair p{link.i, link.j};
+  return f.solver == Solver::kJacobi ? core::pair_key(p) : core::color_priority(p);
+}
+
+__device__ inline std::uint32_t keys_before(const unsigned long long* keys, std::uint32_t count,
+                                            unsigned long long key) {
+  std::uint32_t before = 0;
+#pragma unroll 4
+  for (std::uint32_t k = 0; k < count; ++k) before += keys[k] < key ? 1U : 0U;
+  return before;
+}
+
+// Each written body's list of its contacts, in their order: a contact's rank is the number of keys below its own, so
+// nothing is sorted, and whatever order the pairs came in is gone.
+template <typename Team>
+__device__ void list_contacts(const Team& team, const FrameView& f, std::uint64_t count) {
+  const std::uint64_t turns = (f.body_count + team.size() - 1) / team.size();
+  for (std::uint64_t turn = 0; turn < turns; ++turn) {
+    const std::uint64_t i = turn * team.size() + team.rank();
+    const auto begin =
+        static_cast<std::uint32_t>(warp_append(i < f.body_count ? f.degree[i] : 0U, &f.counters->listed));
+    if (i < f.body_count) f.list_begin[i] = begin;
+  }
+  team.sync();
+  for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
+    const Link link = f.links[k];
+    const unsigned long long key = order_key(f, link);
+    if (link.rank_i != kNoRank) f.keys[f.list_begin[link.i] + link.rank_i] = key;
+    if (link.rank_j != kNoRank) f.keys[f.list_begin[link.j] + link.rank_j] = key;
+  }
+  team.sync();
+  for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
+    Link link = f.links[k];
+    const unsigned long long key = order_key(f, link);
+    const auto ranked = [&](std::uint32_t body) {
+      const std::uint32_t begin = f.list_begin[body];
+      const std::uint32_t rank = keys_before(f.keys + begin, f.degree[body], key);
+      f.lists[begin + rank] = static_cast<std::uint32_t>(k);
+      return rank;
+    };
+    if (link.rank_i != kNoRank) link.rank_i = ranked(link.i);
+    if (link.rank_j != kNoRank) link.rank_j = ranked(link.j);
+    f.links[k] = link;
+  }
+  team.sync();
+}
+
+}  // namespace broadside::gpu

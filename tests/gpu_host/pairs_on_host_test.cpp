@@ -1,0 +1,78 @@
+// The GPU's broad phases, with the kernels' threads on the host, return exactly the overlapping pairs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "gpu/pair_finder.hpp"
+#include "tests/gpu/small_scenes.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+using core::Box;
+using core::Pair;
+
+void expect_exact(const std::vector<Box>& boxes) {
+  std::vector<std::uint8_t> is_static(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) is_static[i] = i % 7 == 0 ? 1 : 0;
+  std::vector<Pair> expected;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+      if (core::overlaps(boxes[i], boxes[j]) && (is_static[i] == 0 || is_static[j] == 0)) expected.push_back({i, j});
+  for (const Broad broad : {Broad::kTree, Broad::kOctree, Broad::kHash}) {
+    PairFinder subject({broad, core::Variant::kSound, 0.5F, 50});
+    ASSERT_TRUE(subject.load(boxes, is_static).ok());
+    for (int turn = 0; turn < 2; ++turn) {  // the second finds what the first left behind in the tables
+      ASSERT_TRUE(subject.find().ok());
+      auto found = subject.read_back();
+      ASSERT_TRUE(found.ok());
+      EXPECT_TRUE(found.value().pairs == expected)
+          << static_cast<int>(broad) << ": " << found.value().pairs.size() << " against " << expected.size();
+    }
+  }
+}
+
+std::vector<Box> boxes_of(std::uint32_t count, auto make) {
+  std::vector<Box> boxes;
+  Dice dice(7);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const core::Vec3 center = make(dice, i);
+    const core::Vec3 half{0.25F + 0.5F * dice.next(), 0.25F + 0.5F * dice.next(), 0.25F + 0.5F * dice.next()};
+    boxes.push_back({center - half, center + half});
+  }
+  return boxes;
+}
+
+TEST(PairsOnHost, Uniform) {
+  for (const std::uint32_t count : {0U, 1U, 49U, 400U})
+    expect_exact(boxes_of(count, [count](Dice& dice, std::uint32_t) { return dice.cube(std::cbrt(float(count))); }));
+}
+
+TEST(PairsOnHost, SizesOverSixOrders) {
+  std::vector<Box> boxes;
+  Dice dice(3);
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const float half = std::pow(10.0F, -4.0F + 4.6F * dice.next());
+    const core::Vec3 center = dice.cube(20.0F);
+    boxes.push_back({center - core::Vec3{half, 0.5F * half, 0.1F * half}, center + core::Vec3{half, half, half}});
+  }
+  expect_exact(boxes);
+}
+
+TEST(PairsOnHost, FarFromTheOrigin) {
+  expect_exact(boxes_of(300, [](Dice& dice, std::uint32_t) {
+    return core::Vec3{1e6F, -1e6F, 1e6F} + dice.cube(12.0F);
+  }));
+}
+
+// Negative and positive cells, and more of them than the table has buckets for.
+TEST(PairsOnHost, ClustersInAWideWorld) {
+  expect_exact(boxes_of(500, [](Dice& dice, std::uint32_t i) {
+    const float side = static_cast<float>(i % 3) - 1.0F;
+    return core::Vec3{4000.0F * side, 100.0F * side, -700.0F * side} + dice.cube(i % 50 == 0 ? 900.0F : 9.0F);
+  }));
+}
+
+}  // namespace
+}  // namespace broadside::gpu

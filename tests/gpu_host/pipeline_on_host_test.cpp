@@ -1,0 +1,119 @@
+// The GPU's pipeline, stage by stage the code that CUDA compiles, with the kernels' threads on the host: its frames are
+// octree-cpu's, bit for bit. Where there is a GPU, tests/gpu runs larger scenes on it.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/engine/engine.hpp"
+#include "gpu/pipeline.hpp"
+#include "reference/octree_cpu/engine.hpp"
+#include "tests/gpu/small_scenes.hpp"
+#include "tests/gpu/twin_comparison.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+using Given = std::map<std::string, std::string>;
+
+std::unique_ptr<core::Dynamics> twin_of(const Given& given) {
+  const core::EngineRow row = reference::octree_cpu_row();
+  auto settings = core::Settings::parse(row.id, row.settings, given);
+  EXPECT_TRUE(settings.ok());
+  return std::move(row.create(settings.value()).value().dynamics);
+}
+
+std::uint64_t compare(const core::Scene& scene, const PipelineOptions& options, const Given& given, int frames) {
+  Pipeline subject(options);
+  return compare_pipelines(scene, subject, *twin_of(given), frames, 3);
+}
+
+core::Scene spheres(std::uint32_t bodies, float cube_m, std::uint32_t static_every = 0) {
+  SceneShape shape;
+  shape.bodies = bodies;
+  shape.cube_m = cube_m;
+  shape.static_every = static_every;
+  return thrown({bumpy_sphere(4, 0.5F), bumpy_sphere(3, 0.6F)}, shape);
+}
+
+TEST(PipelineOnHost, EveryStart) {
+  PipelineOptions options;
+  EXPECT_GT(compare(spheres(40, 2.5F), options, {{"broad", "brute"}}, 12), 0U);
+  options.broad = Broad::kHash;
+  EXPECT_GT(compare(spheres(40, 2.5F), options, {{"broad", "brute"}}, 12), 0U);
+  options.hash_cell_m = 0.03F;  // too many cells a body
+  EXPECT_GT(compare(spheres(20, 2.0F), options, {{"broad", "brute"}}, 3), 0U);
+  options.broad = Broad::kOctree;
+  EXPECT_GT(compare(spheres(40, 2.5F), options, {{"broad", "octree"}}, 12), 0U);
+}
+
+TEST(PipelineOnHost, EveryLevelFromItsPublishedStart) {
+  for (const core::LevelsRow& row : core::kLevels) {
+    SCOPED_TRACE(row.name);
+    PipelineOptions options;
+    options.broad = Broad::kBrute;
+    options.levels = row.levels;
+    EXPECT_GT(compare(spheres(30, 2.2F), options, {{"broad", "brute"}, {"levels", std::string(row.name)}}, 4), 0U);
+  }
+}
+
+TEST(PipelineOnHost, EveryPrintedForm) {
+  for (const std::string name : {"printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7"}) {
+    SCOPED_TRACE(name);
+    PipelineOptions options;
+    options.variant = *core::variant_named(name);
+    EXPECT_GT(compare(spheres(40, 2.5F, 4), options, {{"variant", name}}, 10), 0U);
+  }
+}
+
+TEST(PipelineOnHost, StaticBodiesAndTheJacobiSolver) {
+  PipelineOptions options;
+  EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {}, 12), 0U);
+  options.solver = Solver::kJacobi;
+  EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {{"solver", "jacobi"}}, 12), 0U);
+}
+
+// More bodies than the grid has threads, more than a block's memory holds, and from the hashed octree.
+TEST(PipelineOnHost, ManyBoxesOfManySizes) {
+  SceneShape shape;
+  shape.bodies = 1000;
+  shape.cube_m = 7.0F;
+  const core::Scene scene = thrown({box_mesh({0.5F, 0.5F, 0.5F}), box_mesh({0.2F, 0.7F, 0.1F}),
+                                    box_mesh({0.02F, 0.03F, 0.02F}), box_mesh({2.0F, 1.0F, 0.3F})},
+                                   shape);
+  PipelineOptions options;
+  options.has_vertex_stage = false;
+  options.levels = core::Levels::kFlat;
+  options.least_for_grid = 100;
+  EXPECT_GT(compare(scene, options, {{"levels", "flat"}, {"vertex_stage", "off"}}, 2), 0U);
+}
+
+// Pairs by the thousand from one point: every buffer starts too small, and no pair is lost.
+TEST(PipelineOnHost, BuffersGrow) {
+  SceneShape shape;
+  shape.bodies = 90;
+  shape.cube_m = 0.0F;
+  core::Scene scene = thrown({box_mesh({0.5F, 0.5F, 0.5F})}, shape);
+  scene.domain = {{-9, -9, -9}, {9, 9, 9}};
+  PipelineOptions options;
+  options.has_vertex_stage = false;
+  options.levels = core::Levels::kFlat;
+  Pipeline subject(options);
+  EXPECT_GT(compare_pipelines(scene, subject, *twin_of({{"levels", "flat"}, {"vertex_stage", "off"}}), 1, 1), 0U);
+  EXPECT_EQ(subject.counters().pairs, 90U * 89U / 2U);
+  EXPECT_GE(subject.repeated_frames(), 1U);
+}
+
+// Whatever the order in which threads come: a frame is a function of the one before.
+TEST(PipelineOnHost, AnyOrderOfThreads) {
+  for (const char* seed : {"1", "2", "3"}) {
+    ASSERT_EQ(setenv("BROADSIDE_ON_HOST_SEED", seed, 1), 0);
+    EXPECT_GT(compare(spheres(40, 2.2F), {}, {}, 4), 0U);
+  }
+  unsetenv("BROADSIDE_ON_HOST_SEED");
+}
+
+}  // namespace
+}  // namespace broadside::gpu
