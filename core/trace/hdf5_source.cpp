@@ -19,10 +19,16 @@ constexpr std::size_t kLongestText = 1U << 20U;  // 1 MiB: settings and notes ar
 // Deflate's best ratio is 1032:1 (258 bytes for 2 bits): no honest array is larger than that many times its file.
 constexpr std::uint64_t kBestRatio = 1032;
 
+// A chunk is held in memory as a whole, also to read one row of it. HDF5 writes and recommends about 1 MiB.
+constexpr std::uint64_t kLargestChunk = 256U << 20U;
+
+// Exactly the IEEE or whole-number type, in either byte order: a type of the same size whose bits mean something else
+// is left to nobody's conversion.
 bool is_type(hid_t type, Element element) {
   const hid_t wanted = hdf5_type(element);
-  if (H5Tget_class(type) != H5Tget_class(wanted) || H5Tget_size(type) != H5Tget_size(wanted)) return false;
-  return H5Tget_class(type) == H5T_FLOAT || H5Tget_sign(type) == H5Tget_sign(wanted);
+  if (H5Tequal(type, wanted) > 0) return true;
+  const Handle swapped(H5Tcopy(wanted), H5Tclose);
+  return H5Tset_order(swapped.get(), H5T_ORDER_BE) >= 0 && H5Tequal(type, swapped.get()) > 0;
 }
 
 const char* name_of(Element e) {
@@ -67,10 +73,54 @@ bool is_in_this_file(hid_t file, const std::string& path) {
          link.type == H5L_TYPE_HARD;
 }
 
-// External storage and virtual datasets read other files.
-bool is_stored_here(hid_t set) {
+bool multiply(const std::vector<hsize_t>& factors, std::uint64_t& product) {
+  for (const hsize_t f : factors)
+    if (f != 0 && __builtin_mul_overflow(product, f, &product)) return false;
+  return true;
+}
+
+// No filter that a plugin would bring, and none but those that a trace uses: each is code that works on a stranger's
+// bytes.
+bool has_known_filters(hid_t properties) {
+  const int count = H5Pget_nfilters(properties);
+  for (int k = 0; k < count; ++k) {
+    unsigned flags = 0;
+    unsigned configuration = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t id =
+        H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &values, nullptr, 0, nullptr, &configuration);
+    if (id != H5Z_FILTER_SHUFFLE && id != H5Z_FILTER_DEFLATE && id != H5Z_FILTER_FLETCHER32) return false;
+  }
+  return count >= 0;
+}
+
+// How a dataset says that it is stored, before a byte of it is read.
+struct Storage {
+  std::string fault;  // empty: it can be read
+  std::string advice;
+  // The most bytes that so much stored data can become.
+  std::uint64_t most_bytes = 0;
+};
+
+Storage storage_of(hid_t set, std::uint64_t element_bytes, std::uint64_t file_bytes) {
   const Handle properties(H5Dget_create_plist(set), H5Pclose);
-  return properties && H5Pget_layout(properties.get()) != H5D_VIRTUAL && H5Pget_external_count(properties.get()) == 0;
+  const H5D_layout_t layout = properties ? H5Pget_layout(properties.get()) : H5D_LAYOUT_ERROR;
+  // External storage and virtual datasets read other files.
+  if (layout == H5D_VIRTUAL || !properties || H5Pget_external_count(properties.get()) != 0)
+    return {"its values lie in another file", kNotOurs, 0};
+  if (layout != H5D_CHUNKED) return {"", "", file_bytes};
+  if (!has_known_filters(properties.get()))
+    return {"it is stored through a filter that is neither shuffle, gzip nor a checksum",
+            "store it with gzip, or without a filter", 0};
+  std::vector<hsize_t> chunk(H5S_MAX_RANK, 0);
+  const int rank = H5Pget_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+  chunk.resize(rank > 0 ? static_cast<std::size_t>(rank) : 0);
+  std::uint64_t bytes = element_bytes;
+  if (rank <= 0 || !multiply(chunk, bytes) || bytes > kLargestChunk)
+    return {"its chunks are larger than 256 MiB", "store it in smaller chunks", 0};
+  std::uint64_t most = 0;
+  if (__builtin_mul_overflow(file_bytes, kBestRatio, &most)) most = ~std::uint64_t{0};
+  return {"", "", most};
 }
 
 }  // namespace
@@ -164,23 +214,17 @@ std::string Hdf5Source::text(const std::string& path, const std::string& name) {
   return value.substr(0, value.find('\0'));
 }
 
-bool Hdf5Source::is_plausible(const std::vector<hsize_t>& dims, std::uint64_t element_bytes) const {
+bool Hdf5Source::can_hold(hid_t set, const std::string& path, const std::vector<hsize_t>& dims,
+                          std::uint64_t element_bytes) {
+  const Storage storage = storage_of(set, element_bytes, file_bytes_);
   std::uint64_t bytes = element_bytes;
-  for (const hsize_t d : dims)
-    if (d != 0 && __builtin_mul_overflow(bytes, d, &bytes)) return false;
-  return bytes / kBestRatio <= file_bytes_;
-}
-
-std::vector<std::uint64_t> Hdf5Source::shape(const std::string& path) {
-  if (!ok() || !has(path)) return {};
-  const Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set) return {};
-  const Handle space(H5Dget_space(set.get()), H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (rank <= 0) return {};
-  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
-  H5Sget_simple_extent_dims(space.get(), dims.data(), nullptr);
-  return {dims.begin(), dims.end()};
+  if (!storage.fault.empty())
+    fail(path, storage.fault, storage.advice);
+  else if (!multiply(dims, bytes) || bytes > storage.most_bytes)
+    fail(path,
+         "its shape " + shape_text(dims) + " cannot come from a file of " + std::to_string(file_bytes_) + " bytes",
+         "the file is damaged: record it again");
+  return ok();
 }
 
 OpenArray Hdf5Source::array(const std::string& path, Element element, const std::vector<std::uint64_t>& inner) {
@@ -189,7 +233,6 @@ OpenArray Hdf5Source::array(const std::string& path, Element element, const std:
   if (!has(path)) return fail(path, "it is missing", kNotOurs), OpenArray();
   a.set = Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
   if (!a.set) return fail_hdf5(path, "it cannot be opened as a dataset"), OpenArray();
-  if (!is_stored_here(a.set.get())) return fail(path, "its values lie in another file", kNotOurs), OpenArray();
   const Handle type(H5Dget_type(a.set.get()), H5Tclose);
   const Handle space(H5Dget_space(a.set.get()), H5Sclose);
   if (!is_type(type.get(), element))
@@ -213,12 +256,7 @@ OpenArray Hdf5Source::array(const std::string& path, Element element, const std:
              OpenArray();
     a.row_bytes *= inner[i];
   }
-  if (!is_plausible(a.dims, size_of(element)))
-    return fail(path,
-                "its shape " + shape_text(a.dims) + " cannot come from a file of " + std::to_string(file_bytes_) +
-                    " bytes",
-                "the file is damaged: record it again"),
-           OpenArray();
+  if (!can_hold(a.set.get(), path, a.dims, size_of(element))) return OpenArray();
   return a;
 }
 
@@ -253,7 +291,6 @@ std::vector<std::string> Hdf5Source::texts(const std::string& path) {
   if (!has(path)) return fail(path, "it is missing", kNotOurs), values;
   const Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set) return fail_hdf5(path, "it cannot be opened as a dataset"), values;
-  if (!is_stored_here(set.get())) return fail(path, "its values lie in another file", kNotOurs), values;
   const Handle type(H5Dget_type(set.get()), H5Tclose);
   const Handle space(H5Dget_space(set.get()), H5Sclose);
   if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0 ||
@@ -262,8 +299,8 @@ std::vector<std::string> Hdf5Source::texts(const std::string& path) {
   const std::size_t length = H5Tget_size(type.get());
   hsize_t count = 0;
   H5Sget_simple_extent_dims(space.get(), &count, nullptr);
-  if (length > kLongestText || !is_plausible({count}, length))
-    return fail(path, "it claims more text than its file can hold", "the file is damaged: record it again"), values;
+  if (length > kLongestText) return fail(path, "its strings are longer than 1 MiB", kNotOurs), values;
+  if (!can_hold(set.get(), path, {count}, length)) return values;
   std::vector<char> padded(length * count);
   if (count > 0 && H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0)
     return fail_hdf5(path, "it cannot be read"), values;

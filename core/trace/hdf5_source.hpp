@@ -85,8 +85,9 @@ class Hdf5Source {
   bool read_into(const OpenArray& array, const std::string& path, std::uint64_t first, std::uint64_t count,
                  std::byte* out);
   void fail_hdf5(const std::string& at, const std::string& what);
-  // Whether so many bytes can come from a file of this size.
-  bool is_plausible(const std::vector<hsize_t>& dims, std::uint64_t element_bytes) const;
+  // Whether the dataset is stored in this file, by means that are known, and in a size that the file can have. Says
+  // which it is not.
+  bool can_hold(hid_t set, const std::string& path, const std::vector<hsize_t>& dims, std::uint64_t element_bytes);
 
   Handle file_;
   std::filesystem::path path_;

@@ -89,6 +89,7 @@ struct TraceReader::Impl {
   void check_stamp() {
     const std::uint64_t digest = scene_digest(header.scene);
     if (!source.has_attribute("/provenance", "scene_digest")) header.stamp.scene_digest = digest;
+    if (header.stamp.scene_name.empty()) header.stamp.scene_name = header.scene.name;
     if (header.stamp.scene_digest != digest)
       source.fail("/provenance@scene_digest", "the stamp is of another scene than the one in this file",
                   "record it again");
