@@ -20,9 +20,10 @@
 namespace broadside::bench {
 namespace {
 
-constexpr std::array<AddCommand, 11> kCommands{add_list,  add_run,     add_pairs,          add_check,
-                                               add_time,  add_report,  add_compare,        add_demo,
-                                               add_fetch, add_recover, add_describe_plugin};
+constexpr std::array kCommands{
+    add_list, add_run,   add_pairs,   add_check,           add_time, add_report, add_compare,
+    add_demo, add_fetch, add_recover, add_describe_plugin, add_diff, add_replay, add_shrink,
+};
 
 std::vector<std::string> subcommands(const CLI::App& program) {
   std::vector<std::string> names;

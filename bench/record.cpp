@@ -53,17 +53,19 @@ core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engin
     }
     recording.value().note_progress(step);
   }
-  recording.value().note_work(dynamics.counters());
   return recording.value().finish();
+}
+
+core::Error no_feed(const CellRequest& request) {
+  return {"the trace has no boxes and poses at detection to feed an engine with", request.driver_trace.string(),
+          "record octree-cpu with --record full"};
 }
 
 core::Result<core::TraceReader> open_driver(const CellRequest& request, std::uint32_t groups) {
   auto driver = core::TraceReader::open(request.driver_trace);
   if (!driver) return driver.error();
   const core::TraceHeader& header = driver.value().header();
-  if ((header.groups & groups) != groups)
-    return core::Error{"the trace has no boxes and poses at detection to feed an engine with",
-                       request.driver_trace.string(), "record octree-cpu with --record full"};
+  if ((header.groups & groups) != groups) return no_feed(request);
   if (header.stamp.scene_digest != core::scene_digest(*request.scene))
     return core::Error{"the trace is of another scene", request.driver_trace.string(), "record the driver again"};
   return driver;
@@ -108,23 +110,26 @@ core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& 
     if (core::Status s = recording.add(frame); !s) return s.error();
     recording.note_progress(k + 1);
   }
-  recording.note_work(broad.counters());
   return recording.finish();
 }
 
-// Measures the pairs that the driver confirmed or that are near (bench/near_pairs.hpp), at the poses of detection, on
-// a sampled set of frames.
+// Measures, at the poses of detection, the pairs that the driver confirmed or that are near (bench/near_pairs.hpp) on a
+// sampled set of frames; where the driver itself measured pairs, those.
 core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine& engine) {
-  auto opened = open_driver(request, bit(Group::kDetection) | bit(Group::kConfirmed));
+  auto opened = open_driver(request, bit(Group::kDetection));
   if (!opened) return opened.error();
   const core::TraceReader& driver = opened.value();
+  const bool repeats = (driver.header().groups & bit(Group::kNarrow)) != 0;
+  const std::uint32_t groups = bit(Group::kDetection) | bit(repeats ? Group::kNarrow : Group::kConfirmed);
+  if ((driver.header().groups & groups) != groups) return no_feed(request);
   core::NarrowPhase& narrow = *engine.narrow_phase;
   core::TraceHeader header = header_for(request, engine);
   header.groups = request.level == core::RecordLevel::kFull ? bit(Group::kNarrow) | bit(Group::kDetection) : 0;
   header.driver = driver.header().stamp.label();
   header.every = request.narrow_every;
   header.notes["frames measured"] = fmt::format("every {}th frame of {}", request.narrow_every, driver.frame_count());
-  header.notes["pairs measured"] = "confirmed by the driver, or boxes within 2 theta";
+  header.notes["pairs measured"] =
+      repeats ? "those that the driver measured" : "confirmed by the driver, or boxes within 2 theta";
   if (core::Status s = narrow.load(*request.scene); !s) return s.error();
   CellRequest sampled = request;
   sampled.every = 1;
@@ -136,10 +141,10 @@ core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine&
   for (std::uint64_t k = 0; k < driver.frame_count(); ++k) {
     if (driver.steps()[k] % request.narrow_every != 0) continue;
     if (is_interrupted()) return recording.interrupted();
-    auto read = driver.read(k, bit(Group::kDetection) | bit(Group::kConfirmed));
+    auto read = driver.read(k, groups);
     if (!read) return read.error();
     core::FrameRecord frame = std::move(read).value();
-    frame.measured = near.of(frame);
+    if (!repeats) frame.measured = near.of(frame);
     std::vector<core::Pose> poses;
     for (std::size_t i = 0; i < frame.detected_position.size(); ++i)
       poses.push_back({frame.detected_position[i], request.scene->bodies[i].orientation});
@@ -156,15 +161,18 @@ core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine&
 
 }  // namespace
 
-core::Result<core::Cell> record_cell(const CellRequest& request) {
+core::Result<core::Cell> record_cell(const CellRequest& request, std::string_view capability) {
   auto settings = core::Settings::parse(request.row->id, request.row->settings, request.settings);
   if (!settings) return settings.error();
   auto created = request.row->create(settings.value());
   if (!created) return created.error();
   core::Engine& engine = created.value();
-  if (engine.dynamics) return record_dynamics(request, engine);
-  if (engine.broad_phase) return record_broad(request, engine);
-  return record_narrow(request, engine);
+  const auto is_asked = [capability](std::string_view name) { return capability.empty() || capability == name; };
+  if (engine.dynamics && is_asked("dynamics")) return record_dynamics(request, engine);
+  if (engine.broad_phase && is_asked("broad")) return record_broad(request, engine);
+  if (engine.narrow_phase && is_asked("narrow")) return record_narrow(request, engine);
+  return core::Error{"it does not offer what was asked of it: " + std::string(capability), engine.id,
+                     "see 'broadside list engines'"};
 }
 
 }  // namespace broadside::bench

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/engines.hpp"
+#include "bench/trace_scene.hpp"
 #include "core/engine/settings.hpp"
 #include "core/nearest_name.hpp"
 #include "datasets/scenes.hpp"
@@ -38,7 +39,9 @@ core::Status spread(const std::string& text, std::vector<CellSpec>& cells) {
 
 void SceneArguments::add_to(CLI::App& command) {
   command
-      .add_option("SCENE", spec, "A scene's name, such as freefall:bunny:50, or a .toml file (broadside list scenes)")
+      .add_option("SCENE", spec,
+                  "A scene's name, such as freefall:bunny:50, a .toml file, or a trace (.h5), whose scene is taken "
+                  "(broadside list scenes)")
       ->required();
   command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")->check(CLI::PositiveNumber);
   command.add_flag("--stand-in", allow_stand_in,
@@ -46,6 +49,11 @@ void SceneArguments::add_to(CLI::App& command) {
 }
 
 core::Result<core::Scene> SceneArguments::make() const {
+  if (is_trace_file(spec)) {
+    auto scene = scene_of_trace(spec);
+    if (scene.ok() && frames > 0) scene.value().frames = frames;
+    return scene;
+  }
   datasets::SceneOptions options;
   options.meshes.allow_procedural = allow_stand_in;
   if (frames > 0) options.frames = frames;

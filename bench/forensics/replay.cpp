@@ -1,0 +1,162 @@
+#include "bench/forensics/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "bench/child.hpp"
+#include "bench/forensics/replay_rule.hpp"
+#include "bench/record.hpp"
+#include "validation/subject_facts.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using core::bit;
+using core::Group;
+
+constexpr double kTimeLimit_s = 3600.0;
+
+struct Feed {
+  std::string_view capability;
+  std::uint32_t groups;  // that the trace must have
+  std::string_view lacks;
+};
+constexpr std::array kFeeds{
+    Feed{"broad", bit(Group::kDetection) | bit(Group::kPairs), "boxes at detection and candidate pairs"},
+    Feed{"narrow", bit(Group::kDetection) | bit(Group::kNarrow), "poses at detection and measured separations"},
+};
+
+bool has(const core::TraceReader& trace, std::uint32_t groups) {
+  return (trace.header().groups & groups) == groups;
+}
+
+// Of a simulation: states, or digests alone, and not the work of an engine that was fed.
+bool is_simulation(const core::TraceReader& trace) {
+  return trace.header().driver.empty() && (trace.header().groups == 0 || has(trace, bit(Group::kBodies)));
+}
+
+core::Result<std::string> choose(const core::TraceReader& trace, const CellSpec& engine, const std::string& asked) {
+  const std::string where = trace.path().string();
+  if (!asked.empty() && !offers(*engine.row, asked))
+    return core::Error{"it offers " + std::string(engine.row->capabilities), std::string(engine.row->id),
+                       "choose another engine, or leave --as out"};
+  if ((asked.empty() || asked == "dynamics") && offers(*engine.row, "dynamics") && is_simulation(trace))
+    return std::string("dynamics");
+  if (asked == "dynamics") return core::Error{"it is no trace of a simulation", where, "give one with body states"};
+  for (const Feed& feed : kFeeds) {
+    if (!offers(*engine.row, feed.capability) || (!asked.empty() && asked != feed.capability)) continue;
+    if (has(trace, feed.groups)) return std::string(feed.capability);
+    if (!asked.empty()) return core::Error{"it has no " + std::string(feed.lacks), where, "record these groups"};
+  }
+  return core::Error{fmt::format("it has nothing that {} ({}) could repeat", engine.row->id, engine.row->capabilities),
+                     where, "a broad phase needs boxes and pairs, a narrow phase poses and separations"};
+}
+
+core::Result<std::filesystem::path> record_again(const core::TraceReader& trace, const core::Scene& scene,
+                                                 const CellSpec& engine, const std::string& capability,
+                                                 const std::filesystem::path& folder) {
+  CellRequest request;
+  request.source.spec = trace.path().string();
+  request.scene = &scene;
+  request.row = engine.row;
+  request.settings = engine.settings;
+  request.frames = scene.frames;
+  request.level = trace.header().groups == 0 ? core::RecordLevel::kDigest : core::RecordLevel::kFull;
+  request.folder = folder;
+  request.driver_trace = trace.path();
+  auto cell = engine.row->is_reference ? record_cell_in_child(request, kTimeLimit_s) : record_cell(request, capability);
+  if (!cell) return cell.error();
+  if (cell.value().state != core::CellState::kRecorded)
+    return core::Error{std::string(core::cell_state_word(cell.value().state)) + ": " + cell.value().reason,
+                       std::string(engine.row->id), "", core::Exit::kMissing};
+  return folder / cell.value().trace_file;
+}
+
+// Steps that only the replay has say nothing: it records every step.
+core::Status compare_by(DifferenceRule& rule, const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
+  auto found = compare_traces(a, b, &rule);
+  if (!found) return found.error();
+  replay.difference = std::move(found).value();
+  replay.difference.only_in_b = 0;
+  return core::Done{};
+}
+
+core::Status compare_pairs(const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
+  PairRule rule(a.header().broad_is_exact);
+  replay.expectation = "the recorded boxes have exactly these pairs, as a set";
+  if (core::Status s = compare_by(rule, a, b, replay); !s) return s;
+  if (rule.extra() > 0)
+    replay.remark =
+        fmt::format("{} pairs are only in the recording, whose engine does not promise exact pairs", rule.extra());
+  return core::Done{};
+}
+
+core::Status compare_separations(const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
+  SeparationRule rule(a.header().scene);
+  replay.expectation =
+      "distances of surfaces that are apart agree within 2 sqrt(3) u (W_A + W_B), u = 2^-24, W a body's largest "
+      "coordinate; touching agrees outside that band";
+  if (core::Status s = compare_by(rule, a, b, replay); !s) return s;
+  replay.has_judged = rule.judged() > 0;
+  return core::Done{};
+}
+
+core::Status compare_flights(const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
+  FlightRule rule(a, b);
+  replay.expectation =
+      "until a body is first touched its states agree within the rounding of P(1) to P(3) in float32, two operations a "
+      "step in each engine";
+  if (core::Status s = compare_by(rule, a, b, replay); !s) return s;
+  if (!rule.error().empty()) return core::Error{rule.error()};
+  replay.has_judged = rule.judged() > 0;
+  if (rule.touched() > 0)
+    replay.remark = fmt::format(
+        "{} of {} bodies were touched, the first at step {}; from then on no bound is derived for them, and they are "
+        "not "
+        "compared",
+        rule.touched(), a.header().scene.body_count(), rule.first_touch());
+  return core::Done{};
+}
+
+core::Status compare_simulations(const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
+  if (!validation::are_twins(a.header().stamp.engine, b.header().stamp.engine)) {
+    if (a.header().groups == 0)
+      return core::Error{"it records digests alone, and those of another engine mean something else", a.path().string(),
+                         "record it with --record full"};
+    return compare_flights(a, b, replay);
+  }
+  DifferenceRule bits;
+  replay.expectation = "one method on one scene: every bit agrees";
+  return compare_by(bits, a, b, replay);
+}
+
+}  // namespace
+
+core::Result<Replay> replay_trace(const std::filesystem::path& trace, const CellSpec& engine,
+                                  const std::string& capability, const std::filesystem::path& folder) {
+  auto recorded = core::TraceReader::open(trace);
+  if (!recorded) return recorded.error();
+  const core::TraceReader& a = recorded.value();
+  if (a.frame_count() == 0) return core::Error{"it has no frames", trace.string(), "record at least one step"};
+  auto chosen = choose(a, engine, capability);
+  if (!chosen) return chosen.error();
+  Replay replay;
+  replay.capability = chosen.value();
+  core::Scene scene = a.header().scene;
+  if (replay.capability == "dynamics") scene.frames = static_cast<std::uint32_t>(a.steps().back());
+  auto file = record_again(a, scene, engine, replay.capability, folder);
+  if (!file) return file.error();
+  replay.file = file.value();
+  auto own = core::TraceReader::open(replay.file);
+  if (!own) return own.error();
+  const core::Status compared = replay.capability == "broad"    ? compare_pairs(a, own.value(), replay)
+                                : replay.capability == "narrow" ? compare_separations(a, own.value(), replay)
+                                                                : compare_simulations(a, own.value(), replay);
+  if (!compared) return compared.error();
+  return replay;
+}
+
+}  // namespace broadside::bench

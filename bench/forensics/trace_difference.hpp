@@ -1,0 +1,63 @@
+// The first place at which two traces of one scene part ways, and what the bodies there went through before.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/contact.hpp"
+#include "core/result.hpp"
+#include "core/trace/frame_difference.hpp"
+#include "core/trace/trace_reader.hpp"
+
+namespace broadside::bench {
+
+// What counts as a difference. The default: every bit of every group that both traces have.
+class DifferenceRule {
+ public:
+  virtual ~DifferenceRule() = default;
+  // Of these only the groups that both have are compared.
+  [[nodiscard]] virtual std::uint32_t groups() const { return ~0U; }
+  // Also the counts beside the pairs, the time, and the digest where both traces mean the same by it.
+  [[nodiscard]] virtual bool includes_bookkeeping() const { return true; }
+  // Called with each two frames before they are compared.
+  virtual void enter(const core::FrameRecord& /*a*/, const core::FrameRecord& /*b*/) {}
+  // Whether a difference by bits may pass.
+  virtual bool passes(const core::FrameDifference& /*difference*/) { return false; }
+};
+
+struct HistoryContact {
+  std::uint64_t step = 0;
+  bool is_of_b = false;  // applied in the second trace; before the first difference both have the same
+  core::Contact contact;
+};
+
+struct TraceDifference {
+  std::uint64_t common_steps = 0;
+  std::uint64_t equal_steps = 0;  // of them, before the first difference
+  std::uint64_t only_in_a = 0;    // steps that the other trace lacks
+  std::uint64_t only_in_b = 0;
+  std::uint64_t other_digests = 0;  // of the common steps
+  bool has_digests = false;         // whether the digests of the two mean the same
+  std::vector<std::string> groups;  // compared, as paths
+  std::vector<std::string> groups_only_in_a;
+  std::vector<std::string> groups_only_in_b;
+  std::uint64_t step = 0;  // of the first difference
+  std::optional<core::FrameDifference> first;
+  // Contacts of the bodies of the first difference, in the ten recorded frames before it (from A) and in its own frame
+  // (from both).
+  bool has_history = false;
+  std::vector<HistoryContact> history;
+
+  [[nodiscard]] bool is_same() const { return !first && only_in_a == 0 && only_in_b == 0; }
+};
+
+// Streams both, one frame of each in memory at a time; reads a frame's groups once. rule: null = bits. Errors: another
+// scene (frames, its length, apart), no step in both, nothing recorded that both have, a frame that cannot be read.
+core::Result<TraceDifference> compare_traces(const core::TraceReader& a, const core::TraceReader& b,
+                                             DifferenceRule* rule = nullptr,
+                                             const std::function<void(std::uint64_t)>& progress = {});
+
+}  // namespace broadside::bench

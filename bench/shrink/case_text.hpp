@@ -1,0 +1,22 @@
+// A small scene as the source of a GoogleTest case.
+#pragma once
+
+#include <string>
+
+#include "core/scene/scene.hpp"
+#include "core/verdict.hpp"
+
+namespace broadside::bench {
+
+struct CaseFacts {
+  std::string command;    // that made it
+  std::string engine;     // "octree-cpu[levels=A]"
+  std::string validator;  // the law that the engine breaks there
+  core::Verdict verdict;
+};
+
+// A source file that needs nothing but this repository: it builds the scene number by number, with digits that name
+// every float, runs the engine and expects the validator to pass. It fails for as long as the engine is wrong.
+std::string case_text(const core::Scene& scene, const CaseFacts& facts);
+
+}  // namespace broadside::bench

@@ -1,0 +1,37 @@
+// One trial of the shrinker: does this engine, on this scene, get this verdict?
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/cell_spec.hpp"
+#include "core/result.hpp"
+#include "core/scene/scene.hpp"
+#include "core/verdict.hpp"
+
+namespace broadside::bench {
+
+// What is asked of every scene that is tried.
+struct Question {
+  std::string validator;
+  CellSpec engine;
+  // The engine to compare with, for validators that compare; none: a second run of the same engine.
+  std::optional<CellSpec> against;
+};
+
+struct Answer {
+  core::Verdict verdict;
+  std::vector<core::Body> end;  // the bodies as the run left them
+};
+
+// Runs all frames of the scene and judges them with the one validator. Engines made of other people's libraries run in
+// a child process, so that one that aborts is an error here and not the end. Errors: an unknown validator, an engine
+// that refuses the scene or fails.
+core::Result<Answer> ask(const Question& question, const core::Scene& scene);
+
+// The same for test cases: engine as on the command line, "octree-cpu[levels=A]".
+core::Result<core::Verdict> judge_engine(const core::Scene& scene, std::string_view engine, std::string_view validator);
+
+}  // namespace broadside::bench
