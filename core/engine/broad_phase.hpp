@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/engine/counter.hpp"
 #include "core/math/box.hpp"
 #include "core/pair.hpp"
 #include "core/result.hpp"
@@ -39,8 +38,6 @@ class BroadPhase {
   virtual Status find() = 0;
   // Own zone: copies, filters, sorts.
   virtual Result<PairSet> read_back() = 0;
-  // Work done since load; empty when the engine does not count.
-  [[nodiscard]] virtual std::vector<Counter> counters() const { return {}; }
 };
 
 }  // namespace broadside::core

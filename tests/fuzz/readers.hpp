@@ -1,0 +1,114 @@
+// The readers of files that strangers wrote, each as a function of bytes: what the fuzzers call, and what the ordinary
+// test of the kept inputs calls. Each must come back, whatever the bytes are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "core/engine/narrow_phase.hpp"
+#include "core/mesh/load_mesh.hpp"
+#include "core/trace/trace_reader.hpp"
+#include "datasets/box_streams/raw_boxes.hpp"
+#include "datasets/scene_file/scene_file.hpp"
+
+namespace broadside::fuzz {
+
+// A folder of this process for the file that is read next; it goes away at the end.
+class Scratch {
+ public:
+  Scratch() {
+    std::error_code failed;
+    const bool has_memory = std::filesystem::is_directory("/dev/shm", failed);
+    std::string pattern = (std::filesystem::path(has_memory ? "/dev/shm" : std::filesystem::temp_directory_path()) /
+                           "broadside-fuzz-XXXXXX")
+                              .string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  std::filesystem::path file(const std::string& name, const std::uint8_t* data, std::size_t size) const {
+    const std::filesystem::path path = path_ / name;
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+    return path;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline const Scratch& scratch() {
+  static const Scratch folder;
+  return folder;
+}
+
+// A refusal is one line that says where and what to do.
+inline void check_refusal(const core::Error& error) {
+  if (error.what.empty() || error.line().find('\n') != std::string::npos) __builtin_trap();
+}
+
+// A scene file may ask for ten million bodies; to make them is honest work and no finding. So inputs with a whole
+// number of more than three digits are left out.
+inline bool asks_for_much(std::string_view text) {
+  std::size_t run = 0;
+  for (const char c : text) {
+    const bool is_digit = (c >= '0' && c <= '9') || c == '_';
+    run = is_digit ? run + 1 : 0;
+    if (run > 3) return true;
+  }
+  return text.find("0x") != std::string_view::npos;
+}
+
+inline void read_scene(const std::uint8_t* data, std::size_t size) {
+  if (asks_for_much({reinterpret_cast<const char*>(data), size})) return;
+  const auto path = scratch().file("input.toml", data, size);
+  const auto scene = datasets::read_scene_file(path, datasets::SceneOptions{.meshes = {}, .frames = {}, .seed = {}});
+  if (!scene) return check_refusal(scene.error());
+  if (!core::check_scene(scene.value())) __builtin_trap();
+}
+
+inline void read_boxes(const std::uint8_t* data, std::size_t size) {
+  const auto boxes = datasets::read_raw_boxes(scratch().file("input.boxes", data, size));
+  if (!boxes) return check_refusal(boxes.error());
+  if (boxes.value().size() * sizeof(core::Box) + 4 != size) __builtin_trap();
+}
+
+inline void read_trace(const std::uint8_t* data, std::size_t size) {
+  const auto trace = core::TraceReader::open(scratch().file("input.h5", data, size));
+  if (!trace) return check_refusal(trace.error());
+  constexpr std::uint64_t kFrames = 16;
+  for (std::uint64_t k = 0; k < trace.value().frame_count() && k < kFrames; ++k)
+    if (const auto frame = trace.value().read(k, ~0U); !frame) return check_refusal(frame.error());
+  if (const auto rows = trace.value().statistics(); !rows) check_refusal(rows.error());
+}
+
+// The first byte says which format the rest is.
+inline void read_mesh(const std::uint8_t* data, std::size_t size) {
+  static constexpr std::array<const char*, 6> kNames{"input.ply", "input.obj",  "input.stl",
+                                                     "input.off", "input.gltf", "input.glb"};
+  if (size == 0) return;
+  const auto path = scratch().file(kNames[data[0] % kNames.size()], data + 1, size - 1);
+  const auto mesh = core::load_mesh(path);
+  if (!mesh) return check_refusal(mesh.error());
+  if (mesh.value().mesh.triangles.empty()) __builtin_trap();
+}
+
+struct Reader {
+  std::string_view name;  // of its fuzzer and of its folder in corpus/
+  void (*read)(const std::uint8_t* data, std::size_t size);
+};
+inline constexpr std::array<Reader, 4> kReaders{
+    {{"scene", read_scene}, {"boxes", read_boxes}, {"trace", read_trace}, {"mesh", read_mesh}}};
+
+}  // namespace broadside::fuzz
