@@ -53,6 +53,7 @@ core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engin
     }
     recording.value().note_progress(step);
   }
+  recording.value().note_work(dynamics.counters());
   return recording.value().finish();
 }
 
@@ -110,6 +111,7 @@ core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& 
     if (core::Status s = recording.add(frame); !s) return s.error();
     recording.note_progress(k + 1);
   }
+  recording.note_work(broad.counters());
   return recording.finish();
 }
 

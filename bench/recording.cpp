@@ -46,6 +46,10 @@ void Recording::count(const core::FrameRecord& frame) {
   if (has(core::Group::kNarrow)) counts_["pairs: measured, mean"] += frame.measured.size();
 }
 
+void Recording::note_work(const std::vector<core::Counter>& counters) {
+  for (const core::Counter& counter : counters) work_[std::string(counter.name)] = counter.count;
+}
+
 core::Cell Recording::cell(core::CellState state, const std::string& reason) {
   core::Cell cell;
   cell.stamp = header_.stamp;
@@ -57,6 +61,9 @@ core::Cell Recording::cell(core::CellState state, const std::string& reason) {
   cell.notes = header_.notes;
   for (const auto& [what, sum] : counts_)
     cell.notes[what] = fmt::format("{:.4g}", static_cast<double>(sum) / static_cast<double>(frames_));
+  cell.counters = work_;
+  // Of the counted pairs, what the engine's own filter has to work through; the others are answers, not work.
+  if (const auto raw = counts_.find("pairs: raw, mean"); raw != counts_.end()) cell.counters["raw pairs"] = raw->second;
   progress_.reset();
   return cell;
 }

@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/cell_request.hpp"
 #include "bench/progress.hpp"
+#include "core/engine/counter.hpp"
 #include "core/result.hpp"
 #include "core/rows.hpp"
 #include "core/trace/frame.hpp"
@@ -27,6 +29,9 @@ class Recording {
   core::Status add(const core::FrameRecord& frame);
   void note_progress(std::uint64_t done) { progress_->at(done); }
   [[nodiscard]] bool is_due(std::uint64_t step) const { return step % every_ == 0; }
+
+  // What the engine counted, for the finished cell's row.
+  void note_work(const std::vector<core::Counter>& counters);
 
   // Exactly one of these ends it.
   core::Result<core::Cell> finish();
@@ -48,6 +53,7 @@ class Recording {
   std::uint64_t last_digest_ = 0;
   // Sums over the recorded frames of what each group holds, for the report's table of counts.
   std::map<std::string, std::uint64_t> counts_;
+  std::map<std::string, std::uint64_t> work_;
   std::chrono::steady_clock::time_point start_;
 };
 

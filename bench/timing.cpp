@@ -1,5 +1,7 @@
 #include "bench/timing.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -10,6 +12,7 @@
 #include "bench/interrupt.hpp"
 #include "bench/near_pairs.hpp"
 #include "bench/progress.hpp"
+#include "core/pair.hpp"
 #include "core/trace/trace_reader.hpp"
 
 namespace broadside::bench {
@@ -130,6 +133,12 @@ core::Status time_narrow(const RunPlan& plan, core::Engine& engine, const BakedF
   return core::Done{};
 }
 
+// Other processes of this machine and day have another one.
+std::uint64_t process_name() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  return core::splitmix64(static_cast<std::uint64_t>(now) ^ (static_cast<std::uint64_t>(getpid()) << 48U)) | 1U;
+}
+
 class Timer {
  public:
   explicit Timer(const RunPlan& plan) : plan_(plan) {}
@@ -182,6 +191,7 @@ core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint
   Timer timer(plan);
   if (core::Status s = timer.prepare(); !s) return s.error();
   std::vector<core::Sample> samples;
+  const std::uint64_t process = process_name();
   Progress progress("timing", std::uint64_t{repetitions} * plan.cells.size());
   for (std::uint32_t r = 0; r < repetitions; ++r) {
     for (const CellSpec& spec : plan.cells) {
@@ -197,6 +207,7 @@ core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint
       if (is_interrupted())
         return core::Error{"interrupted: no time is kept of a run that did not end", "time", "", core::Exit::kMissing};
       sample.value().repetition = r;
+      sample.value().process = process;
       sample.value().warm_up_frames = kWarmUpFrames;
       samples.push_back(std::move(sample).value());
       progress.at(samples.size());

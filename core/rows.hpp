@@ -28,6 +28,8 @@ struct Cell {
   // Step -> digest of that recorded frame: the last frame, and any other at which a timed run may end. A sample is
   // admitted only when its final digest is found here.
   std::map<std::uint64_t, std::uint64_t> digests;
+  // What the recording run counted ("box tests" -> 41203): equal on every machine for one program and one stamp.
+  std::map<std::string, std::uint64_t> counters;
   std::map<std::string, std::string> notes;  // "frames measured" -> "every 100th"; "mesh" -> file and sum
 };
 
@@ -51,6 +53,8 @@ struct RunRows {
 Status write_cells(const std::filesystem::path& file, const std::vector<Cell>& cells);
 Status write_verdicts(const std::filesystem::path& file, const std::vector<CellVerdicts>& verdicts);
 Status write_samples(const std::filesystem::path& file, const std::vector<Sample>& samples);
+// One file of samples; an absent one is an error here.
+Result<std::vector<Sample>> read_samples(const std::filesystem::path& file);
 Result<RunRows> read_rows(const std::filesystem::path& folder);
 
 }  // namespace broadside::core

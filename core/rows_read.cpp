@@ -38,6 +38,8 @@ class Node {
     return {*found, path_ + "." + key};
   }
 
+  [[nodiscard]] bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
   [[nodiscard]] std::string text() const {
     if (!json_.is_string()) reject("is not text");
     return json_.get<std::string>();
@@ -142,6 +144,9 @@ void read(const Node& node, Cell& cell) {
     if (key.empty() || std::from_chars(key.data(), end, step).ptr != end) value.reject("has a step that is no number");
     cell.digests[step] = value.digest();
   }
+  // Rows of earlier builds have none.
+  if (node.has("counters"))
+    for (const auto& [key, value] : node.at("counters").members()) cell.counters[key] = value.count();
   for (const auto& [key, value] : node.at("notes").members()) cell.notes[key] = value.text();
 }
 
@@ -171,6 +176,7 @@ void read(const Node& node, CellVerdicts& cell) {
 void read(const Node& node, Sample& sample) {
   read(node.at("stamp"), sample.stamp);
   sample.repetition = node.at("repetition").count32();
+  if (node.has("process")) sample.process = node.at("process").digest();
   sample.warm_up_frames = node.at("warm_up_frames").count32();
   for (const Node& item : node.at("stages").items())
     sample.stages.push_back({item.at("stage").text(), item.at("seconds").numbers()});
@@ -205,6 +211,15 @@ Status read_file(const std::filesystem::path& file, const std::string& format, s
 }
 
 }  // namespace
+
+Result<std::vector<Sample>> read_samples(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    return Error{.what = "no such file", .where = file.string(), .advice = "name a file that time wrote"};
+  std::vector<Sample> samples;
+  if (Status s = read_file(file, "broadside-samples", samples); !s) return s.error();
+  return samples;
+}
 
 Result<RunRows> read_rows(const std::filesystem::path& folder) {
   std::error_code ignored;

@@ -44,12 +44,15 @@ Json to_json(const Stamp& stamp) {
 Json to_json(const Cell& cell) {
   Json digests = Json::object();
   for (const auto& [step, digest] : cell.digests) digests[std::to_string(step)] = hex(digest);
+  Json counters = Json::object();
+  for (const auto& [name, count] : cell.counters) counters[name] = count;
   Json notes = Json::object();
   for (const auto& [key, text] : cell.notes) notes[key] = text;
   return Json{{"stamp", to_json(cell.stamp)},  {"state", std::string(cell_state_word(cell.state))},
               {"reason", cell.reason},         {"trace_file", cell.trace_file},
               {"frames", cell.frames},         {"wall_s", number(cell.wall_s)},
-              {"digests", std::move(digests)}, {"notes", std::move(notes)}};
+              {"digests", std::move(digests)}, {"counters", std::move(counters)},
+              {"notes", std::move(notes)}};
 }
 
 Json to_json(const Verdict& verdict) {
@@ -77,9 +80,10 @@ Json to_json(const Sample& sample) {
   Json stages = Json::array();
   for (const StageSeries& series : sample.stages)
     stages.push_back(Json{{"stage", series.stage}, {"seconds", numbers(series.seconds)}});
-  return Json{{"stamp", to_json(sample.stamp)},           {"repetition", sample.repetition},
-              {"warm_up_frames", sample.warm_up_frames},  {"stages", std::move(stages)},
-              {"final_digest", hex(sample.final_digest)}, {"final_step", sample.final_step}};
+  return Json{{"stamp", to_json(sample.stamp)}, {"repetition", sample.repetition},
+              {"process", hex(sample.process)}, {"warm_up_frames", sample.warm_up_frames},
+              {"stages", std::move(stages)},    {"final_digest", hex(sample.final_digest)},
+              {"final_step", sample.final_step}};
 }
 
 // One row per line, so that two files can be compared line by line and long series stay compact.

@@ -18,6 +18,9 @@ struct StageSeries {
 struct Sample {
   Stamp stamp;
   std::uint32_t repetition = 0;
+  // Tells runs of one process from those of another: processes differ by more than runs of one do (where memory came to
+  // lie, which address layout the loader drew). 0 = not told.
+  std::uint64_t process = 0;
   std::uint32_t warm_up_frames = 0;
   std::vector<StageSeries> stages;
   // Digest of the last frame, read after the clock stopped: the answer behind this time. It must equal the recorded

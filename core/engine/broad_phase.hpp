@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/engine/counter.hpp"
 #include "core/math/box.hpp"
 #include "core/pair.hpp"
 #include "core/result.hpp"
@@ -38,6 +39,8 @@ class BroadPhase {
   virtual Status find() = 0;
   // Own zone: copies, filters, sorts.
   virtual Result<PairSet> read_back() = 0;
+  // Work done since load; empty when the engine does not count.
+  [[nodiscard]] virtual std::vector<Counter> counters() const { return {}; }
 };
 
 }  // namespace broadside::core

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include "core/engine/counter.hpp"
 #include "core/result.hpp"
 #include "core/scene/scene.hpp"
 #include "core/trace/frame.hpp"
@@ -30,6 +32,8 @@ class Dynamics {
   [[nodiscard]] virtual std::uint32_t groups() const = 0;
   // Of the last step, in pipeline order; empty when the engine cannot tell its stages apart.
   [[nodiscard]] virtual std::span<const StageTime> stage_times() const { return {}; }
+  // Work done since load; empty when the engine does not count.
+  [[nodiscard]] virtual std::vector<Counter> counters() const { return {}; }
 };
 
 }  // namespace broadside::core

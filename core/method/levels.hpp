@@ -44,29 +44,48 @@ BROADSIDE_HD bool overlaps_at(const Box& a, Vec3 xa, const Box& b, Vec3 xb) {
   return overlaps(translated(a, xa), translated(b, xb));
 }
 
-BROADSIDE_HD bool level1_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb) {
-  for (int p = 0; p < a.level1_count; ++p)
-    for (int q = 0; q < b.level1_count; ++q)
+// What the functions below do with the number of their box tests when nobody asks: nothing, at no cost.
+struct Uncounted {
+  BROADSIDE_HD Uncounted& operator++() { return *this; }
+};
+
+// Each counts its box tests into `tests` by ++; they stop at the first overlap, so the count is part of the result.
+template <typename Tests>
+BROADSIDE_HD bool level1_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb, Tests& tests) {
+  for (int p = 0; p < a.level1_count; ++p) {
+    for (int q = 0; q < b.level1_count; ++q) {
+      ++tests;
       if (overlaps_at(a.level1[p], xa, b.level1[q], xb)) return true;
+    }
+  }
   return false;
 }
 
 // All pairs of level-2 boxes.
-BROADSIDE_HD bool level2_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb) {
-  for (int p = 0; p < a.level2_count; ++p)
-    for (int q = 0; q < b.level2_count; ++q)
+template <typename Tests>
+BROADSIDE_HD bool level2_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb, Tests& tests) {
+  for (int p = 0; p < a.level2_count; ++p) {
+    for (int q = 0; q < b.level2_count; ++q) {
+      ++tests;
       if (overlaps_at(a.level2[p], xa, b.level2[q], xb)) return true;
+    }
+  }
   return false;
 }
 
 // Level 1 against level 1; where two overlap, their level-2 children.
-BROADSIDE_HD bool descent_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb) {
+template <typename Tests>
+BROADSIDE_HD bool descent_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb, Tests& tests) {
   for (int p = 0; p < a.level1_count; ++p) {
     for (int q = 0; q < b.level1_count; ++q) {
+      ++tests;
       if (!overlaps_at(a.level1[p], xa, b.level1[q], xb)) continue;
-      for (int r = a.leaf_begin[p]; r < a.leaf_begin[p + 1]; ++r)
-        for (int s = b.leaf_begin[q]; s < b.leaf_begin[q + 1]; ++s)
+      for (int r = a.leaf_begin[p]; r < a.leaf_begin[p + 1]; ++r) {
+        for (int s = b.leaf_begin[q]; s < b.leaf_begin[q + 1]; ++s) {
+          ++tests;
           if (overlaps_at(a.level2[r], xa, b.level2[s], xb)) return true;
+        }
+      }
     }
   }
   return false;
@@ -74,20 +93,28 @@ BROADSIDE_HD bool descent_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes&
 
 // Are the bodies' boxes of the last level of this setting in contact somewhere? A child box lies inside its parent's
 // box, also after rounding, so A, B and C always agree.
-BROADSIDE_HD bool is_confirmed(Levels levels, const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb) {
+template <typename Tests>
+BROADSIDE_HD bool is_confirmed(Levels levels, const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb, Tests& tests) {
   switch (levels) {
     case Levels::kFlat:
+      ++tests;
       return overlaps_at(a.root, xa, b.root, xb);
     case Levels::kLevel1:
-      return level1_overlaps(a, xa, b, xb);
+      return level1_overlaps(a, xa, b, xb, tests);
     case Levels::kA:
-      return level2_overlaps(a, xa, b, xb);
+      return level2_overlaps(a, xa, b, xb, tests);
     case Levels::kB:
-      return descent_overlaps(a, xa, b, xb);
+      return descent_overlaps(a, xa, b, xb, tests);
     case Levels::kC:
-      return overlaps_at(a.root, xa, b.root, xb) && descent_overlaps(a, xa, b, xb);
+      ++tests;
+      return overlaps_at(a.root, xa, b.root, xb) && descent_overlaps(a, xa, b, xb, tests);
   }
   return false;
+}
+
+BROADSIDE_HD bool is_confirmed(Levels levels, const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb) {
+  Uncounted tests;
+  return is_confirmed(levels, a, xa, b, xb, tests);
 }
 
 NodeBoxes node_boxes(const BodyOctree& tree);

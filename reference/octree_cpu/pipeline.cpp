@@ -57,6 +57,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   steps_ = 0;
   told_at_.reset();
   if (core::Status s = check_step(); !s) return s;
+  level_stage_.reset_counts();
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
   for (std::uint32_t i = 0; i < bodies_.count(); ++i)
@@ -162,6 +163,15 @@ std::uint32_t Pipeline::groups() const {
   if (has_level0()) groups |= core::bit(Group::kPairs);
   if (options_.records_octree) groups |= core::bit(Group::kOctree);
   return groups;
+}
+
+// The broad phase's own work, then that of the level stage.
+std::vector<core::Counter> Pipeline::counters() const {
+  std::vector<core::Counter> counters;
+  if (broad_phase_) counters = broad_phase_->counters();
+  counters.push_back({"level stage: pairs tested", level_stage_.pairs_tested()});
+  counters.push_back({"level stage: box tests", level_stage_.box_tests()});
+  return counters;
 }
 
 std::uint64_t Pipeline::digest() const {

@@ -42,6 +42,7 @@ class Pipeline final : public core::Dynamics {
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   [[nodiscard]] std::uint32_t groups() const override;
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override { return times_; }
+  [[nodiscard]] std::vector<core::Counter> counters() const override;
 
  private:
   core::Status run_stages(float dt_s);

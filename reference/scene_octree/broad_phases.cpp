@@ -49,6 +49,7 @@ class SceneOctreeBroadPhase final : public core::BroadPhase, public OctreeRecord
 
   core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     is_static_.assign(is_static.begin(), is_static.end());
+    box_tests_ = 0;
     if (!domain_is_given_) domain_ = bounds_of(boxes);
     return update(boxes);
   }
@@ -65,8 +66,11 @@ class SceneOctreeBroadPhase final : public core::BroadPhase, public OctreeRecord
 
   core::Status find() override {
     arena_.execute([&] { octree_.find(); });
+    box_tests_ += octree_.tests();
     return core::Done{};
   }
+
+  [[nodiscard]] std::vector<core::Counter> counters() const override { return {{"broad: box tests", box_tests_}}; }
 
   core::Result<core::PairSet> read_back() override {
     core::PairSet set;
@@ -85,6 +89,7 @@ class SceneOctreeBroadPhase final : public core::BroadPhase, public OctreeRecord
   core::BroadPhaseTraits traits_;
   core::Box domain_;
   bool domain_is_given_;
+  std::uint64_t box_tests_ = 0;
   std::vector<std::uint8_t> is_static_;
 };
 
@@ -96,6 +101,7 @@ class TreeBroadPhase final : public core::BroadPhase {
 
   core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     is_static_.assign(is_static.begin(), is_static.end());
+    tree_.reset_counts();
     return update(boxes);
   }
 
@@ -110,6 +116,10 @@ class TreeBroadPhase final : public core::BroadPhase {
   core::Status find() override {
     arena_.execute([&] { tree_.find(); });
     return core::Done{};
+  }
+
+  [[nodiscard]] std::vector<core::Counter> counters() const override {
+    return {{"broad: nodes visited", tree_.nodes_visited()}, {"broad: box tests", 8U * tree_.packs_tested()}};
   }
 
   core::Result<core::PairSet> read_back() override {

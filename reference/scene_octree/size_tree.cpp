@@ -170,6 +170,8 @@ void SizeTree::find() {
       take_more(sink);
       join_(tree, c, packs.begin(), packs.end(), sink);
       writer.commit(reinterpret_cast<core::Pair*>(sink.next));
+      nodes_visited_.fetch_add(sink.nodes_visited, std::memory_order_relaxed);
+      packs_tested_.fetch_add(sink.packs_tested, std::memory_order_relaxed);
     });
   }
 }

@@ -1,6 +1,7 @@
 // The fast exact broad phase on CPU threads: a packed octree per size class (core/method/size_tree.hpp).
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,6 +30,10 @@ class SizeTree {
   void read_back(std::vector<core::Pair>& out);
 
   [[nodiscard]] std::uint64_t found() const { return found_.count(); }
+  // Work of all finds since reset_counts(): sums of integers, so the same for any number of threads.
+  [[nodiscard]] std::uint64_t nodes_visited() const { return nodes_visited_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t packs_tested() const { return packs_tested_.load(std::memory_order_relaxed); }
+  void reset_counts() { nodes_visited_ = packs_tested_ = 0; }
   [[nodiscard]] std::size_t class_count() const { return classes_.size(); }
 
  private:
@@ -47,6 +52,8 @@ class SizeTree {
   std::vector<std::uint8_t> static_lanes_;
   PairBlocks found_;
   PairOrder pair_order_;
+  std::atomic<std::uint64_t> nodes_visited_{0};
+  std::atomic<std::uint64_t> packs_tested_{0};
 };
 
 }  // namespace broadside::reference

@@ -56,6 +56,7 @@ class Join {
       narrow(count);
       return;
     }
+    sink_.nodes_visited += count;
     const BoxPack* nodes = tree_.packs + class_->level_begin[level];
     const std::uint32_t first_child = first_ >> (3U * (level - 1U));
     std::uint32_t* const begin = lists_[level - 1U];
@@ -79,6 +80,7 @@ class Join {
   void narrow(std::uint32_t count) {
     const BoxPack& own = tree_.packs[own_pack_];
     const unsigned own_static = tree_.static_lanes[own_pack_];
+    sink_.packs_tested += count;
     const BoxPack* parents = tree_.packs + class_->level_begin[1];
     const std::uint8_t* static_lanes = tree_.static_lanes + class_->level_begin[0];
     std::uint32_t* end = near_;
@@ -101,6 +103,7 @@ class Join {
     const BoxPack& own = tree_.packs[own_pack_];
     const std::uint32_t* own_ids = tree_.ids + std::size_t{8} * own_pack_;
     const unsigned own_static = tree_.static_lanes[own_pack_];
+    sink_.packs_tested += count;
     const std::uint32_t packs = class_->level_begin[0];
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t lane = near_[k] % 8U;

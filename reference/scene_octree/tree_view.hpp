@@ -51,6 +51,10 @@ struct PairSink {
   FoundPair* end;
   void* owner;
   void (*more)(PairSink& sink);
+  // Work done: packs of eight tested against one box, on the way down and among the boxes themselves. Counted by list,
+  // not by test, so that counting costs nothing that could be measured.
+  std::uint64_t nodes_visited = 0;
+  std::uint64_t packs_tested = 0;
 };
 
 // Finds all pairs that packs [first, last) of a class own. Every kernel finds the same set.

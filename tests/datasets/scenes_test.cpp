@@ -146,7 +146,8 @@ TEST(SmallScenes, AreFewBodiesInsideTheirDomainThatVertexProximityCanSee) {
     const Scene scene = made(std::string(row.example));
     EXPECT_EQ(scene.name, row.example);
     EXPECT_GE(scene.bodies.size(), 2U);
-    EXPECT_LE(scene.bodies.size(), 6U);
+    // A race among threads takes a crowd.
+    EXPECT_LE(scene.bodies.size(), scene.name == "errata:E8" ? 125U : 6U);
     EXPECT_LE(scene.frames, 300U);
     for (const Box& box : boxes_of(scene)) EXPECT_TRUE(contains(scene.domain, box));
     for (const auto& mesh : scene.meshes) {

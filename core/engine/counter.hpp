@@ -1,0 +1,16 @@
+// How much work an engine did, in things that can be counted: the same on every machine, so a change is a change of the
+// program and not of the weather.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace broadside::core {
+
+// Since load. Only what the scene, the settings and the program determine: no time, no count that depends on threads.
+struct Counter {
+  std::string_view name;  // static storage: "box tests", "nodes visited", "launches", "bytes moved"
+  std::uint64_t count = 0;
+};
+
+}  // namespace broadside::core
