@@ -227,6 +227,18 @@ bool Hdf5Source::can_hold(hid_t set, const std::string& path, const std::vector<
   return ok();
 }
 
+std::vector<std::uint64_t> Hdf5Source::shape(const std::string& path) {
+  if (!ok() || !has(path)) return {};
+  const Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set) return {};
+  const Handle space(H5Dget_space(set.get()), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank <= 0) return {};
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.get(), dims.data(), nullptr);
+  return {dims.begin(), dims.end()};
+}
+
 OpenArray Hdf5Source::array(const std::string& path, Element element, const std::vector<std::uint64_t>& inner) {
   OpenArray a;
   if (!ok()) return a;
