@@ -198,7 +198,7 @@ std::span<const core::StageTime> Pipeline::stage_times() const {
   return impl_->times;
 }
 
-const Counters& Pipeline::counters() const {
+const Counters& Pipeline::frame_counts() const {
   return impl_->last;
 }
 

@@ -46,7 +46,7 @@ class Pipeline final : public core::Dynamics {
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override;
 
   // Counts of the last step.
-  [[nodiscard]] const Counters& counters() const;
+  [[nodiscard]] const Counters& frame_counts() const;
   [[nodiscard]] MemoryUse memory_use() const;
   // Frames that were repeated with larger buffers since load.
   [[nodiscard]] std::uint64_t repeated_frames() const;

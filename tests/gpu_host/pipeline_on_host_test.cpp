@@ -102,7 +102,7 @@ TEST(PipelineOnHost, BuffersGrow) {
   options.levels = core::Levels::kFlat;
   Pipeline subject(options);
   EXPECT_GT(compare_pipelines(scene, subject, *twin_of({{"levels", "flat"}, {"vertex_stage", "off"}}), 1, 1), 0U);
-  EXPECT_EQ(subject.counters().pairs, 90U * 89U / 2U);
+  EXPECT_EQ(subject.frame_counts().pairs, 90U * 89U / 2U);
   EXPECT_GE(subject.repeated_frames(), 1U);
 }
 
