@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "bench/campaign/run_cells.hpp"
 #include "bench/commands.hpp"
 #include "bench/record.hpp"
 #include "bench/run_plan.hpp"
@@ -22,6 +23,8 @@ struct RunArguments {
   std::string driver;
   std::string in_process;  // folder for the one cell's row
   double time_limit_s = 3600.0;
+  std::string cell;   // of a campaign whose folder stands in the scene's place
+  std::string shard;  // likewise
 };
 
 core::RecordLevel level_named(const std::string& name) {
@@ -60,7 +63,26 @@ core::Exit run_in_process(const RunArguments& a, const RunPlan& plan) {
   return core::Exit::kGood;
 }
 
+// SCENE is the folder that `broadside plan` made.
+core::Exit run_campaign(const RunArguments& a) {
+  campaign::Selection selection;
+  selection.id = a.cell;
+  if (!a.shard.empty()) {
+    auto shard = campaign::Selection::of_shard(a.shard);
+    if (!shard) return complain(shard.error());
+    selection = shard.value();
+  }
+  auto tally = campaign::run_cells(a.scene.spec, selection);
+  if (!tally) return complain(tally.error());
+  const campaign::Tally& t = tally.value();
+  fmt::print("{} cells done, {} were there, {} busy elsewhere, {} unfinished\n", t.done, t.there, t.busy, t.unfinished);
+  return t.busy + t.unfinished == 0 ? core::Exit::kGood : core::Exit::kMissing;
+}
+
 core::Exit run(const RunArguments& a) {
+  if (!a.cell.empty() || !a.shard.empty()) return run_campaign(a);
+  if (a.engines.engines.empty())
+    return complain({"no engine was named", "--engine", "one of those that 'broadside list engines' shows"});
   auto plan = make_plan(a);
   if (!plan) return complain(plan.error());
   if (core::Status s = prepare_folder(plan.value().folder); !s) return complain(s.error());
@@ -80,6 +102,10 @@ void add_run(CLI::App& program, core::Exit& exit) {
   CLI::App* command = program.add_subcommand("run", "Run engines over a scene and record a trace of each");
   a->scene.add_to(*command);
   a->engines.add_to(*command);
+  command->get_option("--engine")->required(false);  // a campaign's cells name theirs
+  CLI::Option* cell = command->add_option("--cell", a->cell, "Do this cell of the campaign in the folder SCENE");
+  command->add_option("--shard", a->shard, "Do the i-th of n shares of the campaign in the folder SCENE: i/n")
+      ->excludes(cell);
   command->add_option("--record", a->level, "What to record: full, digest (one number a frame) or none")
       ->check(CLI::IsMember({"full", "digest", "none"}))
       ->capture_default_str();

@@ -21,6 +21,8 @@ void add_report(CLI::App& program, core::Exit& exit);
 void add_demo(CLI::App& program, core::Exit& exit);
 void add_fetch(CLI::App& program, core::Exit& exit);
 void add_recover(CLI::App& program, core::Exit& exit);
+void add_plan(CLI::App& program, core::Exit& exit);
+void add_merge(CLI::App& program, core::Exit& exit);
 void add_describe_plugin(CLI::App& program, core::Exit& exit);
 void add_diff(CLI::App& program, core::Exit& exit);
 void add_replay(CLI::App& program, core::Exit& exit);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -54,7 +55,9 @@ core::Result<ProgramOutput> run_this_program(const std::vector<std::string>& arg
 
   const pid_t child = fork();
   if (child == 0) {
-    // Only async-signal-safe calls here: other threads of the parent may hold locks.
+    // Only async-signal-safe calls here: other threads of the parent may hold locks. A parent that is killed takes its
+    // child along, so that nobody goes on writing where a later try begins.
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     dup2(out[1], STDOUT_FILENO);
     dup2(err[1], STDERR_FILENO);
     execv("/proc/self/exe", argv.data());

@@ -161,6 +161,22 @@ bool TableReader::numbers(std::string_view key, std::size_t count, std::vector<d
   return true;
 }
 
+bool TableReader::texts(std::string_view key, std::vector<std::string>& out) {
+  const Node* node = find(key);
+  if (node == nullptr) return false;
+  const std::string advice = "give texts in brackets";
+  if (node->kind != Node::Kind::kArray)
+    return fail(key, std::string(key) + " is " + std::string(kind_name(*node)), advice), false;
+  std::vector<std::string> values;
+  for (const Node& item : node->items) {
+    if (item.kind != Node::Kind::kText)
+      return fail(key, std::string(key) + " contains " + std::string(kind_name(item)), advice), false;
+    values.push_back(item.text);
+  }
+  out = std::move(values);
+  return true;
+}
+
 bool TableReader::vec3(std::string_view key, core::Vec3& out) {
   std::vector<double> values;
   if (!numbers(key, 3, values)) return false;

@@ -40,6 +40,7 @@ class TableReader {
   bool positive(std::string_view key, double& out);
   bool numbers(std::string_view key, std::size_t count, std::vector<double>& out);
   bool vec3(std::string_view key, core::Vec3& out);
+  bool texts(std::string_view key, std::vector<std::string>& out);
 
   // Null when absent or when it is something else (then an error).
   const Node* table(std::string_view key);

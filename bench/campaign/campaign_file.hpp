@@ -1,0 +1,43 @@
+// A campaign file: which cells somebody wants, in TOML.
+//
+//   name = "nightly"                # letters, digits, - and _
+//   scenes = ["freefall:cube:{n}", "randommove:bunny:{n}"]
+//   engines = ["octree-cpu", "hash-cpu", "bullet-dbvt[deferred=on]"]
+//   frames = 120                    # default: each scene's own
+//   repetitions = 5                 # timed runs of a cell; default 0: record and judge only
+//   stand_in = true                 # default false
+//   time_limit_s = 600              # of each part of a cell: recording, judging, timing
+//   [vary]                          # every combination replaces {n} in scenes and engines
+//   n = [50, 100]
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+
+namespace broadside::bench::campaign {
+
+// What a cell runs, with nothing left to replace.
+struct CellWork {
+  std::string scene;   // "freefall:cube:50"
+  std::string engine;  // "bullet-dbvt[deferred=on]"
+  std::uint32_t frames = 0;
+  std::uint32_t repetitions = 0;  // 0 = not timed
+  bool stand_in = false;
+  double time_limit_s = 3600.0;
+
+  friend bool operator==(const CellWork&, const CellWork&) = default;
+};
+
+struct CampaignFile {
+  std::string name;
+  std::vector<CellWork> cells;  // in the file's order: scenes outermost, then values, then engines; no cell twice
+};
+
+// Errors name file, line and key: unknown keys, wrong types, a {word} that [vary] lacks, a value that nothing uses.
+core::Result<CampaignFile> read_campaign_file(const std::filesystem::path& file);
+
+}  // namespace broadside::bench::campaign

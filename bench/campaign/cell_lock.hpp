@@ -1,0 +1,25 @@
+// Two processes, perhaps on two machines with one file system, must not do one cell at a time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace broadside::bench::campaign {
+
+class CellLock {
+ public:
+  // Empty when another process holds it, or the folder cannot be written. The lock ends with the process that holds it,
+  // however that ends (flock; on a network file system it needs lock support, as Slurm's shared folders have).
+  static std::optional<CellLock> take(const std::filesystem::path& file);
+
+  CellLock(CellLock&& other) noexcept;
+  CellLock& operator=(CellLock&&) = delete;
+  ~CellLock();
+
+ private:
+  explicit CellLock(int descriptor) : descriptor_(descriptor) {}
+
+  int descriptor_;
+};
+
+}  // namespace broadside::bench::campaign

@@ -1,0 +1,36 @@
+// Doing the cells of a campaign: one, a share of them, or all that are missing.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "bench/campaign/manifest.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench::campaign {
+
+// Which cells: one by id, or those whose place in the manifest is `shard` modulo `shards`.
+struct Selection {
+  std::string id;  // empty = by shard
+  std::uint32_t shard = 0;
+  std::uint32_t shards = 1;
+
+  // "3/8": the third of eight.
+  static core::Result<Selection> of_shard(const std::string& text);
+  [[nodiscard]] bool includes(std::size_t place, const ManifestCell& cell) const;
+};
+
+struct Tally {
+  std::uint32_t done = 0;        // finished by this call
+  std::uint32_t there = 0;       // finished before
+  std::uint32_t busy = 0;        // another process is at them
+  std::uint32_t unfinished = 0;  // broken off: they will be done again
+};
+
+// A cell is recorded and judged, and timed where its work says so, by this program in child processes with the cell's
+// time limit each; its folder appears whole or not at all. An engine that crashes or hangs is a result, and finishes
+// its cell; a harness that was killed or ran out of disk is not. Errors: no manifest, another build, an unknown id.
+core::Result<Tally> run_cells(const std::filesystem::path& folder, const Selection& selection);
+
+}  // namespace broadside::bench::campaign

@@ -1,0 +1,136 @@
+#include "bench/campaign/schedulers.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace broadside::bench::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In single quotes a shell takes everything as it is but the quote itself.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// What a cell asks of a node.
+struct Needs {
+  std::string_view name;
+  bool timed;
+  bool gpu;
+  std::string_view slurm;
+};
+constexpr std::array<Needs, 4> kNeeds{{{"checked", false, false, ""},
+                                       {"checked_gpu", false, true, "--gres=gpu:1"},
+                                       {"timed", true, false, "--exclusive"},
+                                       {"timed_gpu", true, true, "--exclusive --gres=gpu:1"}}};
+
+std::vector<std::string> ids_of(const Manifest& manifest, const Needs& needs) {
+  std::vector<std::string> ids;
+  for (const ManifestCell& cell : manifest.cells)
+    if ((cell.work.repetitions > 0) == needs.timed && cell.needs_gpu == needs.gpu) ids.push_back(cell.id);
+  return ids;
+}
+
+std::string slurm(const Manifest& manifest, const fs::path& folder, const std::string& program) {
+  std::string text = fmt::format(
+      "#!/usr/bin/env bash\n"
+      "# Submits what is missing of campaign {0} as job arrays, one cell a task. Run it again after a failure.\n"
+      "# Options of your cluster (partition, account, time): bash slurm.sh --partition=main --time=01:00:00\n"
+      "# Timed cells ask for whole nodes, GPU cells for a GPU; the others share.\n"
+      "set -euo pipefail\n"
+      "folder={1}\n"
+      "program={2}\n"
+      "submit() {{\n"
+      "  local name=$1 needs=$2\n"
+      "  shift 2\n"
+      "  local ids=()\n"
+      "  while read -r id; do [[ -d $folder/cells/$id ]] || ids+=(\"$id\"); done\n"
+      "  [[ ${{#ids[@]}} -gt 0 ]] || return 0\n"
+      "  mkdir -p \"$folder/logs\"\n"
+      "  # shellcheck disable=SC2086\n"
+      "  sbatch --parsable --job-name={0}-\"$name\" --array=0-$((${{#ids[@]}} - 1)) "
+      "--output=\"$folder/logs/%A_%a.log\" $needs "
+      "\"$@\" <<JOB\n"
+      "#!/usr/bin/env bash\n"
+      "ids=(${{ids[*]}})\n"
+      "exec \"$program\" run \"$folder\" --cell \"\\${{ids[SLURM_ARRAY_TASK_ID]}}\"\n"
+      "JOB\n"
+      "}}\n",
+      manifest.name, quoted(folder.string()), quoted(program));
+  for (const Needs& needs : kNeeds) {
+    const std::vector<std::string> ids = ids_of(manifest, needs);
+    if (ids.empty()) continue;
+    text += fmt::format("submit {} '{}' \"$@\" <<'IDS'\n", needs.name, needs.slurm);
+    for (const std::string& id : ids) text += id + "\n";
+    text += "IDS\n";
+  }
+  return text;
+}
+
+std::string parallel(const Manifest& manifest, const fs::path& folder, const std::string& program) {
+  std::string text = fmt::format(
+      "#!/usr/bin/env bash\n"
+      "# Does what is missing of campaign {0} with GNU parallel. Options go to it: bash parallel.sh --sshlogin a,b\n"
+      "# Timed cells run one at a time, the others on every core.\n"
+      "set -uo pipefail\n"
+      "folder={1}\n"
+      "program={2}\n"
+      "failed=0\n"
+      "each() {{\n"
+      "  local jobs=$1\n"
+      "  shift\n"
+      "  parallel --jobs \"$jobs\" \"$@\" \"$program\" run \"$folder\" --cell '{{}}' || failed=1\n"
+      "}}\n",
+      manifest.name, quoted(folder.string()), quoted(program));
+  for (const Needs& needs : kNeeds) {
+    const std::vector<std::string> ids = ids_of(manifest, needs);
+    if (ids.empty()) continue;
+    text += fmt::format("each {} \"$@\" <<'IDS'\n", needs.timed || needs.gpu ? "1" : "100%");
+    for (const std::string& id : ids) text += id + "\n";
+    text += "IDS\n";
+  }
+  return text + "exit $failed\n";
+}
+
+std::string snakemake(const Manifest& manifest, const fs::path& folder, const std::string& program) {
+  std::string text = fmt::format(
+      "# Campaign {}: snakemake --snakefile Snakefile --cores all --keep-going\n"
+      "# Timed cells take every core, so that nothing runs beside them.\n"
+      "FOLDER = {:?}\n"
+      "PROGRAM = {:?}\n"
+      "CELLS = {{\n",
+      manifest.name, folder.string(), program);
+  for (const ManifestCell& cell : manifest.cells)
+    text += fmt::format("    \"{}\": {{\"timed\": {}, \"gpu\": {}}},\n", cell.id,
+                        cell.work.repetitions > 0 ? "True" : "False", cell.needs_gpu ? 1 : 0);
+  text +=
+      "}\n\n"
+      "rule all:\n"
+      "    input: expand(FOLDER + \"/cells/{id}/cells.json\", id=CELLS)\n\n"
+      "rule cell:\n"
+      "    output: FOLDER + \"/cells/{id}/cells.json\"\n"
+      "    wildcard_constraints: id=\"[0-9a-f]{16}\"\n"
+      "    threads: lambda wildcards: workflow.cores if CELLS[wildcards.id][\"timed\"] else 1\n"
+      "    resources: gpu=lambda wildcards: CELLS[wildcards.id][\"gpu\"]\n"
+      "    params: program=PROGRAM, folder=FOLDER\n"
+      "    shell: \"rmdir {params.folder}/cells/{wildcards.id} 2>/dev/null; \"\n"
+      "           \"{params.program:q} run {params.folder:q} --cell {wildcards.id}\"\n";
+  return text;
+}
+
+}  // namespace
+
+const std::array<Scheduler, 3>& schedulers() {
+  static constexpr std::array<Scheduler, 3> kTable{{
+      {"slurm", "slurm.sh", "bash DIR/slurm.sh [SBATCH OPTION...]", slurm},
+      {"parallel", "parallel.sh", "bash DIR/parallel.sh [PARALLEL OPTION...]", parallel},
+      {"snakemake", "Snakefile", "snakemake --snakefile DIR/Snakefile --cores all --keep-going", snakemake},
+  }};
+  return kTable;
+}
+
+}  // namespace broadside::bench::campaign
