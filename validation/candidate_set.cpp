@@ -69,6 +69,11 @@ class CandidateSet final : public Validator {
 
   void compare(const std::vector<core::Pair>& found, const std::vector<core::Pair>& exact, std::uint64_t step) {
     difference_.clear();
+    if (found == exact) {
+      judge_count(step, "pairs missed", kExactOrigin);
+      if (header_.broad_is_exact) judge_count(step, "pairs too many", kExactOrigin);
+      return;
+    }
     std::set_difference(exact.begin(), exact.end(), found.begin(), found.end(), std::back_inserter(difference_));
     missed_ += difference_.size();
     judge_count(step, "pairs missed", kExactOrigin);

@@ -43,7 +43,8 @@ class ContactNormal final : public Validator {
   explicit ContactNormal(const Subject& subject)
       : scene_(subject.header.scene),
         epsilon_m_(scene_.parameters.epsilon_m),
-        is_colored_(setting(subject.header.stamp, "solver") == "colored"),
+        is_colored_(setting(subject.header.stamp, "solver") == "colored" &&
+                    setting(subject.header.stamp, "variant") != "printed-E8"),
         bodies_(scene_) {
     const core::ShapeTable table = core::build_shapes(scene_);
     for (const std::uint32_t shape : table.shape_of_body) local_.push_back(table.shapes[shape].octree.boxes[0]);

@@ -9,6 +9,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/scene/scene.hpp"
+#include "validation/scene_relation.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -18,6 +19,7 @@ constexpr std::uint64_t kFramesPerReport = 50;
 
 // One row of the pass: a running validator, or the verdict that says why it does not run.
 struct Entry {
+  bool compares_scenes = false;
   std::unique_ptr<Validator> validator;
   core::Verdict verdict;
 };
@@ -37,26 +39,36 @@ std::string hex(std::uint64_t digest) {
   return text;
 }
 
-core::Status check_same_scene(const core::TraceHeader& a, const core::TraceHeader& b) {
-  if (a.stamp.scene_digest == b.stamp.scene_digest) return core::Done{};
-  return core::Error{"the two traces are of different scenes (" + a.stamp.scene_name + " " + hex(a.stamp.scene_digest) +
-                         " and " + b.stamp.scene_name + " " + hex(b.stamp.scene_digest) + ")",
-                     "baseline " + b.stamp.label(), "record both from one scene file, with the same parameters"};
+// One scene, or one that follows from the other.
+core::Status check_scenes(const core::TraceHeader& a, const core::TraceHeader& b) {
+  if (a.stamp.scene_digest == b.stamp.scene_digest || relation_of(a.scene, b.scene)) return core::Done{};
+  return core::Error{
+      "the two traces are of different scenes (" + a.stamp.scene_name + " " + hex(a.stamp.scene_digest) + " and " +
+          b.stamp.scene_name + " " + hex(b.stamp.scene_digest) + ")",
+      "baseline " + b.stamp.label(),
+      "record both from one scene file, with the same parameters, or one from the other's scene, transformed"};
 }
 
 std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& options, std::uint32_t& groups,
                                 std::uint32_t& baseline_groups) {
+  // What a validator that compares runs of one scene is told where the baseline's is another.
+  Subject alone = subject;
+  const bool is_transformed =
+      subject.baseline != nullptr && subject.baseline->stamp.scene_digest != subject.header.stamp.scene_digest;
+  if (is_transformed) alone.baseline = nullptr;
   std::vector<Entry> entries;
   for (const ValidatorRow& row : validators()) {
     if (!options.only.empty() && std::find(options.only.begin(), options.only.end(), row.name) == options.only.end())
       continue;
     Entry entry;
+    entry.compares_scenes = row.compares_scenes;
+    const Subject& seen = row.compares_scenes ? subject : alone;
     entry.verdict.validator = row.name;
-    entry.verdict.explanation = row.why_not(subject);
+    entry.verdict.explanation = row.why_not(seen);
     if (entry.verdict.explanation.empty()) {
-      entry.validator = row.make(subject);
+      entry.validator = row.make(seen);
       groups |= row.groups;
-      baseline_groups |= row.baseline_groups;
+      if (seen.baseline != nullptr) baseline_groups |= row.baseline_groups;
     }
     entries.push_back(std::move(entry));
   }
@@ -95,9 +107,11 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
                                                const JudgeOptions& options) {
   if (core::Status s = check_names(options.only); !s) return s.error();
   if (baseline != nullptr)
-    if (core::Status s = check_same_scene(subject.header, baseline->header); !s) return s.error();
+    if (core::Status s = check_scenes(subject.header, baseline->header); !s) return s.error();
 
-  std::uint32_t groups = 0;
+  const bool is_transformed =
+      baseline != nullptr && baseline->header.stamp.scene_digest != subject.header.stamp.scene_digest;
+  std::uint32_t groups = options.observed_groups;
   std::uint32_t baseline_groups = 0;
   const Subject facts{subject.header, baseline != nullptr ? &baseline->header : nullptr, subject.steps.size()};
   std::vector<Entry> entries = make_entries(facts, options, groups, baseline_groups);
@@ -113,8 +127,10 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
     if (!counterpart) return counterpart.error();
     const bool follows = previous && previous->step + 1 == frame.step;
     const Evidence evidence{frame, follows ? &*previous : nullptr, counterpart.value()};
+    const Evidence alone{frame, evidence.previous, is_transformed ? nullptr : evidence.baseline};
     for (Entry& entry : entries)
-      if (entry.validator) entry.validator->look(evidence);
+      if (entry.validator) entry.validator->look(entry.compares_scenes ? evidence : alone);
+    if (options.observe) options.observe(evidence);
     previous = std::move(frame);
     if (options.progress && ((index + 1) % kFramesPerReport == 0 || index + 1 == total))
       options.progress(index + 1, total);

@@ -22,6 +22,9 @@ struct JudgeOptions {
   std::vector<std::string> only;
   // Called now and then with frames done and in all.
   std::function<void(std::uint64_t, std::uint64_t)> progress;
+  // Sees every frame that the pass reads, with these groups beside those of the validators.
+  std::function<void(const Evidence&)> observe;
+  std::uint32_t observed_groups = 0;
 };
 
 // Where frames come from: a trace file, or frames in memory. header and steps outlive the pass.
@@ -33,8 +36,9 @@ struct FrameSource {
 };
 
 // One verdict per validator, in the table's order; those that do not apply say why. With a baseline, validators that
-// need one compare; the others judge the subject alone. The two scenes must have one digest. Frames of the baseline are
-// matched by step; at most three frames are in memory at a time.
+// need one compare; the others judge the subject alone. The two scenes must have one digest, or
+// the baseline's be a transformed one (validation/scene_relation.hpp), which metamorphic alone looks at. Frames of the
+// baseline are matched by step; at most three frames are in memory at a time.
 core::Result<std::vector<core::Verdict>> judge(const core::TraceReader& trace, const core::TraceReader* baseline,
                                                const JudgeOptions& options);
 core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const FrameSource* baseline,

@@ -122,6 +122,24 @@ void OverlapJoin::join_cross(std::uint32_t level, std::uint32_t p, std::uint32_t
   }
 }
 
+// By first body with one count each, then each body's few partners: a comparison sort of millions of pairs costs more
+// than finding them.
+void OverlapJoin::sort_pairs(std::size_t bodies) {
+  begin_.assign(bodies + 1, 0);
+  for (const core::Pair p : pairs_) ++begin_[p.i + 1];
+  for (std::size_t i = 1; i <= bodies; ++i) begin_[i] += begin_[i - 1];
+  partner_.resize(pairs_.size());
+  for (const core::Pair p : pairs_) partner_[begin_[p.i]++] = p.j;
+  // begin_[i] is now the end of body i's partners.
+  std::size_t next = 0;
+  for (std::uint32_t i = 0; i < bodies; ++i) {
+    const std::size_t end = begin_[i];
+    std::sort(partner_.begin() + static_cast<std::ptrdiff_t>(next),
+              partner_.begin() + static_cast<std::ptrdiff_t>(end));
+    for (; next < end; ++next) pairs_[next] = {i, partner_[next]};
+  }
+}
+
 const std::vector<core::Pair>& OverlapJoin::join(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
   pairs_.clear();
   order_boxes(boxes);
@@ -135,7 +153,7 @@ const std::vector<core::Pair>& OverlapJoin::join(std::span<const Box> boxes, std
     build_levels();
     join_self(static_cast<std::uint32_t>(levels_.size()) - 1, 0);
   }
-  std::sort(pairs_.begin(), pairs_.end());
+  sort_pairs(boxes.size());
   return pairs_;
 }
 

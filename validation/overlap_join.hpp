@@ -28,6 +28,7 @@ class OverlapJoin {
   [[nodiscard]] std::uint32_t size(std::uint32_t level) const {
     return static_cast<std::uint32_t>(levels_[level].size());
   }
+  void sort_pairs(std::size_t bodies);
   void emit(std::uint32_t p, std::uint32_t q);
 
   std::vector<std::uint32_t> id_;     // of the boxes in order
@@ -35,6 +36,8 @@ class OverlapJoin {
   // levels_[0]: the boxes in order; levels_[k + 1][i] bounds levels_[k][8 i .. 8 i + 7].
   std::vector<std::vector<core::Box>> levels_;
   std::vector<core::Pair> pairs_;
+  std::vector<std::uint64_t> begin_;  // of sort_pairs
+  std::vector<std::uint32_t> partner_;
 };
 
 }  // namespace broadside::validation

@@ -44,6 +44,8 @@ struct ValidatorRow {
   // Why it does not apply to this subject and baseline; empty when it does.
   std::string (*why_not)(const Subject& subject);
   std::unique_ptr<Validator> (*make)(const Subject& subject);
+  // Its baseline is of a transformed scene (validation/scene_relation.hpp); others never see such a baseline.
+  bool compares_scenes = false;
 };
 
 }  // namespace broadside::validation

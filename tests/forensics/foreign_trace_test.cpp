@@ -72,8 +72,14 @@ TEST(ForeignPage, SaysForEachValidatorWhatItReads) {
     // A trace with the needed groups alone is judged; a baseline is the trace itself.
     core::TraceHeader header;
     header.stamp.engine = "foreign";
+    // What laws ask of the settings and of the scene.
+    header.stamp.settings = "levels=C,solver=colored";
+    header.scene.bodies.emplace_back();
+    header.scene.springs = {{0, {}, 1.0F, 0.0F}};
     header.groups = row->second.needed;
-    EXPECT_EQ(v.why_not({header, &header, 1}), "") << v.name;
+    core::TraceHeader transformed = header;
+    transformed.stamp.scene_digest = 1;
+    EXPECT_EQ(v.why_not({header, v.compares_scenes ? &transformed : &header, 1}), "") << v.name;
     for (const core::GroupRow& group : core::group_rows()) {
       if ((row->second.needed & core::bit(group.group)) == 0) continue;
       core::TraceHeader less = header;

@@ -1,0 +1,81 @@
+#include "core/scene/transformed_scene.hpp"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace broadside::core {
+namespace {
+
+template <typename Change>
+std::vector<std::shared_ptr<const Mesh>> changed_meshes(const Scene& scene, const Change& change) {
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (const auto& mesh : scene.meshes) {
+    auto copy = std::make_shared<Mesh>(*mesh);
+    change(*copy);
+    meshes.push_back(std::move(copy));
+  }
+  return meshes;
+}
+
+void scale_vertices(Mesh& mesh, float factor) {
+  for (Vec3& v : mesh.vertices) v = factor * v;
+}
+
+}  // namespace
+
+Scene scaled_scene(const Scene& scene, float factor) {
+  Scene out = scene;
+  out.meshes = changed_meshes(scene, [factor](Mesh& mesh) { scale_vertices(mesh, factor); });
+  for (Body& b : out.bodies) b.position = factor * b.position, b.velocity = factor * b.velocity;
+  for (Spring& s : out.springs) s.anchor = factor * s.anchor;
+  out.domain = {factor * scene.domain.min, factor * scene.domain.max};
+  out.gravity_m_s2 = factor * scene.gravity_m_s2;
+  Parameters& p = out.parameters;
+  for (float* length :
+       {&p.delta_m, &p.v_threshold_m_s, &p.impulse_min_n_s, &p.v_max_m_s, &p.epsilon_m, &p.theta_m, &p.hash_cell_m})
+    *length *= factor;
+  return out;
+}
+
+Scene mirrored_scene(const Scene& scene, int axis) {
+  const auto mirror = [axis](Vec3& v) { v[axis] = -v[axis]; };
+  Scene out = scene;
+  out.meshes = changed_meshes(scene, [&](Mesh& mesh) {
+    for (Vec3& v : mesh.vertices) mirror(v);
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  });
+  for (Body& b : out.bodies) {
+    mirror(b.position), mirror(b.velocity);
+    // Turning axes are axial: they keep the mirrored component and flip the other two.
+    for (int k = 0; k < 3; ++k)
+      if (k != axis) b.angular_velocity[k] = -b.angular_velocity[k];
+    if (axis != 0) b.orientation.x = -b.orientation.x;
+    if (axis != 1) b.orientation.y = -b.orientation.y;
+    if (axis != 2) b.orientation.z = -b.orientation.z;
+  }
+  for (Spring& s : out.springs) mirror(s.anchor);
+  mirror(out.gravity_m_s2);
+  out.domain.min[axis] = -scene.domain.max[axis];
+  out.domain.max[axis] = -scene.domain.min[axis];
+  return out;
+}
+
+Scene renumbered_scene(const Scene& scene, std::span<const std::uint32_t> order) {
+  Scene out = scene;
+  std::vector<std::uint32_t> place(scene.bodies.size());
+  for (std::uint32_t k = 0; k < order.size(); ++k) {
+    out.bodies[k] = scene.bodies[order[k]];
+    place[order[k]] = k;
+  }
+  for (Spring& s : out.springs) s.body = place[s.body];
+  return out;
+}
+
+Scene grown_scene(const Scene& scene, float factor) {
+  Scene out = scene;
+  out.meshes = changed_meshes(scene, [factor](Mesh& mesh) { scale_vertices(mesh, factor); });
+  return out;
+}
+
+}  // namespace broadside::core

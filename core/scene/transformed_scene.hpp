@@ -1,0 +1,28 @@
+// The same experiment told differently: scenes whose outcomes follow from the original's.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/scene/scene.hpp"
+
+namespace broadside::core {
+
+// Every length times `factor`, and with it velocities, gravity, the parameters that are lengths, speeds or impulses;
+// masses, times and materials stay. With a power of two, whatever float32 arithmetic makes of it is the original's
+// times that factor, bit for bit, while nothing overflows or becomes subnormal.
+Scene scaled_scene(const Scene& scene, float factor);
+
+// x -> -x for axis 0, and so on: positions, velocities, meshes (with triangles turned, so that they still face
+// outward), orientations, domain, gravity. Rounding is symmetric, so an outcome is the original's mirrored, bit for
+// bit.
+Scene mirrored_scene(const Scene& scene, int axis);
+
+// Body k of the result is body order[k] of the scene. order: a permutation.
+Scene renumbered_scene(const Scene& scene, std::span<const std::uint32_t> order);
+
+// Every mesh scaled about its body's origin, and nothing else: with factor >= 1, boxes around that origin contain the
+// original's, and so their pairs contain the original's pairs.
+Scene grown_scene(const Scene& scene, float factor);
+
+}  // namespace broadside::core
