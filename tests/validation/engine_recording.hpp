@@ -27,22 +27,9 @@ inline core::Scene named_scene(const std::string& name) {
 }
 
 inline Recording record_frames(const core::Scene& scene, core::Dynamics& dynamics, const std::string& settings) {
-  Recording recording;
-  recording.header.scene = scene;
-  core::Stamp& stamp = recording.header.stamp;
-  stamp.scene_name = scene.name;
-  stamp.scene_digest = core::scene_digest(scene);
-  stamp.engine = "octree-cpu";
-  stamp.settings = settings;
-  recording.header.groups = dynamics.groups();
-  EXPECT_TRUE(dynamics.load(scene).ok());
-  for (std::uint32_t step = 0; step < scene.frames; ++step) {
-    EXPECT_TRUE(dynamics.step(scene.dt_s).ok());
-    FrameRecord frame;
-    EXPECT_TRUE(dynamics.read_back(frame, core::RecordLevel::kFull).ok());
-    recording.frames.push_back(std::move(frame));
-  }
-  return recording;
+  auto recorded = bench::record_specimen(scene, dynamics, settings);
+  EXPECT_TRUE(recorded.ok()) << (recorded.ok() ? "" : recorded.error().line());
+  return recorded.ok() ? std::move(recorded).value() : Recording{};
 }
 
 // The engine as users get it.

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/mutants/specimen.hpp"
+#include "bench/mutants/specimen_scenes.hpp"
 #include "core/scene/body_octree.hpp"
 #include "core/scene/scene.hpp"
 #include "core/trace/frame.hpp"
@@ -27,10 +29,7 @@ using core::Kinematics;
 using core::Pair;
 using core::Vec3;
 
-struct Recording {
-  core::TraceHeader header;
-  std::vector<FrameRecord> frames;
-};
+using Recording = bench::Specimen;
 
 // A cube of side 1 around the origin whose faces carry a grid of `cells` x `cells` squares.
 inline std::shared_ptr<const core::Mesh> grid_cube(int cells) {
@@ -69,24 +68,9 @@ inline core::Body body_at(Vec3 x, Vec3 v, float mass) {
   return body;
 }
 
-// Unequal masses that meet in the air, a static block, a body that drops on it, one that slides over the floor into a
-// wall, and two far apart.
+// The specimen of the tamperings, on a cube that this file made itself.
 inline core::Scene mixed_scene() {
-  core::Scene scene;
-  scene.name = "sound";
-  scene.meshes = {grid_cube(4)};
-  scene.domain = {{0, 0, 0}, {10, 10, 10}};
-  scene.gravity_m_s2 = {0, -9.81F, 0};
-  scene.frames = 45;
-  scene.parameters.delta_m = 0.01F;
-  scene.parameters.beta = 0.6F;
-  scene.parameters.alpha = 0.9F;
-  scene.bodies = {
-      body_at({3.0F, 5.0F, 5.0F}, {4.0F, 0.5F, 0.3F}, 2.0F), body_at({4.3F, 5.1F, 5.2F}, {-2.0F, 0.0F, -0.2F}, 0.5F),
-      body_at({7.0F, 0.49F, 3.0F}, {0, 0, 0}, 0.0F),         body_at({7.2F, 1.75F, 3.1F}, {0.4F, -1.0F, 0.2F}, 1.0F),
-      body_at({8.6F, 0.6F, 7.0F}, {3.0F, 0.0F, 0.7F}, 1.5F), body_at({1.0F, 9.0F, 1.0F}, {0.0F, 0.0F, 0.0F}, 1.0F),
-  };
-  return scene;
+  return bench::mixed_scene(grid_cube(4));
 }
 
 class SoundWorld {
@@ -296,28 +280,9 @@ inline const Recording& sound() {
 
 inline std::vector<core::Verdict> judged(const Recording& subject, const Recording* baseline = nullptr,
                                          std::vector<std::string> only = {}) {
-  const auto steps = [](const Recording& r) {
-    std::vector<std::uint64_t> out;
-    for (const FrameRecord& frame : r.frames) out.push_back(frame.step);
-    return out;
-  };
-  const auto reader = [](const Recording& r) {
-    return [&r](std::uint64_t index, std::uint32_t) { return core::Result<FrameRecord>(r.frames[index]); };
-  };
-  const auto subject_steps = steps(subject);
-  const validation::FrameSource source{subject.header, subject_steps, reader(subject)};
-  validation::JudgeOptions options;
-  options.only = std::move(only);
-  if (baseline == nullptr) {
-    auto result = validation::judge(source, nullptr, options);
-    EXPECT_TRUE(result.ok());
-    return result.ok() ? result.value() : std::vector<core::Verdict>{};
-  }
-  const auto baseline_steps = steps(*baseline);
-  const validation::FrameSource other{baseline->header, baseline_steps, reader(*baseline)};
-  auto result = validation::judge(source, &other, options);
+  auto result = bench::judge_specimen(subject, baseline, std::move(only));
   EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().line());
-  return result.ok() ? result.value() : std::vector<core::Verdict>{};
+  return result.ok() ? std::move(result).value() : std::vector<core::Verdict>{};
 }
 
 inline core::Verdict verdict_of(const std::string& validator, const Recording& subject,

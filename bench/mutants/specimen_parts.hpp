@@ -1,33 +1,30 @@
-// The catalogue of wrong traces: each takes one sound recording and breaks one law, and names the validator that must
-// reject it. Others may reject it too: a broken state is broken in many ways.
+// Parts of a specimen that a tampering spoils: the first contact, pair or vertex pair of a kind. Each notes in the
+// specimen when there is none.
 #pragma once
 
 #include <cmath>
-#include <functional>
-#include <limits>
-#include <string_view>
-#include <vector>
+#include <cstdint>
 
-#include "tests/validation/sound_world.hpp"
+#include "bench/mutants/tamperings.hpp"
+#include "core/contact.hpp"
+#include "core/method/proximity.hpp"
+#include "core/pair.hpp"
 
-namespace broadside::tests {
+namespace broadside::bench {
 
-struct Mutation {
-  std::string_view validator;
-  std::string_view what;
-  void (*apply)(Recording&);
-  bool against_the_sound_one = false;  // judged with the sound recording as its baseline
-};
+using core::Contact;
+using core::FrameRecord;
+using core::Pair;
+using core::Vec3;
 
-// The first contact that fits; the recording has one of each kind that the catalogue asks for (see
-// SoundTrace.HasEveryKindOfContact).
+// The first contact that fits.
 template <typename Fits>
-Contact& contact_that(Recording& recording, Fits fits) {
-  for (FrameRecord& frame : recording.frames)
+Contact& contact_that(Specimen& specimen, Fits fits) {
+  for (FrameRecord& frame : specimen.frames)
     for (Contact& c : frame.contacts)
       if (fits(c)) return c;
-  ADD_FAILURE() << "the recording has no such contact";
-  return recording.frames.front().contacts.front();
+  specimen.is_spoilable = false;
+  return specimen.frames.front().contacts.emplace_back();
 }
 
 inline bool is_shared(const Contact& c) {
@@ -56,11 +53,11 @@ inline bool is_stick(const Contact& c) {
   return c.tangent_impulse_n_s < -1e-3F && -c.tangent_impulse_n_s < 0.49F * c.normal_impulse_n_s;
 }
 
-inline FrameRecord& frame_with_pairs(Recording& recording) {
-  for (FrameRecord& frame : recording.frames)
+inline FrameRecord& frame_with_pairs(Specimen& specimen) {
+  for (FrameRecord& frame : specimen.frames)
     if (!frame.pairs.empty()) return frame;
-  ADD_FAILURE() << "the recording has no pairs";
-  return recording.frames.front();
+  specimen.is_spoilable = false;
+  return specimen.frames.front();
 }
 
 // A touching pair and its proximity.
@@ -70,17 +67,18 @@ struct Touch {
   core::Proximity* proximity;
 };
 
-inline Touch touch_of(Recording& recording) {
-  for (FrameRecord& frame : recording.frames)
+inline Touch touch_of(Specimen& specimen) {
+  for (FrameRecord& frame : specimen.frames)
     for (std::size_t k = 0; k < frame.confirmed.size(); ++k)
       if (frame.proximity[k].is_touching()) return {&frame, frame.confirmed[k], &frame.proximity[k]};
-  ADD_FAILURE() << "the recording has no touching pair";
-  return {&recording.frames.front(), {}, nullptr};
+  specimen.is_spoilable = false;
+  specimen.frames.front().confirmed.push_back({0, 1});
+  return {&specimen.frames.front(), {0, 1}, &specimen.frames.front().proximity.emplace_back()};
 }
 
 // Squared distance of two world vertices, m^2.
-inline double vertex_distance2(const Recording& recording, const Touch& touch, std::uint32_t a, std::uint32_t b) {
-  const auto& vertices = recording.header.scene.meshes[0]->vertices;
+inline double vertex_distance2(const Specimen& specimen, const Touch& touch, std::uint32_t a, std::uint32_t b) {
+  const auto& vertices = specimen.header.scene.meshes[0]->vertices;
   double d2 = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double d = double(vertices[a][k]) + touch.frame->detected_position[touch.pair.i][k] -
@@ -91,18 +89,18 @@ inline double vertex_distance2(const Recording& recording, const Touch& touch, s
 }
 
 // Replaces the recorded witnesses by the first vertex pair whose true distance lies between the two bounds.
-inline void retarget(Recording& recording, double above_m, double below_m) {
-  const Touch touch = touch_of(recording);
-  const auto count = static_cast<std::uint32_t>(recording.header.scene.meshes[0]->vertices.size());
+inline void retarget(Specimen& specimen, double above_m, double below_m) {
+  const Touch touch = touch_of(specimen);
+  const auto count = static_cast<std::uint32_t>(specimen.header.scene.meshes[0]->vertices.size());
   for (std::uint32_t a = 0; a < count; ++a)
     for (std::uint32_t b = 0; b < count; ++b) {
-      const double d2 = vertex_distance2(recording, touch, a, b);
+      const double d2 = vertex_distance2(specimen, touch, a, b);
       if (d2 > above_m * above_m && d2 < below_m * below_m) {
         *touch.proximity = {static_cast<float>(d2), a, b};
         return;
       }
     }
-  ADD_FAILURE() << "no vertex pair between " << above_m << " and " << below_m;
+  specimen.is_spoilable = false;
 }
 
-}  // namespace broadside::tests
+}  // namespace broadside::bench

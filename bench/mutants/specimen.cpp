@@ -1,0 +1,56 @@
+#include "bench/mutants/specimen.hpp"
+
+#include <utility>
+
+#include "core/scene/scene.hpp"
+#include "validation/judge.hpp"
+
+namespace broadside::bench {
+namespace {
+
+std::vector<std::uint64_t> steps_of(const Specimen& specimen) {
+  std::vector<std::uint64_t> steps;
+  for (const core::FrameRecord& frame : specimen.frames) steps.push_back(frame.step);
+  return steps;
+}
+
+validation::FrameSource source_of(const Specimen& specimen, const std::vector<std::uint64_t>& steps) {
+  return {specimen.header, steps, [&specimen](std::uint64_t index, std::uint32_t) {
+            return core::Result<core::FrameRecord>(specimen.frames[index]);
+          }};
+}
+
+}  // namespace
+
+core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics& dynamics, std::string_view settings) {
+  Specimen specimen;
+  specimen.header.scene = scene;
+  core::Stamp& stamp = specimen.header.stamp;
+  stamp.scene_name = scene.name;
+  stamp.scene_digest = core::scene_digest(scene);
+  stamp.engine = "octree-cpu";
+  stamp.settings = settings;
+  specimen.header.groups = dynamics.groups();
+  if (core::Status s = dynamics.load(specimen.header.scene); !s) return s.error();
+  for (std::uint32_t step = 0; step < scene.frames; ++step) {
+    if (core::Status s = dynamics.step(scene.dt_s); !s) return s.error();
+    core::FrameRecord frame;
+    if (core::Status s = dynamics.read_back(frame, core::RecordLevel::kFull); !s) return s.error();
+    specimen.frames.push_back(std::move(frame));
+  }
+  return specimen;
+}
+
+core::Result<std::vector<core::Verdict>> judge_specimen(const Specimen& subject, const Specimen* baseline,
+                                                        std::vector<std::string> only) {
+  validation::JudgeOptions options;
+  options.only = std::move(only);
+  const auto steps = steps_of(subject);
+  const validation::FrameSource source = source_of(subject, steps);
+  if (baseline == nullptr) return validation::judge(source, nullptr, options);
+  const auto baseline_steps = steps_of(*baseline);
+  const validation::FrameSource other = source_of(*baseline, baseline_steps);
+  return validation::judge(source, &other, options);
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,30 @@
+// A recording in memory: what mutants leave and tamperings spoil.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/engine/dynamics.hpp"
+#include "core/result.hpp"
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
+#include "core/verdict.hpp"
+
+namespace broadside::bench {
+
+struct Specimen {
+  core::TraceHeader header;
+  std::vector<core::FrameRecord> frames;
+  bool is_spoilable = true;  // false when a tampering found nothing of the kind that it spoils
+};
+
+// All frames of the scene. settings: canonical. Errors are the engine's.
+core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics& dynamics, std::string_view settings);
+
+// As judge() does with files. only: validators; empty = all.
+core::Result<std::vector<core::Verdict>> judge_specimen(const Specimen& subject, const Specimen* baseline,
+                                                        std::vector<std::string> only = {});
+
+}  // namespace broadside::bench

@@ -1,0 +1,309 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/method/response.hpp"
+#include "reference/mutants/mutants.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::Contact;
+using core::ContactGeometry;
+using core::Material;
+using core::Parameters;
+using core::Variant;
+using core::Vec3;
+
+void sound(Contact& c, const ContactGeometry& g, float w_a, float w_b, const Material& m, const Parameters& p) {
+  core::respond(c, g, w_a, w_b, m, p, Variant::kSound);
+}
+
+float approach(const Contact& c) {
+  return core::dot(c.pre_a.v - c.pre_b.v, c.normal);
+}
+
+// A further impulse along a direction, on both bodies.
+void push(Contact& c, float impulse_n_s, Vec3 direction, float w_a, float w_b) {
+  c.post_a.v = c.post_a.v + (impulse_n_s * w_a) * direction;
+  c.post_b.v = c.post_b.v - (impulse_n_s * w_b) * direction;
+}
+
+void push_normal(Contact& c, float impulse_n_s, float w_a, float w_b) {
+  c.normal_impulse_n_s += impulse_n_s;
+  push(c, impulse_n_s, c.normal, w_a, w_b);
+}
+
+void push_tangent(Contact& c, float impulse_n_s, float w_a, float w_b) {
+  c.tangent_impulse_n_s += impulse_n_s;
+  push(c, impulse_n_s, c.tangent, w_a, w_b);
+}
+
+using Respond = void (*)(const World&, Contact&, const ContactGeometry&, float, float, const Material&,
+                         const Parameters&);
+
+constexpr Respond kBouncesBelowThreshold = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                              const Material& m, const Parameters& p) {
+  Parameters q = p;
+  q.v_threshold_m_s = 0.0F;
+  sound(c, g, w_a, w_b, m, q);
+};
+
+constexpr Respond kNeverBounces = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                     const Material& m, const Parameters& p) {
+  Material n = m;
+  n.restitution = 0.0F;
+  sound(c, g, w_a, w_b, n, p);
+};
+
+constexpr Respond kStopsSeparating = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                        const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  const float v_n = approach(c);
+  if (v_n > 0.0F) push_normal(c, -v_n / (w_a + w_b), w_a, w_b);
+};
+
+constexpr Respond kBouncesTooHard = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                       const Material& m, const Parameters& p) {
+  Material n = m;
+  n.restitution = 1.0F + m.restitution;
+  sound(c, g, w_a, w_b, n, p);
+};
+
+constexpr Respond kFloorsTwiceNeutral = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                           const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  const float v_n = approach(c);
+  const float wanted = std::min(p.impulse_min_n_s, -4.0F * v_n / (w_a + w_b));
+  if (v_n < 0.0F && c.normal_impulse_n_s < wanted) push_normal(c, wanted - c.normal_impulse_n_s, w_a, w_b);
+};
+
+constexpr Respond kPulls = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                              const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  push_normal(c, -2.0F * c.normal_impulse_n_s, w_a, w_b);
+};
+
+constexpr Respond kForgetsOneMass = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                       const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  if (w_a > 0.0F && w_b > 0.0F) push_normal(c, c.normal_impulse_n_s * (w_b / w_a), w_a, w_b);
+};
+
+constexpr Respond kSlidesWithStatic = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                         const Material& m, const Parameters& p) {
+  Material n = m;
+  n.mu_kinetic = m.mu_static;
+  sound(c, g, w_a, w_b, n, p);
+};
+
+constexpr Respond kSticksByKinetic = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                        const Material& m, const Parameters& p) {
+  Material n = m;
+  n.mu_static = m.mu_kinetic;
+  sound(c, g, w_a, w_b, n, p);
+};
+
+constexpr Respond kNoFriction = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                   const Material& m, const Parameters& p) {
+  Material n = m;
+  n.mu_static = n.mu_kinetic = 0.0F;
+  sound(c, g, w_a, w_b, n, p);
+};
+
+constexpr Respond kFrictionBeforeFloor = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                            const Material& m, const Parameters& p) {
+  Contact unfloored = c;
+  Parameters q = p;
+  q.impulse_min_n_s = 0.0F;
+  sound(unfloored, g, w_a, w_b, m, q);
+  sound(c, g, w_a, w_b, m, p);
+  push_tangent(c, unfloored.tangent_impulse_n_s - c.tangent_impulse_n_s, w_a, w_b);
+};
+
+constexpr Respond kFrictionAlongVelocity = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                              const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  const float impulse = c.tangent_impulse_n_s;
+  if (impulse == 0.0F) return;
+  push_tangent(c, -impulse, w_a, w_b);
+  const Vec3 relative = c.pre_a.v - c.pre_b.v;
+  c.tangent = (1.0F / core::length(relative)) * relative;
+  push_tangent(c, impulse, w_a, w_b);
+};
+
+constexpr Respond kTangentNotUnit = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                       const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  const float impulse = c.tangent_impulse_n_s;
+  if (impulse == 0.0F) return;
+  push_tangent(c, -impulse, w_a, w_b);
+  const Vec3 relative = c.pre_a.v - c.pre_b.v;
+  c.tangent = relative - core::dot(relative, c.normal) * c.normal;
+  push_tangent(c, impulse, w_a, w_b);
+};
+
+constexpr Respond kRubsSeparating = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                       const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  const Vec3 relative = c.pre_a.v - c.pre_b.v;
+  const Vec3 sliding = relative - approach(c) * c.normal;
+  if (!(approach(c) > 0.0F) || !(core::length(sliding) > 0.0F)) return;
+  c.tangent = (1.0F / core::length(sliding)) * sliding;
+  push_tangent(c, -0.1F * core::length(sliding) / (w_a + w_b), w_a, w_b);
+};
+
+constexpr Respond kStopsTooHard = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                     const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  push_tangent(c, 0.5F * c.tangent_impulse_n_s, w_a, w_b);
+};
+
+// 0 / 0 where nothing slides.
+constexpr Respond kDividesByZero = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
+                                      const Material& m, const Parameters& p) {
+  sound(c, g, w_a, w_b, m, p);
+  if (c.normal_impulse_n_s == 0.0F || c.tangent_impulse_n_s != 0.0F) return;
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  c.tangent = {kNaN, kNaN, kNaN};
+  push_tangent(c, 0.0F, w_a, w_b);
+};
+
+std::span<const Mutant> table() {
+  static const auto kTable = std::to_array<Mutant>({
+      {"bounces-below-threshold",
+       "slow approaches bounce too",
+       "restitution",
+       "mixed",
+       {.respond = kBouncesBelowThreshold}},
+      {"never-bounces", "restitution is left out", "restitution", "mixed", {.respond = kNeverBounces}},
+      {"takes-smaller-restitution",
+       "the smaller of two restitutions",
+       "restitution",
+       "pile",
+       {.combine =
+            [](const Material& a, const Material& b) {
+              Material m = core::combine(a, b);
+              m.restitution = std::min(a.restitution, b.restitution);
+              return m;
+            }}},
+      {"stops-separating", "contacts that separate are stopped", "restitution", "mixed", {.respond = kStopsSeparating}},
+      {"bounces-too-hard", "restitution is one too large", "normal-energy", "mixed", {.respond = kBouncesTooHard}},
+      {"floors-twice-neutral",
+       "the impulse floor goes to twice the neutral impulse",
+       "normal-energy",
+       "errata:E5",
+       {.respond = kFloorsTwiceNeutral}},
+      {"pulls", "the normal impulse has the wrong sign", "normal-energy", "mixed", {.respond = kPulls}},
+      {"forgets-one-mass",
+       "the impulse is divided by one inverse mass instead of their sum",
+       "normal-energy",
+       "mixed",
+       {.respond = kForgetsOneMass}},
+      {"records-half-the-impulse",
+       "half of the impulse that acted is recorded",
+       "normal-energy",
+       "mixed",
+       {.store = [](const World&, Contact& c) { c.normal_impulse_n_s *= 0.5F; }}},
+      {"slides-with-static",
+       "sliding friction uses the static coefficient",
+       "friction-energy",
+       "mixed",
+       {.respond = kSlidesWithStatic}},
+      {"sticks-by-kinetic",
+       "the kinetic coefficient decides about sticking",
+       "friction-energy",
+       "pile",
+       {.respond = kSticksByKinetic}},
+      {"no-friction", "friction is left out", "friction-energy", "mixed", {.respond = kNoFriction}},
+      {"friction-before-floor",
+       "friction's cone is that of the impulse before the floor",
+       "friction-energy",
+       "pile",
+       {.respond = kFrictionBeforeFloor}},
+      {"friction-along-velocity",
+       "friction opposes the whole relative velocity",
+       "friction-energy",
+       "mixed",
+       {.respond = kFrictionAlongVelocity}},
+      {"tangent-not-unit",
+       "friction's direction is not normalized",
+       "friction-energy",
+       "mixed",
+       {.respond = kTangentNotUnit}},
+      {"rubs-separating",
+       "contacts that separate are rubbed",
+       "friction-energy",
+       "mixed",
+       {.respond = kRubsSeparating}},
+      {"stops-too-hard", "friction is half too strong", "friction-energy", "mixed", {.respond = kStopsTooHard}},
+      {"averages-friction",
+       "the mean of two frictions, where the geometric mean belongs",
+       "friction-energy",
+       "pile",
+       {.combine =
+            [](const Material& a, const Material& b) {
+              Material m = core::combine(a, b);
+              m.mu_static = 0.5F * (a.mu_static + b.mu_static);
+              m.mu_kinetic = 0.5F * (a.mu_kinetic + b.mu_kinetic);
+              return m;
+            }}},
+      {"books-half-the-friction",
+       "half of the friction that acted is recorded",
+       "energy",
+       "mixed",
+       {.store = [](const World&, Contact& c) { c.tangent_impulse_n_s *= 0.5F; }}},
+      {"heats-at-the-end",
+       "velocities grow by a part in a thousand after all contacts",
+       "energy",
+       "mixed",
+       {.end =
+            [](World& w) {
+              for (std::uint32_t i = 0; i < w.bodies.count(); ++i)
+                if (w.bodies.is_static[i] == 0) w.bodies.state[i].v = 1.001F * w.bodies.state[i].v;
+            }}},
+      {"divides-by-zero",
+       "the direction of no sliding is NaN",
+       "state-sanity",
+       "two-body:head-on",
+       {.respond = kDividesByZero}},
+      {"never-clips",
+       "the velocity cap is left out",
+       "velocity-cap",
+       "fast",
+       {.clip = [](Vec3 v, float) { return v; }}},
+      {"clips-one-side",
+       "only positive components are clipped",
+       "velocity-cap",
+       "fast",
+       {.clip =
+            [](Vec3 v, float v_max) {
+              for (int k = 0; k < 3; ++k) v[k] = std::min(v[k], v_max);
+              return v;
+            }}},
+      {"clips-twice-too-high",
+       "the cap is twice v_max",
+       "velocity-cap",
+       "fast",
+       {.clip = [](Vec3 v, float v_max) { return core::clipped(v, 2.0F * v_max); }}},
+      {"clips-the-speed",
+       "the speed is limited where the components should be",
+       "state-sanity",
+       "fast",
+       {.clip =
+            [](Vec3 v, float v_max) {
+              const float speed = core::length(v);
+              return speed > v_max ? (v_max / speed) * v : v;
+            }}},
+  });
+  return kTable;
+}
+
+}  // namespace
+
+std::span<const Mutant> velocity_mutants() {
+  return table();
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,93 @@
+// Laws over scenes that rapidcheck draws, and shrinks when one fails.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/scene/transformed_scene.hpp"
+#include "tests/validation/engine_recording.hpp"
+#include "validation/scene_relation.hpp"
+
+namespace broadside::tests {
+namespace {
+
+using Kind = validation::SceneRelation::Kind;
+
+// A drawn scene, short enough for hundreds of them.
+core::Scene drawn_scene() {
+  core::Scene scene =
+      bench::random_scene(*rc::gen::arbitrary<std::uint32_t>(), -2.0F, *rc::gen::element(1.0F, 10.0F, 1e4F));
+  scene.frames = 12;
+  const auto bodies = *rc::gen::inRange<std::size_t>(2, scene.bodies.size() + 1);
+  scene.bodies.resize(bodies);
+  return scene;
+}
+
+EngineSettings drawn_settings() {
+  return *rc::gen::element(EngineSettings{}, EngineSettings{{"broad", "octree"}}, EngineSettings{{"levels", "flat"}},
+                           EngineSettings{{"levels", "A"}, {"broad", "brute"}}, EngineSettings{{"solver", "jacobi"}});
+}
+
+// "" when nobody is blamed.
+std::string blame(const Recording& subject, const Recording* baseline) {
+  for (const core::Verdict& v : judged(subject, baseline))
+    if (v.outcome == core::Outcome::kFail) return line(v);
+  return "";
+}
+
+void holds_against(const core::Scene& scene, const core::Scene& other, Kind kind) {
+  const auto relation = validation::relation_of(scene, other);
+  RC_ASSERT(relation.has_value());
+  RC_ASSERT(relation->kind == kind);
+  const EngineSettings settings = drawn_settings();
+  const Recording subject = record(scene, settings);
+  const Recording baseline = record(other, settings);
+  RC_ASSERT(blame(subject, &baseline) == "");
+  const core::Verdict v = verdict_of("metamorphic", subject, &baseline);
+  RC_ASSERT(v.outcome == core::Outcome::kPass);
+}
+
+RC_GTEST_PROP(Properties, TheSoundEngineIsNotBlamed, ()) {
+  RC_ASSERT(blame(record(drawn_scene(), drawn_settings()), nullptr) == "");
+}
+
+RC_GTEST_PROP(Properties, AScaledSceneHasTheScaledOutcome, ()) {
+  const core::Scene scene = drawn_scene();
+  holds_against(scene, core::scaled_scene(scene, *rc::gen::element(0.125F, 0.5F, 2.0F, 16.0F)), Kind::kScaled);
+}
+
+RC_GTEST_PROP(Properties, AMirroredSceneHasTheMirroredOutcome, ()) {
+  const core::Scene scene = drawn_scene();
+  holds_against(scene, core::mirrored_scene(scene, *rc::gen::inRange(0, 3)), Kind::kMirrored);
+}
+
+RC_GTEST_PROP(Properties, ARenumberedSceneHasTheRenumberedOutcome, ()) {
+  const core::Scene scene = drawn_scene();
+  std::vector<std::uint32_t> order(scene.bodies.size());
+  std::iota(order.begin(), order.end(), 0U);
+  // A rotation by at least one and a swap: never the identity.
+  std::rotate(order.begin(),
+              order.begin() + *rc::gen::inRange<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(order.size())),
+              order.end());
+  holds_against(scene, core::renumbered_scene(scene, order), Kind::kRenumbered);
+}
+
+RC_GTEST_PROP(Properties, GrownBoxesHaveNoFewerPairs, ()) {
+  const core::Scene scene = drawn_scene();
+  holds_against(scene, core::grown_scene(scene, *rc::gen::element(1.125F, 1.5F, 3.0F)), Kind::kGrown);
+}
+
+// Twice mirrored, renumbered there and back, scaled up and down: the scene itself.
+RC_GTEST_PROP(Properties, TransformationsCanBeUndone, ()) {
+  const core::Scene scene = drawn_scene();
+  const std::uint64_t digest = core::scene_digest(scene);
+  const int axis = *rc::gen::inRange(0, 3);
+  const core::Scene mirrored = core::mirrored_scene(core::mirrored_scene(scene, axis), axis);
+  RC_ASSERT(core::scene_digest(mirrored) == digest);
+  RC_ASSERT(core::scene_digest(core::scaled_scene(core::scaled_scene(scene, 8.0F), 0.125F)) == digest);
+  RC_ASSERT(!validation::relation_of(scene, mirrored).has_value());
+}
+
+}  // namespace
+}  // namespace broadside::tests
