@@ -11,7 +11,7 @@
 
 namespace broadside::core {
 
-enum class Element : std::uint8_t { kU8, kU32, kU64, kF32, kF64 };
+enum class Element : std::uint8_t { kU8, kU32, kU64, kI64, kF32, kF64 };
 
 constexpr std::size_t size_of(Element e) {
   return e == Element::kU8 ? 1 : (e == Element::kU32 || e == Element::kF32 ? 4 : 8);

@@ -3,6 +3,11 @@
 namespace broadside::core {
 namespace {
 
+std::recursive_mutex& hdf5_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 // Called for the innermost entry first: its text is the reason, the others only repeat it from farther out.
 herr_t take_innermost(unsigned /*n*/, const H5E_error2_t* entry, void* reason) {
   if (entry->desc == nullptr || *entry->desc == '\0') return 0;
@@ -12,7 +17,7 @@ herr_t take_innermost(unsigned /*n*/, const H5E_error2_t* entry, void* reason) {
 
 }  // namespace
 
-QuietHdf5::QuietHdf5() {
+QuietHdf5::QuietHdf5() : alone_(hdf5_mutex()) {
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

@@ -4,6 +4,7 @@
 
 #include <hdf5.h>
 
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -42,7 +43,8 @@ class Handle {
   Closer closer_ = nullptr;
 };
 
-// While it lives, HDF5 prints nothing of its own on this thread; what was set before comes back afterwards.
+// Whoever calls HDF5 holds one: while it lives no other thread is inside HDF5, which Debian builds without thread
+// safety, and HDF5 prints nothing of its own. What was set before comes back afterwards. One thread may hold several.
 class QuietHdf5 {
  public:
   QuietHdf5();
@@ -51,6 +53,7 @@ class QuietHdf5 {
   QuietHdf5& operator=(const QuietHdf5&) = delete;
 
  private:
+  std::unique_lock<std::recursive_mutex> alone_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };

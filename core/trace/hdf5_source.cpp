@@ -39,6 +39,8 @@ const char* name_of(Element e) {
       return "u32";
     case Element::kU64:
       return "u64";
+    case Element::kI64:
+      return "i64";
     case Element::kF32:
       return "f32";
     case Element::kF64:

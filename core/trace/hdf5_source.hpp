@@ -62,6 +62,7 @@ class Hdf5Source {
   }
   std::vector<std::string> texts(const std::string& path);
 
+  void close() { file_.close(); }
   // The first failure wins.
   void fail(const std::string& at, const std::string& what, const std::string& advice);
   [[nodiscard]] bool ok() const { return !error_; }

@@ -11,6 +11,8 @@
 #include <functional>
 #include <iterator>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace broadside::core {
 namespace {
@@ -219,20 +221,57 @@ int PartFile::sync() {
   return fsync(fd_) == 0 ? 0 : errno;
 }
 
-void PartFile::write_at(std::uint64_t address, const std::byte* data, std::size_t size) {
-  end_ = std::max(end_, address + size);
-  while (refused_ == 0 && size > 0) {
+int PartFile::write_disk(std::uint64_t& address, const std::byte*& data, std::size_t& size) const {
+  while (size > 0) {
     const ssize_t n = pwrite(fd_, data, size, static_cast<off_t>(address));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      refused_ = n < 0 ? errno : ENOSPC;
-      break;
-    }
+    if (n <= 0) return n < 0 ? errno : ENOSPC;
     address += static_cast<std::uint64_t>(n);
     data += n;
     size -= static_cast<std::size_t>(n);
   }
+  return 0;
+}
+
+void PartFile::write_at(std::uint64_t address, const std::byte* data, std::size_t size) {
+  end_ = std::max(end_, address + size);
+  if (refused_ == 0 && !held_end_) refused_ = write_disk(address, data, size);
   if (size > 0) write_pages(address, data, size);
+}
+
+void PartFile::hold() {
+  if (refused_ == 0) held_end_ = end_;
+}
+
+void PartFile::drop() {
+  if (!held_end_) return;
+  end_ = *std::exchange(held_end_, std::nullopt);
+  pages_.clear();
+}
+
+bool PartFile::release() {
+  if (!held_end_) return refused_ == 0;
+  const std::uint64_t old_end = *std::exchange(held_end_, std::nullopt);
+  std::vector<std::uint64_t> order;
+  for (const auto& [index, page] : pages_) order.push_back(index);
+  // New pages, then changed ones; the first page, which makes the new ones known, after all others.
+  const auto rank = [old_end](std::uint64_t index) { return index == 0 ? 2 : (index + 1) * kPage <= old_end ? 1 : 0; };
+  std::sort(order.begin(), order.end(),
+            [&rank](std::uint64_t p, std::uint64_t q) { return std::pair(rank(p), p) < std::pair(rank(q), q); });
+  int code = 0;
+  for (const std::uint64_t index : order) {
+    std::uint64_t address = index * kPage;
+    if (address >= end_) continue;
+    const std::byte* data = pages_[index].data();
+    std::size_t size = std::min<std::uint64_t>(kPage, end_ - address);
+    code = write_disk(address, data, size);
+    if (code != 0) break;
+  }
+  pages_.clear();
+  if (code == 0 && ftruncate(fd_, static_cast<off_t>(end_)) == 0) return true;
+  end_ = old_end;
+  if (ftruncate(fd_, static_cast<off_t>(old_end)) != 0) refused_ = errno;
+  return false;
 }
 
 void PartFile::write_pages(std::uint64_t address, const std::byte* data, std::size_t size) {
@@ -284,7 +323,7 @@ bool PartFile::read_at(std::uint64_t address, std::byte* data, std::size_t size)
 
 void PartFile::resize(std::uint64_t size) {
   end_ = size;
-  if (refused_ == 0 && ftruncate(fd_, static_cast<off_t>(size)) != 0) refused_ = errno;
+  if (refused_ == 0 && !held_end_ && ftruncate(fd_, static_cast<off_t>(size)) != 0) refused_ = errno;
 }
 
 }  // namespace broadside::core

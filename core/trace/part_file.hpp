@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "core/result.hpp"
@@ -35,6 +36,13 @@ class PartFile {
   [[nodiscard]] std::uint64_t size() const { return end_; }
   // To disk, with its data; 0 or an errno.
   int sync();
+  // From here on writes wait in memory, and reads see them, until release() puts them on disk: first what lies behind
+  // the old end, last the page with the superblock and the root group. So a full disk or a kill leaves the file that
+  // hold() found. False when the disk refused; the file is then what it was, and refused() stays 0.
+  void hold();
+  bool release();
+  // Forgets what was held.
+  void drop();
 
   // For the driver alone.
   void write_at(std::uint64_t address, const std::byte* data, std::size_t size);
@@ -47,12 +55,15 @@ class PartFile {
 
   PartFile(std::filesystem::path path, int fd) : path_(std::move(path)), fd_(fd) {}
   bool read_disk(std::uint64_t address, std::byte* data, std::size_t size) const;
+  // 0, or the errno; address and the rest move on by what was written.
+  int write_disk(std::uint64_t& address, const std::byte*& data, std::size_t& size) const;
   void write_pages(std::uint64_t address, const std::byte* data, std::size_t size);
 
   std::filesystem::path path_;
   int fd_ = -1;
   int refused_ = 0;
   std::uint64_t end_ = 0;
+  std::optional<std::uint64_t> held_end_;  // of the file on disk, while writes are held back
   std::unordered_map<std::uint64_t, Page> pages_;
   Handle driver_;
 };

@@ -70,6 +70,11 @@ struct TraceReader::Impl {
   std::vector<GroupBlock> groups;
 
   explicit Impl(Hdf5Source s) : source(std::move(s)) {}
+  ~Impl() {
+    const QuietHdf5 quiet;
+    groups.clear();
+    source.close();
+  }
 
   void open() {
     check_format(source);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/trace/column_buffer.hpp"
+#include "core/trace/finished_file.hpp"
 #include "core/trace/part_file.hpp"
 #include "core/trace/scene_group.hpp"
 #include "core/trace/statistics.hpp"
@@ -20,11 +21,10 @@ using Clock = std::chrono::steady_clock;
 // Rows wait in memory up to this much, so that small frames do not cost one HDF5 call per dataset each; then they go to
 // HDF5's chunk cache. 4 MiB is some 100 frames of 50 bodies.
 constexpr std::size_t kWaitingBytes = 4U << 20U;
-// A killed writer loses at most the frames of about this long.
-constexpr std::chrono::seconds kFlushPeriod{1};
-// A flush that cuts through a chunk makes HDF5 write that chunk a second time elsewhere and leave the first as waste.
-// More waste than this share is copied away when the trace is finished: below it the copy costs more than it saves.
-constexpr std::uint64_t kWasteShare = 16;
+// A killed writer loses at most the frames of about this long; at its start, of less, so that short runs leave
+// something.
+constexpr std::chrono::milliseconds kShortestFlushPeriod{100};
+constexpr std::chrono::milliseconds kFlushPeriod{1000};
 
 std::filesystem::path with_suffix(std::filesystem::path path, const char* suffix) {
   return path += suffix;
@@ -55,13 +55,6 @@ void write_once(Hdf5Sink& sink, const TraceHeader& header) {
   if ((header.groups & bit(Group::kContacts)) != 0U) sink.group("/trace/statistics");
 }
 
-// A new HDF5 file in the part file.
-Handle create_hdf5(PartFile& part) {
-  const Handle access = part.access_properties();
-  if (!access) return {};
-  return {H5Fcreate(part.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
-}
-
 }  // namespace
 
 struct TraceWriter::Impl {
@@ -72,10 +65,12 @@ struct TraceWriter::Impl {
   std::unique_ptr<PartFile> part;
   Handle file;
   std::vector<ColumnBuffer> columns;
+  Packing packing = Packing::kSmall;
   std::optional<std::uint64_t> last_step;
   std::uint64_t frames = 0;
   std::uint64_t frames_flushed = 0;
-  Clock::time_point last_flush = Clock::now();
+  Clock::time_point start = Clock::now();
+  Clock::time_point last_flush = start;
   std::optional<Error> failed;
   bool finished = false;
 
@@ -104,15 +99,20 @@ struct TraceWriter::Impl {
   // Rows to HDF5. Steps wait for flush(): a step in the file says that all else of its frame is there.
   bool write_columns() {
     for (ColumnBuffer& c : columns)
-      if (c.column().records != Records::kStep && !c.write()) return false;
+      if (c.column().records != Records::kStep && !c.write(packing)) return false;
     return part->refused() == 0;
   }
 
   bool write_steps() {
     for (ColumnBuffer& c : columns)
       if (c.column().records == Records::kStep)
-        return c.write() && H5Dflush(c.set().get()) >= 0 && part->refused() == 0;
+        return c.write(Packing::kSmall) && H5Dflush(c.set().get()) >= 0 && part->refused() == 0;
     return false;
+  }
+
+  [[nodiscard]] bool is_flush_due() const {
+    const Clock::time_point now = Clock::now();
+    return now - last_flush >= std::clamp<Clock::duration>((now - start) / 2, kShortestFlushPeriod, kFlushPeriod);
   }
 
   Status flush() {
@@ -164,7 +164,7 @@ struct TraceWriter::Impl {
     }
     last_step = frame.step;
     ++frames;
-    if (Clock::now() - last_flush >= kFlushPeriod) return flush();
+    if (is_flush_due()) return flush();
     if (waiting >= kWaitingBytes && !write_columns()) return stop_writing("writing frame " + std::to_string(frames));
     return Done{};
   }
@@ -173,33 +173,6 @@ struct TraceWriter::Impl {
     std::uint64_t sum = 0;
     for (const ColumnBuffer& c : columns) sum += H5Dget_storage_size(c.set().get());
     return sum;
-  }
-
-  // Copies every object to a new file, chunk by chunk without unpacking, so that the waste stays behind. The part file
-  // is complete either way: when the copy fails (a disk without room for both), it is the trace.
-  std::unique_ptr<PartFile> compacted() {
-    auto made = PartFile::create(with_suffix(path, ".compact"));
-    if (!made) return nullptr;
-    std::unique_ptr<PartFile> copy = std::move(made).value();
-    bool good = false;
-    {
-      Handle source(H5Fopen(part->path().c_str(), H5F_ACC_RDONLY, part->access_properties().get()), H5Fclose);
-      Handle target = create_hdf5(*copy);
-      if (source && target) {
-        Hdf5Sink sink(target.get());
-        sink.text("/", "format", "broadside-trace");
-        sink.number("/", "format_version", Element::kU32, &kTraceFormatVersion);
-        good = sink.ok();
-        for (const char* name : {"trace", "scene", "provenance"})
-          good = good && H5Ocopy(source.get(), name, target.get(), name, H5P_DEFAULT, H5P_DEFAULT) >= 0;
-      }
-      good = target.close() && good && copy->refused() == 0;
-    }
-    hdf5_reason();
-    if (good) return copy;
-    std::error_code ignored;
-    std::filesystem::remove(copy->path(), ignored);
-    return nullptr;
   }
 
   Status finish() {
@@ -211,9 +184,9 @@ struct TraceWriter::Impl {
     columns.clear();
     if (!file.close() || part->refused() != 0) return stop_writing("closing the trace");
     std::unique_ptr<PartFile> copy;
-    // 1 MiB: the scene and HDF5's own structures, which are no waste, seldom need more.
-    if (part->size() > stored + stored / kWasteShare + (1U << 20U)) copy = compacted();
+    if (is_worth_compacting(*part, stored)) copy = compacted(*part, path);
     PartFile& complete = copy ? *copy : *part;
+    if ((groups & bit(Group::kDetection)) != 0U) add_views(complete, frames, bodies);
     if (const int code = complete.sync(); code != 0)
       return stop(disk_error(code, complete.path(), "syncing the trace"));
     if (const Status s = rename_durably(complete.path(), path); !s) return stop(s.error());
@@ -262,6 +235,16 @@ Result<TraceWriter> TraceWriter::create(const std::filesystem::path& path, const
     return error;
   }
   return TraceWriter(std::move(impl));
+}
+
+void TraceWriter::hurry(bool is_late) {
+  impl_->packing = is_late ? Packing::kFast : Packing::kSmall;
+}
+
+Status TraceWriter::flush_if_due() {
+  const Impl& d = *impl_;
+  if (d.finished || d.frames == d.frames_flushed || !d.is_flush_due()) return Done{};
+  return flush();
 }
 
 Status TraceWriter::append(const FrameRecord& frame) {

@@ -10,8 +10,8 @@
 
 namespace broadside::core {
 
-// Not thread-safe: one writer thread. A writer destroyed before finish() leaves NAME.part behind, readable up to the
-// last flushed frame, and never a file under the final name.
+// Not thread-safe: one writer thread (core/trace/trace_stream.hpp has one). A writer destroyed before finish() leaves
+// NAME.part behind, readable up to the last flushed frame, and never a file under the final name.
 class TraceWriter {
  public:
   // Creates path + ".part"; an existing file of the final name stays as it is until finish().
@@ -23,8 +23,13 @@ class TraceWriter {
 
   // The groups in the header must be filled; others are ignored. Steps must rise.
   Status append(const FrameRecord& frame);
+  // When late, frames that fill whole chunks go to the file without being compressed: larger, and several times faster.
+  void hurry(bool is_late);
   // Makes everything appended so far survive the end of this process.
   Status flush();
+  // The same when a flush is due, a second after the last one; append() asks too, so only a writer that waits for
+  // frames need call it.
+  Status flush_if_due();
   // Closes, syncs to disk and renames to the final name. Nothing may be appended after it.
   Status finish();
 

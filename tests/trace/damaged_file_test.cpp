@@ -54,6 +54,11 @@ class DamagedFile : public testing::Test {
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
   }
 
+  // Datasets that a reader of traces reads: not the views for other programs.
+  static bool is_read(const RawItem& item) {
+    return item.path.find('@') == std::string::npos && item.path.rfind("/VTKHDF/", 0) != 0;
+  }
+
   void write_bytes(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
   std::string bytes() const {
     std::ifstream in(path_, std::ios::binary);
@@ -114,7 +119,7 @@ TEST_F(DamagedFile, OfAnotherFormatVersion) {
 TEST_F(DamagedFile, WithoutAnyOneOfItsDatasets) {
   const std::string good = bytes();
   for (const RawItem& item : raw_items(path_)) {
-    if (item.path.find('@') != std::string::npos) continue;
+    if (!is_read(item)) continue;
     write_bytes(good);
     raw_remove(path_, item.path);
     expect_fault({item.path, "missing"});
@@ -124,7 +129,7 @@ TEST_F(DamagedFile, WithoutAnyOneOfItsDatasets) {
 TEST_F(DamagedFile, WithAnyOneDatasetOfAnotherTypeOrRank) {
   const std::string good = bytes();
   for (const RawItem& item : raw_items(path_)) {
-    if (item.path.find('@') != std::string::npos) continue;
+    if (!is_read(item)) continue;
     write_bytes(good);
     raw_replace(path_, item.path, H5T_STD_I16LE, item.shape);
     expect_fault({item.path});

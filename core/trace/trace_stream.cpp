@@ -1,0 +1,154 @@
+#include "core/trace/trace_stream.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "core/trace/columns.hpp"
+#include "core/trace/trace_writer.hpp"
+
+namespace broadside::core {
+namespace {
+
+// How often a writer with nothing to do asks whether a flush is due.
+constexpr std::chrono::milliseconds kIdle{250};
+
+std::size_t bytes_of(const FrameRecord& frame) {
+  std::size_t sum = sizeof frame;
+  for (const Column& c : columns()) {
+    if (c.layout != Layout::kFrameBodies && c.layout != Layout::kRows) continue;
+    sum += records_of(frame, c.records).count * row_bytes(c);
+  }
+  return sum;
+}
+
+}  // namespace
+
+struct TraceStream::Impl {
+  struct Waiting {
+    FrameRecord frame;
+    std::size_t bytes;
+  };
+
+  explicit Impl(TraceWriter w, std::size_t limit) : writer(std::move(w)), queue_bytes(limit) {
+    thread = std::thread([this] { write_frames(); });
+  }
+  ~Impl() { end(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  // The writer's thread. The frame at the front stays in the queue while it is written, so its bytes count.
+  void write_frames() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      const bool has_work = changed.wait_for(lock, kIdle, [this] { return !queue.empty() || is_ending; });
+      if (!has_work) {
+        is_busy = true;
+        lock.unlock();
+        const Status s = writer.flush_if_due();
+        lock.lock();
+        is_busy = false;
+        note(s);
+        continue;
+      }
+      if (queue.empty()) return;
+      writer.hurry(waiting_bytes > queue_bytes / 2);
+      const FrameRecord& frame = queue.front().frame;  // stays where it is while others are queued behind it
+      lock.unlock();
+      const Status s = error ? Status(*error) : writer.append(frame);
+      lock.lock();
+      note(s);
+      waiting_bytes -= queue.front().bytes;
+      queue.pop_front();
+      changed.notify_all();
+    }
+  }
+
+  void note(const Status& s) {
+    if (!s && !error) error = s.error();
+    changed.notify_all();
+  }
+
+  Status append(FrameRecord frame) {
+    const std::size_t bytes = bytes_of(frame);
+    std::unique_lock lock(mutex);
+    const auto has_room = [&] { return error || queue.empty() || waiting_bytes + bytes <= queue_bytes; };
+    if (!has_room()) {
+      ++waits;
+      changed.wait(lock, has_room);
+    }
+    if (error) return *error;
+    waiting_bytes += bytes;
+    queue.push_back({std::move(frame), bytes});
+    changed.notify_all();
+    return Done{};
+  }
+
+  // Until the thread holds nothing; then the writer is this thread's.
+  Status drain(std::unique_lock<std::mutex>& lock) {
+    changed.wait(lock, [this] { return queue.empty() && !is_busy; });
+    if (error) return *error;
+    return Done{};
+  }
+
+  void end() {
+    {
+      const std::lock_guard lock(mutex);
+      is_ending = true;
+    }
+    changed.notify_all();
+    if (thread.joinable()) thread.join();
+  }
+
+  TraceWriter writer;
+  std::size_t queue_bytes;
+  std::mutex mutex;
+  std::condition_variable changed;
+  // Guarded by the mutex; the front is the thread's alone. error is set once.
+  std::deque<Waiting> queue;
+  std::size_t waiting_bytes = 0;
+  bool is_busy = false;
+  bool is_ending = false;
+  std::optional<Error> error;
+  std::uint64_t waits = 0;
+  std::thread thread;
+};
+
+TraceStream::TraceStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+TraceStream::TraceStream(TraceStream&&) noexcept = default;
+TraceStream& TraceStream::operator=(TraceStream&&) noexcept = default;
+TraceStream::~TraceStream() = default;
+
+Result<TraceStream> TraceStream::create(const std::filesystem::path& path, const TraceHeader& header,
+                                        std::size_t queue_bytes) {
+  Result<TraceWriter> writer = TraceWriter::create(path, header);
+  if (!writer) return writer.error();
+  return TraceStream(std::make_unique<Impl>(std::move(writer).value(), queue_bytes));
+}
+
+Status TraceStream::append(FrameRecord frame) {
+  return impl_->append(std::move(frame));
+}
+
+Status TraceStream::flush() {
+  std::unique_lock lock(impl_->mutex);
+  if (Status s = impl_->drain(lock); !s) return s;
+  return impl_->writer.flush();
+}
+
+Status TraceStream::finish() {
+  impl_->end();
+  if (impl_->error) return *impl_->error;
+  return impl_->writer.finish();
+}
+
+std::uint64_t TraceStream::waits() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->waits;
+}
+
+}  // namespace broadside::core
