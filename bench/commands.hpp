@@ -28,6 +28,7 @@ void add_describe_plugin(CLI::App& program, core::Exit& exit);
 void add_diff(CLI::App& program, core::Exit& exit);
 void add_replay(CLI::App& program, core::Exit& exit);
 void add_shrink(CLI::App& program, core::Exit& exit);
+void add_view(CLI::App& program, core::Exit& exit);
 
 // Prints the error's one line to stderr and returns its exit code.
 core::Exit complain(const core::Error& error);
