@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bench/scene_arguments.hpp"
+#include "bench/step_selection.hpp"
 #include "core/engine/engine.hpp"
 #include "core/result.hpp"
 #include "core/scene/scene.hpp"
@@ -23,11 +24,12 @@ struct CellRequest {
   GivenSettings settings;
   std::uint64_t frames = 0;
   core::RecordLevel level = core::RecordLevel::kFull;
-  std::uint32_t every = 1;         // record every k-th frame
+  StepSelection selection;         // which steps are recorded
   std::uint32_t narrow_every = 1;  // narrow-phase engines measure every k-th frame of the driver
   std::filesystem::path folder;
   // For engines that do not simulate: the trace whose boxes and poses they are fed.
   std::filesystem::path driver_trace;
+  bool resume = false;  // go on from what an earlier run of the same stamp left in the folder
 };
 
 core::Stamp stamp_of(const core::Scene& scene, const core::Engine& engine);

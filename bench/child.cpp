@@ -29,7 +29,7 @@ std::vector<std::string> arguments(const CellRequest& r, const std::filesystem::
                                 "--frames",
                                 std::to_string(r.frames),
                                 "--every",
-                                std::to_string(r.every),
+                                std::to_string(r.selection.every),
                                 "--narrow-every",
                                 std::to_string(r.narrow_every),
                                 "--record",
@@ -42,6 +42,11 @@ std::vector<std::string> arguments(const CellRequest& r, const std::filesystem::
                                 r.driver_trace.string(),
                                 "--in-process",
                                 cell_folder.string()};
+  for (const StepWindow& w : r.selection.windows) {
+    args.emplace_back("--window");
+    args.push_back(fmt::format("{}:{}", w.first, w.last));
+  }
+  if (r.resume) args.emplace_back("--resume");
   if (r.source.allow_stand_in) args.emplace_back("--stand-in");
   for (const auto& [key, value] : r.settings) {
     args.emplace_back("--set");

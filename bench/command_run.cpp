@@ -18,6 +18,8 @@ struct RunArguments {
   EngineArguments engines;
   std::string level = "full";
   std::uint32_t every = 1;
+  std::vector<std::string> windows;
+  bool resume = false;
   std::uint32_t narrow_every = 0;
   std::string folder = "out";
   std::string driver;
@@ -44,9 +46,15 @@ core::Result<RunPlan> make_plan(const RunArguments& a) {
   plan.cells = std::move(cells).value();
   plan.frames = plan.scene.frames;
   plan.level = level_named(a.level);
-  plan.every = a.every;
+  auto selection = StepSelection::parse(a.every, a.windows);
+  if (!selection) return selection.error();
+  plan.selection = std::move(selection).value();
   plan.narrow_every = a.narrow_every > 0 ? a.narrow_every : default_narrow_every(plan.frames);
   plan.folder = a.folder;
+  plan.reuse = plan.resume = a.resume;
+  if (plan.resume && plan.level != core::RecordLevel::kFull)
+    return core::Error{"a run goes on from recorded states, and --record " + a.level + " records none", "--resume",
+                       "record full, or leave out --resume"};
   plan.time_limit_s = a.time_limit_s;
   return plan;
 }
@@ -54,8 +62,8 @@ core::Result<RunPlan> make_plan(const RunArguments& a) {
 // One cell, here: what a child process of record_cell_in_child does.
 core::Exit run_in_process(const RunArguments& a, const RunPlan& plan) {
   const CellSpec& spec = plan.cells.front();
-  const CellRequest request{plan.source, &plan.scene, spec.row,          spec.settings, plan.frames,
-                            plan.level,  plan.every,  plan.narrow_every, plan.folder,   a.driver};
+  const CellRequest request{plan.source,    &plan.scene,       spec.row,    spec.settings, plan.frames, plan.level,
+                            plan.selection, plan.narrow_every, plan.folder, a.driver,      plan.resume};
   auto cell = record_cell(request);
   if (!cell) return complain(cell.error());
   if (core::Status s = core::write_cells(std::filesystem::path(a.in_process) / "cells.json", {cell.value()}); !s)
@@ -112,6 +120,11 @@ void add_run(CLI::App& program, core::Exit& exit) {
   command->add_option("--every", a->every, "Record every k-th frame")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_option(
+      "--window", a->windows,
+      "Record only steps FIRST:LAST, such as 100:200; may be repeated. The last step is always recorded");
+  command->add_flag("--resume", a->resume,
+                    "Go on from the traces that an earlier run of the same stamp left in --out; complete ones stay");
   command->add_option("--narrow-every", a->narrow_every,
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
   command->add_option("--out", a->folder, "Folder for the traces and cells.json")->capture_default_str();

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include "bench/equivalence.hpp"
+#include "bench/frame_taker.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/near_pairs.hpp"
 #include "bench/recording.hpp"
+#include "bench/resume.hpp"
 #include "core/scene/shapes.hpp"
 #include "core/trace/trace_reader.hpp"
 
@@ -22,7 +26,8 @@ core::TraceHeader header_for(const CellRequest& request, const core::Engine& eng
   header.stamp = stamp_of(*request.scene, engine);
   header.scene = *request.scene;
   header.level = request.level;
-  header.every = request.every;
+  header.every = request.selection.every;
+  if (!request.selection.windows.empty()) header.notes[kWindowsNote] = request.selection.windows_text();
   header.notes["command"] = fmt::format("broadside run {} --engine '{}' --frames {}", request.source.spec,
                                         header.stamp.label(), request.frames);
   for (const auto& mesh : request.scene->meshes)
@@ -35,26 +40,95 @@ core::TraceHeader header_for(const CellRequest& request, const core::Engine& eng
   return header;
 }
 
+core::Status add_taken(core::Result<std::optional<core::FrameRecord>> taken, Recording& recording) {
+  if (!taken) return taken.error();
+  if (!taken.value()) return core::Done{};
+  return recording.add(*std::move(taken).value());
+}
+
+void tell_resume(const core::Stamp& stamp, const std::optional<ResumePoint>& point, std::uint64_t frames) {
+  if (!point)
+    fmt::print(stderr, "{}: nothing to go on from, so it starts at the beginning\n", stamp.label());
+  else if (point->is_complete)
+    fmt::print(stderr, "{}: its trace is complete\n", stamp.label());
+  else
+    fmt::print(stderr, "{}: goes on after step {} of {}\n", stamp.label(), point->step, frames);
+}
+
+void note_resume(core::TraceHeader& header, const ResumePoint& point) {
+  const auto& notes = point.trace.header().notes;
+  const auto earlier = notes.find("resumed");
+  header.notes["resumed"] =
+      (earlier == notes.end() ? "after step " : earlier->second + ", ") + std::to_string(point.step);
+}
+
+// Of a trace that has all frames already.
+core::Cell complete_cell(const ResumePoint& point) {
+  core::Cell cell;
+  cell.stamp = point.trace.header().stamp;
+  cell.state = core::CellState::kRecorded;
+  cell.trace_file = point.trace.path().filename().string();
+  cell.frames = point.trace.frame_count();
+  cell.digests[point.step] = point.trace.digests().back();
+  cell.notes = point.trace.header().notes;
+  return cell;
+}
+
+core::Status copy_frames(const core::TraceReader& trace, Recording& recording) {
+  for (std::uint64_t k = 0; k < trace.frame_count(); ++k) {
+    auto frame = trace.read(k, trace.header().groups);
+    if (!frame) return frame.error();
+    if (core::Status s = recording.add(std::move(frame).value()); !s) return s;
+  }
+  return core::Done{};
+}
+
 core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engine& engine) {
   core::Dynamics& dynamics = *engine.dynamics;
   core::TraceHeader header = header_for(request, engine);
   header.groups = request.level == core::RecordLevel::kFull ? dynamics.groups() : 0;
-  if (core::Status s = dynamics.load(*request.scene); !s) return s.error();
-  auto recording = Recording::start(request, std::move(header), request.frames);
-  if (!recording) return recording.error();
-  core::FrameRecord frame;
-  for (std::uint64_t step = 1; step <= request.frames; ++step) {
-    if (is_interrupted()) return recording.value().interrupted();
-    if (core::Status s = dynamics.step(request.scene->dt_s); !s) return recording.value().failed(s.error());
-    // The last frame is recorded whatever the rhythm: its digest is what a timed run is held against.
-    if (recording.value().is_due(step) || step == request.frames) {
-      if (core::Status s = dynamics.read_back(frame, request.level); !s) return recording.value().failed(s.error());
-      if (core::Status s = recording.value().add(frame); !s) return s.error();
-    }
-    recording.value().note_progress(step);
+  std::optional<ResumePoint> point;
+  if (request.resume) {
+    auto found = find_resume_point(request, header);
+    if (!found) return found.error();
+    point = std::move(found).value();
+    tell_resume(header.stamp, point, request.frames);
+    if (point && point->is_complete) return complete_cell(*point);
+    if (point) note_resume(header, *point);
   }
-  recording.value().note_work(dynamics.counters());
-  return recording.value().finish();
+  const std::uint64_t steps_before = point ? point->step : 0;
+  if (core::Status s = dynamics.load(point ? point->scene : *request.scene); !s) return s.error();
+  const core::Stamp stamp = header.stamp;
+  auto started = Recording::start(request, std::move(header), request.frames);
+  if (!started) return started.error();
+  Recording& recording = started.value();
+  if (point) {
+    if (core::Status s = copy_frames(point->trace, recording); !s) return s.error();
+  }
+  FrameTaker taker(dynamics, request.level, steps_before, request.scene->dt_s);
+  for (std::uint64_t step = steps_before + 1; step <= request.frames; ++step) {
+    if (is_interrupted()) {
+      if (core::Status s = add_taken(taker.rest(), recording); !s) return s.error();
+      return recording.interrupted();
+    }
+    if (core::Status s = dynamics.step(request.scene->dt_s); !s) return recording.failed(s.error());
+    // The last frame is recorded whatever the rhythm: its digest is what a timed run is held against.
+    if (recording.is_due(step) || step == request.frames) {
+      auto taken = taker.take();
+      if (!taken) return recording.failed(taken.error());
+      if (core::Status s = add_taken(std::move(taken), recording); !s) return s.error();
+    }
+    recording.note_progress(step);
+  }
+  auto last = taker.rest();
+  if (!last) return recording.failed(last.error());
+  if (core::Status s = add_taken(std::move(last), recording); !s) return s.error();
+  // Of a run that went on from a trace, the engine counted a part only.
+  if (!point) recording.note_work(dynamics.counters());
+  auto cell = recording.finish();
+  std::error_code ignored;
+  if (cell && point) std::filesystem::remove(set_aside_path(request, stamp), ignored);
+  return cell;
 }
 
 core::Error no_feed(const CellRequest& request) {
@@ -108,7 +182,7 @@ core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& 
     frame.pairs_demanded = found.value().demanded;
     frame.pairs_raw = found.value().raw;
     frame.digest = core::pair_digest(frame.pairs);
-    if (core::Status s = recording.add(frame); !s) return s.error();
+    if (core::Status s = recording.add(std::move(frame)); !s) return s.error();
     recording.note_progress(k + 1);
   }
   recording.note_work(broad.counters());
@@ -134,7 +208,7 @@ core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine&
       repeats ? "those that the driver measured" : "confirmed by the driver, or boxes within 2 theta";
   if (core::Status s = narrow.load(*request.scene); !s) return s.error();
   CellRequest sampled = request;
-  sampled.every = 1;
+  sampled.selection = {};
   auto started = Recording::start(sampled, std::move(header), driver.frame_count());
   if (!started) return started.error();
   Recording& recording = started.value();
@@ -155,7 +229,7 @@ core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine&
     if (!separations) return recording.failed(separations.error());
     frame.separations = std::move(separations).value();
     frame.digest = separation_digest(frame);
-    if (core::Status s = recording.add(frame); !s) return s.error();
+    if (core::Status s = recording.add(std::move(frame)); !s) return s.error();
     recording.note_progress(k + 1);
   }
   return recording.finish();

@@ -8,12 +8,12 @@ namespace broadside::bench {
 
 core::Result<Recording> Recording::start(const CellRequest& request, core::TraceHeader header, std::uint64_t frames) {
   Recording r;
-  r.every_ = request.every;
+  r.selection_ = request.selection;
   r.start_ = std::chrono::steady_clock::now();
   r.progress_ = std::make_unique<Progress>(header.stamp.label(), frames);
   if (request.level != core::RecordLevel::kNone) {
     r.file_name_ = trace_file_name(header.stamp);
-    auto writer = core::TraceWriter::create(request.folder / r.file_name_, header);
+    auto writer = core::TraceStream::create(request.folder / r.file_name_, header);
     if (!writer) return writer.error();
     r.writer_ = std::move(writer).value();
   }
@@ -21,13 +21,14 @@ core::Result<Recording> Recording::start(const CellRequest& request, core::Trace
   return r;
 }
 
-core::Status Recording::add(const core::FrameRecord& frame) {
+core::Status Recording::add(core::FrameRecord frame) {
   last_step_ = frame.step;
   last_digest_ = frame.digest;
-  ++frames_;
+  // Without a trace only the last frame is looked at, for its digest.
+  frames_ = header_.level == core::RecordLevel::kNone ? frame.step : frames_ + 1;
   count(frame);
   if (writer_) {
-    if (core::Status s = writer_->append(frame); !s) return s;
+    if (core::Status s = writer_->append(std::move(frame)); !s) return s;
   }
   return core::Done{};
 }

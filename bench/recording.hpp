@@ -16,7 +16,7 @@
 #include "core/rows.hpp"
 #include "core/trace/frame.hpp"
 #include "core/trace/trace_header.hpp"
-#include "core/trace/trace_writer.hpp"
+#include "core/trace/trace_stream.hpp"
 
 namespace broadside::bench {
 
@@ -25,10 +25,12 @@ class Recording {
   // With level none nothing is written, and the cell has no trace file.
   static core::Result<Recording> start(const CellRequest& request, core::TraceHeader header, std::uint64_t frames);
 
-  // Appends when the frame's step is one to record, and moves the progress line.
-  core::Status add(const core::FrameRecord& frame);
+  // The frame goes to the writer's thread; waits while that is too far behind.
+  core::Status add(core::FrameRecord frame);
   void note_progress(std::uint64_t done) { progress_->at(done); }
-  [[nodiscard]] bool is_due(std::uint64_t step) const { return step % every_ == 0; }
+  [[nodiscard]] bool is_due(std::uint64_t step) const {
+    return header_.level != core::RecordLevel::kNone && selection_.has(step);
+  }
 
   // What the engine counted, for the finished cell's row.
   void note_work(const std::vector<core::Counter>& counters);
@@ -44,10 +46,10 @@ class Recording {
   void count(const core::FrameRecord& frame);
 
   core::TraceHeader header_;
-  std::optional<core::TraceWriter> writer_;
+  std::optional<core::TraceStream> writer_;
   std::unique_ptr<Progress> progress_;
   std::string file_name_;
-  std::uint32_t every_ = 1;
+  StepSelection selection_;
   std::uint64_t frames_ = 0;
   std::uint64_t last_step_ = 0;
   std::uint64_t last_digest_ = 0;

@@ -12,6 +12,7 @@
 #include "bench/engines.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/record.hpp"
+#include "bench/resume.hpp"
 #include "core/trace/trace_reader.hpp"
 
 namespace broadside::bench {
@@ -76,8 +77,9 @@ class Runner {
       done_.push_back(absent_cell(plan_, spec, reason));
       return save();
     }
-    CellRequest request{plan_.source, &plan_.scene, spec.row,           spec.settings, plan_.frames,
-                        plan_.level,  plan_.every,  plan_.narrow_every, plan_.folder,  driver_};
+    const CellRequest request{plan_.source, &plan_.scene, spec.row,        spec.settings,
+                              plan_.frames, plan_.level,  plan_.selection, plan_.narrow_every,
+                              plan_.folder, driver_,      plan_.resume};
     std::optional<core::Cell> reused = plan_.reuse ? reusable(spec) : std::nullopt;
     if (reused) {
       done_.push_back(*std::move(reused));
@@ -94,7 +96,8 @@ class Runner {
   void note_driver(const CellSpec& spec) {
     const core::Cell& cell = done_.back();
     const bool feeds = spec.row->id == kDriver && cell.state == core::CellState::kRecorded &&
-                       plan_.level == core::RecordLevel::kFull && plan_.every == 1 && cell.stamp.settings_short.empty();
+                       plan_.level == core::RecordLevel::kFull && plan_.selection.every == 1 &&
+                       cell.stamp.settings_short.empty();
     if (driver_.empty() && feeds) driver_ = plan_.folder / cell.trace_file;
   }
 
@@ -110,7 +113,8 @@ class Runner {
         continue;
       if (cell.trace_file.empty() || cell.digests.empty()) continue;
       auto trace = core::TraceReader::open(plan_.folder / cell.trace_file);
-      if (!trace || trace.value().steps().empty()) continue;
+      if (!trace || trace.value().steps().empty() || trace.value().header().level != plan_.level) continue;
+      if (windows_of(trace.value().header()) != plan_.selection.windows_text()) continue;
       const std::uint64_t rhythm = offers(*spec.row, "dynamics") || offers(*spec.row, "broad") ? 1 : plan_.narrow_every;
       const std::uint64_t last = plan_.frames - plan_.frames % rhythm;
       if (trace.value().steps().back() != last || trace.value().digests().back() != cell.digests.rbegin()->second)

@@ -19,11 +19,13 @@ struct RunPlan {
   std::vector<CellSpec> cells;
   std::uint64_t frames = 0;
   core::RecordLevel level = core::RecordLevel::kFull;
-  std::uint32_t every = 1;
+  StepSelection selection;
   std::uint32_t narrow_every = 1;
   std::filesystem::path folder;
   // Take over traces of the same stamp and frames that are in the folder already.
   bool reuse = false;
+  // Go on from traces of the same stamp that are in the folder and not complete.
+  bool resume = false;
   double time_limit_s = 3600.0;
 };
 

@@ -16,12 +16,24 @@ std::string RecoverReport::line() const {
   return text;
 }
 
+namespace {
+
+Error still_written(const std::filesystem::path& part) {
+  return {"its writer is still at work", part.string(), "wait until it has finished or been stopped"};
+}
+
+}  // namespace
+
+Status set_aside(const std::filesystem::path& part, const std::filesystem::path& to) {
+  if (is_being_written(part)) return still_written(part);
+  return rename_durably(part, to);
+}
+
 Result<RecoverReport> recover_trace(const std::filesystem::path& part, const std::filesystem::path& out) {
   std::error_code ignored;
   if (std::filesystem::exists(out, ignored))
     return Error{"a file of that name exists", out.string(), "move it away or choose another name with --out"};
-  if (is_being_written(part))
-    return Error{"its writer is still at work", part.string(), "wait until it has finished or been stopped"};
+  if (is_being_written(part)) return still_written(part);
   Result<TraceReader> reader = TraceReader::open(part);
   if (!reader) return reader.error();
   const TraceReader& trace = reader.value();

@@ -24,4 +24,8 @@ struct RecoverReport {
 // written, holds no whole frame or cannot be read; out exists or cannot be written.
 Result<RecoverReport> recover_trace(const std::filesystem::path& part, const std::filesystem::path& out);
 
+// Gives what a killed writer left another name, so that its own can be written again. Error: its writer is still at
+// work, or the renaming failed.
+Status set_aside(const std::filesystem::path& part, const std::filesystem::path& to);
+
 }  // namespace broadside::core

@@ -1,0 +1,35 @@
+// Takes frames off a simulation as it runs: at once, or one frame behind where the engine copies while it steps on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/engine/dynamics.hpp"
+#include "core/engine/frame_copies.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+class FrameTaker {
+ public:
+  // steps_before: how many steps of the run the engine did not make itself, because it went on from a trace.
+  FrameTaker(core::Dynamics& dynamics, core::RecordLevel level, std::uint64_t steps_before, float dt_s);
+
+  // After a step whose frame is wanted: a frame that is ready, which may be the wanted one or the one before.
+  core::Result<std::optional<core::FrameRecord>> take();
+  // The last wanted frame, if take() did not give it yet.
+  core::Result<std::optional<core::FrameRecord>> rest();
+
+ private:
+  core::Result<std::optional<core::FrameRecord>> finish();
+  void place(core::FrameRecord& frame) const;
+
+  core::Dynamics& dynamics_;
+  core::FrameCopies* copies_;
+  core::RecordLevel level_;
+  std::uint64_t steps_before_;
+  double dt_s_;
+  bool is_under_way_ = false;
+};
+
+}  // namespace broadside::bench
