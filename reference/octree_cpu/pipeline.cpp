@@ -10,6 +10,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/method/integrate.hpp"
+#include "reference/octree_cpu/parallel_sum.hpp"
 #include "reference/octree_cpu/vertex_stage.hpp"
 #include "reference/scene_octree/octree_record.hpp"
 
@@ -175,12 +176,16 @@ std::vector<core::Counter> Pipeline::counters() const {
 }
 
 std::uint64_t Pipeline::digest() const {
+  const auto body = [this](std::size_t i) {
+    return core::body_digest(static_cast<std::uint32_t>(i), bodies_.state[i].x, scene_->bodies[i].orientation,
+                             bodies_.state[i].v, scene_->bodies[i].angular_velocity);
+  };
   std::uint64_t sum = 0;
-  for (std::uint32_t i = 0; i < bodies_.count(); ++i)
-    sum += core::body_digest(i, bodies_.state[i].x, scene_->bodies[i].orientation, bodies_.state[i].v,
-                             scene_->bodies[i].angular_velocity);
-  for (const core::Pair p : confirmed_) sum += core::confirmed_digest(p);
-  for (const core::Contact& c : contacts_) sum += core::contact_digest(c);
+  threads_->arena.execute([&] {
+    sum = parallel_sum(bodies_.count(), body) +
+          parallel_sum(confirmed_.size(), [this](std::size_t k) { return core::confirmed_digest(confirmed_[k]); }) +
+          response_.digest();
+  });
   return sum;
 }
 
@@ -202,7 +207,6 @@ core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel lev
   frame = {};
   frame.step = steps_;
   frame.time_s = static_cast<double>(steps_) * static_cast<double>(dt_s_);
-  response_.collect(contacts_);
   frame.digest = digest();
   if (level != core::RecordLevel::kFull) return core::Done{};
 
@@ -225,7 +229,7 @@ core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel lev
   }
   frame.confirmed = confirmed_;
   if (options_.has_vertex_stage) frame.proximity = proximity_;
-  frame.contacts = contacts_;
+  response_.collect(frame.contacts);
   tell_octrees(frame);
   return core::Done{};
 }

@@ -69,7 +69,6 @@ class Pipeline final : public core::Dynamics {
   std::vector<core::Pair> confirmed_;
   std::vector<core::Proximity> proximity_;
   std::vector<core::Pair> touching_;
-  std::vector<core::Contact> contacts_;
   std::array<core::StageTime, 6> times_{};
   float dt_s_ = 0.0F;
   std::uint64_t steps_ = 0;

@@ -6,7 +6,9 @@
 #include <cstddef>
 
 #include "core/method/contact_geometry.hpp"
+#include "core/method/frame_digest.hpp"
 #include "core/method/response.hpp"
+#include "reference/octree_cpu/parallel_sum.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -175,6 +177,16 @@ void ResponseStage::resolve_faces(Bodies& bodies, const ResponseRules& rules) {
       if (bodies.is_static[body] == 0) state.v = core::clipped(state.v, rules.parameters.v_max_m_s);
     }
   });
+}
+
+std::uint64_t ResponseStage::digest() const {
+  const auto term = [](const Contact& c) { return c.depth_m > 0.0F ? core::contact_digest(c) : std::uint64_t{0}; };
+  return parallel_sum(contacts_.size(), [&](std::size_t k) { return term(contacts_[k]); }) +
+         parallel_sum(face_contacts_.size(), [&](std::size_t body) {
+           std::uint64_t sum = 0;
+           for (const Contact& c : face_contacts_[body]) sum += term(c);
+           return sum;
+         });
 }
 
 void ResponseStage::collect(std::vector<Contact>& contacts) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,8 @@ class ResponseStage {
 
   // Everything applied since resolve_bodies, in the order of application: by color, by pair; then by body, by face.
   void collect(std::vector<core::Contact>& contacts) const;
+  // The contacts' part of the frame's digest.
+  [[nodiscard]] std::uint64_t digest() const;
 
  private:
   void apply(Bodies& bodies, const ResponseRules& rules, core::Pair pair, std::uint32_t color, core::Contact& contact);
