@@ -17,6 +17,6 @@ for time in reader.TimestepValues:
         "points": data.GetNumberOfPoints(),
         "bounds": data.GetBounds(),
         "body": list(cells["body"].GetRange()) if "body" in cells.keys() else None,
-        "velocity_z": list(cells["velocity"].GetRange(2)) if "velocity" in cells.keys() else None,
+        "velocity_y": list(cells["velocity"].GetRange(1)) if "velocity" in cells.keys() else None,
     })
 print(json.dumps(seen))
