@@ -1,9 +1,6 @@
-// The sum modulo 2^64 of one term per record, on all threads of the arena that calls it. The order in which threads add
-// does not matter.
+// A sum modulo 2^64 over many records, on all threads of the arena that calls it. The order in which threads add does
+// not matter.
 #pragma once
-
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +8,17 @@
 
 namespace broadside::reference {
 
+// sum_of(first, last): the sum over the records first .. last - 1. Called from several threads at once.
+std::uint64_t parallel_sum(std::size_t count, const std::function<std::uint64_t(std::size_t, std::size_t)>& sum_of);
+
+// The same with a term for each record.
 template <typename Term>
-std::uint64_t parallel_sum(std::size_t count, const Term& term) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, count, 1024), std::uint64_t{0},
-      [&term](const tbb::blocked_range<std::size_t>& range, std::uint64_t sum) {
-        for (std::size_t k = range.begin(); k != range.end(); ++k) sum += term(k);
-        return sum;
-      },
-      std::plus<>());
+std::uint64_t parallel_sum_of(std::size_t count, const Term& term) {
+  return parallel_sum(count, [&term](std::size_t first, std::size_t last) {
+    std::uint64_t sum = 0;
+    for (std::size_t k = first; k != last; ++k) sum += term(k);
+    return sum;
+  });
 }
 
 }  // namespace broadside::reference

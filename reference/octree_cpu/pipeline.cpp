@@ -182,8 +182,8 @@ std::uint64_t Pipeline::digest() const {
   };
   std::uint64_t sum = 0;
   threads_->arena.execute([&] {
-    sum = parallel_sum(bodies_.count(), body) +
-          parallel_sum(confirmed_.size(), [this](std::size_t k) { return core::confirmed_digest(confirmed_[k]); }) +
+    sum = parallel_sum_of(bodies_.count(), body) +
+          parallel_sum_of(confirmed_.size(), [this](std::size_t k) { return core::confirmed_digest(confirmed_[k]); }) +
           response_.digest();
   });
   return sum;

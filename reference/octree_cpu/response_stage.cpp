@@ -181,8 +181,8 @@ void ResponseStage::resolve_faces(Bodies& bodies, const ResponseRules& rules) {
 
 std::uint64_t ResponseStage::digest() const {
   const auto term = [](const Contact& c) { return c.depth_m > 0.0F ? core::contact_digest(c) : std::uint64_t{0}; };
-  return parallel_sum(contacts_.size(), [&](std::size_t k) { return term(contacts_[k]); }) +
-         parallel_sum(face_contacts_.size(), [&](std::size_t body) {
+  return parallel_sum_of(contacts_.size(), [&](std::size_t k) { return term(contacts_[k]); }) +
+         parallel_sum_of(face_contacts_.size(), [&](std::size_t body) {
            std::uint64_t sum = 0;
            for (const Contact& c : face_contacts_[body]) sum += term(c);
            return sum;
