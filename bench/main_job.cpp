@@ -10,9 +10,8 @@
 #include "bench/build_facts.hpp"
 #include "bench/judging.hpp"
 #include "bench/run_plan.hpp"
+#include "bench/scene_meshes.hpp"
 #include "bench/timing.hpp"
-#include "datasets/fetch/fetch_mesh.hpp"
-#include "datasets/mesh/acquire_mesh.hpp"
 #include "reports/report.hpp"
 
 namespace broadside::bench {
@@ -41,28 +40,9 @@ constexpr JobRow kJob[] = {
     {"octree-gpu", {kPipeline}},
 };
 
-// Fetches what can be fetched before a procedural body stands in: offline, the job still runs, and its report says so.
-core::Result<core::Scene> make_scene_with_meshes(const SceneArguments& wanted) {
-  SceneArguments exact = wanted;
-  exact.allow_stand_in = false;
-  auto scene = exact.make();
-  if (scene.ok() || !wanted.allow_stand_in) return scene;
-  for (const std::string_view mesh : datasets::fetchable_meshes()) {
-    if (wanted.spec.find(":" + std::string(mesh) + ":") == std::string::npos) continue;
-    const auto say = [&](std::string_view step) { fmt::print(stderr, "fetching {}: {}\n", mesh, step); };
-    const auto cache = datasets::MeshOptions::from_environment().cache_dir;
-    if (core::Status s = datasets::fetch_mesh(mesh, cache, say); !s)
-      fmt::print(stderr, "broadside: {}\n", s.error().line());
-  }
-  scene = exact.make();
-  if (scene.ok()) return scene;
-  fmt::print(stderr, "broadside: a procedural body stands in: {}\n", scene.error().line());
-  return wanted.make();
-}
-
 core::Result<RunPlan> plan_of(const MainJob& job) {
   RunPlan plan;
-  auto scene = make_scene_with_meshes(job.scene);
+  auto scene = job.scene.allow_stand_in ? make_scene_with_meshes(job.scene) : job.scene.make();
   if (!scene) return scene.error();
   plan.source = job.scene;
   plan.scene = std::move(scene).value();

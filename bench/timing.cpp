@@ -21,10 +21,6 @@ namespace {
 using core::Group;
 using Clock = std::chrono::steady_clock;
 
-// First-touch of memory and start of threads are over after some frames; ten per cent more than none is measurable in
-// the first handful only.
-constexpr std::uint64_t kWarmUpFrames = 20;
-
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -186,6 +182,18 @@ class Timer {
 };
 
 }  // namespace
+
+core::Result<core::Sample> time_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t most_frames) {
+  RunPlan alone = plan;
+  alone.cells = {spec};
+  Timer timer(alone);
+  if (core::Status s = timer.prepare(); !s) return s.error();
+  auto sample = timer.time(spec, most_frames);
+  if (!sample) return sample.error();
+  if (is_interrupted())
+    return core::Error{"interrupted: no time is kept of a run that did not end", "time", "", core::Exit::kMissing};
+  return sample;
+}
 
 core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions) {
   Timer timer(plan);

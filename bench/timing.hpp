@@ -19,4 +19,12 @@ namespace broadside::bench {
 // The final digest is read after the clock stopped.
 core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions);
 
+// One run of one cell of the plan, without warm-up: for callers that keep each run as it ends. At most this many
+// frames.
+core::Result<core::Sample> time_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t most_frames);
+
+// How many frames a simulation or a broad phase runs untimed before its first timed run. First-touch of memory and
+// start of threads are over after some frames; ten per cent more than none is measurable in the first handful only.
+inline constexpr std::uint64_t kWarmUpFrames = 20;
+
 }  // namespace broadside::bench

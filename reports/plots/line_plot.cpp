@@ -1,6 +1,7 @@
 #include "reports/plots/line_plot.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reports/figures.hpp"
@@ -8,6 +9,13 @@
 
 namespace broadside::reports::plots {
 namespace {
+
+// The palette's neighbors are kin, for stacked bars; curves that cross take colors that are far apart.
+constexpr std::array<int, kSeriesColors> kApart{0, 2, 3, 5, 1, 6, 4, 7};
+
+std::string color_of(int curve) {
+  return std::to_string(kApart[static_cast<std::size_t>(curve % kSeriesColors)]);
+}
 
 constexpr std::size_t kMostMarks = 60;  // more would hide the curve
 
@@ -109,7 +117,7 @@ std::string svg(const LinePlot& plot, Placement placement) {
   Drawing drawing(kPlotWidth, kPlotHeight, plot.text.title, plot.text.description);
   std::vector<LegendEntry> legend;
   for (std::size_t k = 0; k < plot.curves.size(); ++k) {
-    const std::string number = std::to_string(colors[k] % kSeriesColors);
+    const std::string number = color_of(colors[k]);
     if (plot.curves[k].is_fitted)
       legend.push_back({plot.curves[k].name, "fitted l" + number, LegendEntry::kLineOnly});
     else
@@ -121,11 +129,10 @@ std::string svg(const LinePlot& plot, Placement placement) {
 
   Curves curves(drawing, area, x, y);
   for (std::size_t k = 0; k < plot.curves.size(); ++k)
-    if (columns_of(plot.curves[k]).has_band)
-      curves.band(plot.curves[k], "band b" + std::to_string(colors[k] % kSeriesColors));
+    if (columns_of(plot.curves[k]).has_band) curves.band(plot.curves[k], "band b" + color_of(colors[k]));
   for (std::size_t k = 0; k < plot.curves.size(); ++k) {
     const Curve& curve = plot.curves[k];
-    const std::string number = std::to_string(colors[k] % kSeriesColors);
+    const std::string number = color_of(colors[k]);
     curves.line(curve, (curve.is_fitted ? "fitted l" : "curve l") + number);
     if (!curve.is_fitted) curves.marks(curve, "s" + number, colors[k] % 4, plot.text);
   }

@@ -10,11 +10,11 @@ namespace broadside::reports::plots {
 
 struct Curve {
   std::string name;
-  std::vector<double> x;
-  std::vector<double> y;  // as many as x; what is not finite is a gap
+  std::vector<double> x = {};
+  std::vector<double> y = {};  // as many as x; what is not finite is a gap
   // The band: as many as x, or none. Around the curve, for instance mean -+ standard deviation.
-  std::vector<double> low;
-  std::vector<double> high;
+  std::vector<double> low = {};
+  std::vector<double> high = {};
   // A model's line: dashed, without marks, in the color of the curve before it that it belongs to.
   bool is_fitted = false;
 };
@@ -24,7 +24,7 @@ struct LinePlot {
   Scale x_scale = Scale::kLinear;
   Scale y_scale = Scale::kLinear;
   bool y_from_zero = true;  // on a linear scale
-  std::vector<Curve> curves;
+  std::vector<Curve> curves = {};
 };
 
 // Curves of unequal lengths are cut to the shortest of their columns.

@@ -117,7 +117,7 @@ TEST(LinePlot, AGapBreaksTheLineAndAFittedLineSharesTheColorOfItsCurve) {
   const std::string data = curves[0].attributes.at("d");
   EXPECT_EQ(std::count(data.begin(), data.end(), 'M'), 2) << data;
   EXPECT_EQ(with_class(markup, "path", "fitted l0").size(), 1U);
-  EXPECT_EQ(with_class(markup, "path", "curve l1").size(), 1U);
+  EXPECT_EQ(with_class(markup, "path", "curve l2").size(), 1U);
 }
 
 TEST(BarPlot, HeightsAreProportionalAndAbsenceIsAWord) {

@@ -1,0 +1,67 @@
+// A page of headings, sentences, tables and pictures, and the three ways to write it: HTML, Markdown, CSV.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/result.hpp"
+
+namespace broadside::bench::paper {
+
+struct TableCell {
+  std::string text;  // as people read it
+  // For CSV: the number behind the text, and its standard deviation where it has one. NaN = the text itself.
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double deviation = std::numeric_limits<double>::quiet_NaN();
+  bool is_struck = false;  // a time without proof
+};
+
+struct Table {
+  std::string name;  // of the CSV file: "table5"
+  std::string caption;
+  std::vector<std::string> columns;
+  std::vector<std::vector<TableCell>> rows;
+};
+
+struct Heading {
+  std::string text;
+  std::string id;  // of the anchor
+};
+
+struct Paragraph {
+  std::string text;
+};
+
+struct Notes {
+  std::vector<std::string> items;
+};
+
+struct Figure {
+  std::string name;  // of the SVG file: "figure5_bunny"
+  std::string file_svg;
+  std::string inline_svg;
+  std::string caption;
+};
+
+using Block = std::variant<Heading, Paragraph, Notes, Table, Figure>;
+
+struct Document {
+  std::string title;
+  std::string lead;  // the result in a sentence or two
+  std::vector<Block> blocks;
+};
+
+// Self-contained; light and dark; fetches nothing.
+std::string html_text(const Document& document);
+// Pictures by file name: the SVG files lie beside it.
+std::string markdown_text(const Document& document);
+// A column of means gets a second one, NAME_std.
+std::string csv_text(const Table& table);
+
+// FOLDER/NAME.html, NAME.md, one SVG per figure and one CSV per table; each appears whole.
+core::Status write_document(const Document& document, const std::filesystem::path& folder, const std::string& name);
+
+}  // namespace broadside::bench::paper

@@ -1,0 +1,32 @@
+// Measures the cells of one scene: records and judges each once, then times them in turns, keeping every run as it
+// ends.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "bench/paper/paper_plan.hpp"
+#include "bench/paper/paper_row.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench::paper {
+
+struct MeasureOptions {
+  std::filesystem::path folder;  // cells/ and work/ are made in it
+  std::uint32_t runs = 5;
+  bool allow_stand_in = false;
+  bool keeps_traces = false;
+  // Told after every recording and every run how much of a group's work is done, 0 to 1.
+  std::function<void(double)> progress;
+};
+
+// One row per cell, in order. A cell whose file of the same stamp, frames and runs is in cells/ is taken over; the
+// others are measured, and each leaves such a file, whole or not at all. A cell that this machine or program cannot run
+// is a row that says why, not an error. An interrupt is an error of exit code 3; what was recorded and timed by then is
+// in work/ and is taken up by the next call.
+core::Result<std::vector<PaperRow>> measure_group(std::span<const PaperCell> cells, const MeasureOptions& options);
+
+}  // namespace broadside::bench::paper

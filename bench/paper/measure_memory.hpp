@@ -1,0 +1,17 @@
+// What the published memory figures are compared with: bytes that an engine holds, sampled over a run.
+#pragma once
+
+#include "bench/cell_spec.hpp"
+#include "bench/run_plan.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench::paper {
+
+// The mean of the bytes in use at the end of every window, in one run of plan.frames steps: device memory for an engine
+// on the GPU, this process's heap otherwise; less what was in use before the engine was made.
+core::Result<double> memory_of_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t window_frames);
+
+// "device memory", "heap of the process".
+const char* memory_kind(const CellSpec& spec);
+
+}  // namespace broadside::bench::paper
