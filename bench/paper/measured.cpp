@@ -45,6 +45,7 @@ TableCell cell_of(const Measured& value) {
 }
 
 TableCell published_cell(double mean, double deviation) {
+  if (!std::isfinite(mean)) return {kDash};
   TableCell cell{fmt::format("{:g}", mean), mean, deviation};
   if (std::isfinite(deviation)) cell.text += fmt::format(" \xC2\xB1 {:g}", deviation);
   return cell;

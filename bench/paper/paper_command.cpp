@@ -116,10 +116,10 @@ void add_paper(CLI::App& program, core::Exit& exit) {
       "paper", "The paper's experiments: our tables and figures beside the published ones, judged and timed");
   command->add_option("EXPERIMENT", a->names, "What to repeat; see below")->required();
   command->add_option("--frames", a->plan.frames, "Frames of each run")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1U, 1000000U))
       ->capture_default_str();
   command->add_option("--runs", a->measure.runs, "Timed runs of each cell, in turns with the scene's others")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1U, 10000U))
       ->capture_default_str();
   command->add_option("--models", a->plan.models, "Of bunny, armadillo, dragon, asian_dragon (default: all)")
       ->delimiter(',');
