@@ -21,25 +21,11 @@
 namespace broadside::bench {
 namespace {
 
-constexpr std::array kCommands{add_list,
-                               add_run,
-                               add_pairs,
-                               add_check,
-                               add_time,
-                               add_report,
-                               add_compare,
-                               add_demo,
-                               add_fetch,
-                               add_recover,
-                               add_describe_plugin,
-                               add_diff,
-                               add_replay,
-                               add_shrink,
-                               add_plan,
-                               add_merge,
-                               add_mutants,
-                               add_view,
-                               add_paper};
+constexpr std::array kCommands{
+    add_list,    add_run,     add_pairs,           add_check, add_time,   add_report, add_compare, add_demo,
+    add_fetch,   add_recover, add_describe_plugin, add_diff,  add_replay, add_shrink, add_plan,    add_merge,
+    add_mutants, add_view,    add_paper,
+};
 
 std::vector<std::string> subcommands(const CLI::App& program) {
   std::vector<std::string> names;

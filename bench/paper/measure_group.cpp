@@ -101,7 +101,7 @@ class Group {
     plan_.scene = std::move(scene).value();
     plan_.source = {cells_.front().scene, static_cast<std::uint32_t>(cells_.front().frames), options_.allow_stand_in};
     plan_.frames = cells_.front().frames;
-    plan_.every = cells_.front().every;
+    plan_.selection.every = cells_.front().every;
     plan_.reuse = true;
     plan_.folder = files_.work(works_.front().key);
     steps_ = 0;
