@@ -167,7 +167,8 @@ std::optional<CostFit> fit_cost(const CostCurve& curve) {
       error += relative * relative;
       fit.worst_relative_error = std::max(fit.worst_relative_error, std::abs(relative));
     }
-    if (error < best_error) best_error = error, best = fit;
+    // A term more must earn its place: what it takes off below rounding is no reason for it.
+    if (error < best_error - 1e-12) best_error = error, best = fit;
   }
   return best;
 }
