@@ -1,5 +1,9 @@
 #include "validation/overlap_join.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,6 +15,10 @@ using core::Box;
 using core::Vec3;
 
 constexpr std::uint32_t kArity = 8;
+// From here on a join is worth waking threads for.
+constexpr std::size_t kParallelFrom = 20000;
+// Pieces of a join that threads share: enough that one that is held up does not hold up all.
+constexpr std::uint32_t kLeastPieces = 64;
 
 // Spreads the low 21 bits so that two zeros follow each.
 std::uint64_t spread(std::uint64_t v) {
@@ -72,7 +80,10 @@ void OverlapJoin::order_boxes(std::span<const Box> boxes) {
                            spread(cell(c.z, extent.min.z, sz)) << 2,
                        i);
   }
-  std::sort(order.begin(), order.end());
+  if (order.size() < kParallelFrom)
+    std::sort(order.begin(), order.end());
+  else
+    tbb::parallel_sort(order.begin(), order.end());
   id_.clear();
   for (const auto& [code, i] : order) id_.push_back(i);
 }
@@ -92,25 +103,26 @@ void OverlapJoin::build_levels() {
   }
 }
 
-void OverlapJoin::emit(std::uint32_t p, std::uint32_t q) {
+void OverlapJoin::emit(std::uint32_t p, std::uint32_t q, std::vector<core::Pair>& out) const {
   if (!static_.empty() && static_[p] != 0 && static_[q] != 0) return;
-  pairs_.push_back(core::make_pair_of(id_[p], id_[q]));
+  out.push_back(core::make_pair_of(id_[p], id_[q]));
 }
 
-void OverlapJoin::join_self(std::uint32_t level, std::uint32_t index) {
+void OverlapJoin::join_self(std::uint32_t level, std::uint32_t index, std::vector<core::Pair>& out) const {
   if (level == 0) return;
   const std::uint32_t first = index * kArity;
   const std::uint32_t last = std::min(first + kArity, size(level - 1));
   for (std::uint32_t p = first; p < last; ++p) {
-    join_self(level - 1, p);
+    join_self(level - 1, p, out);
     for (std::uint32_t q = p + 1; q < last; ++q)
-      if (meet(levels_[level - 1][p], levels_[level - 1][q])) join_cross(level - 1, p, q);
+      if (meet(levels_[level - 1][p], levels_[level - 1][q])) join_cross(level - 1, p, q, out);
   }
 }
 
 // The two nodes' bounds meet.
-void OverlapJoin::join_cross(std::uint32_t level, std::uint32_t p, std::uint32_t q) {
-  if (level == 0) return emit(p, q);
+void OverlapJoin::join_cross(std::uint32_t level, std::uint32_t p, std::uint32_t q,
+                             std::vector<core::Pair>& out) const {
+  if (level == 0) return emit(p, q, out);
   const std::vector<Box>& below = levels_[level - 1];
   const Box& bounds_q = levels_[level][q];
   const std::uint32_t last_p = std::min(p * kArity + kArity, size(level - 1));
@@ -118,26 +130,58 @@ void OverlapJoin::join_cross(std::uint32_t level, std::uint32_t p, std::uint32_t
   for (std::uint32_t r = p * kArity; r < last_p; ++r) {
     if (!meet(below[r], bounds_q)) continue;
     for (std::uint32_t s = q * kArity; s < last_q; ++s)
-      if (meet(below[r], below[s])) join_cross(level - 1, r, s);
+      if (meet(below[r], below[s])) join_cross(level - 1, r, s, out);
   }
 }
 
-// By first body with one count each, then each body's few partners: a comparison sort of millions of pairs costs more
-// than finding them.
-void OverlapJoin::sort_pairs(std::size_t bodies) {
-  begin_.assign(bodies + 1, 0);
-  for (const core::Pair p : pairs_) ++begin_[p.i + 1];
-  for (std::size_t i = 1; i <= bodies; ++i) begin_[i] += begin_[i - 1];
-  partner_.resize(pairs_.size());
-  for (const core::Pair p : pairs_) partner_[begin_[p.i]++] = p.j;
-  // begin_[i] is now the end of body i's partners.
-  std::size_t next = 0;
-  for (std::uint32_t i = 0; i < bodies; ++i) {
-    const std::size_t end = begin_[i];
-    std::sort(partner_.begin() + static_cast<std::ptrdiff_t>(next),
-              partner_.begin() + static_cast<std::ptrdiff_t>(end));
-    for (; next < end; ++next) pairs_[next] = {i, partner_[next]};
+// Piece k: node k of a high level with itself and with all later ones.
+void OverlapJoin::join_pieces() {
+  auto level = static_cast<std::uint32_t>(levels_.size()) - 1;
+  while (level > 0 && size(level) < kLeastPieces) --level;
+  const std::uint32_t pieces = size(level);
+  found_.resize(pieces);
+  tbb::parallel_for(std::uint32_t{0}, pieces, [&](std::uint32_t p) {
+    std::vector<core::Pair>& out = found_[p];
+    out.clear();
+    join_self(level, p, out);
+    for (std::uint32_t q = p + 1; q < pieces; ++q)
+      if (meet(levels_[level][p], levels_[level][q])) join_cross(level, p, q, out);
+  });
+}
+
+// Those pairs of all pieces whose first body is in [first, last), sorted: by first body with one count each, then each
+// body's few partners. A comparison sort of millions of pairs costs more than finding them.
+void OverlapJoin::sort_range(std::uint32_t first, std::uint32_t last, std::vector<core::Pair>& out) const {
+  std::vector<std::uint32_t> end(last - first + 1, 0);
+  for (const std::vector<core::Pair>& piece : found_)
+    for (const core::Pair p : piece)
+      if (p.i >= first && p.i < last) ++end[p.i - first + 1];
+  for (std::size_t k = 1; k < end.size(); ++k) end[k] += end[k - 1];
+  std::vector<std::uint32_t> partner(end.back());
+  for (const std::vector<core::Pair>& piece : found_)
+    for (const core::Pair p : piece)
+      if (p.i >= first && p.i < last) partner[end[p.i - first]++] = p.j;
+  // end[k] is now one past the partners of body first + k.
+  out.resize(partner.size());
+  std::uint32_t next = 0;
+  for (std::uint32_t i = first; i < last; ++i) {
+    std::sort(partner.begin() + next, partner.begin() + end[i - first]);
+    for (; next < end[i - first]; ++next) out[next] = {i, partner[next]};
   }
+}
+
+void OverlapJoin::sort_pieces(std::uint32_t bodies) {
+  const auto parts = static_cast<std::uint32_t>(std::max(1, tbb::this_task_arena::max_concurrency()));
+  const std::uint32_t each = bodies / parts + 1;
+  sorted_.resize(parts);
+  tbb::parallel_for(std::uint32_t{0}, parts, [&](std::uint32_t k) {
+    sort_range(std::min(bodies, k * each), std::min(bodies, k * each + each), sorted_[k]);
+  });
+  std::size_t sum = 0;
+  for (const std::vector<core::Pair>& part : sorted_) sum += part.size();
+  pairs_.clear();
+  pairs_.reserve(sum);
+  for (const std::vector<core::Pair>& part : sorted_) pairs_.insert(pairs_.end(), part.begin(), part.end());
 }
 
 const std::vector<core::Pair>& OverlapJoin::join(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
@@ -145,15 +189,20 @@ const std::vector<core::Pair>& OverlapJoin::join(std::span<const Box> boxes, std
   order_boxes(boxes);
   levels_.assign(1, {});
   static_.clear();
+  levels_[0].reserve(id_.size());
   for (const std::uint32_t i : id_) {
     levels_[0].push_back(boxes[i]);
     if (!is_static.empty()) static_.push_back(is_static[i]);
   }
-  if (!id_.empty()) {
-    build_levels();
-    join_self(static_cast<std::uint32_t>(levels_.size()) - 1, 0);
+  if (id_.empty()) return pairs_;
+  build_levels();
+  if (id_.size() < kParallelFrom) {
+    join_self(static_cast<std::uint32_t>(levels_.size()) - 1, 0, pairs_);
+    std::sort(pairs_.begin(), pairs_.end());
+    return pairs_;
   }
-  sort_pairs(boxes.size());
+  join_pieces();
+  sort_pieces(static_cast<std::uint32_t>(boxes.size()));
   return pairs_;
 }
 
