@@ -17,13 +17,17 @@ struct CheckArguments {
   std::vector<std::string> only;
   std::string json;
   std::string junit;
+  std::string energy;
 };
 
 core::Exit check(const CheckArguments& a) {
   core::RunRows rows;
+  std::vector<core::EnergySeries> energy;
   for (const std::string& trace : a.traces) {
-    auto row = judge_matter({trace, a.against, false, a.only});
+    core::EnergySeries series;
+    auto row = judge_matter({trace, a.against, false, a.only, a.energy.empty() ? nullptr : &series});
     if (!row) return complain(row.error());
+    if (!series.step.empty()) energy.push_back(std::move(series));
     rows.verdicts.push_back(std::move(row).value());
   }
   fmt::print("{}", reports::verdict_table(rows.verdicts));
@@ -32,6 +36,8 @@ core::Exit check(const CheckArguments& a) {
   if (!a.json.empty()) {
     if (core::Status s = core::write_verdicts(a.json, rows.verdicts); !s) return complain(s.error());
   }
+  if (!a.energy.empty())
+    if (core::Status s = core::write_energy(a.energy, energy); !s) return complain(s.error());
   if (!a.junit.empty()) {
     if (core::Status s = reports::write_junit(rows, {}, a.junit); !s) return complain(s.error());
   }
@@ -50,6 +56,8 @@ void add_check(CLI::App& program, core::Exit& exit) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--json", a->json, "Write the verdicts here, as report reads them (DIR/verdicts.json)");
+  command->add_option("--energy", a->energy,
+                      "Write the energy ledger of each trace here, as report plots it (DIR/energy.json)");
   command->add_option("--junit", a->junit, "Write the verdicts here as JUnit XML");
   command->callback([a, &exit] { exit = check(*a); });
 }

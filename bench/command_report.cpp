@@ -26,7 +26,7 @@ void append(std::vector<T>& to, std::vector<T>& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-core::Result<core::RunRows> gather(const std::vector<std::string>& folders) {
+core::Result<core::RunRows> gather(const std::vector<std::string>& folders, std::vector<core::EnergySeries>& energy) {
   core::RunRows all;
   for (const std::string& folder : folders) {
     if (!std::filesystem::is_directory(folder))
@@ -40,6 +40,9 @@ core::Result<core::RunRows> gather(const std::vector<std::string>& folders) {
     append(all.cells, r.cells);
     append(all.verdicts, r.verdicts);
     append(all.samples, r.samples);
+    auto series = core::read_energy(folder);
+    if (!series) return series.error();
+    append(energy, series.value());
   }
   return all;
 }
@@ -47,9 +50,9 @@ core::Result<core::RunRows> gather(const std::vector<std::string>& folders) {
 core::Exit report(const ReportArguments& a) {
   if (a.html.empty() && a.markdown.empty() && a.junit.empty())
     return complain({"nothing to write", "report", "give --html, --markdown or --junit"});
-  auto rows = gather(a.folders);
-  if (!rows) return complain(rows.error());
   reports::ReportOptions options;
+  auto rows = gather(a.folders, options.energy);
+  if (!rows) return complain(rows.error());
   options.title = a.title;
   options.command = "broadside report";
   for (const std::string& folder : a.folders) options.command += " " + folder;

@@ -6,6 +6,8 @@
 #include "bench/interrupt.hpp"
 #include "bench/progress.hpp"
 #include "core/trace/trace_reader.hpp"
+#include "validation/energy.hpp"
+#include "validation/energy_ledger.hpp"
 #include "validation/judge.hpp"
 #include "validation/outcome.hpp"
 
@@ -17,6 +19,15 @@ bool needs_baseline(const std::string& validator) {
   return std::any_of(table.begin(), table.end(), [&](const validation::ValidatorRow& row) {
     return row.name == validator && row.baseline_groups != 0;
   });
+}
+
+// In the order of core::kEnergyColumns.
+void add(const validation::EnergyRow& row, core::EnergySeries& series) {
+  const double values[] = {row.kinetic,  row.potential,  row.integration, row.normal,
+                           row.friction, row.correction, row.clip};
+  static_assert(std::size(values) == core::kEnergyColumnCount);
+  series.step.push_back(row.step);
+  for (std::size_t k = 0; k < core::kEnergyColumnCount; ++k) series.joule[k].push_back(values[k]);
 }
 
 }  // namespace
@@ -38,6 +49,16 @@ core::Result<core::CellVerdicts> judge_matter(const Matter& matter) {
   validation::JudgeOptions options;
   options.only = matter.only;
   options.progress = [&](std::uint64_t done, std::uint64_t) { progress.at(done); };
+  const core::TraceHeader& header = trace.value().header();
+  const validation::EnergyLedger ledger(header.scene);
+  const bool has_ledger = matter.energy != nullptr && validation::energy_row().why_not({header, nullptr, 0}).empty();
+  if (has_ledger) {
+    *matter.energy = {row.trace_file, row.stamp.scene_name, row.stamp.label(), {}, {}};
+    options.observed_groups = validation::energy_row().groups;
+    options.observe = [&](const validation::Evidence& evidence) {
+      if (const auto frame = ledger.row(evidence.frame, evidence.previous)) add(*frame, *matter.energy);
+    };
+  }
   auto verdicts = validation::judge(trace.value(), baseline ? &*baseline : nullptr, options);
   if (!verdicts) return verdicts.error();
   row.verdicts = std::move(verdicts).value();

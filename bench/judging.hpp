@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/energy_series.hpp"
 #include "core/result.hpp"
 #include "core/rows.hpp"
 
@@ -17,6 +18,8 @@ struct Matter {
   // Leave out what does not compare with the baseline: the trace was judged alone already.
   bool only_against_baseline = false;
   std::vector<std::string> only;  // validators to run; empty = all
+  // Filled with the ledger of the trace where it has what that needs.
+  core::EnergySeries* energy = nullptr;
 };
 
 core::Result<core::CellVerdicts> judge_matter(const Matter& matter);

@@ -81,11 +81,17 @@ std::vector<Matter> matters_of(const MainJob& job, const std::vector<core::Cell>
 
 core::Status judge_all(const MainJob& job, core::RunRows& rows) {
   rows.verdicts.clear();
-  for (const Matter& matter : matters_of(job, rows.cells)) {
+  std::vector<core::EnergySeries> energy;
+  for (Matter matter : matters_of(job, rows.cells)) {
+    core::EnergySeries series;
+    const bool is_pipeline = matter.trace.stem().string() == kPipeline;
+    if (is_pipeline && matter.baseline.empty()) matter.energy = &series;
     auto judged = judge_matter(matter);
     if (!judged) return judged.error();
+    if (!series.step.empty()) energy.push_back(std::move(series));
     if (!judged.value().verdicts.empty()) rows.verdicts.push_back(std::move(judged).value());
   }
+  if (core::Status s = core::write_energy(job.folder / "energy.json", energy); !s) return s;
   return core::write_verdicts(job.folder / "verdicts.json", rows.verdicts);
 }
 
@@ -111,7 +117,10 @@ bool is_current(const std::vector<Row>& rows) {
 }
 
 core::Status write_reports(const MainJob& job, const core::RunRows& rows) {
+  auto energy = core::read_energy(job.folder);
+  if (!energy) return energy.error();
   reports::ReportOptions options;
+  options.energy = std::move(energy).value();
   options.title = job.scene.spec;
   options.command = fmt::format("./broadside demo --scene {} --out {}", job.scene.spec, job.folder.string());
   if (core::Status s = reports::write_html(rows, options, job.folder / "report.html"); !s) return s;

@@ -3,6 +3,7 @@
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
 #include "reports/page_assets.hpp"
+#include "reports/plots/plot_style.hpp"
 #include "reports/wording.hpp"
 
 namespace broadside::reports {
@@ -44,7 +45,7 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       html(options.title.empty() ? kDefaultTitle : options.title) + "</title>\n<style>\n" + std::string(kPageStyle) +
-      "</style>\n</head>\n<body>\n";
+      (options.energy.empty() ? std::string() : plots::plot_style()) + "</style>\n</head>\n<body>\n";
   out += "<header><p class=\"brand\"><b>Broadside</b> <span>" +
          html(options.title.empty() ? kDefaultTitle : options.title) + "</span>";
   if (!options.generated_at.empty()) out += " <time>" + html(options.generated_at) + "</time>";
@@ -57,6 +58,7 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
            times_section(scenes[k]) + "\n" + cells_section(scenes[k]) + "\n" + facts_section(scenes[k]) +
            "</article>\n";
   }
+  out += energy_section(options.energy);
   out += repeat_section(scenes, options) + "\n" + legend_section();
   out += "\n</main>\n<script>\n" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
   return out;

@@ -18,6 +18,8 @@ std::string times_section(const SceneView& scene);
 // What ran and what did not, with pair counts; facts of scene, machine and build.
 std::string cells_section(const SceneView& scene);
 std::string facts_section(const SceneView& scene);
+// Two plots for each run whose ledger is there; empty without any.
+std::string energy_section(const std::vector<core::EnergySeries>& all);
 // Commands to copy.
 std::string repeat_section(const std::vector<SceneView>& scenes, const ReportOptions& options);
 // What the words and figures mean.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/energy_series.hpp"
 #include "core/rows.hpp"
 
 namespace broadside::reports {
@@ -12,10 +13,11 @@ namespace broadside::reports {
 inline constexpr const char* kDefaultTitle = "Collision engines compared";
 
 struct ReportOptions {
-  std::string title;                // empty = kDefaultTitle
-  std::string command;              // the command line that made the rows; empty = not shown
-  std::vector<std::string> repeat;  // more commands for "how to repeat", in order
-  std::string generated_at;         // as printed; empty = left out, and the same rows give the same bytes
+  std::string title;                       // empty = kDefaultTitle
+  std::string command;                     // the command line that made the rows; empty = not shown
+  std::vector<std::string> repeat;         // more commands for "how to repeat", in order
+  std::vector<core::EnergySeries> energy;  // plotted by the page alone
+  std::string generated_at;                // as printed; empty = left out, and the same rows give the same bytes
 };
 
 // One self-contained file without any network access: readable with scripts off, from a phone to paper, light or dark.

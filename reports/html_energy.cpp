@@ -1,0 +1,66 @@
+// Where each run's energy went, as curves over its frames.
+#include <algorithm>
+#include <utility>
+
+#include "reports/escape.hpp"
+#include "reports/html_sections.hpp"
+#include "reports/plots/line_plot.hpp"
+
+namespace broadside::reports {
+namespace {
+
+// More points than a curve of this width can show.
+constexpr std::size_t kMostPoints = 320;
+
+// Every so many frames, and the last.
+std::vector<std::size_t> shown(std::size_t frames) {
+  std::vector<std::size_t> at;
+  const std::size_t stride = std::max<std::size_t>(1, (frames + kMostPoints - 1) / kMostPoints);
+  for (std::size_t k = stride - 1; k < frames; k += stride) at.push_back(k);
+  if (frames > 0 && (at.empty() || at.back() + 1 != frames)) at.push_back(frames - 1);
+  return at;
+}
+
+// sums: the work since the start rather than that of each frame.
+plots::Curve curve(const core::EnergySeries& series, std::size_t column, bool sums) {
+  plots::Curve out;
+  out.name = core::kEnergyColumns[column];
+  std::vector<double> values = series.joule[column];
+  if (sums)
+    for (std::size_t k = 1; k < values.size(); ++k) values[k] += values[k - 1];
+  for (const std::size_t k : shown(series.step.size())) {
+    out.x.push_back(static_cast<double>(series.step[k]));
+    out.y.push_back(values[k]);
+  }
+  return out;
+}
+
+std::string plot(const core::EnergySeries& series, std::string title, std::string description, std::size_t first,
+                 std::size_t last, bool sums) {
+  plots::LinePlot plot;
+  plot.text = {std::move(title), std::move(description), "frame", "energy, J"};
+  plot.y_from_zero = false;
+  for (std::size_t column = first; column < last; ++column) plot.curves.push_back(curve(series, column, sums));
+  return plots::svg(plot, plots::Placement::kInline);
+}
+
+}  // namespace
+
+std::string energy_section(const std::vector<core::EnergySeries>& all) {
+  std::string out;
+  for (const core::EnergySeries& series : all) {
+    if (series.step.empty()) continue;
+    out += "<h3>" + html(series.scene_name) + ", " + html(series.label) + "</h3>\n<div class=\"plots\">" +
+           plot(series, "Energy", "Kinetic and potential energy at the end of each frame.", 0, 2, false) +
+           plot(series, "Work since the start",
+                "What integration, normal impulses, friction, position correction and the velocity cap added or took.",
+                2, core::kEnergyColumnCount, true) +
+           "</div>\n";
+  }
+  if (out.empty()) return out;
+  return "<section class=\"energy\"><h2>Where the energy went</h2>\n<p>Every frame's change of energy is the sum of "
+         "these works, to their rounding: the validator energy judges that.</p>\n" +
+         out + "</section>\n";
+}
+
+}  // namespace broadside::reports
