@@ -10,8 +10,8 @@
 namespace broadside::gpu {
 namespace {
 
-// Buckets of the grid per body: a lookup is a run of some three of them, most of them empty.
-constexpr std::uint64_t kBucketsPerBody = 2;
+// Buckets of the grid, before rounding up to a power of two: a lookup is a run of some three of them.
+constexpr std::uint64_t kBucketsPerFiveBodies = 8;
 constexpr std::uint64_t kLeastBuckets = 1024;
 constexpr std::uint64_t kMostBuckets = 1ULL << 31U;
 constexpr std::uint64_t kMostHashCells = 4096;  // as in stages/hash_stage.cuh
@@ -21,8 +21,11 @@ constexpr std::uint64_t kMostHashCells = 4096;  // as in stages/hash_stage.cuh
 float grid_cell_m(const BoxFacts& facts) {
   constexpr float kSlack = 1.0F + 0x1p-10F;
   constexpr float kLeastShare = 0x1p-17F;
-  constexpr float kLeast = 0x1p-100F;  // halved twenty times, it is still a normal number, and so is its inverse
-  return std::max({facts.largest_side_m * kSlack, facts.coordinate_range_m * kLeastShare, kLeast});
+  // Halved twenty times, or inverted, it is still a normal number.
+  constexpr float kLeast = 0x1p-100F;
+  constexpr float kMost = 0x1p125F;
+  const float wanted = std::max({facts.largest_side_m * kSlack, facts.coordinate_range_m * kLeastShare, kLeast});
+  return std::min(wanted, kMost);
 }
 
 // The most bits an axis that fit beside the 5 bits of a row, which x shares.
@@ -52,7 +55,7 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
   view_ = {};
   view_.start = start;
   if (start == Start::kGrid) {
-    const std::uint64_t buckets = std::bit_ceil(std::max<std::uint64_t>(kBucketsPerBody * n, kLeastBuckets));
+    const std::uint64_t buckets = std::bit_ceil(std::max<std::uint64_t>(kBucketsPerFiveBodies * n / 5, kLeastBuckets));
     BROADSIDE_TRY(reserve_buckets(buckets, "grid"));
     BROADSIDE_TRY(rank_.reserve(n, "grid"));
     BROADSIDE_TRY(entries_.reserve(n, "grid"));
@@ -86,6 +89,7 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
 void BroadBuffers::refit(const BoxFacts& facts) {
   GridView& grid = view_.grid;
   grid.cell_m = grid_cell_m(facts);
+  grid.cells_per_m = 1.0F / grid.cell_m;
   // Half a cell of room below, so that what lies a little outside is still near in the table.
   for (int axis = 0; axis < 3; ++axis)
     grid.first_cell[axis] = static_cast<std::int32_t>(

@@ -34,6 +34,7 @@ struct Counters {
   unsigned long long entries = 0;       // of the spatial hash: bodies times cells
   unsigned long long entry_cursor = 0;  // entries given out to buckets
   unsigned long long listed = 0;        // places given out in the lists of bodies
+  unsigned long long measured = 0;      // confirmed pairs given out to warps that measure their proximity
   std::uint32_t oversized = 0;          // bodies in too many cells of the spatial hash
   std::uint32_t arrived = 0;            // of PartialGridTeam
   std::uint32_t colors = 0;
@@ -54,9 +55,10 @@ struct GridView {
   std::uint32_t* count = nullptr;   // [buckets]; zero between frames
   std::uint32_t* begin = nullptr;   // [bucket_words(buckets)]
   std::uint32_t* rank = nullptr;    // [bodies] place within the bucket
-  PackedBox* entries = nullptr;     // [bodies] by bucket; low_tag = body, high_tag = level, and bit 31: static
+  PackedBox* entries = nullptr;     // [bodies] by bucket; low_tag = body, high_tag: see grid_stage.cuh
   std::uint32_t* levels = nullptr;  // bit k: some body was on level k; bits are only ever set
   float cell_m = 0.0F;              // of level 0; level k has cells of cell_m / 2^k
+  float cells_per_m = 0.0F;         // its inverse
 };
 
 // One body in one cell of the spatial hash.

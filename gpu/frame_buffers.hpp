@@ -62,7 +62,7 @@ class FrameBuffers {
   DeviceBuffer<core::Proximity> proximity_;
   DeviceBuffer<Link> links_;
   DeviceBuffer<unsigned long long> keys_;
-  DeviceBuffer<std::uint32_t> lists_;
+  DeviceBuffer<ListEntry> lists_;
   DeviceBuffer<core::Contact> contacts_;
   DeviceBuffer<core::Contact> face_contacts_;
 };

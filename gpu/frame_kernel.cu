@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kThreads = 512;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 constexpr std::uint32_t kPairsThreads = 512;
-constexpr std::uint32_t kPairsBlocksPerMultiprocessor = 3;
+constexpr std::uint32_t kPairsBlocksPerMultiprocessor = 2;
 constexpr std::uint32_t kDigestThreads = 256;
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)

@@ -36,13 +36,23 @@ struct StateView {
   PackedVec3* velocity = nullptr;
 };
 
-// A touching pair, and its place in the order of each body's contacts; kNoRank for a body that is never written.
+// A touching pair, and the places in which it came to each body's contacts; kNoRank for a body that is never written.
 constexpr std::uint32_t kNoRank = 0xFFFFFFFFU;
 struct alignas(16) Link {
   std::uint32_t i = 0;
   std::uint32_t j = 0;
   std::uint32_t rank_i = 0;
   std::uint32_t rank_j = 0;
+};
+
+// A contact in the list of one of its bodies, in the order in which the body's contacts are resolved.
+struct alignas(16) ListEntry {
+  static constexpr std::uint32_t kIsOurs = 1U << 31;
+
+  std::uint32_t contact = 0;
+  std::uint32_t other = 0;       // the other body
+  std::uint32_t rank_other = 0;  // the contact's place in the other's list
+  std::uint32_t shape = 0;       // of the other body; kIsOurs: this body's thread resolves the contact
 };
 
 // A body while its contacts are resolved: how many of them are done, and the state that they left. Two words of 16
@@ -54,7 +64,8 @@ struct alignas(16) LiveBody {
   core::Vec3 v;
   std::uint32_t tag = 0;
 };
-static_assert(sizeof(Link) == 16 && sizeof(LiveBody) == 32, "read and written in words of 16 bytes");
+static_assert(sizeof(Link) == 16 && sizeof(ListEntry) == 16 && sizeof(LiveBody) == 32,
+              "read and written in words of 16 bytes");
 
 constexpr int kStageCount = 6;
 
@@ -90,10 +101,10 @@ struct FrameView {
   AppendView<core::Pair> confirmed;      // flat: the same memory as pairs
   core::Proximity* proximity = nullptr;  // one per confirmed pair
   std::uint32_t stack_entries = 0;       // of each warp's stack in the proximity stage
-  std::uint32_t block_bodies = 0;        // whose LiveBody fits a block's shared memory
+  std::uint32_t block_bodies = 0;        // that one block resolves alone
   Link* links = nullptr;                 // the touching pairs: as many as confirmed
   unsigned long long* keys = nullptr;    // [2 * links] order of the contacts of each written body, as they came
-  std::uint32_t* lists = nullptr;        // [2 * links] contacts of each written body, in their order
+  ListEntry* lists = nullptr;            // [2 * links] contacts of each written body, in their order
   core::Contact* contacts = nullptr;     // one slot per link; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
 

@@ -102,7 +102,9 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;
   d.view.stack_entries = stack_entries_of(d.device_scene.tree_levels());
-  d.view.block_bodies = static_cast<std::uint32_t>(d.launch.shared_bytes / sizeof(LiveBody));
+  // One body a thread: with more, a block takes longer than the grid.
+  d.view.block_bodies =
+      std::min(d.launch.threads, static_cast<std::uint32_t>(d.launch.shared_bytes / sizeof(LiveBody)));
   d.view.outcome = d.outcome.device();
   d.device_scene.fill(d.view);
   // Uploads ran on the default stream, which this one does not wait for.

@@ -129,6 +129,9 @@ inline int __ffsll(long long v) {
 inline int __clz(unsigned v) {
   return std::countl_zero(v);
 }
+inline int floor_to_int(float v) {
+  return static_cast<int>(std::clamp(std::floor(static_cast<double>(v)), -2147483648.0, 2147483647.0));
+}
 inline float __uint_as_float(unsigned v) {
   return std::bit_cast<float>(v);
 }

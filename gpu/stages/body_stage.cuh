@@ -40,43 +40,58 @@ __device__ void integrate(const Team& team, const FrameView& f) {
   if (team.rank() == 0) *f.counters = Counters{};
 }
 
-// The six half-spaces of the domain, then P(23).
+// The contacts of one body with the six half-spaces of the domain, in their order; calls `found` for each.
+template <typename Found>
+__device__ void meet_faces(const FrameView& f, std::uint32_t body, const core::Box& local, float inverse_mass,
+                           core::Kinematics& state, const Found& found) {
+  for (int face = 0; face < core::kFaceCount; ++face) {
+    const core::ContactGeometry geometry = core::face_contact(core::translated(local, state.x), f.domain, face);
+    if (!geometry.exists) continue;
+    core::Contact contact;
+    contact.a = body;
+    contact.b = core::kFirstFace + static_cast<std::uint32_t>(face);
+    contact.color = core::kFaceColor;
+    contact.pre_a = state;
+    contact.pre_b = {};
+    core::respond(contact, geometry, inverse_mass, 0.0F, core::combine(f.material[body], f.face_material), f.parameters,
+                  core::face_variant(f.variant));
+    state = contact.post_a;
+    found(contact);
+  }
+}
+
+// The six half-spaces of the domain, then P(23). Contacts are counted first and made again when there is a place for
+// them: making them is cheap, and a warp takes its room with one atomic.
 template <typename Team>
 __device__ void resolve_faces(const Team& team, const FrameView& f) {
   const std::uint64_t rounds = (f.body_count + team.size() - 1) / team.size();
   for (std::uint64_t round = 0; round < rounds; ++round) {
-    const std::uint64_t i = round * team.size() + team.rank();
+    const std::uint64_t i = round * team.size() + team.spread_rank();
+    const auto body = static_cast<std::uint32_t>(i);
     PackedVec3 x;
     PackedVec3 v;
     core::Box local;
-    bool moves = false;
+    unsigned count = 0;
+    core::Kinematics state;
     if (i < f.body_count) {
       x = f.next.position[i];
       v = f.next.velocity[i];
-      moves = x.w > 0.0F;
-      local = local_box(f, static_cast<std::uint32_t>(i));
+      local = local_box(f, body);
+      state = {x.v, v.v};
     }
-    // Called by whole warps: bodies at faces are few, and appends share one atomic.
-    for (int face = 0; face < core::kFaceCount; ++face) {
-      core::ContactGeometry geometry;
-      if (moves) geometry = core::face_contact(core::translated(local, x.v), f.domain, face);
-      if (!__any_sync(kFullWarp, geometry.exists)) continue;
-      const unsigned long long place = warp_append(geometry.exists ? 1U : 0U, &f.counters->faces);
-      if (!geometry.exists) continue;
-      core::Contact contact;
-      contact.a = static_cast<std::uint32_t>(i);
-      contact.b = core::kFirstFace + static_cast<std::uint32_t>(face);
-      contact.color = core::kFaceColor;
-      contact.pre_a = {x.v, v.v};
-      contact.pre_b = {};
-      core::respond(contact, geometry, x.w, 0.0F, core::combine(f.material[i], f.face_material), f.parameters,
-                    core::face_variant(f.variant));
-      x.v = contact.post_a.x;
-      v.v = contact.post_a.v;
-      if (place < f.face_contacts.capacity) f.face_contacts.items[place] = contact;
-    }
+    const bool moves = x.w > 0.0F;
+    if (moves) meet_faces(f, body, local, x.w, state, [&count](const core::Contact&) { ++count; });
+    unsigned long long place = warp_append(count, &f.counters->faces);
     if (!moves) continue;
-    v.v = core::clipped(v.v, f.parameters.v_max_m_s);
+    if (count > 0) {
+      core::Kinematics again{x.v, v.v};
+      meet_faces(f, body, local, x.w, again, [&](const core::Contact& contact) {
+        if (place < f.face_contacts.capacity) f.face_contacts.items[place] = contact;
+        ++place;
+      });
+    }
+    x.v = state.x;
+    v.v = core::clipped(state.v, f.parameters.v_max_m_s);
     f.next.position[i] = x;
     f.next.velocity[i] = v;
   }

@@ -20,12 +20,13 @@ __device__ inline void count_box(const BroadView& b, std::uint64_t body, const c
 // of placing (2) and scattering (3), if that is asked for.
 template <typename Team>
 __device__ bool find_candidates(const Team& team, const BroadView& b, const PackedBox* boxes, std::uint32_t count,
-                                AppendView<core::Pair> out, Counters* counters, PairQueue& queue,
+                                AppendView<core::Pair> out, Counters* counters, PairQueue& room,
                                 unsigned long long* stage_end_ns) {
   // Steps that a start does not have end where the one before did.
   const auto mark = [&](int stage) {
     if (stage_end_ns != nullptr && team.rank() == 0) stage_end_ns[stage] = now_ns();
   };
+  WarpQueue queue(room, out, &counters->pairs);
   switch (b.start) {
     case Start::kTiles:
       mark(2), mark(3);
@@ -38,7 +39,7 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
       grid_scatter(team, b.grid, boxes, count);
       team.sync();
       mark(3);
-      grid_find(team, b.grid, count, out, &counters->pairs, queue);
+      grid_find(team, b.grid, count, queue);
       break;
     case Start::kOctree:
       octree_place_nodes(team, b.octree);
@@ -62,12 +63,13 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
       hash_scatter(team, b.hash, boxes, count);
       team.sync();
       mark(3);
-      hash_find(team, b.hash, boxes, count, counters, out, &counters->pairs, queue);
+      hash_find(team, b.hash, boxes, count, counters, queue);
       hash_clear(team, b.hash);
       break;
     case Start::kNone:
       break;
   }
+  queue.flush();
   return true;
 }
 

@@ -10,21 +10,16 @@
 
 namespace broadside::gpu {
 
-// What a contact needs of its bodies that does not change during a frame.
+// What a contact needs of a body that does not change during a frame.
 struct ContactSide {
   core::Box local_box;
-  core::Material material;
   float inverse_mass = 0.0F;
 };
 
-__device__ inline ContactSide contact_side(const FrameView& f, std::uint32_t body) {
-  return {local_box(f, body), f.material[body], f.previous.position[body].w};
-}
-
 // Geometry and response of one pair from these states. Returns false when the boxes do not overlap any more; post
 // states are then the pre states.
-__device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint32_t color, const ContactSide& a,
-                                    const ContactSide& b, const core::Kinematics& state_a,
+__device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint32_t color, const core::Material& both,
+                                    const ContactSide& a, const ContactSide& b, const core::Kinematics& state_a,
                                     const core::Kinematics& state_b, core::Contact& contact) {
   contact.a = p.i;
   contact.b = p.j;
@@ -35,8 +30,7 @@ __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint3
   const core::ContactGeometry geometry = core::box_contact(
       core::translated(a.local_box, state_a.x), core::translated(b.local_box, state_b.x), f.parameters.epsilon_m);
   if (!geometry.exists) return false;
-  core::respond(contact, geometry, a.inverse_mass, b.inverse_mass, core::combine(a.material, b.material), f.parameters,
-                f.variant);
+  core::respond(contact, geometry, a.inverse_mass, b.inverse_mass, both, f.parameters, f.variant);
   return true;
 }
 
@@ -110,7 +104,12 @@ template <typename Live>
 class BodyTurn {
  public:
   __device__ BodyTurn(const FrameView& f, const Live& live, std::uint32_t body)
-      : f_(f), live_(live), body_(body), begin_(f.list_begin[body]), degree_(f.degree[body]) {}
+      : f_(f),
+        live_(live),
+        body_(body),
+        begin_(f.list_begin[body]),
+        degree_(f.degree[body]),
+        own_side_{local_box(f, body), f.previous.position[body].w} {}
 
   __device__ std::uint32_t rank() const { return rank_; }
   __device__ bool is_over() const { return rank_ == degree_; }
@@ -118,40 +117,54 @@ class BodyTurn {
   // To the next contact that this body resolves.
   __device__ void seek(std::uint32_t rank) {
     for (rank_ = rank; rank_ < degree_; ++rank_) {
-      k_ = f_.lists[begin_ + rank_];
-      link_ = f_.links[k_];
-      if (!is_ours()) continue;
-      a_ = contact_side(f_, link_.i);
-      b_ = contact_side(f_, link_.j);
+      entry_ = f_.lists[begin_ + rank_];
+      if ((entry_.shape & ListEntry::kIsOurs) == 0) continue;
+      other_side_ = {
+          unpack(f_.shapes.octree[std::uint64_t{entry_.shape & ~ListEntry::kIsOurs} * core::kBodyOctreeNodes]),
+          f_.previous.position[entry_.other].w};
+      both_ = core::combine(f_.material[min(body_, entry_.other)], f_.material[max(body_, entry_.other)]);
+      has_own_ = has_own_ && own_.done == rank_;
+      has_other_ = false;
       return;
     }
   }
 
-  // Resolves the contact if its turn has come.
+  // Resolves the contact if its turn has come. A body whose turn it is stays as it is until then: it is read once.
   __device__ bool try_resolve() {
-    LiveBody a;
-    LiveBody b;
-    const bool a_waits = !live_.read(link_.i, link_.rank_i, a);
-    const bool b_waits = !live_.read(link_.j, link_.rank_j, b);
-    if (a_waits || b_waits) return false;
-    const std::uint32_t color =
-        max(link_.rank_i != kNoRank ? a.tag >> 1 : 0U, link_.rank_j != kNoRank ? b.tag >> 1 : 0U);
+    if (!has_own_) has_own_ = live_.read(body_, rank_, own_);
+    if (!has_other_) has_other_ = live_.read(entry_.other, entry_.rank_other, other_);
+    if (!has_own_ || !has_other_) return false;
+    const bool other_is_written = entry_.rank_other != kNoRank;
+    const std::uint32_t color = max(own_.tag >> 1, other_is_written ? other_.tag >> 1 : 0U);
+    const bool is_a = body_ < entry_.other;
     core::Contact contact;
-    fill_contact(f_, {link_.i, link_.j}, color, a_, b_, {a.x, a.v}, {b.x, b.v}, contact);
-    if (link_.rank_i != kNoRank) publish(link_.i, link_.rank_i, contact.post_a, color);
-    if (link_.rank_j != kNoRank) publish(link_.j, link_.rank_j, contact.post_b, color);
-    store_contact(f_, k_, contact);
+    fill_contact(f_, core::make_pair_of(body_, entry_.other), color, both_, chosen(is_a, own_side_, other_side_),
+                 chosen(is_a, other_side_, own_side_), chosen(is_a, own_, other_), chosen(is_a, other_, own_), contact);
+    own_ = after(rank_, chosen(is_a, contact.post_a, contact.post_b), color);
+    live_.write(body_, own_);
+    if (other_is_written)
+      live_.write(entry_.other, after(entry_.rank_other, chosen(is_a, contact.post_b, contact.post_a), color));
+    store_contact(f_, entry_.contact, contact);
     return true;
   }
 
  private:
-  __device__ bool is_ours() const {
-    if (link_.rank_i == kNoRank || link_.rank_j == kNoRank) return true;
-    const bool by_i = ((link_.i * 0x9E3779B1U ^ link_.j * 0x85EBCA6BU) >> 31) != 0;
-    return by_i == (link_.i == body_);
+  // Word by word: a choice between two objects would put both into memory.
+  __device__ static core::Vec3 chosen(bool first, core::Vec3 p, core::Vec3 q) {
+    return {first ? p.x : q.x, first ? p.y : q.y, first ? p.z : q.z};
   }
-  __device__ void publish(std::uint32_t body, std::uint32_t rank, const core::Kinematics& state, std::uint32_t color) {
-    live_.write(body, {state.x, rank + 1, state.v, (color + 1) << 1 | ((rank + 1) & 1U)});
+  __device__ static core::Kinematics chosen(bool first, const core::Kinematics& p, const core::Kinematics& q) {
+    return {chosen(first, p.x, q.x), chosen(first, p.v, q.v)};
+  }
+  __device__ static core::Kinematics chosen(bool first, const LiveBody& p, const LiveBody& q) {
+    return {chosen(first, p.x, q.x), chosen(first, p.v, q.v)};
+  }
+  __device__ static ContactSide chosen(bool first, const ContactSide& p, const ContactSide& q) {
+    return {{chosen(first, p.local_box.min, q.local_box.min), chosen(first, p.local_box.max, q.local_box.max)},
+            first ? p.inverse_mass : q.inverse_mass};
+  }
+  __device__ static LiveBody after(std::uint32_t rank, const core::Kinematics& s, std::uint32_t color) {
+    return {s.x, rank + 1, s.v, (color + 1) << 1 | ((rank + 1) & 1U)};
   }
 
   const FrameView& f_;
@@ -160,10 +173,14 @@ class BodyTurn {
   std::uint32_t begin_;
   std::uint32_t degree_;
   std::uint32_t rank_ = 0;
-  std::uint32_t k_ = 0;
-  Link link_;
-  ContactSide a_;
-  ContactSide b_;
+  ListEntry entry_;
+  ContactSide own_side_;
+  ContactSide other_side_;
+  core::Material both_;
+  LiveBody own_;
+  LiveBody other_;
+  bool has_own_ = false;
+  bool has_other_ = false;
 };
 
 // All contacts in the order of their keys, without a barrier: a contact waits for the earlier ones of its own bodies
@@ -172,8 +189,10 @@ class BodyTurn {
 template <typename Team, typename Live>
 __device__ void resolve_in_order(const Team& team, const FrameView& f, const Live& live) {
   if (f.body_count <= team.size()) {
-    if (team.spread_rank() < f.body_count) {
-      BodyTurn<Live> turn(f, live, static_cast<std::uint32_t>(team.spread_rank()));
+    // Lonely threads where there are many warps for them; otherwise neighbors, whose words lie side by side.
+    const std::uint64_t body = std::uint64_t{f.body_count} * 2 <= team.size() ? team.lonely_rank() : team.spread_rank();
+    if (body < f.body_count) {
+      BodyTurn<Live> turn(f, live, static_cast<std::uint32_t>(body));
       turn.seek(0);
       while (!turn.is_over()) {
         if (turn.try_resolve())
@@ -219,8 +238,9 @@ __device__ void finish_live(const Team& team, const FrameView& f, const Live& li
 }
 
 __device__ inline bool fill_from_next(const FrameView& f, const Link& link, core::Contact& contact) {
-  return fill_contact(f, {link.i, link.j}, 0, contact_side(f, link.i), contact_side(f, link.j),
-                      {f.next.position[link.i].v, f.next.velocity[link.i].v},
+  const auto side = [&f](std::uint32_t body) { return ContactSide{local_box(f, body), f.previous.position[body].w}; };
+  return fill_contact(f, {link.i, link.j}, 0, core::combine(f.material[link.i], f.material[link.j]), side(link.i),
+                      side(link.j), {f.next.position[link.i].v, f.next.velocity[link.i].v},
                       {f.next.position[link.j].v, f.next.velocity[link.j].v}, contact);
 }
 
@@ -255,7 +275,7 @@ __device__ void resolve_jacobi(const Team& team, const FrameView& f, std::uint64
     if (!is_written(f, static_cast<std::uint32_t>(i))) continue;
     core::Kinematics sum;
     for (std::uint32_t r = 0; r < f.degree[i]; ++r) {
-      const core::Contact& c = f.contacts[f.lists[f.list_begin[i] + r]];
+      const core::Contact& c = f.contacts[f.lists[f.list_begin[i] + r].contact];
       if (!(c.depth_m > 0.0F)) continue;
       const core::Kinematics& pre = c.a == i ? c.pre_a : c.pre_b;
       const core::Kinematics& post = c.a == i ? c.post_a : c.post_b;

@@ -10,7 +10,8 @@
 
 namespace broadside::gpu {
 
-// A spin on another thread's write goes through here: nothing to do where threads run at once.
+// A spin on another thread's write goes through here. Nothing to do: sleeping for 32 ns makes a pile's contacts 5 %
+// slower.
 __device__ inline void relax() {}
 
 __device__ inline void sync_grid() {
@@ -43,6 +44,11 @@ __device__ inline void store_whole(uint4* to, uint4 v) {
   asm volatile("{ .reg .b128 t; mov.b128 t, {%1, %2}; st.relaxed.gpu.global.b128 [%0], t; }" ::"l"(to), "l"(low),
                "l"(high)
                : "memory");
+}
+
+// The largest integer not above v; saturates.
+__device__ inline int floor_to_int(float v) {
+  return __float2int_rd(v);
 }
 
 __device__ inline unsigned long long now_ns() {

@@ -96,9 +96,11 @@ __device__ inline void run_frame(const FrameView& f, ProximityScratch& scratch, 
     if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed, BlockLive{reinterpret_cast<LiveBody*>(shared)});
     return;
   }
-  // No more blocks than there is work for: fewer meet sooner.
+  // No more blocks than there is work for: fewer meet sooner. Up to half of the grid, a body a warp is work enough: a
+  // chain of contacts waits longer in warps where other threads resolve theirs.
   const std::uint64_t work = max(confirmed, std::uint64_t{f.body_count});
-  const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, (work + blockDim.x - 1) / blockDim.x);
+  const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
+  const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
   if (blockIdx.x >= blocks) return;
   resolve(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed, GridLive{f.live});
 }

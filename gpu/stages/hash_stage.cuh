@@ -83,45 +83,51 @@ __device__ inline bool is_pair_of_boxes(const PackedBox& a, const PackedBox& b) 
 // A thread per entry, against the entries of its cell; then the oversized bodies against all.
 template <typename Team>
 __device__ void hash_find(const Team& team, const HashView& h, const PackedBox* boxes, std::uint32_t body_count,
-                          const Counters* counters, AppendView<core::Pair> out, unsigned long long* demanded,
-                          PairQueue& queue) {
-  open_queue(queue);
+                          const Counters* counters, WarpQueue& queue) {
   const std::uint64_t entries = counters->entries;
   for (std::uint64_t round = 0; round < (entries + team.size() - 1) / team.size(); ++round) {
     const std::uint64_t place = round * team.size() + team.rank();
+    HashEntry own;
+    PackedBox box;
+    std::uint32_t k = 0;
+    std::uint32_t end = 0;
     if (place < entries) {
-      const HashEntry own = h.entries.items[place];
-      const PackedBox box = boxes[own.body];
-      const CellCorner cell{own.x, own.y, own.z};
-      const CellCorner low = cell_of(box.min, h.cells_per_m);
-      const std::uint32_t at = bucket_place(hash_bucket(h, cell));
-      for (std::uint32_t k = h.begin[at]; k < h.begin[at + 1]; ++k) {
-        const HashEntry other = h.entries.items[k];
-        if (other.body <= own.body || !(CellCorner{other.x, other.y, other.z} == cell)) continue;
+      own = h.entries.items[place];
+      box = boxes[own.body];
+      const std::uint32_t at = bucket_place(hash_bucket(h, {own.x, own.y, own.z}));
+      k = h.begin[at];
+      end = h.begin[at + 1];
+    }
+    const CellCorner cell{own.x, own.y, own.z};
+    const CellCorner low = cell_of(box.min, h.cells_per_m);
+    for (; __any_sync(kFullWarp, k < end); ++k) {
+      bool hit = false;
+      HashEntry other;
+      if (k < end) other = h.entries.items[k];
+      if (k < end && other.body > own.body && CellCorner{other.x, other.y, other.z} == cell) {
         const PackedBox other_box = boxes[other.body];
-        if (!is_pair_of_boxes(box, other_box)) continue;
         const CellCorner other_low = cell_of(other_box.min, h.cells_per_m);
         const CellCorner lowest{max(low.x, other_low.x), max(low.y, other_low.y), max(low.z, other_low.z)};
-        if (lowest == cell) push_pair(queue, out, demanded, {own.body, other.body});
+        hit = lowest == cell && is_pair_of_boxes(box, other_box);
       }
+      queue.push(hit, {own.body, other.body});
     }
-    flush_if_filled(queue, out, demanded);
   }
   const std::uint64_t tests = std::uint64_t{counters->oversized} * body_count;
   for (std::uint64_t round = 0; round < (tests + team.size() - 1) / team.size(); ++round) {
     const std::uint64_t test = round * team.size() + team.rank();
+    bool hit = false;
+    core::Pair pair;
     if (test < tests) {
       const std::uint32_t body = h.oversized[test / body_count];
       const auto other = static_cast<std::uint32_t>(test % body_count);
-      const PackedBox box = boxes[body];
       const PackedBox other_box = boxes[other];
       const bool other_finds = other < body && hash_range(h, other_box).cells > kMostHashCells;
-      if (other != body && !other_finds && is_pair_of_boxes(box, other_box))
-        push_pair(queue, out, demanded, core::make_pair_of(body, other));
+      hit = other != body && !other_finds && is_pair_of_boxes(boxes[body], other_box);
+      pair = core::make_pair_of(body, other);
     }
-    flush_if_filled(queue, out, demanded);
+    queue.push(hit, pair);
   }
-  flush_pairs(queue, out, demanded);
 }
 
 template <typename Team>

@@ -67,17 +67,24 @@ __device__ void list_contacts(const Team& team, const FrameView& f, std::uint64_
   }
   team.sync();
   for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
-    Link link = f.links[k];
+    const Link link = f.links[k];
     const unsigned long long key = order_key(f, link);
-    const auto ranked = [&](std::uint32_t body) {
-      const std::uint32_t begin = f.list_begin[body];
-      const std::uint32_t rank = keys_before(f.keys + begin, f.degree[body], key);
-      f.lists[begin + rank] = static_cast<std::uint32_t>(k);
-      return rank;
+    const auto rank_of = [&](std::uint32_t body, std::uint32_t place) {
+      return place == kNoRank ? kNoRank : keys_before(f.keys + f.list_begin[body], f.degree[body], key);
     };
-    if (link.rank_i != kNoRank) link.rank_i = ranked(link.i);
-    if (link.rank_j != kNoRank) link.rank_j = ranked(link.j);
-    f.links[k] = link;
+    const std::uint32_t rank_i = rank_of(link.i, link.rank_i);
+    const std::uint32_t rank_j = rank_of(link.j, link.rank_j);
+    // Whoever is written alone resolves; of two, a hash of the ids chooses.
+    const bool by_i =
+        rank_j == kNoRank || (rank_i != kNoRank && ((link.i * 0x9E3779B1U ^ link.j * 0x85EBCA6BU) >> 31) != 0);
+    const auto enter = [&](std::uint32_t body, std::uint32_t rank, std::uint32_t other, std::uint32_t rank_other,
+                           bool is_ours) {
+      if (rank == kNoRank) return;
+      f.lists[f.list_begin[body] + rank] = {static_cast<std::uint32_t>(k), other, rank_other,
+                                            f.shape_of_body[other] | (is_ours ? ListEntry::kIsOurs : 0U)};
+    };
+    enter(link.i, rank_i, link.j, rank_j, by_i);
+    enter(link.j, rank_j, link.i, rank_i, !by_i);
   }
   team.sync();
 }

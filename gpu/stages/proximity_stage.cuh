@@ -183,13 +183,45 @@ class NearestVertices {
   core::Proximity best_;
 };
 
-constexpr std::uint32_t kMaxBlockWarps = 16;
+constexpr std::uint32_t kMaxBlockWarps = 32;
 
-// Shared memory of a block: what the warps of one pair share, then every warp's stack.
+// Shared memory of a block: what the warps of one pair share.
 struct ProximityScratch {
   std::uint32_t bound[kMaxBlockWarps];
   core::Proximity part[kMaxBlockWarps];
 };
+
+__device__ inline NodePairStack stack_of_warp(const FrameView& f, void* stacks) {
+  const std::uint32_t entries = f.stack_entries;
+  NodePairStack stack;
+  stack.a = static_cast<std::uint32_t*>(stacks) + std::uint64_t{threadIdx.x / 32} * entries * 3;
+  stack.b = stack.a + entries;
+  stack.gap2 = reinterpret_cast<float*>(stack.b + entries);
+  return stack;
+}
+
+// A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at once
+// where there are very many, because all warps take from one counter.
+__device__ inline void measure_by_warps(const FrameView& f, std::uint64_t count, ProximityScratch& scratch,
+                                        void* stacks) {
+  const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
+  const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, count / (warps * 32)));
+  std::uint32_t* bound = &scratch.bound[threadIdx.x / 32];
+  const NodePairStack stack = stack_of_warp(f, stacks);
+  for (;;) {
+    unsigned long long first = 0;
+    if (lane() == 0) first = atomicAdd(&f.counters->measured, static_cast<unsigned long long>(share));
+    first = __shfl_sync(kFullWarp, first, 0);
+    if (first >= count) return;
+    for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, count); ++k) {
+      if (lane() == 0) *bound = __float_as_uint(INFINITY);
+      __syncwarp();
+      const core::Proximity best = NearestVertices(f, f.confirmed.items[k], stack, bound, 0, 1).find();
+      if (lane() == 0) f.proximity[k] = best;
+      __syncwarp();
+    }
+  }
+}
 
 // When there are fewer pairs than warps, several warps of a block share a pair. The block's warps are a power of two.
 __device__ inline void measure_proximity(const FrameView& f, std::uint64_t count, ProximityScratch& scratch,
@@ -198,32 +230,23 @@ __device__ inline void measure_proximity(const FrameView& f, std::uint64_t count
   const std::uint32_t warp = threadIdx.x / 32;
   std::uint32_t members = 1;
   while (members < warps && count * members * 2 <= std::uint64_t{gridDim.x} * warps) members *= 2;
+  if (members == 1) return measure_by_warps(f, count, scratch, stacks);
   const std::uint32_t teams = warps / members;
   const std::uint32_t team = warp / members;
   const std::uint32_t member = warp % members;
+  const NodePairStack stack = stack_of_warp(f, stacks);
 
-  const std::uint32_t entries = f.stack_entries;
-  NodePairStack stack;
-  stack.a = static_cast<std::uint32_t*>(stacks) + std::uint64_t{warp} * entries * 3;
-  stack.b = stack.a + entries;
-  stack.gap2 = reinterpret_cast<float*>(stack.b + entries);
-
-  // The same number of turns for every warp of the block, because members > 1 meet at its barrier.
+  // The same number of turns for every warp of the block, because a pair's warps meet at its barrier.
   for (std::uint64_t base = 0; base < count; base += std::uint64_t{teams} * gridDim.x) {
     const std::uint64_t k = base + std::uint64_t{team} * gridDim.x + blockIdx.x;
     if (member == 0 && lane() == 0) scratch.bound[team] = __float_as_uint(INFINITY);
-    if (members > 1)
-      __syncthreads();
-    else
-      __syncwarp();
+    __syncthreads();
     core::Proximity best;
     if (k < count) best = NearestVertices(f, f.confirmed.items[k], stack, &scratch.bound[team], member, members).find();
-    if (members > 1) {
-      if (lane() == 0) scratch.part[warp] = best;
-      __syncthreads();
-      for (std::uint32_t m = 1; member == 0 && m < members; ++m)
-        if (core::is_nearer(scratch.part[warp + m], best)) best = scratch.part[warp + m];
-    }
+    if (lane() == 0) scratch.part[warp] = best;
+    __syncthreads();
+    for (std::uint32_t m = 1; member == 0 && m < members; ++m)
+      if (core::is_nearer(scratch.part[warp + m], best)) best = scratch.part[warp + m];
     if (member == 0 && lane() == 0 && k < count) f.proximity[k] = best;
   }
 }

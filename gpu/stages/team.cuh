@@ -19,6 +19,7 @@ struct GridTeam {
 struct BlockTeam {
   __device__ std::uint64_t rank() const { return threadIdx.x; }
   __device__ std::uint64_t spread_rank() const { return threadIdx.x; }
+  __device__ std::uint64_t lonely_rank() const { return threadIdx.x; }
   __device__ std::uint64_t size() const { return blockDim.x; }
   __device__ void sync() const { __syncthreads(); }
 };
@@ -34,6 +35,12 @@ struct PartialGridTeam {
   // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x) * 32 + threadIdx.x % 32;
+  }
+  // Likewise, but first a lane of every warp, then the next lane of each: threads that wait for each other get in each
+  // other's way least.
+  __device__ std::uint64_t lonely_rank() const {
+    const std::uint64_t warps = std::uint64_t{blocks} * (blockDim.x / 32);
+    return threadIdx.x % 32 * warps + std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x;
   }
   __device__ std::uint64_t size() const { return std::uint64_t{blocks} * blockDim.x; }
   __device__ void sync() const {
