@@ -35,6 +35,27 @@ core::Result<StreamHandle> create_stream();
 void release_stream(StreamHandle stream);
 core::Status wait_for_stream(StreamHandle stream, const char* what);
 
+// Asked of the stream, which does it in its turn; these return at once.
+core::Status copy_on_device(void* to, const void* from, std::size_t bytes, StreamHandle stream);
+// The host's memory is pinned: of allocate_mapped_bytes.
+core::Status start_copy_to_host(void* to, const void* from, std::size_t bytes, StreamHandle stream);
+
+// A place in a stream's order, for another stream or the host to wait for.
+class StreamMark {
+ public:
+  StreamMark() = default;
+  StreamMark(const StreamMark&) = delete;
+  StreamMark& operator=(const StreamMark&) = delete;
+  ~StreamMark();
+  core::Status set(StreamHandle stream);
+  // What is asked of that stream from now on runs after the mark.
+  core::Status hold_back(StreamHandle other) const;
+  [[nodiscard]] core::Status wait(const char* what) const;
+
+ private:
+  void* event_ = nullptr;
+};
+
 // Times work of a stream by the device's own events.
 class StreamTimer {
  public:

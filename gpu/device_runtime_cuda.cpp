@@ -80,6 +80,35 @@ core::Status wait_for_stream(StreamHandle stream, const char* what) {
   return cuda_status(cudaStreamSynchronize(stream), what);
 }
 
+core::Status copy_on_device(void* to, const void* from, std::size_t bytes, StreamHandle stream) {
+  return cuda_status(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream), "copying on the device");
+}
+
+core::Status start_copy_to_host(void* to, const void* from, std::size_t bytes, StreamHandle stream) {
+  return cuda_status(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream), "copying from the device");
+}
+
+StreamMark::~StreamMark() {
+  if (event_ != nullptr) cudaEventDestroy(static_cast<cudaEvent_t>(event_));
+}
+
+core::Status StreamMark::set(StreamHandle stream) {
+  if (event_ == nullptr) {
+    cudaEvent_t made = nullptr;
+    BROADSIDE_CUDA_TRY(cudaEventCreateWithFlags(&made, cudaEventDisableTiming));
+    event_ = made;
+  }
+  return cuda_status(cudaEventRecord(static_cast<cudaEvent_t>(event_), stream), "marking a stream");
+}
+
+core::Status StreamMark::hold_back(StreamHandle other) const {
+  return cuda_status(cudaStreamWaitEvent(other, static_cast<cudaEvent_t>(event_), 0), "ordering two streams");
+}
+
+core::Status StreamMark::wait(const char* what) const {
+  return cuda_status(cudaEventSynchronize(static_cast<cudaEvent_t>(event_)), what);
+}
+
 StreamTimer::~StreamTimer() {
   if (begin_ != nullptr) cudaEventDestroy(static_cast<cudaEvent_t>(begin_));
   if (end_ != nullptr) cudaEventDestroy(static_cast<cudaEvent_t>(end_));

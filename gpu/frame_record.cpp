@@ -8,26 +8,22 @@
 namespace broadside::gpu {
 namespace {
 
-core::Status read_vectors(const DeviceBuffer<PackedVec3>& from, std::uint64_t count, std::vector<core::Vec3>& to) {
-  std::vector<PackedVec3> packed;
-  BROADSIDE_TRY(from.download(packed, count));
-  to.reserve(count);
-  for (const PackedVec3& p : packed) to.push_back(p.v);
-  return core::Done{};
+std::vector<core::Vec3> unpacked(std::span<const PackedVec3> from) {
+  std::vector<core::Vec3> to;
+  to.reserve(from.size());
+  for (const PackedVec3& p : from) to.push_back(p.v);
+  return to;
 }
 
-core::Status read_contacts(const FrameBuffers& buffers, const FrameCounts& counts,
-                           std::vector<core::Contact>& contacts) {
-  BROADSIDE_TRY(buffers.contacts().download(contacts, counts.contacts));
+std::vector<core::Contact> in_order_of_application(const FrameArrays& arrays) {
+  std::vector<core::Contact> contacts(arrays.contacts.begin(), arrays.contacts.end());
   // Depth 0 marks a pair that did not overlap any more when its turn came.
   std::erase_if(contacts, [](const core::Contact& c) { return !(c.depth_m > 0.0F); });
-  std::vector<core::Contact> faces;
-  BROADSIDE_TRY(buffers.face_contacts().download(faces, counts.face_contacts));
-  contacts.insert(contacts.end(), faces.begin(), faces.end());
+  contacts.insert(contacts.end(), arrays.face_contacts.begin(), arrays.face_contacts.end());
   std::sort(contacts.begin(), contacts.end(), [](const core::Contact& p, const core::Contact& q) {
     return std::tie(p.color, p.a, p.b) < std::tie(q.color, q.a, q.b);
   });
-  return core::Done{};
+  return contacts;
 }
 
 // Confirmed pairs and their nearest vertices, sorted together.
@@ -47,23 +43,19 @@ void sort_confirmed(core::FrameRecord& frame) {
 
 }  // namespace
 
-core::Status read_frame(const FrameBuffers& buffers, const FrameCounts& counts, bool is_confirmed_by_level0,
-                        core::FrameRecord& frame) {
-  BROADSIDE_TRY(read_vectors(buffers.state().position, counts.bodies, frame.position));
-  BROADSIDE_TRY(read_vectors(buffers.state().velocity, counts.bodies, frame.velocity));
-  BROADSIDE_TRY(read_vectors(buffers.detected().position, counts.bodies, frame.detected_position));
-  BROADSIDE_TRY(read_vectors(buffers.detected().velocity, counts.bodies, frame.detected_velocity));
-  std::vector<PackedBox> boxes;
-  BROADSIDE_TRY(buffers.boxes().download(boxes, counts.bodies));
-  for (const PackedBox& box : boxes) frame.boxes.push_back(unpack(box));
-
-  BROADSIDE_TRY(buffers.pairs().download(frame.pairs, counts.pairs));
-  BROADSIDE_TRY(
-      (is_confirmed_by_level0 ? buffers.pairs() : buffers.confirmed()).download(frame.confirmed, counts.confirmed));
-  BROADSIDE_TRY(buffers.proximity().download(frame.proximity, counts.proximity));
+void fill_record(const FrameArrays& arrays, core::FrameRecord& frame) {
+  frame.position = unpacked(arrays.position);
+  frame.velocity = unpacked(arrays.velocity);
+  frame.detected_position = unpacked(arrays.detected_position);
+  frame.detected_velocity = unpacked(arrays.detected_velocity);
+  frame.boxes.reserve(arrays.boxes.size());
+  for (const PackedBox& box : arrays.boxes) frame.boxes.push_back(unpack(box));
+  frame.pairs.assign(arrays.pairs.begin(), arrays.pairs.end());
+  frame.confirmed.assign(arrays.confirmed.begin(), arrays.confirmed.end());
+  frame.proximity.assign(arrays.proximity.begin(), arrays.proximity.end());
   std::sort(frame.pairs.begin(), frame.pairs.end());
   sort_confirmed(frame);
-  return read_contacts(buffers, counts, frame.contacts);
+  frame.contacts = in_order_of_application(arrays);
 }
 
 }  // namespace broadside::gpu

@@ -7,8 +7,8 @@
 #include "gpu/broad_buffers.hpp"
 #include "gpu/device_scene.hpp"
 #include "gpu/frame_buffers.hpp"
+#include "gpu/frame_copy.hpp"
 #include "gpu/frame_kernel.hpp"
-#include "gpu/frame_record.hpp"
 #include "gpu/host_side.hpp"
 
 namespace broadside::gpu {
@@ -23,6 +23,7 @@ struct Pipeline::Impl {
   PipelineOptions options;
   const core::Scene* scene = nullptr;
   Stream stream;
+  Stream copy_stream;
   OutcomeMemory outcome;
   DeviceScene device_scene;
   FrameBuffers buffers;
@@ -34,6 +35,10 @@ struct Pipeline::Impl {
   std::array<core::StageTime, kStageCount> times{};
   std::uint64_t steps = 0;
   std::uint64_t repeats = 0;
+  // Frames on their way to the host: two, by turns.
+  std::array<FrameCopy, 2> copies;
+  std::uint64_t copies_started = 0;
+  std::uint64_t copies_finished = 0;
   double dt_s = 0.0;
 
   [[nodiscard]] bool is_confirmed_by_level0() const {
@@ -43,7 +48,7 @@ struct Pipeline::Impl {
   [[nodiscard]] Start chosen_start() const;
   [[nodiscard]] bool starts_at_level0() const { return chosen_start() != Start::kNone; }
   core::Status run_frame();
-  core::Result<std::uint64_t> digest();
+  core::Status ask_digest();
 };
 
 Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -78,12 +83,13 @@ core::Status Pipeline::load(const core::Scene& scene) {
     return core::Error{"the scene has springs, which are not simulated on the GPU", scene.name, "use octree-cpu"};
   Impl& d = *impl_;
   d.scene = &scene;
-  d.steps = d.repeats = 0;
+  d.steps = d.repeats = d.copies_started = d.copies_finished = 0;
   d.last = {};
   d.times = {};
   d.view = {};
   const float hash_cell_m = d.options.hash_cell_m > 0.0F ? d.options.hash_cell_m : scene.parameters.hash_cell_m;
   BROADSIDE_TRY(d.stream.create());
+  BROADSIDE_TRY(d.copy_stream.create());
   BROADSIDE_TRY(d.outcome.allocate());
   BROADSIDE_TRY(d.device_scene.load(scene, hash_cell_m));
   BROADSIDE_TRY(d.broad.load(d.chosen_start(), d.device_scene.box_facts(), hash_cell_m, d.options.variant));
@@ -142,7 +148,7 @@ core::Status Pipeline::step(float dt_s) {
   return core::Done{};
 }
 
-core::Result<std::uint64_t> Pipeline::Impl::digest() {
+core::Status Pipeline::Impl::ask_digest() {
   DigestView digest;
   digest.body_count = scene->body_count();
   digest.state = buffers.state().view();
@@ -154,11 +160,7 @@ core::Result<std::uint64_t> Pipeline::Impl::digest() {
   digest.face_contacts = buffers.face_contacts().data();
   digest.face_contact_count = last.faces;
   digest.sum = digest_sum.data();
-  BROADSIDE_TRY(launch_digest(digest, stream.get()));
-  BROADSIDE_TRY(stream.wait("the digest"));
-  std::vector<unsigned long long> sum;
-  BROADSIDE_TRY(digest_sum.download(sum, 1));
-  return std::uint64_t{sum[0]};
+  return launch_digest(digest, stream.get());
 }
 
 std::uint32_t Pipeline::groups() const {
@@ -170,16 +172,19 @@ std::uint32_t Pipeline::groups() const {
 }
 
 core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
-  Impl& d = *impl_;
-  frame = {};
-  frame.step = d.steps;
-  frame.time_s = static_cast<double>(d.steps) * d.dt_s;
-  frame.pairs_demanded = frame.pairs_raw = d.last.pairs;
-  auto digest = d.digest();
-  if (!digest.ok()) return digest.error();
-  frame.digest = digest.value();
-  if (level != core::RecordLevel::kFull) return core::Done{};
+  BROADSIDE_TRY(start_copy(level));
+  return finish_copy(frame);
+}
 
+core::Status Pipeline::start_copy(core::RecordLevel level) {
+  Impl& d = *impl_;
+  if (d.copies_started - d.copies_finished == d.copies.size())
+    return core::Error{"a third copy of a frame was started", "octree-gpu", "finish one first", core::Exit::kInternal};
+  FrameCopy& copy = d.copies[d.copies_started % d.copies.size()];
+  copy.begun = {};
+  copy.begun.step = d.steps;
+  copy.begun.time_s = static_cast<double>(d.steps) * d.dt_s;
+  copy.begun.pairs_demanded = copy.begun.pairs_raw = d.last.pairs;
   FrameCounts counts;
   counts.bodies = d.scene->bodies.size();
   counts.pairs = d.last.pairs;
@@ -187,7 +192,22 @@ core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel lev
   counts.proximity = d.options.has_vertex_stage ? counts.confirmed : 0;
   counts.contacts = d.last.touching;
   counts.face_contacts = d.last.faces;
-  BROADSIDE_TRY(read_frame(d.buffers, counts, d.is_confirmed_by_level0(), frame));
+  BROADSIDE_TRY(d.ask_digest());
+  BROADSIDE_TRY(copy.start(d.digest_sum.data(), level == core::RecordLevel::kFull ? &d.buffers : nullptr, counts,
+                           d.is_confirmed_by_level0(), d.stream.get(), d.copy_stream.get()));
+  ++d.copies_started;
+  return core::Done{};
+}
+
+core::Status Pipeline::finish_copy(core::FrameRecord& frame) {
+  Impl& d = *impl_;
+  if (d.copies_finished == d.copies_started)
+    return core::Error{"no copy of a frame is under way", "octree-gpu", "start one first", core::Exit::kInternal};
+  FrameCopy& copy = d.copies[d.copies_finished % d.copies.size()];
+  ++d.copies_finished;
+  frame = copy.begun;
+  BROADSIDE_TRY(copy.finish(frame));
+  if (!copy.is_full) return core::Done{};
   for (const core::Body& body : d.scene->bodies) {
     frame.orientation.push_back(body.orientation);
     frame.angular_velocity.push_back(body.angular_velocity);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/engine/dynamics.hpp"
+#include "core/engine/frame_copies.hpp"
 #include "core/method/levels.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad_buffers.hpp"
@@ -32,7 +33,7 @@ struct MemoryUse {
 };
 
 // The result is bit-identical to octree-cpu's. Uses the current CUDA device; not thread-safe.
-class Pipeline final : public core::Dynamics {
+class Pipeline final : public core::Dynamics, public core::FrameCopies {
  public:
   explicit Pipeline(const PipelineOptions& options);
   ~Pipeline() override;
@@ -41,6 +42,8 @@ class Pipeline final : public core::Dynamics {
   // One kernel launch; again, from the same state, when a buffer turned out too small. Synchronizes.
   core::Status step(float dt_s) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
+  core::Status start_copy(core::RecordLevel level) override;
+  core::Status finish_copy(core::FrameRecord& frame) override;
   [[nodiscard]] std::uint32_t groups() const override;
   // Read off the GPU's clock within the one kernel: integrate, broad, levels, vertices, response, faces.
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override;

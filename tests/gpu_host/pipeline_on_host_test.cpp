@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/engine/engine.hpp"
 #include "gpu/pipeline.hpp"
@@ -73,6 +74,33 @@ TEST(PipelineOnHost, StaticBodiesAndTheJacobiSolver) {
   EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {}, 12), 0U);
   options.solver = Solver::kJacobi;
   EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {{"solver", "jacobi"}}, 12), 0U);
+}
+
+// A frame that is copied while the next one is computed is the frame that it was; two may be under way, a third may
+// not.
+TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {
+  const core::Scene scene = spheres(40, 2.5F);
+  Pipeline subject(PipelineOptions{});
+  const std::unique_ptr<core::Dynamics> twin = twin_of({});
+  ASSERT_TRUE(subject.load(scene).ok());
+  ASSERT_TRUE(twin->load(scene).ok());
+  std::vector<core::FrameRecord> expected(9);
+  core::FrameRecord copied;
+  EXPECT_FALSE(subject.finish_copy(copied).ok());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const core::RecordLevel level = k % 3 == 1 ? core::RecordLevel::kDigest : core::RecordLevel::kFull;
+    ASSERT_TRUE(twin->step(scene.dt_s).ok());
+    ASSERT_TRUE(twin->read_back(expected[k], level).ok());
+    ASSERT_TRUE(subject.step(scene.dt_s).ok());
+    ASSERT_TRUE(subject.start_copy(level).ok());
+    if (k == 0) continue;
+    ASSERT_TRUE(subject.finish_copy(copied).ok());
+    EXPECT_EQ(copied.step, k);
+    EXPECT_EQ(copied.digest, expected[k - 1].digest);
+    EXPECT_EQ(first_difference(copied, expected[k - 1]), "nothing that is recorded") << "frame " << k;
+  }
+  ASSERT_TRUE(subject.start_copy(core::RecordLevel::kFull).ok());
+  EXPECT_FALSE(subject.start_copy(core::RecordLevel::kFull).ok());
 }
 
 // More bodies than the grid has threads, more than a block's memory holds, and from the hashed octree.
