@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "core/scene/refuse_springs.hpp"
 #include "gpu/broad_buffers.hpp"
 #include "gpu/device_scene.hpp"
 #include "gpu/frame_buffers.hpp"
@@ -79,8 +80,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
       return core::Error{"angular_velocity is not zero, and this pipeline's bodies translate only",
                          scene.name + ": body " + std::to_string(i), "set angular_velocity to 0 0 0"};
   }
-  if (!scene.springs.empty())
-    return core::Error{"the scene has springs, which are not simulated on the GPU", scene.name, "use octree-cpu"};
+  BROADSIDE_TRY(core::refuse_springs(scene));
   Impl& d = *impl_;
   d.scene = &scene;
   d.steps = d.repeats = d.copies_started = d.copies_finished = 0;

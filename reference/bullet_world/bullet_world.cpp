@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/method/frame_digest.hpp"
+#include "core/scene/refuse_springs.hpp"
 #include "reference/bullet_world/contact_readout.hpp"
 #include "reference/vendor_call.hpp"
 
@@ -82,6 +83,7 @@ class BulletWorld final : public core::Dynamics {
   explicit BulletWorld(BulletWorldOptions options) : options_(options) {}
 
   Status load(const core::Scene& scene) override {
+    if (Status s = core::refuse_springs(scene); !s) return s;
     return vendor_call("bullet-world: load", [&]() -> Status {
       scene_ = &scene;
       step_ = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/method/frame_digest.hpp"
+#include "core/scene/refuse_springs.hpp"
 #include "reference/plugin/plugin_array.hpp"
 #include "reference/plugin/plugin_scene.hpp"
 
@@ -40,6 +41,7 @@ class PluginDynamics final : public core::Dynamics {
   ~PluginDynamics() override { end(); }
 
   Status load(const core::Scene& scene) override {
+    if (Status s = core::refuse_springs(scene); !s) return s;
     end();
     source_ = &scene;
     steps_ = 0;
