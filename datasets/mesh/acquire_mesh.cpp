@@ -6,7 +6,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/mesh/load_mesh.hpp"
 #include "datasets/mesh/mesh_catalogue.hpp"
 #include "datasets/mesh/sha256.hpp"
 #include "datasets/shapes/box_mesh.hpp"
@@ -28,15 +27,22 @@ std::string from_environment_variable(const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
-Result<Mesh> procedural(const MeshRow& row) {
-  Result<Mesh> mesh = row.name == "cube"     ? box_mesh({1.0, 1.0, 1.0}, {8, 8, 8})
-                      : row.name == "sphere" ? sphere_mesh(0.5, 8)
-                                             : lumpy_mesh(row.triangles, kShapeSeed);
-  if (mesh) {
-    mesh.value().name = std::string(row.name);
-    mesh.value().is_stand_in = !row.is_procedural;
-  }
-  return mesh;
+// Boxes are cut so that a mean edge is about an eighth of the longest side.
+Result<Mesh> shape_of(const MeshRow& row) {
+  if (row.name == "cube") return box_mesh({1.0, 1.0, 1.0}, {8, 8, 8});
+  if (row.name == "brick") return box_mesh({1.0, 0.5, 0.5}, {8, 4, 4});
+  if (row.name == "domino") return box_mesh({0.2, 1.0, 0.5}, {2, 8, 4});
+  if (row.name == "sphere") return sphere_mesh(0.5, 8);
+  return lumpy_mesh(row.triangles, kShapeSeed);
+}
+
+Result<core::LoadedMesh> procedural(const MeshRow& row) {
+  Result<Mesh> mesh = shape_of(row);
+  if (!mesh) return mesh.error();
+  core::LoadedMesh loaded{std::move(mesh).value(), {}};
+  loaded.mesh.name = std::string(row.name);
+  loaded.mesh.is_stand_in = !row.is_procedural;
+  return loaded;
 }
 
 // The sum that this file must have: the published one, or the one written beside it when it was made.
@@ -48,7 +54,7 @@ std::string expected_sum(const MeshFile& file, const fs::path& path) {
   return sum;
 }
 
-Result<Mesh> from_file(const MeshRow& row, const MeshFile& file, const fs::path& path) {
+Result<core::LoadedMesh> from_file(const MeshRow& row, const MeshFile& file, const fs::path& path) {
   const Result<std::string> sum = sha256_of_file(path);
   if (!sum) return sum.error();
   const std::string expected = expected_sum(file, path);
@@ -57,11 +63,11 @@ Result<Mesh> from_file(const MeshRow& row, const MeshFile& file, const fs::path&
                  path.string(), "the file is damaged or another one: replace it, or delete it to use the next source"};
   Result<core::LoadedMesh> loaded = core::load_mesh(path);
   if (!loaded) return loaded.error();
-  Mesh mesh = std::move(loaded).value().mesh;
+  Mesh& mesh = loaded.value().mesh;
   mesh.name = std::string(row.name);
   mesh.source = std::string(file.file) + " sha256 " + sum.value();
   mesh.is_stand_in = file.is_stand_in;
-  return mesh;
+  return loaded;
 }
 
 }  // namespace
@@ -78,7 +84,17 @@ MeshOptions MeshOptions::from_environment() {
   return options;
 }
 
-Result<Mesh> acquire_mesh(std::string_view name, const MeshOptions& options) {
+Result<core::LoadedMesh> mesh_from_file(const fs::path& path) {
+  Result<core::LoadedMesh> loaded = core::load_mesh(path);
+  if (!loaded) return loaded.error();
+  const Result<std::string> sum = sha256_of_file(path);
+  if (!sum) return sum.error();
+  loaded.value().mesh.source += " sha256 " + sum.value();
+  return loaded;
+}
+
+Result<core::LoadedMesh> acquire_loaded_mesh(std::string_view name, const MeshOptions& options) {
+  if (fs::path(name).has_extension()) return mesh_from_file(name);
   const auto found = find_mesh(name);
   if (!found) return found.error();
   const MeshRow& row = *found.value();
@@ -96,6 +112,12 @@ Result<Mesh> acquire_mesh(std::string_view name, const MeshOptions& options) {
   const std::string fetch = row.fetched_from.empty() ? "" : "run 'broadside fetch " + std::string(name) + "', or ";
   return Error{"none of its files is on this machine", "mesh '" + std::string(name) + "'",
                fetch + "set BROADSIDE_MESH_DIR to a folder that has " + std::string(row.files[0].file)};
+}
+
+Result<Mesh> acquire_mesh(std::string_view name, const MeshOptions& options) {
+  Result<core::LoadedMesh> loaded = acquire_loaded_mesh(name, options);
+  if (!loaded) return loaded.error();
+  return std::move(loaded).value().mesh;
 }
 
 }  // namespace broadside::datasets

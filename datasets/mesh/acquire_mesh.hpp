@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/mesh/load_mesh.hpp"
 #include "core/result.hpp"
 #include "core/scene/mesh.hpp"
 
@@ -20,10 +21,16 @@ struct MeshOptions {
   static MeshOptions from_environment();
 };
 
-// Looks for the row's files in mesh_dir, then in cache_dir, best first. Coordinates are the file's; Mesh::name is the
-// catalogue's and Mesh::source says which file with which sum was used.
-// Errors: unknown name; a file with another sum than the published one (a damaged file is never passed over in
-// silence); no file, with what to do; and all errors of load_mesh.
+// A mesh file of somebody's own; Mesh::source is its name and sum. Errors: those of load_mesh.
+core::Result<core::LoadedMesh> mesh_from_file(const std::filesystem::path& path);
+
+// A name with an extension is the path of a mesh file. Otherwise it looks for the row's files in mesh_dir, then in
+// cache_dir, best first. Coordinates are the file's; Mesh::name is the catalogue's and Mesh::source says which file
+// with which sum was used. Errors: unknown name; a file with another sum than the published one (a damaged file is
+// never passed over in silence); no file, with what to do; and all errors of load_mesh.
+core::Result<core::LoadedMesh> acquire_loaded_mesh(std::string_view name, const MeshOptions& options);
+
+// The mesh alone.
 core::Result<core::Mesh> acquire_mesh(std::string_view name, const MeshOptions& options);
 
 }  // namespace broadside::datasets

@@ -10,6 +10,17 @@
 
 namespace broadside::datasets {
 
+// A model inside a package: what a file of the catalogue is made from.
+struct MeshSource {
+  bool is_npm = false;  // otherwise apt
+  std::string_view package;
+  std::string_view version;  // that the sums were taken with; the sum decides, not the version
+  std::string_view member;   // in the package's file tree
+  std::string_view inner;    // in the archive that the member is; empty = the member is the model
+  std::string_view model_file;
+  std::string_view sha256;  // of the model file
+};
+
 // A file that counts as this mesh. `sha256` is empty where the file is rebuilt on each machine and has no published
 // sum; it then has a sum of its own beside it, written when it was made.
 struct MeshFile {
@@ -17,8 +28,12 @@ struct MeshFile {
   std::string_view sha256;
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
-  bool is_stand_in = false;  // detail that is not the original's: reports say so
+  std::uint32_t boundary_edges = 0;  // 0: closed; every file here is a manifold
+  std::int32_t euler_characteristic = 2;
+  double covering_radius = 0.0;  // rho of METHOD section 3, in the file's unit
+  bool is_stand_in = false;      // detail that is not the original's: reports say so
   std::string_view what;
+  const MeshSource* source = nullptr;  // what `fetch_mesh` makes it from; null = it cannot be made here
 };
 
 struct MeshRow {

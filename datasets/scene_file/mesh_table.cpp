@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/load_mesh.hpp"
+#include "core/mesh/clean_mesh.hpp"
 #include "core/nearest_name.hpp"
-#include "datasets/mesh/sha256.hpp"
 #include "datasets/shapes/box_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
 
@@ -28,13 +27,9 @@ std::optional<Mesh> taken(TableReader& table, std::string_view key, Result<Mesh>
 }
 
 Result<Mesh> from_file(const std::filesystem::path& path) {
-  Result<core::LoadedMesh> loaded = core::load_mesh(path);
+  Result<core::LoadedMesh> loaded = mesh_from_file(path);
   if (!loaded) return loaded.error();
-  const Result<std::string> sum = sha256_of_file(path);
-  if (!sum) return sum.error();
-  Mesh mesh = std::move(loaded).value().mesh;
-  mesh.source += " sha256 " + sum.value();
-  return mesh;
+  return std::move(loaded).value().mesh;
 }
 
 std::optional<Mesh> from_shape(TableReader& table, const std::string& shape) {

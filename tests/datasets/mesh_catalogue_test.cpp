@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/mesh/load_mesh.hpp"
+#include "core/mesh/topology.hpp"
 #include "datasets/mesh/acquire_mesh.hpp"
 #include "datasets/mesh/sha256.hpp"
 #include "tests/datasets/mesh_topology.hpp"
@@ -61,7 +62,12 @@ TEST(MeshCatalogue, EveryRowIsWhole) {
     EXPECT_FALSE(row.credit.empty());
     EXPECT_GT(row.triangles, 0U);
     EXPECT_EQ(row.is_procedural, row.files.empty());
-    for (const auto& file : row.files) EXPECT_TRUE(file.sha256.empty() || file.sha256.size() == 64U) << file.file;
+    for (const auto& file : row.files) {
+      EXPECT_TRUE(file.sha256.empty() || file.sha256.size() == 64U) << file.file;
+      // Without a published sum it must be made here.
+      EXPECT_TRUE(!file.sha256.empty() || file.source != nullptr) << file.file;
+      EXPECT_TRUE(file.sha256.empty() || file.covering_radius > 0.0) << file.file;
+    }
   }
 }
 
@@ -157,6 +163,12 @@ TEST(AcquireMesh, PublishedFilesLoadBitExactlyInFileOrder) {
       EXPECT_EQ(std::memcmp(mesh.vertices.data(), expected.vertices.data(), mesh.vertices.size() * sizeof(core::Vec3)),
                 0);
       EXPECT_EQ(mesh.triangles, expected.triangles);
+      const core::Topology topology = core::topology(mesh);
+      EXPECT_TRUE(topology.is_manifold());
+      EXPECT_EQ(topology.boundary_edges, file.boundary_edges);
+      EXPECT_EQ(topology.euler_characteristic, file.euler_characteristic);
+      // Written down from another program; both work in double.
+      EXPECT_NEAR(core::covering_radius_m(mesh) / file.covering_radius, 1.0, 1e-9);
       ++read;
     }
   }
