@@ -10,7 +10,9 @@
 #include <cmath>
 #include <exception>
 #include <fstream>
+#include <map>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,6 +20,7 @@
 #include <vector>
 
 #include "core/mesh/check_ply.hpp"
+#include "core/mesh/placement.hpp"
 #include "core/nearest_name.hpp"
 
 namespace broadside::core {
@@ -78,19 +81,20 @@ Status check_vertices(const std::filesystem::path& path, const aiScene& scene) {
   return Done{};
 }
 
+void append(const aiMesh& part, Mesh& mesh) {
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (unsigned v = 0; v < part.mNumVertices; ++v)
+    mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices != 3) continue;  // points and lines
+    mesh.triangles.push_back({base + face.mIndices[0], base + face.mIndices[1], base + face.mIndices[2]});
+  }
+}
+
 Mesh gathered(const aiScene& scene) {
   Mesh mesh;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& part = *scene.mMeshes[m];
-    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (unsigned v = 0; v < part.mNumVertices; ++v)
-      mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      mesh.triangles.push_back({base + face.mIndices[0], base + face.mIndices[1], base + face.mIndices[2]});
-    }
-  }
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) append(*scene.mMeshes[m], mesh);
   return mesh;
 }
 
@@ -128,13 +132,67 @@ Status check_faces(const std::filesystem::path& path, const aiScene& scene) {
   return Done{};
 }
 
+Matrix product(const Matrix& p, const aiMatrix4x4& q) {
+  Matrix m;
+  for (unsigned r = 0; r < 3; ++r)
+    for (unsigned c = 0; c < 4; ++c)
+      m[r][c] = p[r][0] * q[0][c] + p[r][1] * q[1][c] + p[r][2] * q[2][c] + (c == 3 ? p[r][3] : 0.0);
+  return m;
+}
+
+class NodeGatherer {
+ public:
+  NodeGatherer(const std::filesystem::path& path, const aiScene& scene) : path_(path), scene_(scene) {}
+
+  Status walk(const aiNode& node, const Matrix& parent) {
+    const Matrix here = product(parent, node.mTransformation);
+    if (node.mNumMeshes > 0)
+      if (Status s = add(node, here); !s) return s;
+    for (unsigned k = 0; k < node.mNumChildren; ++k)
+      if (Status s = walk(*node.mChildren[k], here); !s) return s;
+    return Done{};
+  }
+  LoadedNodes nodes() && { return std::move(loaded_); }
+
+ private:
+  static constexpr std::uint32_t kNoMesh = 0xFFFFFFFFU;  // points and lines show no triangle
+  using Key = std::pair<std::vector<unsigned>, Matrix>;
+
+  Status add(const aiNode& node, const Matrix& here) {
+    const std::string name = one_line(node.mName.C_Str());
+    const std::optional<Placement> place = taken_apart(here);
+    if (!place || !std::isfinite(length(place->position)))
+      return bad(path_, "node '" + name + "' has a transform that is not finite or flattens it", "repair the file");
+    const Key key{{node.mMeshes, node.mMeshes + node.mNumMeshes}, place->rest};
+    const auto [entry, is_new] = known_.try_emplace(key, 0U);
+    if (is_new) {
+      Mesh mesh;
+      for (const unsigned m : key.first) append(*scene_.mMeshes[m], mesh);
+      transform(mesh, place->rest);
+      clean_mesh(mesh);
+      mesh.name = one_line(scene_.mMeshes[key.first.front()]->mName.C_Str());
+      entry->second = mesh.triangles.empty() ? kNoMesh : static_cast<std::uint32_t>(loaded_.meshes.size());
+      if (!mesh.triangles.empty()) loaded_.meshes.push_back(std::move(mesh));
+    }
+    if (entry->second != kNoMesh) loaded_.nodes.push_back({name, entry->second, place->position, place->orientation});
+    return Done{};
+  }
+
+  const std::filesystem::path& path_;
+  const aiScene& scene_;
+  LoadedNodes loaded_;
+  std::map<Key, std::uint32_t> known_;
+};
+
 struct Imported {
   Mesh mesh;
   std::uint64_t unreferenced_vertices = 0;  // that are no longer in the mesh
 };
 
-Result<Imported> imported(const std::filesystem::path& path) {
-  Assimp::Importer importer;
+constexpr unsigned kCleaning = aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
+
+// The file as it is, checked for what post-processing would trip over.
+Result<const aiScene*> read_checked(Assimp::Importer& importer, const std::filesystem::path& path) {
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
                                                           aiComponent_COLORS | aiComponent_TEXCOORDS |
                                                           aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
@@ -145,9 +203,15 @@ Result<Imported> imported(const std::filesystem::path& path) {
     return bad(path, "not a readable mesh: " + one_line(importer.GetErrorString()), "check that the file is whole");
   if (Status s = check_vertices(path, *scene); !s) return s.error();
   if (Status s = check_faces(path, *scene); !s) return s.error();
-  const std::uint64_t unreferenced = unreferenced_count(*scene);
-  scene = importer.ApplyPostProcessing(aiProcess_RemoveComponent | aiProcess_PreTransformVertices |
-                                       aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+  return scene;
+}
+
+Result<Imported> imported(const std::filesystem::path& path) {
+  Assimp::Importer importer;
+  const Result<const aiScene*> read = read_checked(importer, path);
+  if (!read) return read.error();
+  const std::uint64_t unreferenced = unreferenced_count(*read.value());
+  const aiScene* scene = importer.ApplyPostProcessing(kCleaning | aiProcess_PreTransformVertices);
   if (scene == nullptr)
     return bad(path, "cannot be prepared: " + one_line(importer.GetErrorString()), "repair the mesh file");
   // Again: a node's transform may overflow.
@@ -155,22 +219,39 @@ Result<Imported> imported(const std::filesystem::path& path) {
   return Imported{gathered(*scene), unreferenced - std::min(unreferenced, unreferenced_count(*scene))};
 }
 
-}  // namespace
+Result<LoadedNodes> imported_nodes(const std::filesystem::path& path) {
+  Assimp::Importer importer;
+  const Result<const aiScene*> read = read_checked(importer, path);
+  if (!read) return read.error();
+  const aiScene* scene = importer.ApplyPostProcessing(kCleaning);
+  if (scene == nullptr)
+    return bad(path, "cannot be prepared: " + one_line(importer.GetErrorString()), "repair the mesh file");
+  NodeGatherer gatherer(path, *scene);
+  if (Status s = gatherer.walk(*scene->mRootNode, kIdentity); !s) return s.error();
+  return std::move(gatherer).nodes();
+}
 
-Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
-  if (Status s = check_file(path); !s) return s.error();
-  LoadedMesh loaded;
-  std::uint64_t unreferenced = 0;
+// What assimp throws, as a result.
+template <typename Read>
+auto guarded(const std::filesystem::path& path, const Read& read) -> decltype(read(path)) {
   try {
-    Result<Imported> read = imported(path);
-    if (!read) return read.error();
-    unreferenced = read.value().unreferenced_vertices;
-    loaded.mesh = std::move(read).value().mesh;
+    return read(path);
   } catch (const std::bad_alloc&) {
     return bad(path, "the mesh does not fit in memory", "check that the file is whole, or decimate it");
   } catch (const std::exception& e) {
     return bad(path, "not a readable mesh: " + one_line(e.what()), "check that the file is whole");
   }
+}
+
+}  // namespace
+
+Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
+  if (Status s = check_file(path); !s) return s.error();
+  Result<Imported> read = guarded(path, imported);
+  if (!read) return read.error();
+  const std::uint64_t unreferenced = read.value().unreferenced_vertices;
+  LoadedMesh loaded;
+  loaded.mesh = std::move(read).value().mesh;
   if (loaded.mesh.triangles.empty())
     return bad(path, "the mesh has no triangles", "give a mesh with at least one triangle");
   const std::size_t given = loaded.mesh.triangles.size();
@@ -180,6 +261,16 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
     return bad(path, "all " + std::to_string(given) + " triangles are degenerate (no area)", "repair the mesh file");
   loaded.mesh.name = path.stem().string();
   loaded.mesh.source = path.filename().string();
+  return loaded;
+}
+
+Result<LoadedNodes> load_nodes(const std::filesystem::path& path) {
+  if (Status s = check_file(path); !s) return s.error();
+  Result<LoadedNodes> loaded = guarded(path, imported_nodes);
+  if (!loaded) return loaded;
+  if (loaded.value().nodes.empty())
+    return bad(path, "no node shows a triangle with area", "give a file with at least one");
+  for (Mesh& mesh : loaded.value().meshes) mesh.source = path.filename().string();
   return loaded;
 }
 

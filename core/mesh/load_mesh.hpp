@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "core/math/quat.hpp"
 #include "core/mesh/clean_mesh.hpp"
 #include "core/result.hpp"
 #include "core/scene/mesh.hpp"
@@ -25,5 +28,24 @@ struct LoadedMesh {
 // Errors, each one line: missing, not a file, unreadable, too large, unknown format, broken, no vertices, no triangles,
 // a vertex that is NaN or infinite, no triangle with area.
 Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
+
+// A node of a file that has triangles: a mesh, and where it is in the world.
+struct LoadedNode {
+  std::string name;
+  std::uint32_t mesh = 0;  // index into LoadedNodes::meshes
+  Vec3 position;
+  Quat orientation;
+};
+
+struct LoadedNodes {
+  std::vector<Mesh> meshes;  // nodes that show the same triangles at the same scale share one
+  std::vector<LoadedNode> nodes;
+};
+
+// The file's nodes one by one, as load_mesh reads their triangles. A node's world transform is taken apart into a
+// position, a rotation, and what is left (scale, shear, mirroring), which goes into the mesh's vertices, rounded to 20
+// bits: the product of float matrices is no more exact, and instances that differ only in place stay one mesh.
+// Errors: those of load_mesh.
+Result<LoadedNodes> load_nodes(const std::filesystem::path& path);
 
 }  // namespace broadside::core
