@@ -1,47 +1,15 @@
 #include "datasets/generators/small_scenes.hpp"
 
 #include <array>
-#include <memory>
-#include <utility>
 
-#include "datasets/shapes/box_mesh.hpp"
+#include "datasets/generators/small_scene_parts.hpp"
+#include "datasets/generators/two_body_scenes.hpp"
 
 namespace broadside::datasets {
 namespace {
 
 using core::Scene;
 using core::Vec3;
-
-// Cuts of 1/8 m: the mean edge, and so theta, is about 0.14 m, while on a cube's face no point is farther than 0.09 m
-// from a vertex. So faces that touch are seen by vertex proximity wherever they touch (compare E13).
-constexpr double kCut_m = 0.125;
-
-std::shared_ptr<const core::Mesh> box(std::array<double, 3> sides_m) {
-  std::array<int, 3> segments;
-  for (int k = 0; k < 3; ++k) segments[k] = static_cast<int>(sides_m[k] / kCut_m);
-  // The sides are literals in this file; a wrong one ends the program in value().
-  return std::make_shared<const core::Mesh>(std::move(box_mesh(sides_m, segments)).value());
-}
-
-// A domain of 8 m around the origin, so the cells of a two-level octree are 2 m wide; 1 m cubes; no gravity.
-Scene around_origin(std::uint32_t frames) {
-  Scene scene;
-  scene.meshes.push_back(box({1.0, 1.0, 1.0}));
-  scene.domain = {{-4.0F, -4.0F, -4.0F}, {4.0F, 4.0F, 4.0F}};
-  scene.frames = frames;
-  return scene;
-}
-
-void add(Scene& scene, Vec3 position, Vec3 velocity, float inverse_mass = 1.0F, std::uint32_t mesh = 0) {
-  core::Body body;
-  body.mesh = mesh;
-  body.position = position;
-  body.velocity = velocity;
-  body.inverse_mass = inverse_mass;
-  scene.bodies.push_back(body);
-}
-
-constexpr float kStatic = 0.0F;
 
 void hang(Scene& scene, std::uint32_t body, Vec3 anchor, float stiffness_n_m, float damping_n_s_m) {
   scene.springs.push_back({body, anchor, stiffness_n_m, damping_n_s_m});
@@ -109,12 +77,8 @@ Scene errata_e5() {
 }
 
 Scene errata_e6() {
-  Scene scene;
-  scene.meshes.push_back(box({1.0, 1.0, 1.0}));
-  scene.meshes.push_back(box({4.0, 0.5, 1.0}));
-  scene.domain = {{-12.0F, 0.0F, -4.0F}, {12.0F, 8.0F, 4.0F}};
-  scene.gravity_m_s2 = kGravity;
-  scene.frames = 120;
+  Scene scene = over_floor(120);
+  scene.meshes.push_back(cut_box({4.0, 0.5, 1.0}));
   // On the floor at 5 m/s: gravity gives J_n = 0.16 N s a step, so sticking would need a friction of 31.
   add(scene, {-8.0F, 0.5F, -2.0F}, {5.0F, 0.0F, 0.0F});
   // Over a static slab at 3 m/s.
@@ -151,43 +115,7 @@ Scene hanging() {
   return scene;
 }
 
-Scene head_on() {
-  Scene scene = around_origin(120);
-  add(scene, {-1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F});
-  add(scene, {1.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F});
-  return scene;
-}
-
-Scene unequal() {
-  Scene scene = around_origin(120);
-  add(scene, {-1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, 0.25F);
-  add(scene, {1.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F});
-  return scene;
-}
-
-Scene glancing() {
-  Scene scene = around_origin(120);
-  add(scene, {-1.0F, 0.0F, 0.0F}, {1.0F, 0.5F, 0.0F});
-  add(scene, {1.0F, 0.25F, 0.125F}, {-1.0F, 0.0F, 0.0F});
-  return scene;
-}
-
-Scene resting() {
-  Scene scene = around_origin(120);
-  scene.gravity_m_s2 = kGravity;
-  add(scene, {0.0F, -3.5F, 0.0F}, {}, kStatic);
-  add(scene, {0.0F, -2.5F, 0.0F}, {});
-  return scene;
-}
-
-Scene apart() {
-  Scene scene = around_origin(60);
-  add(scene, {-2.0F, 0.0F, 0.0F}, {});
-  add(scene, {2.0F, 0.0F, 0.0F}, {});
-  return scene;
-}
-
-constexpr std::array<SmallSceneRow, 14> kSmallScenes{{
+constexpr std::array<SmallSceneRow, 18> kSmallScenes{{
     {"errata:E1", "a spring too stiff for its damping; printed-E1 takes the step, the sound form refuses it",
      errata_e1},
     {"errata:E2", "bodies in different octree cells collide; printed-E2 loses those pairs", errata_e2},
@@ -200,8 +128,12 @@ constexpr std::array<SmallSceneRow, 14> kSmallScenes{{
     {"springs:hanging", "three cubes on springs, each far below its step limit", hanging},
     {"two-body:head-on", "equal cubes meet at 2 m/s", head_on},
     {"two-body:unequal", "4 kg and 1 kg meet at 2 m/s", unequal},
-    {"two-body:glancing", "equal cubes meet off center while one slides past", glancing},
+    {"two-body:glancing", "equal cubes meet off center, and friction stops their sliding", glancing},
+    {"two-body:oblique", "equal cubes meet at a slant, too fast for friction to stop their sliding", oblique},
+    {"two-body:slide", "a cube slides over the floor until friction stops it", slide},
+    {"two-body:rest", "a cube rests on the floor", rest},
     {"two-body:resting", "a cube rests on a static one under gravity", resting},
+    {"two-body:stack", "1000 kg on 1 kg on the floor: sinks, a limit of solving contacts once a step", stack},
     {"two-body:apart", "two cubes that never touch", apart},
 }};
 

@@ -64,6 +64,15 @@ Cells cells_for(double width, const Triple& sides, std::uint64_t count) {
 
 }  // namespace
 
+void place(core::Scene& scene, const Start& start) {
+  scene.domain = start.domain;
+  scene.bodies.resize(start.positions.size());
+  for (std::size_t n = 0; n < scene.bodies.size(); ++n) {
+    scene.bodies[n].position = start.positions[n];
+    scene.bodies[n].velocity = start.velocities[n];
+  }
+}
+
 Start stacked_grid(const Box& body, std::uint32_t count, const StackedGrid& grid, std::uint64_t seed) {
   const Triple sides = sides_of(body);
   const Triple middle = middle_of(body);

@@ -6,6 +6,7 @@
 
 #include "core/math/box.hpp"
 #include "core/math/vec3.hpp"
+#include "core/scene/scene.hpp"
 
 namespace broadside::datasets {
 
@@ -14,6 +15,9 @@ struct Start {
   std::vector<core::Vec3> velocities;  // m/s
   core::Box domain;
 };
+
+// One body of mesh 0 at each position, and the domain.
+void place(core::Scene& scene, const Start& start);
 
 struct StackedGrid {
   double gap = 0.1;            // between cells, as a share of the body box's longest side

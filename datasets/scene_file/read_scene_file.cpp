@@ -1,4 +1,4 @@
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/nearest_name.hpp"
+#include "datasets/generators/scene_families.hpp"
 #include "datasets/generators/start_grid.hpp"
 #include "datasets/scene_file/document.hpp"
+#include "datasets/scene_file/import_scene.hpp"
 #include "datasets/scene_file/mesh_table.hpp"
 #include "datasets/scene_file/scene_file.hpp"
 #include "datasets/scene_file/table_reader.hpp"
@@ -23,7 +25,11 @@ using core::Material;
 using core::Result;
 using core::Scene;
 
-constexpr std::array<std::string_view, 2> kGenerators{"stacked-grid", "filled-cube"};
+std::vector<std::string_view> generator_names() {
+  std::vector<std::string_view> names{"stacked-grid", "filled-cube"};
+  for (const SceneFamily& family : scene_families()) names.push_back(family.name);
+  return names;
+}
 
 class SceneFileReader {
  public:
@@ -34,6 +40,8 @@ class SceneFileReader {
     TableReader top(root, "the scene", errors_);
     read_scalars(top);
     read_domain(top);
+    has_gravity_ = top.has("gravity_m_s2");
+    has_face_material_ = top.has("face_material");
     if (const Node* node = top.table("parameters")) read_parameters(*node);
     if (const Node* node = top.table("face_material")) read_material(*node, scene_.face_material);
     if (const Node* node = top.table("material")) read_material(*node, material_);
@@ -41,6 +49,7 @@ class SceneFileReader {
     lines_["faces"] = top.line_of("face_material");
     for (const Node* node : top.tables("mesh")) read_mesh(*node);
     if (const Node* node = top.table("generator")) read_generator(*node);
+    if (const Node* node = top.table("import")) read_import(*node);
     for (const Node* node : top.tables("body")) read_body(*node);
     for (const Node* node : top.tables("spring")) read_spring(*node);
     top.finish();
@@ -100,7 +109,7 @@ class SceneFileReader {
     table.number("impulse_min_n_s", p.impulse_min_n_s);
     table.number("v_max_m_s", p.v_max_m_s);
     table.number("epsilon_m", p.epsilon_m);
-    table.number("theta_m", p.theta_m);
+    has_theta_ = table.number("theta_m", p.theta_m);
     table.number("hash_cell_m", p.hash_cell_m);
     table.finish();
   }
@@ -211,6 +220,8 @@ class SceneFileReader {
     if (!table.text("kind", kind)) errors_.add(node.line, "the generator has no kind", "give kind = \"stacked-grid\"");
     if (!table.whole("count", 0U, kMaxBodies, count) && !errors_.first)
       errors_.add(node.line, "the generator has no count", "give count = 50");
+    if (errors_.first) return;
+    if (const SceneFamily* family = find_family(kind)) return read_family(table, *family, count);
     const Body body = body_of(table);
     StackedGrid grid;
     FilledCube cube;
@@ -230,7 +241,7 @@ class SceneFileReader {
       if (!(cube.fill <= 0.5)) table.fail("fill", "fill is above 0.5", "give a share of the volume up to 0.5");
       if (!(cube.top_speed_m_s >= 0.0)) table.fail("top_speed_m_s", "top_speed_m_s is negative", "give 0 or more");
     } else if (!errors_.first) {
-      table.fail("kind", "no such generator '" + kind + "'", core::advise_name(kind, kGenerators));
+      table.fail("kind", "no such generator '" + kind + "'", core::advise_name(kind, generator_names()));
     }
     table.finish();
     if (errors_.first) return;
@@ -238,6 +249,55 @@ class SceneFileReader {
     place(kind == "stacked-grid" ? stacked_grid(box, count, grid, scene_.seed)
                                  : filled_cube(box, count, cube, scene_.seed),
           body);
+  }
+
+  void read_import(const Node& node) {
+    if (errors_.first) return;
+    TableReader table(node, "the import", errors_);
+    std::string file;
+    if (!table.text("file", file)) errors_.add(node.line, "the import has no file", "give file = \"scene.gltf\"");
+    table.finish();
+    if (errors_.first) return;
+    const Result<Scene> made = import_scene(path_.parent_path() / file);
+    if (!made) return errors_.add(node.line, made.error().where + ": " + made.error().what, made.error().advice);
+    adopt(made.value());
+  }
+
+  void read_family(TableReader& table, const SceneFamily& family, std::uint32_t count) {
+    const std::uint32_t model = mesh_of(table);
+    std::vector<double> knobs;
+    for (const SceneKnob& knob : family.knobs) {
+      double value = knob.usual;
+      table.number(knob.key, value);
+      if (!(value >= knob.low && value <= knob.high))
+        table.fail(knob.key, std::string(knob.key) + " is out of range", std::string(knob.what));
+      knobs.push_back(value);
+    }
+    table.finish();
+    if (errors_.first) return;
+    const Scene made = family.make({scene_.meshes[model], count, scene_.seed, knobs});
+    // A scene of this generator alone has its meshes and no other: mixed-sizes has no body of the model's own size.
+    if (scene_.meshes.size() == 1) scene_.meshes.clear();
+    adopt(made);
+  }
+
+  // Takes over bodies and their meshes, and what this file does not say itself.
+  void adopt(const Scene& made) {
+    std::vector<std::uint32_t> index;
+    for (const auto& mesh : made.meshes) {
+      const auto known = std::find(scene_.meshes.begin(), scene_.meshes.end(), mesh);
+      index.push_back(static_cast<std::uint32_t>(known - scene_.meshes.begin()));
+      if (known == scene_.meshes.end()) scene_.meshes.push_back(mesh);
+    }
+    for (Body body : made.bodies) {
+      body.mesh = index[body.mesh];
+      scene_.bodies.push_back(body);
+    }
+    if (!has_domain_) scene_.domain = made.domain;
+    has_domain_ = true;
+    if (!has_gravity_) scene_.gravity_m_s2 = made.gravity_m_s2;
+    if (!has_face_material_) scene_.face_material = made.face_material;
+    if (!has_theta_) scene_.parameters.theta_m = made.parameters.theta_m;
   }
 
   void place(const Start& start, const Body& prototype) {
@@ -269,6 +329,9 @@ class SceneFileReader {
   Scene scene_;
   Material material_;
   bool has_domain_ = false;
+  bool has_gravity_ = false;
+  bool has_face_material_ = false;
+  bool has_theta_ = false;
   std::map<std::string, std::uint32_t> lines_;
 };
 

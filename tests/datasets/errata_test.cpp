@@ -7,11 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/engine/settings.hpp"
-#include "core/trace/trace_header.hpp"
 #include "datasets/scenes.hpp"
-#include "reference/octree_cpu/engine.hpp"
-#include "validation/judge.hpp"
+#include "tests/datasets/twin_run.hpp"
 
 namespace broadside {
 namespace {
@@ -25,45 +22,15 @@ void PrintTo(const Erratum& e, std::ostream* out) {
   *out << e.id;
 }
 
-std::vector<core::Verdict> verdicts_of(const core::Scene& scene, const std::string& variant) {
-  const core::EngineRow row = reference::octree_cpu_row();
-  const auto settings = core::Settings::parse(row.id, row.settings, {{"variant", variant}});
-  EXPECT_TRUE(settings.ok()) << settings.error().line();
-  auto engine = row.create(settings.value());
-  EXPECT_TRUE(engine.ok()) << engine.error().line();
-  core::Dynamics& dynamics = *engine.value().dynamics;
-  EXPECT_TRUE(dynamics.load(scene).ok());
-
-  std::vector<core::FrameRecord> frames(scene.frames);
-  std::vector<std::uint64_t> steps;
-  for (core::FrameRecord& frame : frames) {
-    EXPECT_TRUE(dynamics.step(scene.dt_s).ok());
-    EXPECT_TRUE(dynamics.read_back(frame, core::RecordLevel::kFull).ok());
-    steps.push_back(frame.step);
-  }
-  core::TraceHeader header;
-  header.scene = scene;
-  header.groups = dynamics.groups();
-  header.stamp.scene_name = scene.name;
-  header.stamp.scene_digest = core::scene_digest(scene);
-  header.stamp.engine = std::string(row.id);
-  header.stamp.settings = settings.value().canonical();
-  header.stamp.settings_short = settings.value().short_form();
-  const validation::FrameSource source{header, steps, [&](std::uint64_t index, std::uint32_t) {
-                                         return core::Result<core::FrameRecord>(frames[index]);
-                                       }};
-  auto verdicts = validation::judge(source, nullptr, {});
-  EXPECT_TRUE(verdicts.ok()) << verdicts.error().line();
-  return verdicts.ok() ? std::move(verdicts).value() : std::vector<core::Verdict>{};
-}
-
 TEST(Springs, E1PrintedDivergesAndTheSoundFormRefusesTheStep) {
   const auto scene = datasets::make_scene("errata:E1");
   ASSERT_TRUE(scene.ok()) << scene.error().line();
   std::set<std::string> blamed;
-  for (const core::Verdict& v : verdicts_of(scene.value(), "printed-E1")) {
+  for (const core::Verdict& v : tests::verdicts_of(scene.value(), "printed-E1")) {
     if (v.outcome == core::Outcome::kFail) blamed.insert(v.validator);
-    if (v.validator == "stability") EXPECT_NE(v.explanation.find("body 0"), std::string::npos) << v.explanation;
+    if (v.validator == "stability") {
+      EXPECT_NE(v.explanation.find("body 0"), std::string::npos) << v.explanation;
+    }
   }
   EXPECT_EQ(blamed, std::set<std::string>{"stability"});
 
@@ -81,9 +48,11 @@ TEST(Springs, BelowTheLimitArePassedByEveryLaw) {
   ASSERT_TRUE(scene.ok()) << scene.error().line();
   for (const float stiffer : {1.0F, 30.0F}) {
     for (core::Spring& s : scene.value().springs) s.stiffness_n_m *= stiffer;
-    for (const core::Verdict& v : verdicts_of(scene.value(), "sound")) {
+    for (const core::Verdict& v : tests::verdicts_of(scene.value(), "sound")) {
       EXPECT_NE(v.outcome, core::Outcome::kFail) << v.validator << ": " << v.explanation;
-      if (v.validator == "stability") EXPECT_EQ(v.outcome, core::Outcome::kPass) << v.explanation;
+      if (v.validator == "stability") {
+        EXPECT_EQ(v.outcome, core::Outcome::kPass) << v.explanation;
+      }
     }
   }
 }
@@ -97,7 +66,7 @@ TEST_P(Errata, ThePrintedFormFailsItsLawAloneAndTheSoundFormNone) {
     const std::string variant = is_printed ? std::string("printed-") + GetParam().id : "sound";
     SCOPED_TRACE(variant);
     std::set<std::string> blamed;
-    for (const core::Verdict& v : verdicts_of(scene.value(), variant)) {
+    for (const core::Verdict& v : tests::verdicts_of(scene.value(), variant)) {
       if (v.outcome == core::Outcome::kFail) blamed.insert(v.validator);
       EXPECT_NE(v.outcome, core::Outcome::kInconclusive) << v.validator << ": " << v.explanation;
       if (v.validator != GetParam().law) continue;

@@ -1,0 +1,18 @@
+// One or two cubes of 1 m, whose motion has a closed form; tests/datasets/two_body_test.cpp derives it.
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+namespace broadside::datasets {
+
+core::Scene head_on();
+core::Scene unequal();
+core::Scene glancing();
+core::Scene oblique();
+core::Scene slide();
+core::Scene rest();
+core::Scene resting();
+core::Scene stack();
+core::Scene apart();
+
+}  // namespace broadside::datasets
