@@ -34,10 +34,23 @@ Rows engine_rows() {
   return rows;
 }
 
+Rows knob_rows(std::span<const datasets::SceneKnob> knobs) {
+  Rows rows = Rows::array();
+  for (const datasets::SceneKnob& k : knobs)
+    rows.push_back({{"key", k.key},
+                    {"default", fmt::format("{}", k.usual)},
+                    {"allowed", {fmt::format("{} to {}", k.low, k.high)}},
+                    {"what", k.what}});
+  return rows;
+}
+
 Rows scene_rows() {
   Rows rows = Rows::array();
   for (const datasets::SceneRow& scene : datasets::scene_table())
-    rows.push_back({{"name", scene.pattern}, {"what", scene.what}, {"example", scene.example}});
+    rows.push_back({{"name", scene.pattern},
+                    {"what", scene.what},
+                    {"example", scene.example},
+                    {"options", knob_rows(scene.knobs)}});
   for (const datasets::BoxStreamRow& stream : datasets::box_stream_table())
     rows.push_back({{"name", stream.pattern}, {"what", stream.what}, {"example", stream.example}});
   return rows;
@@ -50,6 +63,30 @@ Rows validator_rows() {
   return rows;
 }
 
+Rows file_rows(const datasets::MeshRow& mesh) {
+  Rows files = Rows::array();
+  for (const datasets::MeshFile& file : mesh.files) {
+    Rows row{{"file", file.file},
+             {"what", file.what},
+             {"sha256", file.sha256.empty() ? "of its own, beside it" : std::string(file.sha256)},
+             {"vertices", file.vertices},
+             {"triangles", file.triangles},
+             {"boundary_edges", file.boundary_edges},
+             {"stand_in", file.is_stand_in}};
+    if (file.covering_radius > 0.0) {
+      row["euler_characteristic"] = file.euler_characteristic;
+      row["covering_radius"] = file.covering_radius;
+    }
+    if (const datasets::MeshSource* source = file.source)
+      row["source"] = {
+          {"package", fmt::format("{} {} {}", source->is_npm ? "npm" : "apt", source->package, source->version)},
+          {"path", std::string(source->member) + (source->inner.empty() ? "" : " -> ") + std::string(source->inner)},
+          {"sha256", source->sha256}};
+    files.push_back(row);
+  }
+  return files;
+}
+
 Rows mesh_rows() {
   Rows rows = Rows::array();
   for (const datasets::MeshRow& mesh : datasets::mesh_catalogue())
@@ -57,7 +94,8 @@ Rows mesh_rows() {
                     {"what", mesh.what},
                     {"vertices", mesh.vertices},
                     {"triangles", mesh.triangles},
-                    {"credit", mesh.credit}});
+                    {"credit", mesh.credit},
+                    {"files", file_rows(mesh)}});
   return rows;
 }
 
@@ -84,6 +122,11 @@ void print_rows(const Rows& rows) {
         continue;
       }
       for (const auto& item : value) {
+        if (!item.contains("key")) {
+          fmt::print("  {:<{}}    {}: {}\n", "", width, item["file"].get<std::string>(),
+                     item["what"].get<std::string>());
+          continue;
+        }
         std::string allowed;
         for (const auto& a : item["allowed"]) allowed += (allowed.empty() ? "" : "|") + a.get<std::string>();
         fmt::print("  {:<{}}    {}={} (default {}): {}\n", "", width, item["key"].get<std::string>(),

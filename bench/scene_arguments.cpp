@@ -39,9 +39,10 @@ core::Status spread(const std::string& text, std::vector<CellSpec>& cells) {
 
 void SceneArguments::add_to(CLI::App& command) {
   command
-      .add_option("SCENE", spec,
-                  "A scene's name, such as freefall:bunny:50, a .toml file, or a trace (.h5), whose scene is taken "
-                  "(broadside list scenes)")
+      .add_option(
+          "SCENE", spec,
+          "A scene's name, such as freefall:bunny:50 or tower:cube:20[offset=0.2,seed=7], a .toml, .gltf or .glb "
+          "file, or a trace (.h5), whose scene is taken (broadside list scenes)")
       ->required();
   command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")->check(CLI::PositiveNumber);
   command.add_flag("--stand-in", allow_stand_in,

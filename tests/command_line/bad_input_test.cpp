@@ -27,21 +27,27 @@ TEST_P(BadArguments, GetOneClearLineAndExitCode2) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadArguments,
-    testing::Values(BadCase{"NoSubcommand", {}, "subcommand"}, BadCase{"UnknownSubcommand", {"rnu"}, "rnu"},
-                    BadCase{"UnknownScene", {"run", "frefall:bunny:50", "--engine", "octree-cpu"}, "freefall"},
-                    BadCase{"MissingSceneFile", {"run", "no-such.toml", "--engine", "octree-cpu"}, "no-such.toml"},
-                    BadCase{"UnknownEngine", {"run", "errata:E3", "--engine", "octree-cup"}, "octree-cpu"},
-                    BadCase{
-                        "UnknownSetting", {"run", "errata:E3", "--engine", "octree-cpu", "--set", "level=A"}, "levels"},
-                    BadCase{"UnknownValue", {"run", "errata:E3", "--engine", "octree-cpu[levels=D]"}, "levels"},
-                    BadCase{"UnknownVariant",
-                            {"run", "errata:E3", "--engine", "octree-cpu", "--set", "variant=printed-E33"},
-                            "printed-E3"},
-                    BadCase{"UnknownMesh", {"run", "freefall:bunnny:50", "--engine", "octree-cpu"}, "bunny"},
-                    BadCase{"ZeroFrames", {"run", "errata:E3", "--engine", "octree-cpu", "--frames", "0"}, "frames"},
-                    BadCase{"NoSuchTrace", {"check", "no-such.h5"}, "no-such.h5"},
-                    BadCase{"NoSuchFolder", {"report", "no-such-folder", "--html", "x.html"}, "no-such-folder"},
-                    BadCase{"NoSuchPart", {"recover", "no-such.h5.part"}, "no-such.h5.part"}),
+    testing::Values(
+        BadCase{"NoSubcommand", {}, "subcommand"}, BadCase{"UnknownSubcommand", {"rnu"}, "rnu"},
+        BadCase{"UnknownScene", {"run", "frefall:bunny:50", "--engine", "octree-cpu"}, "freefall"},
+        BadCase{"MissingSceneFile", {"run", "no-such.toml", "--engine", "octree-cpu"}, "no-such.toml"},
+        BadCase{"UnknownEngine", {"run", "errata:E3", "--engine", "octree-cup"}, "octree-cpu"},
+        BadCase{"UnknownSetting", {"run", "errata:E3", "--engine", "octree-cpu", "--set", "level=A"}, "levels"},
+        BadCase{"UnknownValue", {"run", "errata:E3", "--engine", "octree-cpu[levels=D]"}, "levels"},
+        BadCase{"UnknownVariant",
+                {"run", "errata:E3", "--engine", "octree-cpu", "--set", "variant=printed-E33"},
+                "printed-E3"},
+        BadCase{"UnknownMesh", {"run", "freefall:bunnny:50", "--engine", "octree-cpu"}, "bunny"},
+        BadCase{"UnknownSceneOption", {"scene", "tower:cube:5[ofset=0.1]"}, "did you mean 'offset'"},
+        BadCase{"BoxesAreNoScene", {"run", "boxes:uniform:10", "--engine", "octree-cpu"}, "broadside pairs"},
+        BadCase{"PictureIsNoSvg", {"scene", "errata:E2", "--picture", "x.png"}, ".svg"},
+        BadCase{"NoSuchMeshFile", {"mesh", "no-such.ply"}, "no-such.ply"},
+        BadCase{"UnknownMeshName", {"mesh", "buny"}, "did you mean 'bunny'"},
+        BadCase{"ExportOfNoScene", {"export", "towr:cube:5"}, "tower"},
+        BadCase{"ZeroFrames", {"run", "errata:E3", "--engine", "octree-cpu", "--frames", "0"}, "frames"},
+        BadCase{"NoSuchTrace", {"check", "no-such.h5"}, "no-such.h5"},
+        BadCase{"NoSuchFolder", {"report", "no-such-folder", "--html", "x.html"}, "no-such-folder"},
+        BadCase{"NoSuchPart", {"recover", "no-such.h5.part"}, "no-such.h5.part"}),
     [](const auto& instance) { return instance.param.name; });
 
 struct BadScene {
