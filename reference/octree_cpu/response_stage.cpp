@@ -155,16 +155,18 @@ void ResponseStage::resolve_racing(Bodies& bodies, const ResponseRules& rules, s
 void ResponseStage::resolve_faces(Bodies& bodies, const ResponseRules& rules) {
   const core::Variant variant = core::face_variant(rules.variant);
   face_contacts_.resize(bodies.count());
+  touched_faces_.resize(bodies.count());
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies.count(), 256), [&](const auto& range) {
     for (std::uint32_t body = range.begin(); body != range.end(); ++body) {
       Kinematics& state = bodies.state[body];
+      std::uint32_t touched = 0;
       for (int face = 0; face < core::kFaceCount; ++face) {
-        Contact& contact = face_contacts_[body][face];
-        contact.depth_m = 0.0F;
         if (bodies.is_static[body] != 0) continue;
         const core::ContactGeometry geometry =
             core::face_contact(core::translated(bodies.local_box(body), state.x), rules.domain, face);
         if (!geometry.exists) continue;
+        Contact& contact = face_contacts_[body][face];
+        contact.depth_m = 0.0F;
         contact.a = body;
         contact.b = core::kFirstFace + static_cast<std::uint32_t>(face);
         contact.color = core::kFaceColor;
@@ -173,7 +175,9 @@ void ResponseStage::resolve_faces(Bodies& bodies, const ResponseRules& rules) {
         core::respond(contact, geometry, bodies.inverse_mass[body], 0.0F,
                       core::combine(bodies.material[body], rules.face_material), rules.parameters, variant);
         state = contact.post_a;
+        if (contact.depth_m > 0.0F) touched |= 1U << static_cast<unsigned>(face);
       }
+      touched_faces_[body] = static_cast<std::uint8_t>(touched);
       if (bodies.is_static[body] == 0) state.v = core::clipped(state.v, rules.parameters.v_max_m_s);
     }
   });
@@ -184,7 +188,8 @@ std::uint64_t ResponseStage::digest() const {
   return parallel_sum_of(contacts_.size(), [&](std::size_t k) { return term(contacts_[k]); }) +
          parallel_sum_of(face_contacts_.size(), [&](std::size_t body) {
            std::uint64_t sum = 0;
-           for (const Contact& c : face_contacts_[body]) sum += term(c);
+           for (std::size_t face = 0; touched_faces_[body] >> face != 0; ++face)
+             if ((touched_faces_[body] >> face & 1U) != 0U) sum += term(face_contacts_[body][face]);
            return sum;
          });
 }
@@ -193,9 +198,9 @@ void ResponseStage::collect(std::vector<Contact>& contacts) const {
   contacts.clear();
   for (const Contact& c : contacts_)
     if (c.depth_m > 0.0F) contacts.push_back(c);
-  for (const auto& faces : face_contacts_)
-    for (const Contact& c : faces)
-      if (c.depth_m > 0.0F) contacts.push_back(c);
+  for (std::size_t body = 0; body < face_contacts_.size(); ++body)
+    for (std::size_t face = 0; touched_faces_[body] >> face != 0; ++face)
+      if ((touched_faces_[body] >> face & 1U) != 0U) contacts.push_back(face_contacts_[body][face]);
 }
 
 }  // namespace broadside::reference
