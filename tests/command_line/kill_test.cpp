@@ -122,18 +122,24 @@ TEST(Kill, SlowTwoHundredRuns) {
   kill_often(200, 5, 2000);
 }
 
-// Killed once a reader sees frames of it, so that there is something to go on from.
+// Killed once a reader sees frames of it, so that there is something to go on from. A run that ends before it is
+// killed, as one may when this process has to wait, is begun again.
 fs::path kill_when_it_has_frames(const ScratchFolder& folder, const std::vector<std::string>& run) {
-  const fs::path part = folder / "out" / (std::string(kName) + ".part");
-  const pid_t child = start_program(folder, run);
-  for (int k = 0; k < 2000; ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    if (!fs::exists(part)) continue;
-    const auto reader = core::TraceReader::open(part);
-    if (reader.ok() && reader.value().frame_count() > 10) break;
+  const fs::path whole = folder / "out" / kName;
+  const fs::path part = whole.string() + ".part";
+  for (int tries = 0; tries < 10; ++tries) {
+    const pid_t child = start_program(folder, run);
+    for (int k = 0; k < 4000 && !fs::exists(whole); ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (!fs::exists(part)) continue;
+      const auto reader = core::TraceReader::open(part);
+      if (reader.ok() && reader.value().frame_count() > 10) break;
+    }
+    kill(child, SIGKILL);
+    wait_for(folder, child);
+    if (!fs::exists(whole)) break;
+    fs::remove(whole);
   }
-  kill(child, SIGKILL);
-  wait_for(folder, child);
   return part;
 }
 

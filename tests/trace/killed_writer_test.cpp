@@ -84,7 +84,12 @@ void kill_often(int tries, std::uint32_t seed) {
     const Folder folder;
     frames += kill_and_read(folder, std::chrono::microseconds(random() % 300000));
   }
-  EXPECT_GT(frames, 0U) << "no try lived long enough to flush anything";
+  // On a crowded machine none may have lived long enough to flush anything.
+  for (int ms = 300; frames == 0 && ms < 20000 && !testing::Test::HasFailure(); ms *= 2) {
+    const Folder folder;
+    frames = kill_and_read(folder, std::chrono::milliseconds(ms));
+  }
+  EXPECT_GT(frames, 0U);
 }
 
 TEST(KilledWriter, LosesNothingThatWasFlushed) {
