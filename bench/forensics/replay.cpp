@@ -75,12 +75,15 @@ core::Result<std::filesystem::path> record_again(const core::TraceReader& trace,
   return folder / cell.value().trace_file;
 }
 
-// Steps that only the replay has say nothing: it records every step.
+// Steps that only the replay has say nothing: it records every step. It has none for the initial state, which is the
+// scene's.
 core::Status compare_by(DifferenceRule& rule, const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
   auto found = compare_traces(a, b, &rule);
   if (!found) return found.error();
   replay.difference = std::move(found).value();
   replay.difference.only_in_b = 0;
+  const bool has_start = a.steps().front() == 0 && b.steps().front() != 0;
+  if (has_start) --replay.difference.only_in_a;
   return core::Done{};
 }
 
