@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -14,6 +15,7 @@
 #include "bench/shrink/minimal_subset.hpp"
 #include "bench/shrink/simpler_scene.hpp"
 #include "core/contact.hpp"
+#include "core/mesh/clean_mesh.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -33,12 +35,20 @@ std::uint64_t triangle_count(const Scene& scene) {
   return count;
 }
 
+bool has_clean_meshes(const Scene& scene) {
+  return std::all_of(scene.meshes.begin(), scene.meshes.end(), [](const auto& mesh) {
+    core::Mesh copy = *mesh;
+    return core::clean_mesh(copy).is_nothing();
+  });
+}
+
 class Shrinker {
  public:
   Shrinker(const Oracle& oracle, const ShrinkLimits& limits) : oracle_(oracle), limits_(limits) {}
 
   core::Result<ShrunkScene> run(const Scene& scene) {
     if (core::Status s = find_fault(scene); !s) return s.error();
+    is_clean_ = has_clean_meshes(scene);
     tell();
     for (std::uint64_t before = ~std::uint64_t{0}; before != changes_ && !is_spent();) {
       before = changes_;
@@ -68,9 +78,10 @@ class Shrinker {
     return std::move(answer).value();
   }
 
-  // Takes the scene when it still gets the verdict.
+  // Takes the scene when it still gets the verdict. A mesh that a file's reader would clean would come back as another:
+  // meshes that were clean stay so.
   bool take(const Scene& scene) {
-    if (!core::check_scene(scene)) return false;
+    if (!core::check_scene(scene) || (is_clean_ && !has_clean_meshes(scene))) return false;
     auto answer = ask(scene);
     if (!answer || answer->verdict.outcome != wanted_) return false;
     accept(scene, std::move(*answer));
@@ -197,19 +208,19 @@ class Shrinker {
     tell();
   }
 
-  void take_if_other(const Scene& scene) {
-    if (core::scene_digest(scene) != core::scene_digest(best_)) take(scene);
+  bool take_if_other(const Scene& scene) {
+    return core::scene_digest(scene) != core::scene_digest(best_) && take(scene);
   }
 
+  // Each is taken once at most: rounding digits could undo one, and the two would take turns for ever.
   void make_plainer() {
-    for (int k = 0; k < kPlainerCount && !is_spent(); ++k) take_if_other(made_plainer(best_, static_cast<Plainer>(k)));
+    for (int k = 0; k < kPlainerCount && !is_spent(); ++k)
+      if (!is_plain_[k]) is_plain_[k] = take_if_other(made_plainer(best_, static_cast<Plainer>(k)));
   }
 
   void drop_digits() {
     for (int digits = 1; digits < kAllDigits && !is_spent(); ++digits) {
-      const std::uint64_t before = changes_;
-      take_if_other(with_digits_everywhere(best_, digits));
-      if (changes_ != before) break;
+      if (take_if_other(with_digits_everywhere(best_, digits))) break;
     }
     if (digit_count(best_) > kManyNumbers) return tell();
     for (std::uint64_t k = 0; k < digit_count(best_) && !is_spent(); ++k)
@@ -227,6 +238,8 @@ class Shrinker {
   std::uint64_t trials_ = 0;
   std::uint64_t changes_ = 0;
   core::Outcome wanted_ = core::Outcome::kFail;
+  bool is_clean_ = false;
+  std::array<bool, kPlainerCount> is_plain_{};
   Scene best_;
   core::Verdict verdict_;
   std::optional<core::Error> last_error_;

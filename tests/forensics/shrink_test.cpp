@@ -10,6 +10,7 @@
 #include "bench/shrink/shrink_scene.hpp"
 #include "bench/shrink/simpler_scene.hpp"
 #include "bench/shrink/trial.hpp"
+#include "core/mesh/clean_mesh.hpp"
 #include "datasets/box_streams/box_stream.hpp"
 #include "datasets/scenes.hpp"
 
@@ -87,6 +88,9 @@ TEST(ShrinkScene, EndsAtTheTwoBodiesThatMatter) {
   EXPECT_EQ(shrunk.value().scene.meshes[0]->triangles.size(), 1U) << "no mesh matters, and a body needs a triangle";
   EXPECT_FALSE(shrunk.value().is_out_of_time);
   EXPECT_TRUE(core::check_scene(shrunk.value().scene).ok());
+  // Once the digits of a single triangle were rounded until it had no area, and no file could hold it.
+  core::Mesh mesh = *shrunk.value().scene.meshes[0];
+  EXPECT_TRUE(core::clean_mesh(mesh).is_nothing());
 }
 
 TEST(ShrinkScene, IsDeterministic) {
