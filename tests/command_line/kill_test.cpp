@@ -1,9 +1,12 @@
 // Runs that are killed at any moment: what they leave is whole, is recovered, and is gone on from, digest by digest.
 #include <gtest/gtest.h>
-#include <sys/stat.h>
+#include <sys/mount.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <map>
 #include <random>
 #include <thread>
@@ -253,6 +256,22 @@ TEST(Place, TwoRunsIntoOneNameAreOneClearLine) {
   EXPECT_NE(refused.err.find("another writer"), std::string::npos) << refused.err;
   kill(child, SIGKILL);
   wait_for(folder, child);
+}
+
+// Root may write anywhere but where the file system itself is read-only.
+TEST(Place, AReadOnlyFolderIsOneClearLine) {
+  const ScratchFolder folder;
+  const fs::path place = folder / "read_only";
+  fs::create_directory(place);
+  if (mount("tmpfs", place.c_str(), "tmpfs", MS_RDONLY, "size=1m") != 0)
+    GTEST_SKIP() << "cannot mount a read-only tmpfs here: " << std::strerror(errno);
+  for (const fs::path& out : {place, place / "new"}) {
+    const Ended ended = run_program(run_of(10, out));
+    EXPECT_EQ(ended.exit_code, 2) << out;
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_NE(ended.err.find("Read-only file system"), std::string::npos) << ended.err;
+  }
+  umount(place.c_str());
 }
 
 // The folder goes while the run writes into it: the file goes on without a name, and cannot get its final one.
