@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/cell_spec.hpp"
+#include "bench/child.hpp"
 #include "core/result.hpp"
 
 namespace broadside::bench {
@@ -20,12 +21,18 @@ struct RaceRow {
   std::uint64_t digest = 0;
   double update_s = 0.0;
   double find_s = 0.0;
+  double filter_s = 0.0;     // of read_back_s: the engine's raw pairs filtered on the given boxes
   double read_back_s = 0.0;  // copies, the engine's own filter, canonical order
+  std::string absent;        // why a reference's process left no answer; empty when it did
 };
 
-// frames: at most so many; 0 = all of the stream. Errors: unknown or malformed boxes, an engine without a broad phase
-// or without its device, an engine that fails.
+// frames: at most so many; 0 = all of the stream. References run in processes of their own, unless `here`. Errors:
+// unknown or malformed boxes, an engine without a broad phase or without its device, an engine that fails in this
+// process. One that dies in its own leaves a row that says so.
 core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const std::vector<CellSpec>& cells,
-                                              std::uint32_t frames);
+                                              std::uint32_t frames, const ChildLimits& limits, bool here);
+
+// A row as JSON, as the command prints it and as a child process tells its parent.
+std::string race_json(const std::vector<RaceRow>& rows);
 
 }  // namespace broadside::bench

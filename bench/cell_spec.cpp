@@ -27,6 +27,12 @@ core::Result<CellSpec> parse_cell_spec(std::string_view text) {
   return spec;
 }
 
+std::string label_of(const CellSpec& spec) {
+  auto settings = core::Settings::parse(spec.row->id, spec.row->settings, spec.settings);
+  const std::string chosen = settings ? settings.value().short_form() : "";
+  return chosen.empty() ? std::string(spec.row->id) : std::string(spec.row->id) + "[" + chosen + "]";
+}
+
 bool offers(const core::EngineRow& row, std::string_view capability) {
   return row.capabilities.find(capability) != std::string_view::npos;
 }

@@ -11,48 +11,57 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/interrupt.hpp"
 #include "bench/plugin_engines.hpp"
+#include "bench/process_limits.hpp"
 
 namespace broadside::bench {
 namespace {
 
-std::vector<std::string> arguments(const CellRequest& r, const std::filesystem::path& cell_folder) {
-  std::vector<std::string> args{"broadside",
-                                "run",
-                                r.source.spec,
-                                "--engine",
-                                engine_argument(*r.row),
-                                "--frames",
-                                std::to_string(r.frames),
-                                "--every",
-                                std::to_string(r.selection.every),
-                                "--narrow-every",
-                                std::to_string(r.narrow_every),
-                                "--record",
-                                r.level == core::RecordLevel::kFull     ? "full"
-                                : r.level == core::RecordLevel::kDigest ? "digest"
-                                                                        : "none",
-                                "--out",
-                                r.folder.string(),
-                                "--driver",
-                                r.driver_trace.string(),
-                                "--in-process",
-                                cell_folder.string()};
-  for (const StepWindow& w : r.selection.windows) {
-    args.emplace_back("--window");
-    args.push_back(fmt::format("{}:{}", w.first, w.last));
-  }
-  if (r.resume) args.emplace_back("--resume");
+// What every command about one cell takes: scene, engine, settings, frames.
+std::vector<std::string> cell_arguments(const char* command, const CellRequest& r) {
+  std::vector<std::string> args{command,          r.source.spec,
+                                "--engine",       engine_argument(*r.row),
+                                "--frames",       std::to_string(r.frames),
+                                "--narrow-every", std::to_string(r.narrow_every)};
   if (r.source.allow_stand_in) args.emplace_back("--stand-in");
   for (const auto& [key, value] : r.settings) {
     args.emplace_back("--set");
     args.push_back(key + "=" + value);
   }
   return args;
+}
+
+void append(std::vector<std::string>& args, std::initializer_list<std::string> more) {
+  args.insert(args.end(), more);
+}
+
+std::vector<std::string> run_arguments(const CellRequest& r, const std::filesystem::path& cell_folder) {
+  std::vector<std::string> args = cell_arguments("run", r);
+  append(args, {"--every", std::to_string(r.selection.every), "--record",
+                r.level == core::RecordLevel::kFull     ? "full"
+                : r.level == core::RecordLevel::kDigest ? "digest"
+                                                        : "none",
+                "--out", r.folder.string(), "--driver", r.driver_trace.string(), "--in-process", cell_folder.string()});
+  for (const StepWindow& w : r.selection.windows) append(args, {"--window", fmt::format("{}:{}", w.first, w.last)});
+  if (r.resume) args.emplace_back("--resume");
+  return args;
+}
+
+// As somebody types it: arguments with spaces or brackets are quoted.
+std::string command_line(const std::vector<std::string>& args) {
+  std::string line = "broadside";
+  for (const std::string& a : args) {
+    const bool is_plain = !a.empty() && a.find_first_of(" []'\"$*?;&|<>()") == std::string::npos;
+    line += is_plain ? " " + a : " '" + a + "'";
+  }
+  return line;
 }
 
 // Passes the child's stderr on and keeps its last line: an assert's message, or our own one clear line.
@@ -76,23 +85,41 @@ class StderrTail {
   std::string last_;
 };
 
-struct Ending {
-  int status = 0;
-  bool timed_out = false;
-  std::string last_line;
+struct Pipe {
+  int from = -1;
+  int to = -1;
+
+  bool open() {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) return false;
+    from = ends[0];
+    to = ends[1];
+    return true;
+  }
+  void close_both() {
+    for (int* end : {&from, &to})
+      if (*end >= 0) close(std::exchange(*end, -1));
+  }
 };
 
-// Reads the pipe until the child closes it, then reaps the child.
-Ending attend(pid_t child, int pipe_end, double time_limit_s) {
+// Reads a pipe once; false at its end.
+template <typename Take>
+bool drain(int from, Take&& take) {
+  std::array<char, 4096> buffer;
+  const ssize_t got = read(from, buffer.data(), buffer.size());
+  if (got > 0) take(buffer.data(), static_cast<std::size_t>(got));
+  return got > 0 || (got < 0 && errno == EINTR);
+}
+
+// Reads both pipes until the child closes them, then reaps it; returns its status.
+int attend(pid_t child, int out, int err, double time_limit_s, ChildEnding& ending) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  Ending ending;
   StderrTail tail;
   bool told = false;
-  std::array<char, 4096> buffer{};
-  for (;;) {
-    pollfd waiting{pipe_end, POLLIN, 0};
-    const int ready = poll(&waiting, 1, 100);
+  std::array<pollfd, 2> waiting{pollfd{err, POLLIN, 0}, pollfd{out, POLLIN, 0}};
+  while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
+    const int ready = poll(waiting.data(), waiting.size(), 100);
     if (is_interrupted() && !told) {
       kill(child, SIGINT);
       told = true;
@@ -102,81 +129,143 @@ Ending attend(pid_t child, int pipe_end, double time_limit_s) {
       kill(child, SIGKILL);
     }
     if (ready <= 0) continue;
-    const ssize_t got = read(pipe_end, buffer.data(), buffer.size());
-    if (got == 0) break;
-    if (got > 0) tail.take(buffer.data(), static_cast<std::size_t>(got));
-    if (got < 0 && errno != EINTR) break;
+    if (waiting[0].revents != 0 && !drain(err, [&](const char* data, std::size_t size) { tail.take(data, size); }))
+      waiting[0].fd = -1;
+    if (waiting[1].revents != 0 &&
+        !drain(out, [&](const char* data, std::size_t size) { ending.output.append(data, size); }))
+      waiting[1].fd = -1;
   }
-  while (waitpid(child, &ending.status, 0) < 0 && errno == EINTR) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   ending.last_line = tail.last_line();
-  return ending;
+  return status;
 }
 
-core::Cell ended_badly(const CellRequest& request, core::CellState state, const std::string& reason) {
+void name_ending(ChildEnding& ending, int status, double time_limit_s) {
+  const std::string after = ending.last_line.empty() ? "" : ": " + ending.last_line;
+  if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
+  ending.is_good = !ending.timed_out && ending.exit_code == 0;
+  if (ending.timed_out) {
+    ending.words = fmt::format("no end after {:g} s", time_limit_s);
+  } else if (WIFSIGNALED(status)) {
+    ending.words = fmt::format("signal {} ({}){}", WTERMSIG(status), strsignal(WTERMSIG(status)), after);
+  } else if (ending.exit_code != 0) {
+    ending.words = fmt::format("exit code {}{}", ending.exit_code, after);
+  }
+}
+
+core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, const std::vector<std::string>& args) {
   core::Cell cell;
-  cell.state = state;
-  cell.reason = reason;
+  cell.state = ending.timed_out ? core::CellState::kTimedOut : core::CellState::kCrashed;
+  cell.reason = ending.words;
   auto settings = core::Settings::parse(request.row->id, request.row->settings, request.settings);
   core::Engine nameless;
   nameless.id = std::string(request.row->id);
   if (settings) nameless.settings = settings.value();
   cell.stamp = stamp_of(*request.scene, nameless);
+  // The driver's trace is the input of an engine that does not simulate; together with the arguments it repeats what
+  // happened, in a process that may die of it.
+  cell.notes["repeat"] = command_line(args);
   const std::string part = trace_file_name(cell.stamp) + ".part";
   std::error_code ignored;
   if (std::filesystem::exists(request.folder / part, ignored)) cell.trace_file = part;
   return cell;
 }
 
+// A folder in the run's folder for what a child leaves, gone with this object.
+class CellFolder {
+ public:
+  explicit CellFolder(const std::filesystem::path& folder) : path_(folder / fmt::format(".cell-{}", getpid())) {
+    std::filesystem::create_directories(path_, failed_);
+  }
+  CellFolder(const CellFolder&) = delete;
+  CellFolder& operator=(const CellFolder&) = delete;
+  ~CellFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] core::Status status() const {
+    if (!failed_) return core::Done{};
+    return core::Error{"cannot write there: " + failed_.message(), path_.parent_path().string(),
+                       "choose another --out"};
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::error_code failed_;
+};
+
+core::Error no_process(const char* what) {
+  return {std::string(what) + ": " + std::strerror(errno), "starting a child process", "", core::Exit::kInternal};
+}
+
 }  // namespace
 
-core::Result<core::Cell> record_cell_in_child(const CellRequest& request, double time_limit_s) {
-  const std::filesystem::path cell_folder = request.folder / fmt::format(".cell-{}", getpid());
-  std::error_code failed;
-  std::filesystem::create_directories(cell_folder, failed);
-  if (failed)
-    return core::Error{"cannot write there: " + failed.message(), request.folder.string(), "choose another --out"};
-
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0)
-    return core::Error{"no pipe: " + std::string(std::strerror(errno)), "starting a child process", "",
-                       core::Exit::kInternal};
-  const std::vector<std::string> args = arguments(request, cell_folder);
-  std::vector<char*> argv;
-  for (const std::string& a : args) argv.push_back(const_cast<char*>(a.c_str()));
+core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits,
+                                   bool keeps_output) {
+  Pipe err;
+  Pipe out;
+  if (!err.open() || (keeps_output && !out.open())) {
+    err.close_both();
+    return no_process("no pipe");
+  }
+  std::string name = "broadside";
+  std::vector<std::string> owned = arguments;
+  std::vector<char*> argv{name.data()};
+  for (std::string& a : owned) argv.push_back(a.data());
   argv.push_back(nullptr);
 
   const pid_t child = fork();
   if (child == 0) {
     // Only async-signal-safe calls here: other threads of the parent may hold locks.
-    dup2(ends[1], STDERR_FILENO);
-    close(ends[0]);
-    close(ends[1]);
+    dup2(err.to, STDERR_FILENO);
+    if (keeps_output) dup2(out.to, STDOUT_FILENO);
+    for (const int end : {err.from, err.to, out.from, out.to})
+      if (end >= 0) close(end);
+    limit_this_process(limits.memory_mib);
     execv("/proc/self/exe", argv.data());
     _exit(127);
   }
-  close(ends[1]);
-  if (child < 0) {
-    close(ends[0]);
-    return core::Error{"no child process: " + std::string(std::strerror(errno)), "fork", "", core::Exit::kInternal};
-  }
-  const Ending ending = attend(child, ends[0], time_limit_s);
-  close(ends[0]);
+  close(std::exchange(err.to, -1));
+  if (out.to >= 0) close(std::exchange(out.to, -1));
+  ChildEnding ending;
+  if (child > 0) name_ending(ending, attend(child, out.from, err.from, limits.seconds, ending), limits.seconds);
+  err.close_both();
+  out.close_both();
+  if (child < 0) return no_process("no child process");
+  return ending;
+}
 
-  auto rows = core::read_rows(cell_folder);
-  std::filesystem::remove_all(cell_folder, failed);
-  if (ending.timed_out)
-    return ended_badly(request, core::CellState::kTimedOut, fmt::format("no end after {:.0f} s", time_limit_s));
-  if (WIFSIGNALED(ending.status)) {
-    const int signal = WTERMSIG(ending.status);
-    return ended_badly(request, core::CellState::kCrashed,
-                       fmt::format("signal {} ({}){}{}", signal, strsignal(signal),
-                                   ending.last_line.empty() ? "" : ": ", ending.last_line));
-  }
-  if (rows.ok() && rows.value().cells.size() == 1) return rows.value().cells[0];
-  if (WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == 2) return core::Error{ending.last_line};
-  return ended_badly(request, core::CellState::kCrashed,
-                     fmt::format("exit code {}: {}", WEXITSTATUS(ending.status), ending.last_line));
+core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const ChildLimits& limits) {
+  const CellFolder folder(request.folder);
+  if (core::Status s = folder.status(); !s) return s.error();
+  const std::vector<std::string> args = run_arguments(request, folder.path());
+  auto ended = run_self(args, limits, false);
+  if (!ended) return ended.error();
+  const ChildEnding& ending = ended.value();
+  auto rows = core::read_rows(folder.path());
+  const bool left_a_row = ending.exit_code >= 0 && rows.ok() && rows.value().cells.size() == 1;
+  if (left_a_row) return rows.value().cells[0];
+  if (ending.exit_code == static_cast<int>(core::Exit::kBadInput)) return core::Error{ending.last_line};
+  return ended_badly(request, ending, args);
+}
+
+core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const ChildLimits& limits) {
+  const CellFolder folder(request.folder);
+  if (core::Status s = folder.status(); !s) return s.error();
+  std::vector<std::string> args = cell_arguments("time", request);
+  append(args, {"--repetitions", "1", "--out", (request.folder / "samples.json").string(), "--in-process",
+                folder.path().string()});
+  auto ended = run_self(args, limits, true);
+  if (!ended) return ended.error();
+  const ChildEnding& ending = ended.value();
+  auto rows = core::read_rows(folder.path());
+  if (ending.is_good && rows.ok() && rows.value().samples.size() == 1) return rows.value().samples[0];
+  const std::string why = ending.exit_code > 0 && !ending.last_line.empty() ? ending.last_line : ending.words;
+  return core::Error{why.empty() ? "it left no sample" : why, std::string(request.row->id), command_line(args),
+                     core::Exit::kMissing};
 }
 
 }  // namespace broadside::bench

@@ -1,14 +1,41 @@
-// Runs one cell in a child process: a library that aborts or hangs must not take the harness down.
+// This program again, in a process of its own: a library that aborts, hangs or eats the machine's memory must not take
+// the harness down.
 #pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "bench/cell_request.hpp"
 #include "core/result.hpp"
 #include "core/rows.hpp"
+#include "core/sample.hpp"
 
 namespace broadside::bench {
 
-// This program again, as `broadside run ... --in-process`, with a time limit. Signal, time-out and an unexplained exit
-// become cells that say so; bad input of the child comes back as its error. Ctrl-C is passed on.
-core::Result<core::Cell> record_cell_in_child(const CellRequest& request, double time_limit_s);
+struct ChildLimits {
+  double seconds = 3600.0;
+  std::uint64_t memory_mib = 0;  // of address space beyond the program's own; 0 = no limit
+};
+
+struct ChildEnding {
+  bool is_good = false;  // ended by itself with exit code 0
+  int exit_code = -1;    // -1 when a signal or the time limit ended it
+  bool timed_out = false;
+  std::string words;      // "signal 6 (Aborted): ...", "no end after 10 s", "exit code 2: ..."; empty when good
+  std::string last_line;  // of its stderr: an assert's message, or our own one clear line
+  std::string output;     // its stdout, where asked for
+};
+
+// Runs `broadside ARGUMENTS...`. Its stderr is passed on. Ctrl-C is passed on too.
+core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits,
+                                   bool keeps_output);
+
+// `broadside run ... --in-process`. Signal, time-out and an unexplained exit become cells that say so, with the command
+// that repeats them; bad input of the child comes back as its error.
+core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const ChildLimits& limits);
+
+// `broadside time ... --in-process`: warm-up and one repetition. An ending that is not good is an error in those words.
+core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const ChildLimits& limits);
 
 }  // namespace broadside::bench

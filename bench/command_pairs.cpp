@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bench/box_race.hpp"
@@ -18,48 +17,53 @@ struct PairsArguments {
   std::uint32_t frames = 0;
   bool only_digest = false;
   bool as_json = false;
+  ChildLimits limits;
+  bool is_in_process = false;
 };
 
 void print_table(const std::vector<RaceRow>& rows) {
-  fmt::print("{:<28} {:>12} {:>18} {:>12} {:>12} {:>12}\n", "engine", "pairs", "digest", "update ms", "find ms",
-             "read back ms");
-  for (const RaceRow& r : rows)
-    fmt::print("{:<28} {:>12} {:#018x} {:>12.3f} {:>12.3f} {:>12.3f}\n", r.label, r.pairs, r.digest, r.update_s * 1e3,
-               r.find_s * 1e3, r.read_back_s * 1e3);
+  fmt::print("{:<28} {:>12} {:>12} {:>18} {:>12} {:>12} {:>12} {:>12}\n", "engine", "pairs", "raw pairs", "digest",
+             "update ms", "find ms", "filter ms", "read back ms");
+  for (const RaceRow& r : rows) {
+    if (!r.absent.empty())
+      fmt::print("{:<28} not measured: {}\n", r.label, r.absent);
+    else
+      fmt::print("{:<28} {:>12} {:>12} {:#018x} {:>12.3f} {:>12.3f} {:>12.3f} {:>12.3f}\n", r.label, r.pairs, r.raw,
+                 r.digest, r.update_s * 1e3, r.find_s * 1e3, r.filter_s * 1e3, r.read_back_s * 1e3);
+  }
 }
 
-void print_json(const std::vector<RaceRow>& rows) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (const RaceRow& r : rows)
-    out.push_back({{"engine", r.label},
-                   {"frames", r.frames},
-                   {"boxes", r.boxes},
-                   {"pairs", r.pairs},
-                   {"raw_pairs", r.raw},
-                   {"digest", fmt::format("{:#018x}", r.digest)},
-                   {"update_s", r.update_s},
-                   {"find_s", r.find_s},
-                   {"read_back_s", r.read_back_s}});
-  fmt::print("{}\n", out.dump(2));
+// Those that answered must agree; exit 3 when one did not answer.
+core::Exit verdict_of(const std::vector<RaceRow>& rows) {
+  const RaceRow* first = nullptr;
+  core::Exit exit = core::Exit::kGood;
+  for (const RaceRow& r : rows) {
+    if (!r.absent.empty()) {
+      exit = core::Exit::kMissing;
+      continue;
+    }
+    if (first == nullptr) first = &r;
+    if (r.digest == first->digest) continue;
+    fmt::print(stderr, "broadside: {} and {} found different pairs\n", first->label, r.label);
+    return core::Exit::kFailed;
+  }
+  return exit;
 }
 
 core::Exit pairs(const PairsArguments& a) {
   auto cells = a.engines.make();
   if (!cells) return complain(cells.error());
-  auto rows = race_boxes(a.boxes, cells.value(), a.frames);
+  auto rows = race_boxes(a.boxes, cells.value(), a.frames, a.limits, a.is_in_process);
   if (!rows) return complain(rows.error());
-  if (a.as_json)
-    print_json(rows.value());
-  else if (a.only_digest)
-    for (const RaceRow& r : rows.value()) fmt::print("{:#018x} {}\n", r.digest, r.label);
-  else
+  if (a.as_json) {
+    fmt::print("{}\n", race_json(rows.value()));
+  } else if (a.only_digest) {
+    for (const RaceRow& r : rows.value())
+      if (r.absent.empty()) fmt::print("{:#018x} {}\n", r.digest, r.label);
+  } else {
     print_table(rows.value());
-  for (const RaceRow& r : rows.value()) {
-    if (r.digest == rows.value().front().digest) continue;
-    fmt::print(stderr, "broadside: {} and {} found different pairs\n", rows.value().front().label, r.label);
-    return core::Exit::kFailed;
   }
-  return core::Exit::kGood;
+  return verdict_of(rows.value());
 }
 
 }  // namespace
@@ -77,6 +81,14 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
   command->add_option("--frames", a->frames, "Frames of a moving stream (default: all)")->check(CLI::PositiveNumber);
   command->add_flag("--digest", a->only_digest, "Print only digest and engine");
   command->add_flag("--json", a->as_json, "As JSON");
+  command->add_option("--time-limit", a->limits.seconds, "Seconds after which a reference engine's process is ended")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--memory-limit", a->limits.memory_mib,
+                   "MiB of memory that a reference engine's process may take; 0 = no limit")
+      ->capture_default_str();
+  command->add_flag("--in-process", a->is_in_process, "Run references in this process")->group("");
   command->callback([a, &exit] { exit = pairs(*a); });
 }
 

@@ -27,6 +27,7 @@ struct RunArguments {
   double time_limit_s = 3600.0;
   std::string cell;   // of a campaign whose folder stands in the scene's place
   std::string shard;  // likewise
+  std::uint64_t memory_limit_mib = 0;
 };
 
 core::RecordLevel level_named(const std::string& name) {
@@ -56,6 +57,7 @@ core::Result<RunPlan> make_plan(const RunArguments& a) {
     return core::Error{"a run goes on from recorded states, and --record " + a.level + " records none", "--resume",
                        "record full, or leave out --resume"};
   plan.time_limit_s = a.time_limit_s;
+  plan.memory_limit_mib = a.memory_limit_mib;
   return plan;
 }
 
@@ -130,6 +132,10 @@ void add_run(CLI::App& program, core::Exit& exit) {
   command->add_option("--out", a->folder, "Folder for the traces and cells.json")->capture_default_str();
   command->add_option("--time-limit", a->time_limit_s, "Seconds after which a reference engine's process is ended")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--memory-limit", a->memory_limit_mib,
+                   "MiB of memory that a reference engine's process may take; 0 = no limit")
       ->capture_default_str();
   command->add_option("--driver", a->driver, "Trace that feeds engines that do not simulate")->group("");
   command->add_option("--in-process", a->in_process, "Run one cell here and leave its row in this folder")->group("");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -21,7 +22,19 @@ struct TimeArguments {
   std::uint32_t repetitions = 5;
   std::uint32_t narrow_every = 0;
   std::string out = "out/samples.json";
+  std::string in_process;  // folder for the samples of one cell
+  double time_limit_s = 3600.0;
+  std::uint64_t memory_limit_mib = 0;
 };
+
+// Exit 3 when a cell that was asked for has no sample.
+core::Exit exit_of(const RunPlan& plan, const std::vector<core::Sample>& samples) {
+  for (const CellSpec& spec : plan.cells)
+    if (std::none_of(samples.begin(), samples.end(),
+                     [&](const core::Sample& s) { return s.stamp.label() == label_of(spec); }))
+      return core::Exit::kMissing;
+  return core::Exit::kGood;
+}
 
 core::Exit time(const TimeArguments& a) {
   RunPlan plan;
@@ -38,22 +51,27 @@ core::Exit time(const TimeArguments& a) {
   plan.folder = out.has_parent_path() ? out.parent_path() : ".";
   if (core::Status s = prepare_folder(plan.folder); !s) return complain(s.error());
 
-  core::Exit exit = core::Exit::kGood;
+  plan.time_limit_s = a.time_limit_s;
+  plan.memory_limit_mib = a.memory_limit_mib;
+  plan.times_here = !a.in_process.empty();
   for (const CellSpec& spec : plan.cells) {
     const std::string reason = why_absent(*spec.row);
-    if (reason.empty()) continue;
-    fmt::print("{}: not measured: {}\n", spec.row->id, reason);
-    exit = core::Exit::kMissing;
+    if (!reason.empty()) fmt::print("{}: not measured: {}\n", spec.row->id, reason);
   }
   auto samples = time_plan(plan, a.repetitions);
   if (!samples) return complain(samples.error());
+  if (!a.in_process.empty()) {
+    if (core::Status s = core::write_samples(std::filesystem::path(a.in_process) / "samples.json", samples.value()); !s)
+      return complain(s.error());
+    return exit_of(plan, samples.value());
+  }
   // Beside recorded cells and their verdicts a time is admitted or struck out; alone it is a number without a proof.
   auto rows = core::read_rows(plan.folder);
   if (!rows) return complain(rows.error());
   rows.value().samples = samples.value();
   fmt::print("{}", reports::timing_table(reports::pool_samples(rows.value())));
   if (core::Status s = core::write_samples(out, samples.value()); !s) return complain(s.error());
-  return exit;
+  return exit_of(plan, samples.value());
 }
 
 }  // namespace
@@ -71,6 +89,15 @@ void add_time(CLI::App& program, core::Exit& exit) {
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
   command->add_option("--out", a->out, "File for the samples; traces and verdicts beside it are the proof")
       ->capture_default_str();
+  command->add_option("--time-limit", a->time_limit_s, "Seconds after which a reference engine's process is ended")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--memory-limit", a->memory_limit_mib,
+                   "MiB of memory that a reference engine's process may take; 0 = no limit")
+      ->capture_default_str();
+  command->add_option("--in-process", a->in_process, "Time one cell here and leave its samples in this folder")
+      ->group("");
   command->callback([a, &exit] { exit = time(*a); });
 }
 

@@ -235,6 +235,15 @@ core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine&
   return recording.finish();
 }
 
+core::Result<core::Cell> record_as(const CellRequest& request, core::Engine& engine, std::string_view capability) {
+  const auto is_asked = [capability](std::string_view name) { return capability.empty() || capability == name; };
+  if (engine.dynamics && is_asked("dynamics")) return record_dynamics(request, engine);
+  if (engine.broad_phase && is_asked("broad")) return record_broad(request, engine);
+  if (engine.narrow_phase && is_asked("narrow")) return record_narrow(request, engine);
+  return core::Error{"it does not offer what was asked of it: " + std::string(capability), engine.id,
+                     "see 'broadside list engines'"};
+}
+
 }  // namespace
 
 core::Result<core::Cell> record_cell(const CellRequest& request, std::string_view capability) {
@@ -243,12 +252,9 @@ core::Result<core::Cell> record_cell(const CellRequest& request, std::string_vie
   auto created = request.row->create(settings.value());
   if (!created) return created.error();
   core::Engine& engine = created.value();
-  const auto is_asked = [capability](std::string_view name) { return capability.empty() || capability == name; };
-  if (engine.dynamics && is_asked("dynamics")) return record_dynamics(request, engine);
-  if (engine.broad_phase && is_asked("broad")) return record_broad(request, engine);
-  if (engine.narrow_phase && is_asked("narrow")) return record_narrow(request, engine);
-  return core::Error{"it does not offer what was asked of it: " + std::string(capability), engine.id,
-                     "see 'broadside list engines'"};
+  auto cell = record_as(request, engine, capability);
+  if (cell.ok() && engine.defects) core::add_notes(engine.defects(), cell.value().notes);
+  return cell;
 }
 
 }  // namespace broadside::bench

@@ -27,6 +27,9 @@ struct RunPlan {
   // Go on from traces of the same stamp that are in the folder and not complete.
   bool resume = false;
   double time_limit_s = 3600.0;
+  std::uint64_t memory_limit_mib = 0;  // of a reference's process; 0 = none
+  // Time references here instead of in processes of their own: what such a process does.
+  bool times_here = false;
 };
 
 struct RunOutcome {

@@ -1,13 +1,16 @@
 #include "bench/timing.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
+#include "bench/child.hpp"
 #include "bench/engines.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/near_pairs.hpp"
@@ -135,12 +138,19 @@ std::uint64_t process_name() {
   return core::splitmix64(static_cast<std::uint64_t>(now) ^ (static_cast<std::uint64_t>(getpid()) << 48U)) | 1U;
 }
 
+bool goes_to_a_child(const RunPlan& plan, const CellSpec& spec) {
+  return spec.row->is_reference && !plan.times_here;
+}
+
 class Timer {
  public:
   explicit Timer(const RunPlan& plan) : plan_(plan) {}
 
   core::Status prepare() {
-    const auto needs = [&](auto test) { return std::any_of(plan_.cells.begin(), plan_.cells.end(), test); };
+    const auto needs = [&](auto test) {
+      return std::any_of(plan_.cells.begin(), plan_.cells.end(),
+                         [&](const CellSpec& c) { return !goes_to_a_child(plan_, c) && test(c); });
+    };
     const std::filesystem::path driver = plan_.folder / "octree-cpu.h5";
     if (needs([](const CellSpec& c) { return !offers(*c.row, "dynamics") && offers(*c.row, "broad"); })) {
       auto baked = bake(driver, plan_.scene, bit(Group::kDetection), 1);
@@ -181,6 +191,29 @@ class Timer {
   BakedFrames poses_;
 };
 
+// One repetition in a process of its own, which warms up first.
+core::Result<core::Sample> time_in_child(const RunPlan& plan, const CellSpec& spec) {
+  CellRequest request;
+  request.source = plan.source;
+  request.scene = &plan.scene;
+  request.row = spec.row;
+  request.settings = spec.settings;
+  request.frames = plan.frames;
+  request.narrow_every = plan.narrow_every;
+  request.folder = plan.folder;
+  return time_cell_in_child(request, {plan.time_limit_s, plan.memory_limit_mib});
+}
+
+core::Result<core::Sample> time_here(const RunPlan& plan, Timer& timer, const CellSpec& spec, bool is_first) {
+  if (is_first) {
+    // A narrow phase measures so much a frame that one frame warms it.
+    const bool is_narrow = !offers(*spec.row, "dynamics") && !offers(*spec.row, "broad");
+    auto warm = timer.time(spec, is_narrow ? 1 : kWarmUpFrames);
+    if (!warm) return warm.error();
+  }
+  return timer.time(spec, plan.frames);
+}
+
 }  // namespace
 
 core::Result<core::Sample> time_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t most_frames) {
@@ -200,22 +233,24 @@ core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint
   if (core::Status s = timer.prepare(); !s) return s.error();
   std::vector<core::Sample> samples;
   const std::uint64_t process = process_name();
+  std::vector<bool> has_failed(plan.cells.size());
   Progress progress("timing", std::uint64_t{repetitions} * plan.cells.size());
   for (std::uint32_t r = 0; r < repetitions; ++r) {
-    for (const CellSpec& spec : plan.cells) {
-      if (!why_absent(*spec.row).empty()) continue;
-      if (r == 0) {
-        // A narrow phase measures so much a frame that one frame warms it.
-        const bool is_narrow = !offers(*spec.row, "dynamics") && !offers(*spec.row, "broad");
-        auto warm = timer.time(spec, is_narrow ? 1 : kWarmUpFrames);
-        if (!warm) return warm.error();
+    for (std::size_t c = 0; c < plan.cells.size(); ++c) {
+      const CellSpec& spec = plan.cells[c];
+      if (!why_absent(*spec.row).empty() || has_failed[c]) continue;
+      const bool is_apart = goes_to_a_child(plan, spec);
+      auto sample = is_apart ? time_in_child(plan, spec) : time_here(plan, timer, spec, r == 0);
+      if (!sample && is_apart && !is_interrupted()) {
+        fmt::print(stderr, "broadside: {}\n", sample.error().line());
+        has_failed[c] = true;
+        continue;
       }
-      auto sample = timer.time(spec, plan.frames);
-      if (!sample) return sample.error();
+      if (!sample && !is_interrupted()) return sample.error();
       if (is_interrupted())
         return core::Error{"interrupted: no time is kept of a run that did not end", "time", "", core::Exit::kMissing};
       sample.value().repetition = r;
-      sample.value().process = process;
+      if (!is_apart) sample.value().process = process;  // a child has named its own
       sample.value().warm_up_frames = kWarmUpFrames;
       samples.push_back(std::move(sample).value());
       progress.at(samples.size());

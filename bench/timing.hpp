@@ -17,6 +17,8 @@ namespace broadside::bench {
 // own, of raw pairs), "frame" = their sum, over boxes baked from plan.folder's octree-cpu trace. A narrow phase:
 // "measure", per sampled frame.
 // The final digest is read after the clock stopped.
+// A reference is timed in a child process, each repetition in a new one that warms up first; where that dies or fails,
+// its last words go to stderr and the cell has no samples.
 core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions);
 
 // One run of one cell of the plan, without warm-up: for callers that keep each run as it ends. At most this many

@@ -1,0 +1,13 @@
+// What a child process may take before it is ended instead of the machine.
+#pragma once
+
+#include <cstdint>
+
+namespace broadside::bench {
+
+// Address space of this process: memory_mib (MiB) beyond what it has now, 0 = no limit; allocations fail beyond it. And
+// no core files: a library that aborts twenty thousand times would fill the disk. Async-signal-safe, for use between
+// fork and exec.
+void limit_this_process(std::uint64_t memory_mib);
+
+}  // namespace broadside::bench
