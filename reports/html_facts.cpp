@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -12,10 +13,12 @@ namespace {
 
 constexpr std::string_view kPairs = "pairs: ";
 constexpr std::string_view kCommand = "command";
+// Of a process that died: what makes it die again.
+constexpr std::string_view kRepeat = "repeat";
 constexpr std::string_view kStandIn = "stand-in";
 
 bool has_own_place(const std::string& key) {
-  return key.starts_with(kPairs) || key == kCommand || key == kStandIn;
+  return is_equivalence_note(key) || key == kRepeat || key.starts_with(kPairs) || key == kCommand || key == kStandIn;
 }
 
 std::vector<std::string> pair_columns(const SceneView& scene) {
@@ -120,8 +123,9 @@ std::string repeat_section(const std::vector<SceneView>& scenes, const ReportOpt
   for (const SceneView& scene : scenes)
     for (const TraceView& trace : scene.traces)
       if (trace.cell != nullptr)
-        if (const auto found = trace.cell->notes.find(std::string(kCommand)); found != trace.cell->notes.end())
-          add(found->second);
+        for (const std::string_view key : {kCommand, kRepeat})
+          if (const auto found = trace.cell->notes.find(std::string(key)); found != trace.cell->notes.end())
+            add(found->second);
   if (commands.empty()) return "";
   std::string out = "<section><h2>How to repeat</h2><ol class=\"commands\">";
   for (const std::string& command : commands) out += command_item(command);

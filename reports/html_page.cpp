@@ -1,4 +1,5 @@
 // The HTML report from top to bottom.
+#include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -55,8 +56,8 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
   out += findings_section(scenes);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     out += "\n<article>" + scene_head(scenes[k]) + "\n" + matrix_section(scenes[k], k) + "\n" +
-           times_section(scenes[k]) + "\n" + cells_section(scenes[k]) + "\n" + facts_section(scenes[k]) +
-           "</article>\n";
+           times_section(scenes[k]) + "\n" + cells_section(scenes[k]) + "\n" + equivalence_section(scenes[k]) + "\n" +
+           facts_section(scenes[k]) + "</article>\n";
   }
   out += energy_section(options.energy);
   out += repeat_section(scenes, options) + "\n" + legend_section();

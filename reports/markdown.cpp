@@ -1,6 +1,7 @@
 // The report as a comment on a pull request.
 #include <algorithm>
 
+#include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/report.hpp"
@@ -180,6 +181,7 @@ std::string markdown_text(const core::RunRows& rows, const ReportOptions& option
   for (const SceneView& scene : scenes) {
     add_matrix(comment, scene);
     add_times(comment, scene);
+    for (const std::string& block : equivalence_markdown(scene)) comment.add(block);
     add_machine(comment, scene);
   }
   if (!options.command.empty()) comment.add("\nMade by " + sentence(options.command) + "\n");

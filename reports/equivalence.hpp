@@ -1,0 +1,51 @@
+// What cells say about how their engine's world differs from the scene, which known defects of libraries were met, and
+// how far narrow phases agree: notes that have a section of their own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/engine/equivalence.hpp"
+#include "reports/scene_view.hpp"
+
+namespace broadside::reports {
+
+// Notes of these kinds are printed here and nowhere else.
+bool is_equivalence_note(std::string_view key);
+
+struct EngineCard {
+  std::string label;
+  core::EquivalenceCard facts;
+
+  [[nodiscard]] std::uint64_t differences() const;
+};
+
+// Cards of the scene's cells, those without one left out.
+std::vector<EngineCard> cards_of(const SceneView& scene);
+
+struct DefectRow {
+  std::string label;
+  core::DefectHits defect;
+};
+
+// Most hits first, then in the order of the cells.
+std::vector<DefectRow> defects_of(const SceneView& scene);
+
+struct AgreementGrid {
+  std::vector<std::string> columns;  // "deep", "shallow", ..., "thin plate"
+  // Label and one text per column, empty where the cell says nothing.
+  std::vector<std::pair<std::string, std::vector<std::string>>> rows;
+};
+
+AgreementGrid agreement_of(const SceneView& scene);
+
+// Escaped HTML; empty when no cell of the scene says anything of the kind.
+std::string equivalence_section(const SceneView& scene);
+
+// Escaped Markdown blocks: differences alone, defects that were met, the agreement table.
+std::vector<std::string> equivalence_markdown(const SceneView& scene);
+
+}  // namespace broadside::reports

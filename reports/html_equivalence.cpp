@@ -1,0 +1,66 @@
+// Equivalence cards, known defects and agreement on the page.
+#include "reports/equivalence.hpp"
+#include "reports/escape.hpp"
+#include "reports/figures.hpp"
+
+namespace broadside::reports {
+namespace {
+
+std::string card_html(const EngineCard& card) {
+  const std::uint64_t differences = card.differences();
+  std::string out = "<details class=\"card\"><summary><b>" + html(card.label) + "</b> " +
+                    (differences == 0 ? std::string("nothing differs from the scene")
+                                      : counted(differences, "difference") + " from the scene") +
+                    "</summary><table class=\"cells\"><thead><tr><th scope=\"col\">property</th><th scope=\"col\">this "
+                    "engine</th><th scope=\"col\">the scene asks for</th></tr></thead><tbody>";
+  for (const core::EquivalenceFact& fact : card.facts)
+    out += "<tr" + std::string(fact.differs() ? " class=\"differs\"" : "") + "><th scope=\"row\">" +
+           html(fact.property) + "</th><td data-name=\"this engine\">" + html(fact.engine) +
+           "</td><td data-name=\"the scene asks for\">" +
+           (fact.differs() ? "<strong>differs:</strong> " + html(fact.scene) : std::string("the same")) + "</td></tr>";
+  return out + "</tbody></table></details>";
+}
+
+std::string defects_html(const std::vector<DefectRow>& rows) {
+  if (rows.empty()) return "";
+  std::string out =
+      "<h4>Known defects of the libraries</h4><table class=\"cells\"><thead><tr><th scope=\"col\">engine</th><th "
+      "scope=\"col\">library</th><th scope=\"col\">upstream</th><th scope=\"col\">what counts</th><th scope=\"col\" "
+      "class=\"figure\">hits in this run</th></tr></thead><tbody>";
+  for (const auto& [label, d] : rows)
+    out += "<tr><th scope=\"row\">" + html(label) + "</th><td data-name=\"library\">" + html(d.library) +
+           "</td><td data-name=\"upstream\">" + html(d.upstream) + "</td><td data-name=\"what counts\">" +
+           html(d.predicate) + "</td><td class=\"figure\" data-name=\"hits in this run\">" + counted(d.hits) + " of " +
+           counted(d.asked) + "</td></tr>";
+  return out + "</tbody></table>";
+}
+
+std::string agreement_html(const AgreementGrid& grid) {
+  if (grid.columns.empty()) return "";
+  std::string out =
+      "<h4>Agreement with the exact answer</h4><table class=\"cells\"><thead><tr><th scope=\"col\">engine</th>";
+  for (const std::string& column : grid.columns) out += "<th scope=\"col\">" + html(column) + "</th>";
+  out += "</tr></thead><tbody>";
+  for (const auto& [label, texts] : grid.rows) {
+    out += "<tr><th scope=\"row\">" + html(label) + "</th>";
+    for (std::size_t k = 0; k < texts.size(); ++k)
+      out += "<td data-name=\"" + html(grid.columns[k]) + "\">" +
+             (texts[k].empty() ? "<span class=\"void\">none</span>" : html(texts[k])) + "</td>";
+    out += "</tr>";
+  }
+  return out + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string equivalence_section(const SceneView& scene) {
+  const std::vector<EngineCard> cards = cards_of(scene);
+  const std::vector<DefectRow> defects = defects_of(scene);
+  const AgreementGrid grid = agreement_of(scene);
+  if (cards.empty() && defects.empty() && grid.columns.empty()) return "";
+  std::string out = "<section><h3>Is it the same scene?</h3>" + agreement_html(grid);
+  for (const EngineCard& card : cards) out += card_html(card);
+  return out + defects_html(defects) + "</section>";
+}
+
+}  // namespace broadside::reports

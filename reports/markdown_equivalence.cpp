@@ -1,0 +1,58 @@
+// Equivalence, known defects and agreement as Markdown.
+#include "reports/equivalence.hpp"
+#include "reports/escape.hpp"
+#include "reports/figures.hpp"
+#include "reports/wording.hpp"
+
+namespace broadside::reports {
+namespace {
+
+std::string text(std::string_view raw) {
+  return markdown(clipped(printable(raw), 300));
+}
+
+}  // namespace
+
+std::vector<std::string> equivalence_markdown(const SceneView& scene) {
+  std::vector<std::string> blocks;
+  const AgreementGrid grid = agreement_of(scene);
+  if (!grid.columns.empty()) {
+    std::string head = "\n#### Agreement with the exact answer\n\n| engine |";
+    std::string rule = "| --- |";
+    for (const std::string& column : grid.columns) {
+      head += " " + text(column) + " |";
+      rule += " --- |";
+    }
+    std::string rows;
+    for (const auto& [label, texts] : grid.rows) {
+      rows += "| " + text(label) + " |";
+      for (const std::string& cell : texts) rows += " " + (cell.empty() ? std::string("none") : text(cell)) + " |";
+      rows += "\n";
+    }
+    blocks.push_back(head + "\n" + rule + "\n" + rows);
+  }
+  std::string differences;
+  for (const EngineCard& card : cards_of(scene))
+    for (const core::EquivalenceFact& fact : card.facts)
+      if (fact.differs())
+        differences += "| " + text(card.label) + " | " + text(fact.property) + " | " + text(fact.engine) + " | " +
+                       text(fact.scene) + " |\n";
+  if (!differences.empty())
+    blocks.push_back(
+        "\n#### Where engines differ from the scene\n\n| engine | property | this engine | the scene asks for |\n| --- "
+        "| "
+        "--- | --- | --- |\n" +
+        differences);
+  std::string met;
+  for (const auto& [label, d] : defects_of(scene))
+    met += "| " + text(label) + " | " + text(d.library) + " | " + text(d.upstream) + " | " + text(d.predicate) + " | " +
+           counted(d.hits) + " of " + counted(d.asked) + " |\n";
+  if (!met.empty())
+    blocks.push_back(
+        "\n#### Known defects of the libraries\n\n| engine | library | upstream | what counts | hits |\n| --- | --- | "
+        "--- | --- | ---: |\n" +
+        met);
+  return blocks;
+}
+
+}  // namespace broadside::reports
