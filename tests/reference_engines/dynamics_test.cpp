@@ -1,0 +1,183 @@
+// One body of tests for every engine that simulates: what any of them must do with a scene, whatever solver is inside.
+// A new engine is one line in subjects().
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/engine/engine.hpp"
+#include "datasets/shapes/box_mesh.hpp"
+#include "reference/engines.hpp"
+#include "reference/octree_cpu/engine.hpp"
+
+namespace broadside {
+namespace {
+
+using core::Vec3;
+
+struct Subject {
+  std::string name;
+  core::EngineRow (*row)();
+  std::map<std::string, std::string> settings = {};
+};
+
+void PrintTo(const Subject& subject, std::ostream* out) {
+  *out << subject.name;
+}
+
+const std::vector<Subject>& subjects() {
+  static const std::vector<Subject> all{
+      {"octree_cpu", reference::octree_cpu_row},
+      {"octree_cpu_jacobi", reference::octree_cpu_row, {{"solver", "jacobi"}}},
+      {"hash_cpu", reference::hash_cpu_row},
+      {"bullet_world", reference::bullet_world_row},
+      {"bullet_world_margin", reference::bullet_world_row, {{"margin", "bullet"}}},
+  };
+  return all;
+}
+
+constexpr float kDt = 1.0F / 64.0F;
+
+core::Scene empty_scene() {
+  core::Scene scene;
+  scene.name = "dynamics";
+  scene.meshes = {std::make_shared<const core::Mesh>(datasets::box_mesh({1.0, 1.0, 1.0}, {4, 4, 4}).value())};
+  scene.domain = {{-8, -8, -8}, {8, 8, 8}};
+  scene.gravity_m_s2 = {0, -8, 0};
+  scene.dt_s = kDt;
+  return scene;
+}
+
+core::Body& add(core::Scene& scene, Vec3 x, Vec3 v = {}) {
+  core::Body body;
+  body.position = x;
+  body.velocity = v;
+  scene.bodies.push_back(body);
+  return scene.bodies.back();
+}
+
+class DynamicsEngines : public testing::TestWithParam<Subject> {
+ protected:
+  [[nodiscard]] static core::Engine make() {
+    const core::EngineRow row = GetParam().row();
+    auto engine = row.create(core::Settings::parse(row.id, row.settings, GetParam().settings).value());
+    EXPECT_TRUE(engine.ok());
+    return std::move(engine).value();
+  }
+
+  core::FrameRecord run(const core::Scene& scene, int steps) {
+    core::FrameRecord frame;
+    const auto loaded = engine_.dynamics->load(scene);
+    EXPECT_TRUE(loaded.ok()) << (loaded.ok() ? "" : loaded.error().line());
+    for (int k = 0; k < steps; ++k) EXPECT_TRUE(engine_.dynamics->step(scene.dt_s).ok());
+    EXPECT_TRUE(engine_.dynamics->read_back(frame, core::RecordLevel::kFull).ok());
+    return frame;
+  }
+
+  core::Engine engine_ = make();
+};
+
+TEST_P(DynamicsEngines, NamesItselfAndItsLibrary) {
+  EXPECT_EQ(engine_.id, GetParam().row().id);
+  EXPECT_NE(engine_.build.find_first_of("0123456789"), std::string::npos) << engine_.build;
+}
+
+TEST_P(DynamicsEngines, NoBodies) {
+  const core::Scene scene = empty_scene();
+  const core::FrameRecord frame = run(scene, 3);
+  EXPECT_EQ(frame.step, 3U);
+  EXPECT_TRUE(frame.position.empty());
+  EXPECT_TRUE(frame.contacts.empty());
+}
+
+// Of the integrator v' = v + g dt, x' = x + v' dt: after n steps v = n g dt and x = x0 + n v0 dt + g dt^2 n (n + 1)
+// / 2.
+TEST_P(DynamicsEngines, AFallingBodyFollowsTheDiscreteSolution) {
+  core::Scene scene = empty_scene();
+  add(scene, {1, 7, 0}, {0.5F, 0, -1});
+  const core::FrameRecord frame = run(scene, 32);
+  EXPECT_NEAR(frame.velocity[0].y, -8.0 * 32.0 / 64.0, 1e-5);
+  EXPECT_NEAR(frame.position[0].y, 7.0 - 8.0 * 32.0 * 33.0 / 2.0 / 4096.0, 1e-4);
+  EXPECT_NEAR(frame.position[0].x, 1.25, 1e-4);
+  EXPECT_NEAR(frame.position[0].z, -0.5, 1e-4);
+}
+
+TEST_P(DynamicsEngines, WhatItSaysToRecordIsThereInItsSize) {
+  core::Scene scene = empty_scene();
+  add(scene, {0, -7.49F, 0});
+  add(scene, {0, -6.5F, 0});
+  add(scene, {4, 0, 0});
+  const core::FrameRecord frame = run(scene, 8);
+  const std::uint32_t groups = engine_.dynamics->groups();
+  const auto has = [&](core::Group g) { return (groups & bit(g)) != 0; };
+  ASSERT_TRUE(has(core::Group::kBodies) && has(core::Group::kDetection) && has(core::Group::kPairs));
+  EXPECT_EQ(frame.position.size(), 3U);
+  EXPECT_EQ(frame.orientation.size(), 3U);
+  EXPECT_EQ(frame.velocity.size(), 3U);
+  EXPECT_EQ(frame.angular_velocity.size(), 3U);
+  EXPECT_EQ(frame.detected_position.size(), 3U);
+  EXPECT_EQ(frame.boxes.size(), 3U);
+  EXPECT_EQ(frame.pairs, (std::vector<core::Pair>{{0, 1}}));
+  EXPECT_EQ(frame.pairs_demanded, 1U);
+  EXPECT_GE(frame.pairs_raw, 1U);
+  EXPECT_EQ(frame.time_s, 8.0 / 64.0);
+}
+
+TEST_P(DynamicsEngines, TheFloorHoldsAndPushesInward) {
+  core::Scene scene = empty_scene();
+  add(scene, {0, -7.4F, 0});
+  const core::FrameRecord frame = run(scene, 128);
+  EXPECT_NEAR(frame.position[0].y, -7.5, 0.02);
+  EXPECT_LT(std::abs(frame.velocity[0].y), 8.0 * kDt);
+  bool has_floor = false;
+  for (const core::Contact& c : frame.contacts) {
+    ASSERT_TRUE(core::is_face(c.b));
+    has_floor = has_floor || c.b == core::kFirstFace + 2;
+    EXPECT_NEAR(c.normal.y, 1.0, 1e-4);
+  }
+  EXPECT_TRUE(has_floor);
+}
+
+TEST_P(DynamicsEngines, StaticBodiesStayWhereTheyAre) {
+  core::Scene scene = empty_scene();
+  add(scene, {0, 0, 0}).inverse_mass = 0.0F;
+  add(scene, {0.25F, 1.2F, 0});
+  const core::FrameRecord frame = run(scene, 96);
+  EXPECT_EQ(frame.position[0], (Vec3{0, 0, 0}));
+  EXPECT_EQ(frame.velocity[0], Vec3{});
+  EXPECT_NEAR(frame.position[1].y, 1.0, 0.03) << "rests on the static one";
+}
+
+TEST_P(DynamicsEngines, MomentumOfTwoIsKept) {
+  core::Scene scene = empty_scene();
+  scene.gravity_m_s2 = {};
+  add(scene, {-1, 0, 0}, {1, 0.25F, 0});
+  add(scene, {1, 0.1F, 0.2F}, {-2, 0, 0}).inverse_mass = 0.5F;
+  const core::FrameRecord frame = run(scene, 48);
+  const Vec3 momentum = frame.velocity[0] + 2.0F * frame.velocity[1];
+  EXPECT_NEAR(momentum.x, 1.0 - 4.0, 1e-4);
+  EXPECT_NEAR(momentum.y, 0.25, 1e-4);
+  EXPECT_LT(frame.velocity[0].x, frame.velocity[1].x) << "they met and part";
+}
+
+TEST_P(DynamicsEngines, LoadStartsAfreshAndTheSameSceneGivesTheSameDigests) {
+  core::Scene scene = empty_scene();
+  for (int k = 0; k < 8; ++k) add(scene, {0.3F * static_cast<float>(k % 2), -7.4F + 1.05F * static_cast<float>(k), 0});
+  const std::uint64_t first = run(scene, 40).digest;
+  EXPECT_EQ(run(scene, 40).digest, first) << "loaded again";
+  const core::Engine other = make();
+  ASSERT_TRUE(other.dynamics->load(scene).ok());
+  for (int k = 0; k < 40; ++k) ASSERT_TRUE(other.dynamics->step(kDt).ok());
+  core::FrameRecord frame;
+  ASSERT_TRUE(other.dynamics->read_back(frame, core::RecordLevel::kDigest).ok());
+  EXPECT_EQ(frame.digest, first) << "another engine, digest alone";
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, DynamicsEngines, testing::ValuesIn(subjects()),
+                         [](const auto& subject) { return subject.param.name; });
+
+}  // namespace
+}  // namespace broadside
