@@ -219,6 +219,7 @@ core::Result<core::Sample> time_here(const RunPlan& plan, Timer& timer, const Ce
 core::Result<core::Sample> time_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t most_frames) {
   RunPlan alone = plan;
   alone.cells = {spec};
+  alone.times_here = true;  // the caller decides in which process it times
   Timer timer(alone);
   if (core::Status s = timer.prepare(); !s) return s.error();
   auto sample = timer.time(spec, most_frames);
