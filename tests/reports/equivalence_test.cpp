@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 
+#include "reports/report.hpp"
 #include "tests/reports/markup_checker.hpp"
 #include "tests/reports/sample_rows.hpp"
 
