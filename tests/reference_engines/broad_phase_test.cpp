@@ -388,31 +388,6 @@ TEST_P(BroadPhases, BadBoxesAreRefusedByName) {
   EXPECT_FALSE(phase().update({}).ok()) << "fewer boxes than were loaded";
 }
 
-// A leaf that moved by 5 mm is fattened by Bullet's 50 mm, so it meets a box 5 mm away that it does not overlap: raw
-// and tight differ with the library's margin and agree without.
-TEST(BulletDbvt, ReportsItsMarginPairsApart) {
-  const std::vector<Box> before{cube(0, 0, 0, 1), cube(1.02F, 0, 0, 1)};
-  const std::vector<Box> after{cube(0.005F, 0, 0, 1), cube(1.02F, 0, 0, 1)};
-  for (const auto& [margin, raw] : {std::pair{"bullet", 1U}, std::pair{"0", 0U}}) {
-    const core::Engine engine = make_engine({"", reference::bullet_dbvt_row, {{"margin", margin}}});
-    ASSERT_TRUE(engine.broad_phase->load(before, all_moving(2)).ok());
-    ASSERT_TRUE(engine.broad_phase->update(after).ok());
-    ASSERT_TRUE(engine.broad_phase->find().ok());
-    const auto set = engine.broad_phase->read_back();
-    ASSERT_TRUE(set.ok());
-    EXPECT_EQ(set.value().raw, raw) << "margin " << margin;
-    EXPECT_TRUE(set.value().pairs.empty());
-    EXPECT_NEAR(engine.broad_phase->traits().margin_m, raw == 1 ? 0.05 : 0.0, 1e-8);
-  }
-}
-
-// Some engines are optional at build time: what is not there has nothing to test.
-std::vector<Subject> subjects_that_are_built() {
-  std::vector<Subject> built = subjects();
-  std::erase_if(built, [](const Subject& subject) { return !subject.row().absent().empty(); });
-  return built;
-}
-
 INSTANTIATE_TEST_SUITE_P(Reference, BroadPhases, testing::ValuesIn(subjects_that_are_built()),
                          [](const auto& subject) { return subject.param.name; });
 

@@ -1,0 +1,44 @@
+// Bullet's margin around moving leaves, seen from outside.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/engine/engine.hpp"
+#include "reference/engines.hpp"
+
+namespace broadside {
+namespace {
+
+core::Box unit_cube(float x) {
+  return {{x, 0, 0}, {x + 1, 1, 1}};
+}
+
+// A leaf that moved by 5 mm is fattened by Bullet's 50 mm, so it meets a box 5 mm away that it does not overlap: raw
+// and tight differ with the library's margin and agree without. The card says which it is.
+TEST(BulletDbvt, ReportsItsMarginPairsApart) {
+  const std::vector<std::uint8_t> moving(2, 0);
+  const core::EngineRow row = reference::bullet_dbvt_row();
+  for (const auto& [margin, raw] : {std::pair{"bullet", 1U}, std::pair{"0", 0U}}) {
+    auto made = row.create(core::Settings::parse(row.id, row.settings, {{"margin", margin}}).value());
+    ASSERT_TRUE(made.ok());
+    const core::Engine& engine = made.value();
+    ASSERT_TRUE(engine.broad_phase->load(std::vector{unit_cube(0), unit_cube(1.02F)}, moving).ok());
+    ASSERT_TRUE(engine.broad_phase->update(std::vector{unit_cube(0.005F), unit_cube(1.02F)}).ok());
+    ASSERT_TRUE(engine.broad_phase->find().ok());
+    const auto set = engine.broad_phase->read_back();
+    ASSERT_TRUE(set.ok());
+    EXPECT_EQ(set.value().raw, raw) << "margin " << margin;
+    EXPECT_TRUE(set.value().pairs.empty());
+    EXPECT_NEAR(engine.broad_phase->traits().margin_m, raw == 1 ? 0.05 : 0.0, 1e-8);
+    EXPECT_EQ(engine.defects().at(0).hits, raw) << "a pair that does not overlap";
+    bool differs = false;
+    for (const core::EquivalenceFact& fact : engine.equivalence({}))
+      differs = differs || (fact.property == "broad-phase margin" && fact.differs());
+    EXPECT_EQ(differs, raw == 1);
+  }
+}
+
+}  // namespace
+}  // namespace broadside
