@@ -5,6 +5,7 @@
 
 #include "bench/engines.hpp"
 #include "bench/trace_scene.hpp"
+#include "bench/transformed_spec.hpp"
 #include "core/engine/settings.hpp"
 #include "core/nearest_name.hpp"
 #include "datasets/scenes.hpp"
@@ -42,7 +43,8 @@ void SceneArguments::add_to(CLI::App& command) {
       .add_option(
           "SCENE", spec,
           "A scene's name, such as freefall:bunny:50 or tower:cube:20[offset=0.2,seed=7], a .toml, .gltf or .glb "
-          "file, or a trace (.h5), whose scene is taken (broadside list scenes)")
+          "file, or a trace (.h5), whose scene is taken (broadside list scenes); "
+          "@mirrored-x, @doubled, @renumbered or @grown after it: the scene transformed")
       ->required();
   command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")->check(CLI::PositiveNumber);
   command.add_flag("--stand-in", allow_stand_in,
@@ -50,6 +52,15 @@ void SceneArguments::add_to(CLI::App& command) {
 }
 
 core::Result<core::Scene> SceneArguments::make() const {
+  if (const auto [untold, transformation] = split_transformation(spec); transformation != nullptr) {
+    SceneArguments plain = *this;
+    plain.spec = untold;
+    auto scene = plain.make();
+    if (!scene) return scene.error();
+    core::Scene other = transformation->apply(scene.value());
+    other.name += "@" + std::string(transformation->name);
+    return other;
+  }
   if (is_trace_file(spec)) {
     auto scene = scene_of_trace(spec);
     if (scene.ok() && frames > 0) scene.value().frames = frames;

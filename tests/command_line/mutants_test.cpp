@@ -37,5 +37,29 @@ TEST(MutantsCommand, AnUnknownNameIsOneClearLine) {
   EXPECT_NE(ended.err.find("printed-E6"), std::string::npos) << ended.err;
 }
 
+TEST(TransformedScene, IsComparedByMetamorphicAndByNoOther) {
+  const ScratchFolder folder;
+  for (const char* scene : {"two-body:glancing", "two-body:glancing@renumbered"}) {
+    const Ended ran = run_program({"run", scene, "--engine", "octree-cpu", "--out",
+                                   (folder / (std::string(scene).ends_with("renumbered") ? "b" : "a")).string()});
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  }
+  const std::string a = (folder / "a/octree-cpu.h5").string();
+  const std::string b = (folder / "b/octree-cpu.h5").string();
+  const std::string file = (folder / "verdicts.json").string();
+  const Ended checked = run_program({"check", a, "--against", b, "--json", file});
+  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  std::ifstream stream(file);
+  const auto json = nlohmann::json::parse(stream);
+  std::string with_baseline;
+  for (const auto& row : json["rows"])
+    for (const auto& verdict : row["verdicts"])
+      if (!verdict["baseline"].get<std::string>().empty()) with_baseline += verdict["validator"].get<std::string>();
+  EXPECT_EQ(with_baseline, "metamorphic");
+  EXPECT_EQ(
+      run_program({"run", "two-body:glancing@mirored-x", "--engine", "octree-cpu", "--out", folder.text()}).exit_code,
+      2);
+}
+
 }  // namespace
 }  // namespace broadside::tests
