@@ -94,10 +94,13 @@ class Shrinker {
     ++changes_;
   }
 
-  void tell() const {
-    if (!limits_.tell) return;
-    limits_.tell(fmt::format("{} bodies, {} frames, {} triangles ({} runs, {:.1f} s)", best_.body_count(), best_.frames,
-                             triangle_count(best_), trials_, elapsed_s()));
+  // Once per size that was reached.
+  void tell() {
+    const std::string size =
+        fmt::format("{} bodies, {} frames, {} triangles", best_.body_count(), best_.frames, triangle_count(best_));
+    if (!limits_.tell || size == told_) return;
+    told_ = size;
+    limits_.tell(fmt::format("{} ({} runs, {:.1f} s)", size, trials_, elapsed_s()));
   }
 
   // Runs on, piece by piece, each from where the last one ended, until a piece gets the verdict. An engine that
@@ -242,6 +245,7 @@ class Shrinker {
   std::array<bool, kPlainerCount> is_plain_{};
   Scene best_;
   core::Verdict verdict_;
+  std::string told_;
   std::optional<core::Error> last_error_;
 };
 
