@@ -1,11 +1,14 @@
 #include "reports/comparison.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "reports/admission.hpp"
+#include "reports/figures.hpp"
 #include "reports/wording.hpp"
 
 namespace broadside::reports {
@@ -79,6 +82,35 @@ bool is_silent(const std::optional<Outcome>& outcome) {
   return !outcome || *outcome == Outcome::kNotApplicable;
 }
 
+// " (12.5 % more)"
+std::string more_or_less(std::uint64_t was, std::uint64_t is) {
+  if (was == 0) return "";
+  const double share = static_cast<double>(is) / static_cast<double>(was) - 1.0;
+  return " (" + percent(std::abs(share)) + (share > 0.0 ? " more)" : " less)");
+}
+
+// Stages that a run has times of, by cell.
+std::map<std::pair<std::string, std::string>, std::set<std::string>> stages_of(const core::RunRows& rows) {
+  std::map<std::pair<std::string, std::string>, std::set<std::string>> stages;
+  for (const core::Sample& sample : rows.samples)
+    for (const core::StageSeries& series : sample.stages)
+      stages[{sample.stamp.scene_name, sample.stamp.label()}].insert(series.stage);
+  return stages;
+}
+
+std::set<std::string> machines_of(const core::RunRows& rows) {
+  std::set<std::string> machines;
+  for (const core::Cell& cell : rows.cells) machines.insert(cell.stamp.machine);
+  for (const core::Sample& sample : rows.samples) machines.insert(sample.stamp.machine);
+  return machines;
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " and ") + name;
+  return text;
+}
+
 class Comparer {
  public:
   explicit Comparer(Comparison& result) : result_(result) {}
@@ -96,6 +128,26 @@ class Comparer {
           Exit::kMissing);
     if (was.cell != nullptr && !is_recorded(was) && is_recorded(*is))
       add(was, ChangeKind::kCellNew, "cell", state_text(*was.cell), "recorded", Exit::kGood);
+    if (is_recorded(was) && is_recorded(*is) && was.digest == is->digest && was.cell->frames == is->cell->frames)
+      counters(was, *is);
+  }
+
+  // Counters are facts of the program, not of the day: any machine, no tolerance.
+  void counters(const Entry& was, const Entry& is) {
+    for (const auto& [name, count] : was.cell->counters) {
+      const auto now = is.cell->counters.find(name);
+      if (now == is.cell->counters.end()) {
+        add(was, ChangeKind::kCounterVanished, name, counted(count), "not counted", Exit::kMissing);
+      } else if (now->second > count) {
+        add(was, ChangeKind::kMoreWork, name, counted(count), counted(now->second) + more_or_less(count, now->second),
+            Exit::kFailed);
+      } else if (now->second < count) {
+        add(was, ChangeKind::kLessWork, name, counted(count), counted(now->second) + more_or_less(count, now->second),
+            Exit::kGood);
+      } else {
+        ++result_.same_counters;
+      }
+    }
   }
 
   void verdict(const Entry& where, const std::string& name, std::optional<Outcome> was, std::optional<Outcome> is) {
@@ -133,8 +185,10 @@ int gravity(const Change& change) {
 
 core::Exit Comparison::exit() const {
   bool is_missing = false;
-  for (const TimeRatio& time : times)
+  for (const TimeRatio& time : times) {
     if (time.speed == Speed::kSlower) return Exit::kFailed;
+    is_missing = is_missing || time.speed == Speed::kInconclusive;
+  }
   for (const Change& change : changes) {
     if (change.exit == Exit::kFailed) return Exit::kFailed;
     is_missing = is_missing || change.exit == Exit::kMissing;
@@ -162,7 +216,22 @@ Comparison compare(const core::RunRows& base, const core::RunRows& head, const C
     for (const auto& [name, outcome] : is.verdicts) comparer.verdict(is, name, std::nullopt, outcome);
   }
 
-  result.times = time_ratios(base, head, options.slack);
+  result.delta = options.delta;
+  const std::set<std::string> old_machines = machines_of(base);
+  const std::set<std::string> new_machines = machines_of(head);
+  if (!old_machines.empty() && !new_machines.empty() && old_machines != new_machines)
+    result.remarks.push_back("different machines: the base ran on " + listed(old_machines) + ", the head on " +
+                             listed(new_machines) + "; verdicts and counters are compared, times are not");
+  const auto new_stages = stages_of(head);
+  for (const auto& [key, stages] : stages_of(base)) {
+    const auto now = new_stages.find(key);
+    if (now == new_stages.end()) continue;  // the time itself is lost, which is said below
+    for (const std::string& stage : stages)
+      if (!now->second.contains(stage))
+        comparer.add({.scene = key.first, .label = key.second}, ChangeKind::kSeriesVanished, "times of stage " + stage,
+                     "measured", "gone", Exit::kMissing);
+  }
+  result.times = time_ratios(base, head, options.delta);
   for (const TimeRatio& time : result.times) {
     const bool is_lost = time.reason.starts_with("the head has no time") || time.reason.starts_with("the head's time");
     if (is_lost)

@@ -14,11 +14,15 @@ enum class ChangeKind {
   kVerdictWorse,    // pass to inconclusive or fail, inconclusive to fail, or a fail where there was no verdict
   kVerdictMissing,  // pass, fail or inconclusive to none or not applicable
   kVerdictBetter,
-  kCellVanished,  // no such cell any more
-  kCellLost,      // was recorded, and now is absent for the reason that it gives
-  kCellNew,       // was not recorded, and now is
-  kSceneChanged,  // the same name, another digest: its verdicts and times are of something else
-  kTimeLost,      // was admitted, and now is missing or struck out
+  kCellVanished,    // no such cell any more
+  kCellLost,        // was recorded, and now is absent for the reason that it gives
+  kCellNew,         // was not recorded, and now is
+  kSceneChanged,    // the same name, another digest: its verdicts and times are of something else
+  kTimeLost,        // was admitted, and now is missing or struck out
+  kSeriesVanished,  // a stage was timed, and now is not
+  kMoreWork,        // a deterministic counter went up: more box tests, nodes, launches, bytes for the same scene
+  kLessWork,
+  kCounterVanished,
 };
 
 struct Change {
@@ -33,9 +37,11 @@ struct Change {
 };
 
 struct ComparisonOptions {
-  // Runs of one build on one machine differ between days by a few percent (page placement, clock, temperature), which
-  // runs of one day do not show. A share; larger hides small regressions, smaller reports the weather.
-  double slack = 0.05;
+  // The smallest change of time that is called one, as a share: 0.05 is the interval beyond 1.05. Why 5 %: any edit
+  // moves code and data in memory, and that alone changes times by a few percent up to 8 % (Mytkowicz, Diwan, Hauswirth
+  // and Sweeney, ASPLOS 2009), so less than that says more about the linker than about the edit. Smaller finds smaller
+  // changes and blames layouts; 0 asks only whether there is any difference.
+  double delta = 0.05;
 };
 
 struct Comparison {
@@ -43,9 +49,13 @@ struct Comparison {
   std::vector<TimeRatio> times;
   std::uint64_t same_verdicts = 0;  // judged in both with one outcome
   std::uint64_t still_failing = 0;  // of those: fail in both
+  std::uint64_t same_counters = 0;
+  double delta = 0.0;                // that times were held against
+  std::vector<std::string> remarks;  // what a reader must know before the rest: other machines
 
-  // kFailed when a verdict fails that did not, or a time is slower; otherwise kMissing when something can no longer be
-  // told; otherwise kGood. What failed before and still fails is no change.
+  // kFailed when a verdict fails that did not, a counter went up, or a time is slower; otherwise kMissing when
+  // something can no longer be told or a time is inconclusive; otherwise kGood. What failed before and still fails is
+  // no change. A time that only one side ever had, or of another machine, is no comparison and no fault.
   [[nodiscard]] core::Exit exit() const;
 };
 
@@ -54,5 +64,7 @@ Comparison compare(const core::RunRows& base, const core::RunRows& head, const C
 
 // Plain text: one sentence, then a line per change and a table of times; within 100 columns where names allow.
 std::string comparison_text(const Comparison& comparison);
+// The same for machines: {"format": "broadside-comparison", "version": 1, "exit": 0, "changes": [...], "times": [...]}.
+std::string comparison_json(const Comparison& comparison);
 
 }  // namespace broadside::reports

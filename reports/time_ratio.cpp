@@ -4,36 +4,33 @@
 #include <map>
 #include <utility>
 
-#include "core/pair.hpp"
 #include "reports/admission.hpp"
 #include "reports/figures.hpp"
+#include "reports/ratio_interval.hpp"
+#include "reports/sample_figures.hpp"
 #include "reports/statistics.hpp"
 
 namespace broadside::reports {
 namespace {
 
-constexpr int kResamples = 10'000;  // enough that the 2.5 % tail rests on 250 of them
-constexpr double kTail = 0.025;
+constexpr double kFalseDiscoveries = 0.025;  // one-sided, as the tail of a 95 % interval
 
 // The median frame of each run of one (scene, label), and what decides whether two such sets may be compared.
 struct Runs {
-  std::vector<double> median_frame_s;
+  std::map<std::uint64_t, ProcessRuns> by_process;
+  std::uint64_t count = 0;
   core::Stamp stamp;
   std::size_t frames = 0;
   std::string refusal;  // of the first sample that was not admitted
+
+  [[nodiscard]] std::vector<ProcessRuns> processes() const {
+    std::vector<ProcessRuns> all;
+    for (const auto& [process, runs] : by_process) all.push_back(runs);
+    return all;
+  }
 };
 
 using Key = std::pair<std::string, std::string>;  // scene name, label
-
-std::vector<double> frame_seconds(const core::Sample& sample) {
-  std::vector<double> sum;
-  for (const core::StageSeries& series : sample.stages) {
-    if (series.stage == "frame") return series.seconds;
-    sum.resize(std::max(sum.size(), series.seconds.size()), 0.0);
-    for (std::size_t k = 0; k < series.seconds.size(); ++k) sum[k] += series.seconds[k];
-  }
-  return sum;
-}
 
 std::map<Key, Runs> runs_of(const core::RunRows& rows) {
   std::map<Key, Runs> all;
@@ -43,12 +40,14 @@ std::map<Key, Runs> runs_of(const core::RunRows& rows) {
     const std::vector<double> seconds = frame_seconds(sample);
     const Summary frame = summarize(seconds);
     if (runs.refusal.empty() && !admission.is_admitted) runs.refusal = admission.reason;
-    if (runs.refusal.empty() && (frame.count == 0 || frame.not_finite > 0)) runs.refusal = "a run has no usable times";
-    if (runs.refusal.empty() && !runs.median_frame_s.empty() && runs.frames != seconds.size())
+    if (runs.refusal.empty() && (frame.count == 0 || frame.not_finite > 0 || !(frame.median > 0.0)))
+      runs.refusal = "a run has no usable times";
+    if (runs.refusal.empty() && runs.count > 0 && runs.frames != seconds.size())
       runs.refusal = "its runs differ in their number of frames";
     runs.stamp = sample.stamp;
     runs.frames = seconds.size();
-    runs.median_frame_s.push_back(frame.median);
+    runs.by_process[sample.process].push_back(frame.median);
+    ++runs.count;
   }
   return all;
 }
@@ -63,58 +62,55 @@ std::string why_not(const Runs* base, const Runs* head) {
   if (base->frames != head->frames)
     return "the runs have " + counted(base->frames) + " frames in the base and " + counted(head->frames) +
            " in the head";
-  if (!enough_runs(base->median_frame_s.size(), head->median_frame_s.size()))
-    return "too few runs to show a difference (" + counted(base->median_frame_s.size()) + " and " +
-           counted(head->median_frame_s.size()) + "; 4 and 4 are enough)";
   return "";
 }
 
-// Deterministic draws: the state walks, splitmix64 scrambles it.
-class Draws {
- public:
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(core::splitmix64(state_++) % n); }
-
- private:
-  std::uint64_t state_ = 0;
-};
-
-double median_of(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
-  return quantile(values, 0.5);
+// The same names on both sides: only names that were told make a pair. Too few pairs to show anything are taken as
+// processes, which need fewer.
+bool is_paired(const Runs& base, const Runs& head) {
+  return enough_processes(base.by_process.size(), head.by_process.size(), true) &&
+         base.by_process.size() == head.by_process.size() && !base.by_process.contains(0) &&
+         std::equal(base.by_process.begin(), base.by_process.end(), head.by_process.begin(),
+                    [](const auto& a, const auto& b) { return a.first == b.first; });
 }
 
-double resampled_median(std::span<const double> values, Draws& draws, std::vector<double>& scratch) {
-  scratch.resize(values.size());
-  for (double& value : scratch) value = values[draws.below(values.size())];
-  return median_of(scratch);
+// The ratio with its p-values; the speed is decided over all cells together.
+RatioInterval measure(const Runs& base, const Runs& head, double delta, TimeRatio& r) {
+  r.is_paired = is_paired(base, head);
+  const RatioInterval interval = ratio_interval(base.processes(), head.processes(), r.is_paired, delta);
+  r.ratio = interval.estimate;
+  r.low = interval.low;
+  r.high = interval.high;
+  r.speed = Speed::kInconclusive;
+  return interval;
+}
+
+void decide(TimeRatio& r, bool is_slower_believed, bool is_faster_believed, double delta) {
+  if (!enough_processes(r.base_processes, r.head_processes, r.is_paired)) {
+    r.reason = "too few processes to show a difference (" + counted(r.base_processes) + " and " +
+               counted(r.head_processes) + "; 4 and 4 are enough, 10 and 10 are good)";
+    return;
+  }
+  const bool is_above = r.low > 1.0 + delta;
+  const bool is_below = r.high < 1.0 / (1.0 + delta);
+  if (is_above && is_slower_believed)
+    r.speed = Speed::kSlower;
+  else if (is_below && is_faster_believed)
+    r.speed = Speed::kFaster;
+  else if (r.low >= 1.0 / (1.0 + delta) && r.high <= 1.0 + delta)
+    r.speed = Speed::kSame;
+  else
+    r.reason = is_above || is_below ? "of so many cells one may look so by chance"
+                                    : "the interval reaches across the limit of " + percent(delta);
 }
 
 }  // namespace
 
-bool enough_runs(std::uint64_t base, std::uint64_t head) {
-  double orders = 1.0;  // C(base + head, base), grown factor by factor
-  for (std::uint64_t k = 1; k <= base && orders * kTail <= 1.0; ++k)
-    orders *= static_cast<double>(head + k) / static_cast<double>(k);
-  return orders * kTail > 1.0;
+bool enough_processes(std::uint64_t base, std::uint64_t head, bool is_paired) {
+  return smallest_p(base, head, is_paired) < kFalseDiscoveries;
 }
 
-Interval bootstrap_ratio(std::span<const double> base, std::span<const double> head) {
-  std::vector<double> scratch(base.begin(), base.end());
-  const double base_median = median_of(scratch);
-  scratch.assign(head.begin(), head.end());
-  const double head_median = median_of(scratch);
-
-  Draws draws;
-  std::vector<double> ratios(kResamples);
-  for (double& ratio : ratios) {
-    const double of_head = resampled_median(head, draws, scratch);
-    ratio = of_head / resampled_median(base, draws, scratch);
-  }
-  std::sort(ratios.begin(), ratios.end());
-  return {.estimate = head_median / base_median, .low = quantile(ratios, kTail), .high = quantile(ratios, 1.0 - kTail)};
-}
-
-std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double slack) {
+std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double delta) {
   const std::map<Key, Runs> base_runs = runs_of(base);
   const std::map<Key, Runs> head_runs = runs_of(head);
   std::map<Key, std::pair<const Runs*, const Runs*>> both;
@@ -122,26 +118,29 @@ std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRow
   for (const auto& [key, runs] : head_runs) both[key].second = &runs;
 
   std::vector<TimeRatio> ratios;
+  std::vector<std::size_t> measured;
+  std::vector<double> p_slower;
+  std::vector<double> p_faster;
   for (const auto& [key, sides] : both) {
     const auto [old_runs, new_runs] = sides;
     const bool is_any_admitted =
         (old_runs != nullptr && old_runs->refusal.empty()) || (new_runs != nullptr && new_runs->refusal.empty());
     if (!is_any_admitted) continue;
     TimeRatio r{.scene = key.first, .label = key.second};
-    if (old_runs != nullptr) r.base_runs = old_runs->median_frame_s.size();
-    if (new_runs != nullptr) r.head_runs = new_runs->median_frame_s.size();
+    if (old_runs != nullptr) r.base_runs = old_runs->count, r.base_processes = old_runs->by_process.size();
+    if (new_runs != nullptr) r.head_runs = new_runs->count, r.head_processes = new_runs->by_process.size();
     r.reason = why_not(old_runs, new_runs);
     if (r.reason.empty()) {
-      const Interval interval = bootstrap_ratio(old_runs->median_frame_s, new_runs->median_frame_s);
-      r.ratio = interval.estimate;
-      r.low = interval.low;
-      r.high = interval.high;
-      r.speed = r.low > 1.0 + slack    ? Speed::kSlower
-                : r.high < 1.0 - slack ? Speed::kFaster
-                                       : Speed::kNoDifferenceShown;
+      const RatioInterval interval = measure(*old_runs, *new_runs, delta, r);
+      measured.push_back(ratios.size());
+      p_slower.push_back(interval.p_slower);
+      p_faster.push_back(interval.p_faster);
     }
     ratios.push_back(std::move(r));
   }
+  const std::vector<bool> slower = benjamini_hochberg(p_slower, kFalseDiscoveries);
+  const std::vector<bool> faster = benjamini_hochberg(p_faster, kFalseDiscoveries);
+  for (std::size_t k = 0; k < measured.size(); ++k) decide(ratios[measured[k]], slower[k], faster[k], delta);
   return ratios;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,8 @@
 
 namespace broadside::reports {
 
-enum class Speed { kSlower, kFaster, kNoDifferenceShown, kNotComparable };
+// kSame is a claim too: the whole interval lies within delta. What is neither is inconclusive, and that is no pass.
+enum class Speed { kSlower, kFaster, kSame, kInconclusive, kNotComparable };
 
 struct TimeRatio {
   std::string scene;
@@ -19,25 +19,18 @@ struct TimeRatio {
   double ratio = 0.0;            // time per frame of the head over that of the base: 1.1 = a tenth slower
   double low = 0.0, high = 0.0;  // 95 % interval of the ratio
   std::uint64_t base_runs = 0, head_runs = 0;
-  std::string reason;  // why not comparable; empty otherwise
+  std::uint64_t base_processes = 0, head_processes = 0;
+  bool is_paired = false;  // the builds ran in turns, process beside process
+  std::string reason;      // why not comparable or inconclusive; empty otherwise
 };
 
-struct Interval {
-  double estimate = 0.0, low = 0.0, high = 0.0;
-};
+// One entry per (scene, label) that has an admitted time in the base or in the head. A run counts by its median frame.
+// Where both sides name the same processes they ran in turns (core::Sample::process), and pairs are compared. Slower
+// when the whole interval lies above 1 + delta, faster when it lies below 1 / (1 + delta), and in both cases only if
+// that survives Benjamini and Hochberg at 2.5 % over all entries: of many cells some look slower by chance.
+std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double delta);
 
-// Ratio of the medians of head and base with its percentile-bootstrap interval (Efron 1979) at 95 %. The units that are
-// drawn again are whole runs, given here by one figure each: frames of one run are no independent sample, they are the
-// same workload in the same order. Deterministic: the same figures give the same interval. Neither may be empty.
-Interval bootstrap_ratio(std::span<const double> base, std::span<const double> head);
-
-// Can so many runs show a difference at all? If the two builds were equal, every run of one would be slower than every
-// run of the other by mere chance once in C(base + head, base) times; that must be rarer than the interval's 2.5 %
-// tail. So four runs on each side are enough, and three are not.
-bool enough_runs(std::uint64_t base, std::uint64_t head);
-
-// One entry per (scene, label) that has an admitted time in the base or in the head. Slower when the whole interval
-// lies above 1 + slack, faster when it lies below 1 - slack.
-std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double slack);
+// Is the process that ran these samples known, and are there enough of them on both sides to show a difference?
+bool enough_processes(std::uint64_t base, std::uint64_t head, bool is_paired);
 
 }  // namespace broadside::reports

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "reports/sample_figures.hpp"
+
 namespace broadside::reports {
 namespace {
 
@@ -16,15 +18,6 @@ struct Pool {
   std::vector<double> fps;
   std::uint64_t refused = 0;
 };
-
-std::vector<double> sum_of_stages(const core::Sample& sample) {
-  std::vector<double> sum;
-  for (const core::StageSeries& series : sample.stages) {
-    sum.resize(std::max(sum.size(), series.seconds.size()), 0.0);
-    for (std::size_t k = 0; k < series.seconds.size(); ++k) sum[k] += series.seconds[k];
-  }
-  return sum;
-}
 
 void append(std::vector<double>& to, const std::vector<double>& from) {
   to.insert(to.end(), from.begin(), from.end());
@@ -46,7 +39,7 @@ void add(Pool& pool, const core::Sample& sample, const core::RunRows& rows) {
     if (found == pool.stages.end()) found = pool.stages.insert(found, {series.stage, {}});
     append(found->seconds, series.seconds);
   }
-  const std::vector<double> frame = whole != nullptr ? whole->seconds : sum_of_stages(sample);
+  const std::vector<double> frame = frame_seconds(sample);
   pool.timing.frame_is_sum = pool.timing.frame_is_sum || whole == nullptr;
   append(pool.frame, frame);
   const double total_s = std::accumulate(frame.begin(), frame.end(), 0.0);

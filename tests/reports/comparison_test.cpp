@@ -13,7 +13,7 @@ namespace {
 using core::Exit;
 using core::Outcome;
 
-// One cell, two verdicts, five runs of three frames at 10 ms.
+// One cell, two verdicts, five processes of one run of three frames at 10 ms.
 core::RunRows one_cell() {
   const core::Stamp stamp{.scene_name = "s", .scene_digest = 1, .engine = "e", .settings = "k=v", .machine = "m"};
   core::RunRows rows;
@@ -23,14 +23,17 @@ core::RunRows one_cell() {
                                         {.validator = "set", .outcome = Outcome::kPass, .baseline = "all-pairs"}}});
   for (std::uint32_t r = 0; r < 5; ++r)
     rows.samples.push_back({.stamp = stamp,
-                            .repetition = r,
+                            .repetition = 0,
+                            .process = 100 + r,
                             .stages = {{"frame", std::vector<double>(3, 0.010 + 0.00001 * r)}},
                             .final_digest = 42,
                             .final_step = 3});
   return rows;
 }
 
+// Other processes, `factor` times as long.
 core::RunRows slowed(core::RunRows rows, double factor) {
+  for (core::Sample& sample : rows.samples) sample.process += 1000;
   for (core::Sample& sample : rows.samples)
     for (core::StageSeries& series : sample.stages)
       for (double& s : series.seconds) s *= factor;
@@ -44,7 +47,7 @@ TEST(Comparison, ARunEqualsItself) {
   EXPECT_EQ(c.exit(), Exit::kGood);
   EXPECT_EQ(c.still_failing, 2U);
   EXPECT_EQ(c.same_verdicts, 108U);
-  for (const TimeRatio& t : c.times) EXPECT_EQ(t.speed, Speed::kNoDifferenceShown) << t.label << t.reason;
+  for (const TimeRatio& t : c.times) EXPECT_EQ(t.speed, Speed::kSame) << t.label << t.reason;
 }
 
 TEST(Comparison, AnotherBuildIsWhatIsCompared) {
@@ -58,7 +61,7 @@ TEST(Comparison, AnotherBuildIsWhatIsCompared) {
   EXPECT_TRUE(c.changes.empty());
   EXPECT_EQ(c.same_verdicts, 2U);
   ASSERT_EQ(c.times.size(), 1U);
-  EXPECT_EQ(c.times[0].speed, Speed::kNoDifferenceShown) << c.times[0].reason;
+  EXPECT_EQ(c.times[0].speed, Speed::kSame) << c.times[0].reason;
 }
 
 struct Step {
@@ -160,49 +163,78 @@ TEST(TimeRatio, AFactorIsFoundWithItsInterval) {
   EXPECT_EQ(faster.exit(), Exit::kGood);
 }
 
-TEST(TimeRatio, WithinTheSlackNoDifferenceIsClaimed) {
-  EXPECT_EQ(compare(one_cell(), slowed(one_cell(), 1.03)).times[0].speed, Speed::kNoDifferenceShown);
-  EXPECT_EQ(compare(one_cell(), slowed(one_cell(), 1.03), {.slack = 0.0}).times[0].speed, Speed::kSlower);
+TEST(TimeRatio, WithinDeltaTheTimeIsTheSame) {
+  EXPECT_EQ(compare(one_cell(), slowed(one_cell(), 1.03)).times[0].speed, Speed::kSame);
+  EXPECT_EQ(compare(one_cell(), slowed(one_cell(), 1.03), {.delta = 0.0}).times[0].speed, Speed::kSlower);
 }
 
-TEST(TimeRatio, OtherMachinesFramesOrTooFewRunsAreNotCompared) {
+TEST(TimeRatio, OtherMachinesOrFramesAreNotCompared) {
   const auto reason = [](const core::RunRows& head) { return compare(one_cell(), head).times.at(0).reason; };
   core::RunRows machine = one_cell();
   machine.cells[0].stamp.machine = machine.verdicts[0].stamp.machine = "n";
   for (core::Sample& sample : machine.samples) sample.stamp.machine = "n";
   EXPECT_EQ(reason(machine), "the machine is another one");
+  const Comparison c = compare(one_cell(), machine);
+  ASSERT_EQ(c.remarks.size(), 1U);
+  EXPECT_NE(comparison_text(c).find("NOTE    different machines: the base ran on m, the head on n"), std::string::npos);
   core::RunRows frames = one_cell();
   for (core::Sample& sample : frames.samples) sample.stages[0].seconds.pop_back();
   EXPECT_NE(reason(frames).find("3 frames in the base and 2 in the head"), std::string::npos) << reason(frames);
-  core::RunRows few = one_cell();
-  few.samples.resize(2);
-  EXPECT_NE(reason(few).find("too few runs"), std::string::npos) << reason(few);
 }
 
-// C(6, 3) = 20 orders leave a chance of 1 in 20, C(8, 4) = 70 one of 1 in 70; the line is 1 in 40.
-TEST(TimeRatio, FourRunsAgainstFourAreEnoughAndThreeAgainstThreeAreNot) {
-  EXPECT_FALSE(enough_runs(0, 100));
-  EXPECT_FALSE(enough_runs(1, 39));  // C(40, 1) = 40 is not more than 40
-  EXPECT_TRUE(enough_runs(1, 40));
-  EXPECT_FALSE(enough_runs(3, 3));
-  EXPECT_TRUE(enough_runs(3, 5));  // C(8, 3) = 56
-  EXPECT_TRUE(enough_runs(4, 4));
-  EXPECT_TRUE(enough_runs(1000, 1000));
+// Five runs of one process say nothing about the next process; nor do three processes.
+TEST(TimeRatio, TooFewProcessesAreInconclusiveAndNoPass) {
+  for (const std::uint64_t processes : {1U, 3U}) {
+    core::RunRows base = one_cell();
+    core::RunRows head = slowed(one_cell(), 2.0);
+    for (core::RunRows* rows : {&base, &head})
+      for (std::size_t r = 0; r < rows->samples.size(); ++r)
+        rows->samples[r].process = (rows == &base ? 1 : 50) + r % processes;
+    const Comparison c = compare(base, head);
+    EXPECT_EQ(c.times.at(0).speed, Speed::kInconclusive);
+    EXPECT_NE(c.times.at(0).reason.find("too few processes"), std::string::npos) << c.times.at(0).reason;
+    EXPECT_EQ(c.exit(), Exit::kMissing);
+  }
 }
 
-// Both medians lie within the values, so no resample can leave [min head / max base, max head / min base].
-TEST(TimeRatio, TheIntervalHoldsTheEstimateAndStaysWithinTheExtremes) {
-  const std::vector<double> base{1.0, 1.1, 0.9, 1.05, 0.95};
-  const std::vector<double> head{1.2, 1.4, 1.3, 1.25, 1.35};
-  const Interval i = bootstrap_ratio(base, head);
-  EXPECT_DOUBLE_EQ(i.estimate, 1.3);
-  EXPECT_LE(i.low, i.estimate);
-  EXPECT_GE(i.high, i.estimate);
-  EXPECT_GE(i.low, 1.2 / 1.1);
-  EXPECT_LE(i.high, 1.4 / 0.9);
-  const Interval again = bootstrap_ratio(base, head);
-  EXPECT_EQ(i.low, again.low);
-  EXPECT_EQ(i.high, again.high);
+TEST(TimeRatio, AnIntervalAcrossTheLimitIsInconclusiveAndNoPass) {
+  core::RunRows head = slowed(one_cell(), 1.05);
+  for (std::size_t r = 0; r < head.samples.size(); ++r)
+    for (double& s : head.samples[r].stages[0].seconds) s *= 1.0 + 0.02 * (static_cast<double>(r) - 2.0);
+  const Comparison c = compare(one_cell(), head);
+  EXPECT_EQ(c.times.at(0).speed, Speed::kInconclusive) << c.times.at(0).low << " " << c.times.at(0).high;
+  EXPECT_EQ(c.exit(), Exit::kMissing);
+}
+
+TEST(Comparison, CountersGateOnAnyMachineWithoutTolerance) {
+  core::RunRows base = one_cell();
+  base.cells[0].counters = {{"box tests", 1'000'000}, {"nodes visited", 10}, {"launches", 5}};
+  core::RunRows head = base;
+  for (auto* stamp : {&head.cells[0].stamp, &head.verdicts[0].stamp}) stamp->machine = "another";
+  head.cells[0].counters = {{"box tests", 1'000'001}, {"nodes visited", 9}};
+  const Comparison c = compare(base, head);
+  const auto kinds = [&] {
+    std::vector<ChangeKind> found;
+    for (const Change& change : c.changes)
+      if (change.kind != ChangeKind::kTimeLost) found.push_back(change.kind);
+    return found;
+  }();
+  EXPECT_EQ(kinds, (std::vector{ChangeKind::kMoreWork, ChangeKind::kCounterVanished, ChangeKind::kLessWork}));
+  EXPECT_EQ(c.exit(), Exit::kFailed);
+  EXPECT_NE(comparison_text(c).find("1 counter up"), std::string::npos) << comparison_text(c);
+
+  core::RunRows shorter = base;
+  shorter.cells[0].frames = 2;
+  EXPECT_EQ(compare(base, shorter).exit(), Exit::kGood) << "fewer frames are other work, not less of the same";
+}
+
+TEST(Comparison, AStageThatIsNoLongerTimedIsMissing) {
+  core::RunRows base = one_cell();
+  for (core::Sample& sample : base.samples) sample.stages.push_back({"broad", {0.001, 0.001, 0.001}});
+  const Comparison c = compare(base, one_cell());
+  ASSERT_EQ(c.changes.size(), 1U);
+  EXPECT_EQ(c.changes[0].kind, ChangeKind::kSeriesVanished);
+  EXPECT_EQ(c.exit(), Exit::kMissing);
 }
 
 TEST(ComparisonText, NamesEachChangeInALine) {

@@ -70,7 +70,7 @@ inline core::Verdict verdict_of(std::size_t validator, bool is_dynamics, std::ui
 
 inline core::Sample sample_of(const core::Cell& cell, const std::vector<std::pair<std::string, double>>& stage_ms,
                               std::uint32_t repetition, std::size_t frames) {
-  core::Sample s{.stamp = cell.stamp, .repetition = repetition, .warm_up_frames = 100};
+  core::Sample s{.stamp = cell.stamp, .repetition = repetition, .process = repetition + 1, .warm_up_frames = 100};
   std::vector<double> whole(frames, 0.0);
   for (std::size_t k = 0; k < stage_ms.size(); ++k) {
     core::StageSeries series{stage_ms[k].first, {}};

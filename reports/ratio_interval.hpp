@@ -1,0 +1,38 @@
+// The ratio of two sets of measured times, and how sure it is: a hierarchical bootstrap.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace broadside::reports {
+
+// One figure (s) per run, run by run of one process. Processes differ by more than runs of one process do, so both are
+// levels of chance; the frames of a run are not: they are the same workload in the same order.
+using ProcessRuns = std::vector<double>;
+
+struct RatioInterval {
+  double estimate = 0.0;         // head / base
+  double low = 0.0, high = 0.0;  // 95 %: 2.5 % of the resamples lie beyond each
+  // Chance of so large (or small) a ratio if the true one were 1 + delta (or 1 / (1 + delta)); one-sided, and never
+  // below what the number of processes can show at all.
+  double p_slower = 1.0, p_faster = 1.0;
+};
+
+// Draws processes with replacement, and of each drawn process its runs with replacement; a process counts by the median
+// of its runs, a side by the median of its processes (Davison and Hinkley 1997, section 3.8; Efron 1979 for the
+// percentile interval). paired: process k of the base ran beside process k of the head, so pairs are drawn, and the
+// median is that of the pairs' ratios: what drifts slower than a pair lasts cancels. Deterministic: the same figures
+// give the same interval. Neither side may be empty, no process without runs; paired sides have equally many processes.
+RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, bool is_paired,
+                             double delta);
+
+// The smallest p that so many processes can give. If the builds were equal, every process of one would be slower than
+// every process of the other by mere chance once in C(base + head, base) orders; of pairs, all n have one sign once in
+// 2^n. Below 0.025 from 4 and 4 processes, or from 6 pairs.
+double smallest_p(std::uint64_t base, std::uint64_t head, bool is_paired);
+
+// Which of many tests may be believed together: true where the p-value is among those that the procedure of Benjamini
+// and Hochberg (1995) rejects at the false discovery rate q. In the order given.
+std::vector<bool> benjamini_hochberg(const std::vector<double>& p_values, double q);
+
+}  // namespace broadside::reports
