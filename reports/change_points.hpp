@@ -1,0 +1,37 @@
+// Where a series of measurements changed for good: E-divisive with a t-test.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace broadside::reports {
+
+struct ChangePoint {
+  std::size_t index = 0;  // first value of the new regime
+  double before = 0.0;    // means of the regimes on both sides
+  double after = 0.0;
+  double p = 1.0;  // of Welch's test between the two regimes
+};
+
+struct ChangePointOptions {
+  // A change is believed below this. A nightly history tests every place of every series again each night, so the usual
+  // 5 % would cry wolf weekly; 0.1 % is what Fleming and others use for the same purpose (ICPE 2023).
+  double most_p = 0.001;
+  std::size_t least_values = 3;  // of a regime; fewer have no spread worth testing
+};
+
+// Splits where the energy statistic of Matteson and James (2014; exponent 1) is largest, tests that split with Welch's
+// t-test instead of permutations (Fleming et al. 2023, so the answer is the same every time), and goes on on both
+// sides; then drops, weakest first, what the neighbors no longer support. Rising by index. Values are finite. O(n^2) a
+// split.
+std::vector<ChangePoint> change_points(std::span<const double> values, const ChangePointOptions& options = {});
+
+// Two-sided p of Welch's t-test that two sets have one mean; 1 where a set has fewer than two values. Equal sets
+// without spread give 1, unequal ones 0.
+double welch_p(std::span<const double> a, std::span<const double> b);
+
+// P(|T| > t) of Student's distribution with `degrees` > 0 degrees of freedom, t >= 0.
+double student_two_sided(double t, double degrees);
+
+}  // namespace broadside::reports
