@@ -6,6 +6,7 @@
 
 #include "bench/commands.hpp"
 #include "bench/main_job.hpp"
+#include "reports/report.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace broadside::bench {
@@ -17,7 +18,7 @@ core::Exit demo(const MainJob& job) {
   fmt::print("{}\n{}", reports::cell_table(rows.value().cells), reports::verdict_table(rows.value().verdicts));
   const std::string failures = reports::failure_lines(rows.value().verdicts);
   if (!failures.empty()) fmt::print("\n{}", failures);
-  fmt::print("\nReport: {}\n", (job.folder / "report.html").string());
+  fmt::print("\nReport: {}\n", (job.folder / (reports::has_html_page() ? "report.html" : "report.md")).string());
   return exit_of(rows.value());
 }
 

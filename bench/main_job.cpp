@@ -9,6 +9,7 @@
 
 #include "bench/build_facts.hpp"
 #include "bench/judging.hpp"
+#include "bench/playback_of_trace.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_meshes.hpp"
 #include "bench/timing.hpp"
@@ -123,7 +124,11 @@ core::Status write_reports(const MainJob& job, const core::RunRows& rows) {
   options.energy = std::move(energy).value();
   options.title = job.scene.spec;
   options.command = fmt::format("./broadside demo --scene {} --out {}", job.scene.spec, job.folder.string());
-  if (core::Status s = reports::write_html(rows, options, job.folder / "report.html"); !s) return s;
+  if (reports::has_html_page()) {
+    options.playbacks = playbacks_of(rows, job.folder);
+    options.series = penetration_of(rows, job.folder);
+    if (core::Status s = reports::write_html(rows, options, job.folder / "report.html"); !s) return s;
+  }
   if (core::Status s = reports::write_markdown(rows, options, job.folder / "report.md"); !s) return s;
   return reports::write_junit(rows, options, job.folder / "junit.xml");
 }

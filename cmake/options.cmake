@@ -3,6 +3,8 @@
 option(BROADSIDE_TESTS "Build the tests" ON)
 set(BROADSIDE_CUDA ON CACHE STRING "ON: build the CUDA pipeline when nvcc is there; REQUIRED: fail without nvcc; OFF: never")
 option(BROADSIDE_CGAL "Build what needs CGAL: mesh decimation for 'broadside fetch', engine cgal-boxes" ON)
+set(BROADSIDE_REPORT_HTML ON CACHE STRING
+  "ON: the report's HTML page, with charts and the 3-D view where npm is there; REQUIRED: fail without npm; OFF: no page")
 option(BROADSIDE_BENCHMARKS "Build the Google Benchmark suites" OFF)
 option(BROADSIDE_WARNINGS_AS_ERRORS "Treat warnings in our own targets as errors" ON)
 set(BROADSIDE_SANITIZE "" CACHE STRING "Sanitizers for our own targets, e.g. address,undefined or thread")

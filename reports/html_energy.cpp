@@ -1,10 +1,8 @@
 // Where each run's energy went, as curves over its frames.
 #include <algorithm>
-#include <utility>
 
 #include "reports/escape.hpp"
 #include "reports/html_sections.hpp"
-#include "reports/plots/line_plot.hpp"
 
 namespace broadside::reports {
 namespace {
@@ -22,9 +20,8 @@ std::vector<std::size_t> shown(std::size_t frames) {
 }
 
 // sums: the work since the start rather than that of each frame.
-plots::Curve curve(const core::EnergySeries& series, std::size_t column, bool sums) {
-  plots::Curve out;
-  out.name = core::kEnergyColumns[column];
+Series curve(const core::EnergySeries& series, std::size_t column, bool sums) {
+  Series out{.name = std::string(core::kEnergyColumns[column])};
   std::vector<double> values = series.joule[column];
   if (sums)
     for (std::size_t k = 1; k < values.size(); ++k) values[k] += values[k - 1];
@@ -35,32 +32,34 @@ plots::Curve curve(const core::EnergySeries& series, std::size_t column, bool su
   return out;
 }
 
-std::string plot(const core::EnergySeries& series, std::string title, std::string description, std::size_t first,
-                 std::size_t last, bool sums) {
-  plots::LinePlot plot;
-  plot.text = {std::move(title), std::move(description), "frame", "energy, J"};
-  plot.y_from_zero = false;
-  for (std::size_t column = first; column < last; ++column) plot.curves.push_back(curve(series, column, sums));
-  return plots::svg(plot, plots::Placement::kInline);
+Chart chart(const core::EnergySeries& series, const std::string& title, const std::string& description,
+            std::size_t first, std::size_t last, bool sums) {
+  Chart chart{.title = title + ": " + series.scene_name + ", " + series.label,
+              .description = description,
+              .x = {.name = "frame"},
+              .y = {.name = "energy", .unit = "J"},
+              .has_zoom = true};
+  for (std::size_t column = first; column < last; ++column) chart.series.push_back(curve(series, column, sums));
+  return chart;
 }
 
 }  // namespace
 
-std::string energy_section(const std::vector<core::EnergySeries>& all) {
+std::string energy_section(PageParts& page) {
   std::string out;
-  for (const core::EnergySeries& series : all) {
+  for (const core::EnergySeries& series : page.options.energy) {
     if (series.step.empty()) continue;
-    out += "<h3>" + html(series.scene_name) + ", " + html(series.label) + "</h3>\n<div class=\"plots\">" +
-           plot(series, "Energy", "Kinetic and potential energy at the end of each frame.", 0, 2, false) +
-           plot(series, "Work since the start",
-                "What integration, normal impulses, friction, position correction and the velocity cap added or took.",
-                2, core::kEnergyColumnCount, true) +
-           "</div>\n";
+    out += page.charts.figure(
+        chart(series, "Energy", "Kinetic and potential energy at the end of each frame.", 0, 2, false));
+    out += page.charts.figure(
+        chart(series, "Work since the start",
+              "What integration, normal impulses, friction, position correction and the velocity cap added or took.", 2,
+              core::kEnergyColumnCount, true));
   }
   if (out.empty()) return out;
-  return "<section class=\"energy\"><h2>Where the energy went</h2>\n<p>Every frame's change of energy is the sum of "
-         "these works, to their rounding: the validator energy judges that.</p>\n" +
-         out + "</section>\n";
+  return "<section class=\"energy\" id=\"energy\"><h2>Where the energy went</h2>\n<p>Every frame's change of energy is "
+         "the sum of these works, to their rounding: the validator energy judges that.</p>\n<div class=\"charts\">" +
+         out + "</div></section>\n";
 }
 
 }  // namespace broadside::reports

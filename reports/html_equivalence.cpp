@@ -8,7 +8,7 @@ namespace {
 
 std::string card_html(const EngineCard& card) {
   const std::uint64_t differences = card.differences();
-  std::string out = "<details class=\"card\"><summary><b>" + html(card.label) + "</b> " +
+  std::string out = "<details class=\"equivalence\"><summary><b>" + html(card.label) + "</b> " +
                     (differences == 0 ? std::string("nothing differs from the scene")
                                       : counted(differences, "difference") + " from the scene") +
                     "</summary><table class=\"cells\"><thead><tr><th scope=\"col\">property</th><th scope=\"col\">this "

@@ -83,7 +83,7 @@ std::string command_item(const std::string& command) {
 
 }  // namespace
 
-std::string cells_section(const SceneView& scene) {
+std::string cells_section(const SceneView& scene, PageParts&) {
   const std::vector<std::string> pairs = pair_columns(scene);
   std::string rows;
   for (const TraceView& trace : scene.traces)
@@ -101,7 +101,7 @@ std::string cells_section(const SceneView& scene) {
   return out;
 }
 
-std::string facts_section(const SceneView& scene) {
+std::string facts_section(const SceneView& scene, PageParts&) {
   std::string out = "<section><div class=\"facts\"><div><h3>Scene</h3><dl><div><dt>name</dt><dd>" + html(scene.name) +
                     "</dd></div><div><dt>digest</dt><dd><code>" + hexadecimal(scene.digest) + "</code></dd></div>";
   for (const auto& [key, text] : scene.facts)
@@ -112,7 +112,8 @@ std::string facts_section(const SceneView& scene) {
   return out;
 }
 
-std::string repeat_section(const std::vector<SceneView>& scenes, const ReportOptions& options) {
+std::string repeat_section(PageParts& page) {
+  const ReportOptions& options = page.options;
   std::vector<std::string> commands;
   const auto add = [&](const std::string& command) {
     if (!command.empty() && std::find(commands.begin(), commands.end(), command) == commands.end())
@@ -120,21 +121,21 @@ std::string repeat_section(const std::vector<SceneView>& scenes, const ReportOpt
   };
   add(options.command);
   for (const std::string& command : options.repeat) add(command);
-  for (const SceneView& scene : scenes)
+  for (const SceneView& scene : page.scenes)
     for (const TraceView& trace : scene.traces)
       if (trace.cell != nullptr)
         for (const std::string_view key : {kCommand, kRepeat})
           if (const auto found = trace.cell->notes.find(std::string(key)); found != trace.cell->notes.end())
             add(found->second);
   if (commands.empty()) return "";
-  std::string out = "<section><h2>How to repeat</h2><ol class=\"commands\">";
+  std::string out = "<section id=\"repeat\"><h2>How to repeat</h2><ol class=\"commands\">";
   for (const std::string& command : commands) out += command_item(command);
   return out + "</ol></section>";
 }
 
-std::string legend_section() {
+std::string legend_section(PageParts&) {
   using core::Outcome;
-  return "<section class=\"legend\"><h2>How to read this page</h2><dl>"
+  return "<section class=\"legend\" id=\"legend\"><h2>How to read this page</h2><dl>"
          "<div><dt>" +
          outcome_html(Outcome::kPass, true) +
          "</dt><dd>the law held in everything that was checked</dd></div>"

@@ -15,7 +15,8 @@ std::string fact(std::string_view name, const std::string& value) {
 }
 
 // Everything that is known of one verdict.
-std::string verdict_card(const core::Verdict& verdict, const std::string& label) {
+std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, const PageParts& page) {
+  const std::string& label = trace.label;
   std::string out = "<section class=\"verdict\"><h4>" + outcome_html(verdict.outcome, false) + " <span>" +
                     html(verdict.validator) + "</span></h4><p class=\"on\">on " + html(label);
   if (!verdict.baseline.empty()) out += ", against " + html(verdict.baseline);
@@ -25,12 +26,14 @@ std::string verdict_card(const core::Verdict& verdict, const std::string& label)
     const Compared values = compared(verdict.measured, verdict.limit, verdict.unit);
     out += "<dl>" + fact("measured", values.measured) + fact("limit", values.limit) + fact("origin", verdict.origin) +
            fact("worst at", place_text(verdict.worst)) + fact("checked", counted(verdict.checked)) +
-           fact("violations", counted(verdict.violations)) + "</dl>";
+           fact("violations", counted(verdict.violations)) + "</dl>" +
+           to_view_button(page, trace.stamp, trace.trace_file, verdict);
   }
   return out + "</section>";
 }
 
-std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, std::size_t scene_number) {
+std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, const PageParts& page) {
+  const auto scene_number = static_cast<std::size_t>(&scene - page.scenes.data());
   const auto& said = trace.verdicts[column];
   const std::string name = html(scene.validators[column]);
   if (said.empty()) return "<td class=\"none\" data-name=\"" + name + "\"><span class=\"void\">not judged</span></td>";
@@ -43,7 +46,7 @@ std::string matrix_place(const SceneView& scene, const TraceView& trace, std::si
   out += "</summary><div class=\"card";
   if (column * 2 >= scene.validators.size()) out += " leftward";
   out += "\">";
-  for (const core::Verdict* verdict : said) out += verdict_card(*verdict, trace.label);
+  for (const core::Verdict* verdict : said) out += verdict_card(*verdict, trace, page);
   return out + "</div></details></td>";
 }
 
@@ -116,7 +119,7 @@ std::string outcome_html(core::Outcome outcome, bool is_short) {
          std::string(symbol(outcome)) + "</span> " + std::string(word) + "</span>";
 }
 
-std::string matrix_section(const SceneView& scene, std::size_t scene_number) {
+std::string matrix_section(const SceneView& scene, PageParts& page) {
   if (scene.validators.empty()) {
     std::string out = "<section><h3>Verdicts</h3><p>Nothing was judged.</p>";
     if (!scene.traces.empty()) {
@@ -146,14 +149,15 @@ std::string matrix_section(const SceneView& scene, std::size_t scene_number) {
       out += "<td class=\"absent\" colspan=\"" + std::to_string(scene.validators.size()) + "\">" +
              html(trace.absence()) + "</td>";
     } else {
-      for (std::size_t c = 0; c < scene.validators.size(); ++c) out += matrix_place(scene, trace, c, scene_number);
+      for (std::size_t c = 0; c < scene.validators.size(); ++c) out += matrix_place(scene, trace, c, page);
     }
     out += "</tr>";
   }
   return out + "</tbody></table></section>";
 }
 
-std::string findings_section(const std::vector<SceneView>& scenes) {
+std::string findings_section(PageParts& page) {
+  const std::vector<SceneView>& scenes = page.scenes;
   std::vector<Finding> found;
   for (const SceneView& scene : scenes)
     for (const TraceView& trace : scene.traces)
@@ -184,7 +188,7 @@ std::string findings_section(const std::vector<SceneView>& scenes) {
            counted(verdict.violations) + "<small>of " + counted(verdict.checked) + "</small></td></tr>";
     out += "<tr class=\"why\"><td colspan=\"6\">" + html(verdict.explanation);
     if (!verdict.origin.empty()) out += " <span class=\"origin\">Limit: " + html(verdict.origin) + "</span>";
-    out += "</td></tr>";
+    out += to_view_button(page, finding.trace->stamp, finding.trace->trace_file, verdict) + "</td></tr>";
   }
   return out + "</tbody></table></section>";
 }

@@ -30,7 +30,65 @@ std::string scene_head(const SceneView& scene) {
   return out;
 }
 
+std::string equivalence_part(const SceneView& scene, PageParts&) {
+  return equivalence_section(scene);
+}
+
+constexpr ScenePart kSceneParts[] = {matrix_section,      times_section,    side_by_side_section,
+                                     over_frames_section, counts_section,   frame_series_section,
+                                     cells_section,       equivalence_part, facts_section};
+constexpr RunPart kPartsBeforeScenes[] = {findings_section, view_section};
+constexpr RunPart kPartsAfterScenes[] = {energy_section, scaling_section, history_section, repeat_section,
+                                         legend_section};
+
+std::string scene_article(const SceneView& scene, PageParts& page) {
+  std::string out =
+      "\n<article id=\"scene-" + std::to_string(&scene - page.scenes.data()) + "\">" + scene_head(scene) + "\n";
+  for (const ScenePart part : kSceneParts) out += part(scene, page) + "\n";
+  return out + "</article>\n";
+}
+
+// Ways to the parts, for pages that are longer than a screen.
+std::string contents(const PageParts& page, const std::string& body) {
+  std::string items;
+  const auto add = [&](const std::string& id, const std::string& text) {
+    if (body.find("id=\"" + id + "\"") != std::string::npos)
+      items += "<li><a href=\"#" + id + "\">" + html(text) + "</a></li>";
+  };
+  add("findings", "What did not pass");
+  add("view-section", "Frame by frame");
+  for (std::size_t k = 0; k < page.scenes.size(); ++k) add("scene-" + std::to_string(k), page.scenes[k].name);
+  add("energy", "Energy");
+  add("scaling", "Cost against bodies");
+  add("history", "Earlier runs");
+  add("repeat", "How to repeat");
+  add("legend", "How to read this page");
+  return "<nav aria-label=\"Contents\"><ul>" + items + "</ul></nav>";
+}
+
+// Data for the script; a block that would be empty is left out.
+std::string data_block(std::string_view id, const std::string& json) {
+  return "<script type=\"application/json\" id=\"" + std::string(id) + "\">" + json + "</script>\n";
+}
+
 }  // namespace
+
+bool has_html_page() {
+  return true;
+}
+
+bool has_page_bundle() {
+  return kPageHasBundle;
+}
+
+std::vector<Chart> page_charts(const core::RunRows& rows, const ReportOptions& options) {
+  const std::vector<SceneView> scenes = by_scene(rows);
+  PageParts page{rows, options, scenes};
+  for (const SceneView& scene : scenes)
+    for (const ScenePart part : kSceneParts) part(scene, page);
+  for (const RunPart part : kPartsAfterScenes) part(page);
+  return page.charts.charts();
+}
 
 std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
   const std::vector<SceneView> scenes = by_scene(rows);
@@ -46,22 +104,28 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       html(options.title.empty() ? kDefaultTitle : options.title) + "</title>\n<style>\n" + std::string(kPageStyle) +
-      (options.energy.empty() ? std::string() : plots::plot_style()) + "</style>\n</head>\n<body>\n";
+      plots::plot_style() + "</style>\n</head>\n<body>\n";
   out += "<header><p class=\"brand\"><b>Broadside</b> <span>" +
          html(options.title.empty() ? kDefaultTitle : options.title) + "</span>";
   if (!options.generated_at.empty()) out += " <time>" + html(options.generated_at) + "</time>";
   out += "</p>\n<h1 class=\"" + std::string(outcome_class(state)) + "\"><span class=\"seal\" aria-hidden=\"true\">" +
-         std::string(symbol(state)) + "</span><span>" + html(sentence) + "</span></h1>\n" + tally_list(counts) +
-         "</header>\n<main>\n";
-  out += findings_section(scenes);
-  for (std::size_t k = 0; k < scenes.size(); ++k) {
-    out += "\n<article>" + scene_head(scenes[k]) + "\n" + matrix_section(scenes[k], k) + "\n" +
-           times_section(scenes[k]) + "\n" + cells_section(scenes[k]) + "\n" + equivalence_section(scenes[k]) + "\n" +
-           facts_section(scenes[k]) + "</article>\n";
-  }
-  out += energy_section(options.energy);
-  out += repeat_section(scenes, options) + "\n" + legend_section();
-  out += "\n</main>\n<script>\n" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
+         std::string(symbol(state)) + "</span><span>" + html(sentence) + "</span></h1>\n" + tally_list(counts) + "\n";
+  PageParts page{rows, options, scenes};
+  std::string body;
+  for (const RunPart part : kPartsBeforeScenes) body += part(page);
+  for (const SceneView& scene : scenes) body += scene_article(scene, page);
+  for (const RunPart part : kPartsAfterScenes) body += part(page) + "\n";
+  out += contents(page, body) + "</header>\n<main>\n" + body;
+  if (!has_page_bundle())
+    out +=
+        "<p class=\"hint\">This page was built without charts and the 3-D view, because npm was missing; its tables "
+        "hold the "
+        "same figures.</p>";
+  out += "\n</main>\n";
+  if (has_page_bundle() && !page.charts.charts().empty()) out += data_block("charts", page.charts.json());
+  if (has_page_bundle() && !options.playbacks.empty())
+    out += data_block("playbacks", playbacks_json(options.playbacks));
+  out += "<script>\n" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
   return out;
 }
 

@@ -3,27 +3,57 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "reports/chart.hpp"
 #include "reports/report.hpp"
 #include "reports/scene_view.hpp"
 
 namespace broadside::reports {
 
-// Failed and inconclusive verdicts of all scenes, gravest first; empty when there are none.
-std::string findings_section(const std::vector<SceneView>& scenes);
-// Engines down, validators across; each place opens its verdicts. scene_number makes ids differ.
-std::string matrix_section(const SceneView& scene, std::size_t scene_number);
-// Bars and tables of times; says so when nothing was timed.
-std::string times_section(const SceneView& scene);
-// What ran and what did not, with pair counts; facts of scene, machine and build.
-std::string cells_section(const SceneView& scene);
-std::string facts_section(const SceneView& scene);
-// Two plots for each run whose ledger is there; empty without any.
-std::string energy_section(const std::vector<core::EnergySeries>& all);
+// What every part may look at, and the charts that they add.
+struct PageParts {
+  const core::RunRows& rows;
+  const ReportOptions& options;
+  const std::vector<SceneView>& scenes;
+  ChartBook charts = {};
+};
+
+// A part of the page about one scene, or about the whole run; empty when it has nothing to say. The two tables that
+// list them, in the order of the page, are in html_page.cpp: a new part is one file and one line.
+using ScenePart = std::string (*)(const SceneView& scene, PageParts& page);
+using RunPart = std::string (*)(PageParts& page);
+
+// Failed and inconclusive verdicts of all scenes, gravest first.
+std::string findings_section(PageParts& page);
+// The 3-D view, with a picture for paper and for browsers without WebGL.
+std::string view_section(PageParts& page);
+// Cost against the number of bodies, over scenes of one family.
+std::string scaling_section(PageParts& page);
+// Where each run's energy went, for runs whose ledger is there.
+std::string energy_section(PageParts& page);
+// Earlier runs of the same cells, with change points.
+std::string history_section(PageParts& page);
 // Commands to copy.
-std::string repeat_section(const std::vector<SceneView>& scenes, const ReportOptions& options);
+std::string repeat_section(PageParts& page);
 // What the words and figures mean.
-std::string legend_section();
+std::string legend_section(PageParts& page);
+
+// Engines down, validators across; each place opens its verdicts.
+std::string matrix_section(const SceneView& scene, PageParts& page);
+// Bars and tables of times; says so when nothing was timed.
+std::string times_section(const SceneView& scene, PageParts& page);
+// Frames per second and stages along the run.
+std::string over_frames_section(const SceneView& scene, PageParts& page);
+// Ratios of engines that did the same work, with intervals.
+std::string side_by_side_section(const SceneView& scene, PageParts& page);
+// Pairs by kind, and the precision of broad phases.
+std::string counts_section(const SceneView& scene, PageParts& page);
+// Figures along the steps that recording or judging left: penetration, energy.
+std::string frame_series_section(const SceneView& scene, PageParts& page);
+// What ran and what did not, with pair counts; facts of scene, machine and build.
+std::string cells_section(const SceneView& scene, PageParts& page);
+std::string facts_section(const SceneView& scene, PageParts& page);
 
 // "octree-cpu" and its settings, told apart by weight.
 std::string label_html(const core::Stamp& stamp, std::string_view label);
@@ -31,5 +61,8 @@ std::string label_html(const core::Stamp& stamp, std::string_view label);
 std::string outcome_html(core::Outcome outcome, bool is_short);
 // "pass", "fail", "open", "none": the style of an outcome.
 std::string_view outcome_class(core::Outcome outcome);
+// The way from a verdict to its place in the 3-D view; empty when no playback shows it.
+std::string to_view_button(const PageParts& page, const core::Stamp& stamp, const std::string& trace_file,
+                           const core::Verdict& verdict);
 
 }  // namespace broadside::reports

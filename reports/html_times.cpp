@@ -7,34 +7,12 @@
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
+#include "reports/timing_groups.hpp"
 
 namespace broadside::reports {
 namespace {
 
 constexpr std::size_t kStageColors = 8;
-
-// Engines that report the same stages did the same kind of work; only those share a scale.
-struct Group {
-  std::vector<std::string> stages;
-  std::vector<const Timing*> timings;
-};
-
-std::vector<std::string> stage_names(const Timing& timing) {
-  std::vector<std::string> names;
-  for (const StageTiming& stage : timing.stages) names.push_back(stage.stage);
-  return names;
-}
-
-std::vector<Group> groups_of(const SceneView& scene) {
-  std::vector<Group> groups;
-  for (const Timing& timing : scene.timings) {
-    const std::vector<std::string> names = stage_names(timing);
-    auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.stages == names; });
-    if (found == groups.end()) found = groups.insert(found, {names, {}});
-    found->timings.push_back(&timing);
-  }
-  return groups;
-}
 
 // Round steps of 1, 2 or 5 times a power of ten, at most four of them up to the largest value.
 struct Scale {
@@ -42,7 +20,7 @@ struct Scale {
   double end_s = 1.0;
 };
 
-Scale scale_of(const Group& group) {
+Scale scale_of(const TimingGroup& group) {
   double largest = 0.0;
   for (const Timing* timing : group.timings)
     for (const double value : {timing->frame.p95, timing->frame.mean})
@@ -138,7 +116,7 @@ std::string stage_head(const std::string& stage, std::size_t k) {
          std::to_string(k % kStageColors) + "\" width=\"10\" height=\"10\"/></svg> " + html(stage) + "</th>";
 }
 
-std::string stage_table(const Group& group, TimeUnit unit) {
+std::string stage_table(const TimingGroup& group, TimeUnit unit) {
   std::string out = "<table class=\"stages\"><caption>Median per stage in " + std::string(unit.name) +
                     ", and below it the 5th to 95th percentile</caption><thead><tr><th scope=\"col\">engine</th>";
   for (std::size_t k = 0; k < group.stages.size(); ++k) out += stage_head(group.stages[k], k);
@@ -159,7 +137,7 @@ std::string stage_table(const Group& group, TimeUnit unit) {
   return out + "</tbody></table>";
 }
 
-std::string group_html(const Group& group) {
+std::string group_html(const TimingGroup& group) {
   const Scale scale = scale_of(group);
   double smallest = 0.0;
   for (const Timing* timing : group.timings)
@@ -185,14 +163,14 @@ std::string group_html(const Group& group) {
 
 }  // namespace
 
-std::string times_section(const SceneView& scene) {
+std::string times_section(const SceneView& scene, PageParts&) {
   std::string out = "<section class=\"timing\"><h3>Times</h3>";
   if (scene.timings.empty()) return out + "<p>Not measured: no timed run is among these rows.</p></section>";
   out +=
       "<p class=\"hint\">Bars stack the mean of each stage; the tick is the median frame, the line below runs from the "
       "5th "
       "to the 95th percentile. Engines share a scale only where they report the same stages.</p>";
-  for (const Group& group : groups_of(scene)) out += group_html(group);
+  for (const TimingGroup& group : groups_of(scene)) out += group_html(group);
   return out + "</section>";
 }
 

@@ -5,6 +5,9 @@
 namespace broadside::reports {
 
 core::Status write_html(const core::RunRows& rows, const ReportOptions& options, const std::filesystem::path& file) {
+  if (!has_html_page())
+    return core::Error{"this build has no HTML report (BROADSIDE_REPORT_HTML=OFF)", file.string(),
+                       "write Markdown, JUnit or JSON, or build with -DBROADSIDE_REPORT_HTML=ON"};
   return core::write_whole_file(file, html_page(rows, options));
 }
 

@@ -7,21 +7,37 @@
 
 #include "core/energy_series.hpp"
 #include "core/rows.hpp"
+#include "reports/chart.hpp"
+#include "reports/frame_series.hpp"
+#include "reports/history.hpp"
+#include "reports/playback.hpp"
 
 namespace broadside::reports {
 
 inline constexpr const char* kDefaultTitle = "Collision engines compared";
 
 struct ReportOptions {
-  std::string title;                       // empty = kDefaultTitle
-  std::string command;                     // the command line that made the rows; empty = not shown
-  std::vector<std::string> repeat;         // more commands for "how to repeat", in order
-  std::vector<core::EnergySeries> energy;  // plotted by the page alone
-  std::string generated_at;                // as printed; empty = left out, and the same rows give the same bytes
+  std::string title;                // empty = kDefaultTitle
+  std::string command;              // the command line that made the rows; empty = not shown
+  std::vector<std::string> repeat;  // more commands for "how to repeat", in order
+  std::string generated_at;         // as printed; empty = left out, and the same rows give the same bytes
+  // Beside the rows, for the page alone.
+  std::vector<core::EnergySeries> energy;
+  std::vector<Playback> playbacks;
+  std::vector<FrameSeries> series;
+  std::vector<HistorySeries> history;
 };
+
+// Built without the page (BROADSIDE_REPORT_HTML=OFF)? Then html_page is empty, and write_html an error that says so.
+bool has_html_page();
+// Are charts and the 3-D view in this build? Without npm at build time the page has tables and bars alone.
+bool has_page_bundle();
 
 // One self-contained file without any network access: readable with scripts off, from a phone to paper, light or dark.
 std::string html_page(const core::RunRows& rows, const ReportOptions& options);
+
+// The charts of the page, for files of their own; none where the page was not built.
+std::vector<Chart> page_charts(const core::RunRows& rows, const ReportOptions& options);
 
 // GitHub-flavored Markdown for a comment, at most kMarkdownLimit bytes: what does not fit is left out last things
 // first, and the text says how much.

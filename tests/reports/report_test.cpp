@@ -21,6 +21,14 @@ using testing_markup::Element;
 using testing_markup::Markup;
 using testing_rows::sample_rows;
 
+// Tests of a page that this build may do without.
+class HtmlReport : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_html_page()) GTEST_SKIP() << "built with BROADSIDE_REPORT_HTML=OFF";
+  }
+};
+
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -67,20 +75,25 @@ ReportOptions options_named(const std::string& name) {
 
 constexpr char kScript[] = "</script><script>alert(1)</script>";
 
-TEST(HtmlReport, IsWellFormedAndSelfContained) {
+TEST_F(HtmlReport, IsWellFormedAndSelfContained) {
   const std::string page = html_page(sample_rows(), {.command = "broadside run x"});
   const Markup markup = check_markup(page, true);
   EXPECT_EQ(markup.problem, "");
   for (const Element& element : markup.elements) {
     EXPECT_FALSE(element.attributes.contains("src")) << element.name;
-    EXPECT_FALSE(element.attributes.contains("href")) << element.name;
+    // Only ways within the page.
+    if (element.attributes.contains("href")) {
+      EXPECT_EQ(element.attributes.at("href")[0], '#') << element.name;
+    }
     EXPECT_NE(element.name, "link");
   }
-  EXPECT_FALSE(has(page, "http://") || has(page, "https://") || has(page, "@import") || has(page, "url("));
+  // The script names XML's namespaces by their addresses; fetching any is what the policy forbids.
+  const std::string body = page.substr(0, page.rfind("<script>\n"));
+  EXPECT_FALSE(has(body, "http://") || has(body, "https://") || has(body, "@import") || has(body, "url("));
   EXPECT_TRUE(has(page, "default-src 'none'"));
 }
 
-TEST(HtmlReport, OpensWithTheVerdictInOneSentence) {
+TEST_F(HtmlReport, OpensWithTheVerdictInOneSentence) {
   const std::string page = html_page(sample_rows(), {});
   const std::size_t sentence = page.find(
       "2 of 108 verdicts failed on octree-cpu[variant=printed-E3]: center-of-mass (worst at "
@@ -89,21 +102,23 @@ TEST(HtmlReport, OpensWithTheVerdictInOneSentence) {
   EXPECT_LT(sentence, page.find("<main>"));
 }
 
-TEST(HtmlReport, EveryVerdictIsAWordWithASymbolThatOpens) {
+TEST_F(HtmlReport, EveryVerdictIsAWordWithASymbolThatOpens) {
   const core::RunRows rows = sample_rows();
   const std::string page = html_page(rows, {});
   const Markup markup = check_markup(page, true);
   std::size_t verdicts = 0;
   for (const core::CellVerdicts& cell : rows.verdicts) verdicts += cell.verdicts.size();
-  EXPECT_EQ(markup.count("details"), verdicts);
-  EXPECT_EQ(markup.count("summary"), verdicts);
+  std::size_t places = 0;
+  for (const Element& element : markup.elements)
+    places += element.name == "details" && element.attributes.contains("name") ? 1U : 0U;
+  EXPECT_EQ(places, verdicts);
   EXPECT_TRUE(has(page, "0.0183 kg m"));
   EXPECT_TRUE(has(page, "step 412, bodies 3 and 17, contact.post.x"));
   EXPECT_TRUE(has(page, "the exact set of the recorded boxes"));
   EXPECT_TRUE(has(page, "not a number"));
 }
 
-TEST(HtmlReport, AbsenceIsSaidInWords) {
+TEST_F(HtmlReport, AbsenceIsSaidInWords) {
   const std::string page = html_page(sample_rows(), {});
   EXPECT_GE(occurrences(page, "not measured: no device"), 2U);
   EXPECT_TRUE(has(page, "crashed: signal 6 (abort) after frame 12"));
@@ -112,7 +127,7 @@ TEST(HtmlReport, AbsenceIsSaidInWords) {
   EXPECT_TRUE(has(html_page(untimed, {}), "Not measured: no timed run"));
 }
 
-TEST(HtmlReport, TimesWithoutAProofAreStruckOutWithTheReason) {
+TEST_F(HtmlReport, TimesWithoutAProofAreStruckOutWithTheReason) {
   const core::RunRows rows = sample_rows();
   const std::string page = html_page(rows, {});
   EXPECT_TRUE(has(page, "struck out: center-of-mass failed on this stamp"));
@@ -122,13 +137,16 @@ TEST(HtmlReport, TimesWithoutAProofAreStruckOutWithTheReason) {
   EXPECT_FALSE(has(html_page(proven, {}), "<s>"));
 }
 
-TEST(HtmlReport, AHostileNameStaysText) {
+TEST_F(HtmlReport, AHostileNameStaysText) {
   for (const std::string name :
        {kScript, "\"><img src=x onerror=alert(1)>", "' onmouseover='alert(1)", "&lt;b&gt;", "\x01\xFF"}) {
     const std::string page = html_page(rows_named(name), options_named(name));
     const Markup markup = check_markup(page, true);
     EXPECT_EQ(markup.problem, "") << name;
-    EXPECT_EQ(markup.count("script"), 1U) << name;
+    std::size_t run = 0;
+    for (const Element& element : markup.elements)
+      run += element.name == "script" && !element.attributes.contains("type") ? 1U : 0U;
+    EXPECT_EQ(run, 1U) << name << ": the page's own";
     EXPECT_EQ(markup.count("img"), 0U) << name;
     for (const Element& element : markup.elements)
       for (const auto& [key, value] : element.attributes) EXPECT_FALSE(key.starts_with("on")) << key;
@@ -136,7 +154,7 @@ TEST(HtmlReport, AHostileNameStaysText) {
   }
 }
 
-TEST(HtmlReport, NoRowsAndHalfRowsAreStillAPage) {
+TEST_F(HtmlReport, NoRowsAndHalfRowsAreStillAPage) {
   EXPECT_TRUE(has(html_page({}, {}), "Nothing was judged."));
   const core::RunRows all = sample_rows();
   EXPECT_EQ(check_markup(html_page({.cells = all.cells}, {}), true).problem, "");
@@ -153,7 +171,9 @@ TEST(Reports, AStandInMeshIsSaidWhicheverNoteSaysIt) {
   EXPECT_FALSE(has(html_page(rows, {}), "Stand-in mesh"));
   EXPECT_FALSE(has(markdown_text(rows, {}), "Stand-in mesh"));
   rows.cells[0].notes["mesh dragon"] = "a decimated scan (STAND-IN)";
-  EXPECT_TRUE(has(html_page(rows, {}), "Stand-in mesh.</strong> mesh dragon: a decimated scan (STAND-IN)"));
+  if (has_html_page()) {
+    EXPECT_TRUE(has(html_page(rows, {}), "Stand-in mesh.</strong> mesh dragon: a decimated scan (STAND-IN)"));
+  }
   EXPECT_TRUE(has(markdown_text(rows, {}), "mesh dragon: a decimated scan (STAND-IN)"));
 }
 
@@ -279,10 +299,12 @@ TEST(Reports, AreWrittenWholeOrNotAtAll) {
       keep != nullptr ? keep : std::filesystem::temp_directory_path() / ("report_test_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   const core::RunRows rows = sample_rows();
-  ASSERT_TRUE(write_html(rows, {}, folder / "report.html").ok());
+  EXPECT_EQ(write_html(rows, {}, folder / "report.html").ok(), has_html_page());
   ASSERT_TRUE(write_markdown(rows, {}, folder / "report.md").ok());
   ASSERT_TRUE(write_junit(rows, {}, folder / "junit.xml").ok());
-  EXPECT_EQ(core::read_whole_file(folder / "report.html").value(), html_page(rows, {}));
+  if (has_html_page()) {
+    EXPECT_EQ(core::read_whole_file(folder / "report.html").value(), html_page(rows, {}));
+  }
   EXPECT_EQ(core::read_whole_file(folder / "report.md").value(), markdown_text(rows, {}));
   EXPECT_EQ(core::read_whole_file(folder / "junit.xml").value(), junit_xml(rows, {}));
   EXPECT_FALSE(write_html(rows, {}, folder / "no" / "report.html").ok());

@@ -81,6 +81,15 @@ class Launcher(unittest.TestCase):
         self.assertIn("a stand-in takes its place: ran fetch bunny", answer.stderr)
         self.assertEqual("", self.call("demo", BROADSIDE_MESH_DIR="meshes").stderr, "given meshes are not fetched")
 
+    def test_what_another_package_provides_is_not_installed(self):
+        query = self.programs / "dpkg-query"
+        query.write_text('#!/bin/bash\nfor p in "${@:4}"; do case $p in npm) ;; '
+                         'nodejs) echo "installed nodejs nodejs-dev, npm";; *) echo "installed $p";; esac; done; exit 1\n',
+                         encoding="utf-8")
+        answer = self.call("list", "engines")
+        self.assertEqual((0, "ran list engines\n"), (answer.returncode, answer.stdout), answer.stderr)
+        self.assertEqual([], self.called("apt-get"))
+
     def test_no_network_is_one_line_and_code_2(self):
         (self.played / "missing").write_text("libfcl-dev\n", encoding="utf-8")
         (self.played / "offline").touch()

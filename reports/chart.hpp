@@ -1,0 +1,69 @@
+// A chart as a value: the page draws it, a table beside it says the same in figures, and a paper gets it as a file.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace broadside::reports {
+
+struct Axis {
+  std::string name;  // "frame"
+  std::string unit;  // "ms"; empty = none
+  bool is_log = false;
+  bool from_zero = false;
+  // Names of places 0, 1, 2, ... instead of a scale; the values of this axis are then their numbers. As the y axis they
+  // run downwards.
+  std::vector<std::string> categories = {};
+};
+
+enum class SeriesKind { kLine, kPoints, kBar, kArea };  // areas stack
+
+// x and y are of one length. low and high are of the same length or empty: a band around a line, whiskers of a point
+// (along x where the y axis has categories).
+struct Series {
+  std::string name;
+  SeriesKind kind = SeriesKind::kLine;
+  std::vector<double> x, y;
+  std::vector<double> low = {}, high = {};
+  std::string stack = {};  // bars of one stack name stand on each other
+};
+
+// A line across the chart with a word: a limit, a change point.
+struct ChartMark {
+  std::string text;
+  double at = 0.0;
+  bool is_on_y = false;
+};
+
+struct Chart {
+  std::string title;
+  std::string description;  // what is to be seen, for those who cannot see it; one or two sentences
+  Axis x, y;
+  std::vector<Series> series;
+  std::vector<ChartMark> marks = {};
+  bool has_zoom = false;
+};
+
+// Charts of one page, in the order in which they were added.
+class ChartBook {
+ public:
+  // The place of a chart on the page, a plain picture until a script draws it, with a table of its figures beside it.
+  // Long series are thinned in the table, which says so. Empty for a chart without points.
+  std::string figure(Chart chart);
+
+  [[nodiscard]] const std::vector<Chart>& charts() const { return charts_; }
+  // For <script type="application/json">: no character of it can end the element.
+  [[nodiscard]] std::string json() const;
+
+ private:
+  std::vector<Chart> charts_;
+};
+
+// The figures of a chart as an HTML table: one row per x, one column per series.
+std::string chart_table(const Chart& chart);
+
+// One line per point: series, x, y, low, high; quoted as RFC 4180 says.
+std::string chart_csv(const Chart& chart);
+
+}  // namespace broadside::reports

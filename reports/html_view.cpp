@@ -1,0 +1,49 @@
+// The 3-D view's place on the page, and the ways to it.
+#include "reports/escape.hpp"
+#include "reports/html_sections.hpp"
+
+namespace broadside::reports {
+
+std::string view_section(PageParts& page) {
+  const std::vector<Playback>& playbacks = page.options.playbacks;
+  if (playbacks.empty()) return "";
+  const Playback& first = playbacks.front();
+  std::string out =
+      "<section id=\"view-section\"><h2>The scene, frame by frame</h2><p class=\"hint\">Boxes of the octree levels in "
+      "red, "
+      "candidate pairs, contacts with their normals from B to A. Drag turns, the wheel zooms; with the picture in "
+      "focus, "
+      "space plays and the arrow keys step. Of a long run, frames around each place that a verdict names are all here, "
+      "the others spread evenly.</p><div id=\"view\"><div id=\"view-picture\">" +
+      playback_picture(first, first.marks.empty() ? -1 : 0) + "</div></div>";
+  // On paper, and for those who run no script: what the view would fly to.
+  std::string marks;
+  for (const Playback& playback : playbacks)
+    for (const PlaybackMark& mark : playback.marks)
+      marks += "<li>" + html(playback.stamp.scene_name) + " " + label_html(playback.stamp, playback.stamp.label()) +
+               ": " + html(mark.text) + "</li>";
+  if (!marks.empty())
+    out += "<details class=\"beside\"><summary>Places that verdicts name</summary><ul class=\"plain\">" + marks +
+           "</ul></details>";
+  return out + "</section>";
+}
+
+std::string to_view_button(const PageParts& page, const core::Stamp& stamp, const std::string& trace_file,
+                           const core::Verdict& verdict) {
+  for (std::size_t p = 0; p < page.options.playbacks.size(); ++p) {
+    const Playback& playback = page.options.playbacks[p];
+    if (playback.trace_file != trace_file || playback.stamp.scene_digest != stamp.scene_digest) continue;
+    for (std::size_t m = 0; m < playback.marks.size(); ++m) {
+      const PlaybackMark& mark = playback.marks[m];
+      if (mark.validator != verdict.validator || mark.baseline != verdict.baseline || mark.step != verdict.worst.step ||
+          mark.bodies != verdict.worst.bodies)
+        continue;
+      return " <button type=\"button\" class=\"to-view\" data-playback=\"" + std::to_string(p) + "\" data-mark=\"" +
+             std::to_string(m) + "\" hidden>Show in 3-D<span class=\"unseen\">: " + html(mark.text) +
+             "</span></button>";
+    }
+  }
+  return "";
+}
+
+}  // namespace broadside::reports
