@@ -1,0 +1,22 @@
+// Times in the formats of other people's tools. Only admitted times: those tools know no struck-out ones.
+#pragma once
+
+#include <string>
+
+#include "core/rows.hpp"
+
+namespace broadside::reports {
+
+// Google Benchmark's JSON, one entry per run (its raw repetitions), so its compare.py tests them with its own U test.
+// A name is SCENE/LABEL/STAGE; real_time is the mean per frame in ns. CPU time is not measured: cpu_time repeats
+// real_time, and the context says so.
+std::string google_benchmark_json(const core::RunRows& rows);
+
+// github-action-benchmark's "customSmallerIsBetter": median per frame with the quartiles as range; and counters.
+std::string smaller_is_better_json(const core::RunRows& rows);
+
+// RFC 4180, one figure a line: scene, engine, settings, machine, what, name, value, unit, runs, counts (yes, or why
+// not). Struck-out times are in it, marked.
+std::string figures_csv(const core::RunRows& rows);
+
+}  // namespace broadside::reports
