@@ -10,16 +10,19 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bench/interrupt.hpp"
 #include "bench/plugin_engines.hpp"
 #include "bench/process_limits.hpp"
+#include "bench/progress.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -73,12 +76,19 @@ class StderrTail {
       if (data[k] == '\n') {
         if (!line_.empty()) last_ = line_;
         line_.clear();
+      } else if (data[k] == '\r') {
+        line_.clear();  // a progress line that is written over
       } else {
         line_ += data[k];
       }
     }
   }
-  [[nodiscard]] const std::string& last_line() const { return line_.empty() ? last_ : line_; }
+  // Without the codes that clear a line.
+  [[nodiscard]] std::string last_line() const {
+    const std::string& line = line_.empty() ? last_ : line_;
+    constexpr std::string_view kClear = "\033[K";
+    return line.starts_with(kClear) ? line.substr(kClear.size()) : line;
+  }
 
  private:
   std::string line_;
@@ -211,6 +221,8 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
     err.close_both();
     return no_process("no pipe");
   }
+  // The child's progress line passes through here to this terminal.
+  if (is_live()) setenv(kLiveVariable, "1", 1);
   std::string name = "broadside";
   std::vector<std::string> owned = arguments;
   std::vector<char*> argv{name.data()};

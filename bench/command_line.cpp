@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -21,10 +20,32 @@
 namespace broadside::bench {
 namespace {
 
-constexpr std::array kCommands{
-    add_list,  add_run,     add_agree,   add_pairs,           add_check, add_time,   add_report, add_compare,
-    add_demo,  add_fetch,   add_recover, add_describe_plugin, add_diff,  add_replay, add_shrink, add_plan,
-    add_merge, add_mutants, add_view,    add_paper,           add_mesh,  add_scene,  add_export,
+// One a line, so that two people can add one each.
+constexpr AddCommand kCommands[] = {
+    add_list,             //
+    add_run,              //
+    add_agree,            //
+    add_pairs,            //
+    add_check,            //
+    add_time,             //
+    add_report,           //
+    add_compare,          //
+    add_history,          //
+    add_demo,             //
+    add_fetch,            //
+    add_recover,          //
+    add_describe_plugin,  //
+    add_diff,             //
+    add_replay,           //
+    add_shrink,           //
+    add_plan,             //
+    add_merge,            //
+    add_mutants,          //
+    add_view,             //
+    add_paper,            //
+    add_mesh,             //
+    add_scene,            //
+    add_export,           //
 };
 
 std::vector<std::string> subcommands(const CLI::App& program) {

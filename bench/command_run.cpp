@@ -8,6 +8,8 @@
 #include "bench/record.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
+#include "reports/cells_json.hpp"
+#include "reports/figures.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace broadside::bench {
@@ -28,6 +30,7 @@ struct RunArguments {
   std::string cell;   // of a campaign whose folder stands in the scene's place
   std::string shard;  // likewise
   std::uint64_t memory_limit_mib = 0;
+  bool as_json = false;
 };
 
 core::RecordLevel level_named(const std::string& name) {
@@ -89,6 +92,17 @@ core::Exit run_campaign(const RunArguments& a) {
   return t.busy + t.unfinished == 0 ? core::Exit::kGood : core::Exit::kMissing;
 }
 
+std::string summary(const RunOutcome& outcome, const std::string& folder) {
+  std::uint64_t recorded = 0;
+  double seconds = 0.0;
+  for (const core::Cell& cell : outcome.cells) {
+    recorded += cell.state == core::CellState::kRecorded ? 1U : 0U;
+    seconds += cell.wall_s;
+  }
+  return fmt::format("{} of {} recorded in {}; traces and cells.json are in {}\n", recorded,
+                     reports::counted(outcome.cells.size(), "cell"), reports::quantity(seconds, "s"), folder);
+}
+
 core::Exit run(const RunArguments& a) {
   if (!a.cell.empty() || !a.shard.empty()) return run_campaign(a);
   if (a.engines.engines.empty())
@@ -99,7 +113,10 @@ core::Exit run(const RunArguments& a) {
   if (!a.in_process.empty()) return run_in_process(a, plan.value());
   auto outcome = run_plan(plan.value());
   if (!outcome) return complain(outcome.error());
-  fmt::print("{}", reports::cell_table(outcome.value().cells));
+  if (a.as_json)
+    fmt::print("{}", reports::cells_json(outcome.value().cells));
+  else
+    fmt::print("{}{}", reports::cell_table(outcome.value().cells), summary(outcome.value(), a.folder));
   for (const core::Cell& cell : outcome.value().cells)
     if (cell.state != core::CellState::kRecorded) return core::Exit::kMissing;
   return core::Exit::kGood;
@@ -137,6 +154,7 @@ void add_run(CLI::App& program, core::Exit& exit) {
       ->add_option("--memory-limit", a->memory_limit_mib,
                    "MiB of memory that a reference engine's process may take; 0 = no limit")
       ->capture_default_str();
+  command->add_flag("--json", a->as_json, "Print the cells as JSON instead of a table");
   command->add_option("--driver", a->driver, "Trace that feeds engines that do not simulate")->group("");
   command->add_option("--in-process", a->in_process, "Run one cell here and leave its row in this folder")->group("");
   command->callback([a, &exit] { exit = run(*a); });

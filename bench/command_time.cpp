@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bench/commands.hpp"
 #include "bench/engines.hpp"
+#include "bench/interleave.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
 #include "bench/timing.hpp"
@@ -20,6 +23,7 @@ struct TimeArguments {
   SceneArguments scene;
   EngineArguments engines;
   std::uint32_t repetitions = 5;
+  std::uint32_t processes = 1;
   std::uint32_t narrow_every = 0;
   std::string out = "out/samples.json";
   std::string in_process;  // folder for the samples of one cell
@@ -34,6 +38,17 @@ core::Exit exit_of(const RunPlan& plan, const std::vector<core::Sample>& samples
                      [&](const core::Sample& s) { return s.stamp.label() == label_of(spec); }))
       return core::Exit::kMissing;
   return core::Exit::kGood;
+}
+
+// What a child process is told: everything but the number of processes and the file.
+std::vector<std::string> own_arguments(const TimeArguments& a) {
+  std::vector<std::string> arguments{a.scene.spec, "--repetitions", std::to_string(a.repetitions)};
+  for (const std::string& engine : a.engines.engines) arguments.insert(arguments.end(), {"--engine", engine});
+  for (const std::string& setting : a.engines.settings) arguments.insert(arguments.end(), {"--set", setting});
+  if (a.scene.frames > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(a.scene.frames)});
+  if (a.narrow_every > 0) arguments.insert(arguments.end(), {"--narrow-every", std::to_string(a.narrow_every)});
+  if (a.scene.allow_stand_in) arguments.emplace_back("--stand-in");
+  return arguments;
 }
 
 core::Exit time(const TimeArguments& a) {
@@ -58,7 +73,8 @@ core::Exit time(const TimeArguments& a) {
     const std::string reason = why_absent(*spec.row);
     if (!reason.empty()) fmt::print("{}: not measured: {}\n", spec.row->id, reason);
   }
-  auto samples = time_plan(plan, a.repetitions);
+  auto samples =
+      a.processes > 1 ? time_in_processes(own_arguments(a), a.processes, plan.folder) : time_plan(plan, a.repetitions);
   if (!samples) return complain(samples.error());
   if (!a.in_process.empty()) {
     if (core::Status s = core::write_samples(std::filesystem::path(a.in_process) / "samples.json", samples.value()); !s)
@@ -83,6 +99,12 @@ void add_time(CLI::App& program, core::Exit& exit) {
   a->scene.add_to(*command);
   a->engines.add_to(*command);
   command->add_option("--repetitions", a->repetitions, "Runs of each engine, alternating")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--processes", a->processes,
+          "Processes, each with its own repetitions: what compare needs to tell a change from chance (10 are good)")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--narrow-every", a->narrow_every,

@@ -19,6 +19,7 @@ void add_compare(CLI::App& program, core::Exit& exit);
 void add_mutants(CLI::App& program, core::Exit& exit);
 void add_check(CLI::App& program, core::Exit& exit);
 void add_time(CLI::App& program, core::Exit& exit);
+void add_history(CLI::App& program, core::Exit& exit);
 void add_report(CLI::App& program, core::Exit& exit);
 void add_demo(CLI::App& program, core::Exit& exit);
 void add_fetch(CLI::App& program, core::Exit& exit);

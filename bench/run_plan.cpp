@@ -11,6 +11,7 @@
 #include "bench/child.hpp"
 #include "bench/engines.hpp"
 #include "bench/interrupt.hpp"
+#include "bench/progress.hpp"
 #include "bench/record.hpp"
 #include "bench/resume.hpp"
 #include "core/trace/trace_reader.hpp"
@@ -75,6 +76,7 @@ class Runner {
     const std::string reason = why_absent(*spec.row);
     if (!reason.empty()) {
       done_.push_back(absent_cell(plan_, spec, reason));
+      say_done(done_.back(), done_.size(), std::max(plan_.cells.size(), done_.size()));
       return save();
     }
     const CellRequest request{plan_.source, &plan_.scene, spec.row,        spec.settings,
@@ -91,6 +93,7 @@ class Runner {
       done_.push_back(std::move(cell).value());
     }
     note_driver(spec);
+    say_done(done_.back(), done_.size(), std::max(plan_.cells.size(), done_.size()));
     return save();
   }
 

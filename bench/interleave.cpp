@@ -1,0 +1,166 @@
+#include "bench/interleave.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "bench/interrupt.hpp"
+#include "bench/program.hpp"
+#include "bench/progress.hpp"
+#include "bench/run_plan.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+core::Error interrupted() {
+  return {"interrupted: times of pairs that did not end are dropped", "compare", "", core::Exit::kMissing};
+}
+
+// One program's part: its folder, and one folder per scene in it.
+class Side {
+ public:
+  Side(const InterleavePlan& plan, std::string program, std::filesystem::path folder)
+      : plan_(plan), program_(std::move(program)), folder_(std::move(folder)) {}
+
+  // Record and judge a scene: the proof that its times need.
+  core::Status prove(std::size_t scene) {
+    const std::filesystem::path at = scene_folder(scene);
+    if (core::Status s = prepare_folder(at); !s) return s;
+    Arguments run{"run", plan_.scenes[scene], "--out", at.string()};
+    add_common(run);
+    // A cell that could not be recorded is a row that says so.
+    if (core::Status s = call(run, at / "run.log", {0, 3}); !s) return s;
+    Arguments check{"check", "--json", (at / "verdicts.json").string()};
+    auto rows = core::read_rows(at);
+    if (!rows) return rows.error();
+    for (const core::Cell& cell : rows.value().cells)
+      if (cell.state == core::CellState::kRecorded && !cell.trace_file.empty())
+        check.push_back((at / cell.trace_file).string());
+    if (check.size() == 3) return core::Done{};
+    return call(check, at / "check.log", {0, 1, 3});
+  }
+
+  core::Status time(std::size_t scene, std::uint32_t pair) {
+    const std::filesystem::path at = scene_folder(scene);
+    const std::filesystem::path file = at / "pair.json";
+    Arguments arguments{"time",  plan_.scenes[scene], "--repetitions", std::to_string(plan_.repetitions),
+                        "--out", file.string()};
+    add_common(arguments);
+    if (core::Status s = call(arguments, at / "time.log", {0, 3}); !s) return s;
+    auto samples = core::read_samples(file);
+    if (!samples) return samples.error();
+    for (core::Sample& sample : samples.value()) {
+      sample.process = pair;
+      samples_[scene].push_back(std::move(sample));
+    }
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+    return core::Done{};
+  }
+
+  // All rows of this side, and its files written.
+  core::Result<core::RunRows> rows() {
+    core::RunRows all;
+    for (std::size_t k = 0; k < plan_.scenes.size(); ++k) {
+      if (core::Status s = core::write_samples(scene_folder(k) / "samples.json", samples_[k]); !s) return s.error();
+      auto rows = core::read_rows(scene_folder(k));
+      if (!rows) return rows.error();
+      const auto append = [](auto& to, auto& from) {
+        to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+      };
+      append(all.cells, rows.value().cells);
+      append(all.verdicts, rows.value().verdicts);
+      append(all.samples, rows.value().samples);
+    }
+    if (core::Status s = core::write_cells(folder_ / "cells.json", all.cells); !s) return s.error();
+    if (core::Status s = core::write_verdicts(folder_ / "verdicts.json", all.verdicts); !s) return s.error();
+    if (core::Status s = core::write_samples(folder_ / "samples.json", all.samples); !s) return s.error();
+    return all;
+  }
+
+  void begin() { samples_.resize(plan_.scenes.size()); }
+
+ private:
+  [[nodiscard]] std::filesystem::path scene_folder(std::size_t scene) const {
+    return folder_ / ("scene-" + std::to_string(scene + 1));
+  }
+
+  void add_common(Arguments& arguments) const {
+    for (const std::string& engine : plan_.engines) arguments.insert(arguments.end(), {"--engine", engine});
+    if (plan_.frames > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(plan_.frames)});
+    if (plan_.allow_stand_in) arguments.emplace_back("--stand-in");
+  }
+
+  core::Status call(const Arguments& arguments, const std::filesystem::path& log, const std::vector<int>& good) const {
+    auto code = run_program(program_, arguments, log);
+    if (!code) return code.error();
+    if (is_interrupted()) return interrupted();
+    if (std::find(good.begin(), good.end(), code.value()) != good.end()) return core::Done{};
+    return core::Error{"'" + arguments[0] + "' exits " + std::to_string(code.value()) + ": " + last_line(log), program_,
+                       "see " + log.string(), code.value() == 2 ? core::Exit::kBadInput : core::Exit::kMissing};
+  }
+
+  const InterleavePlan& plan_;
+  std::string program_;
+  std::filesystem::path folder_;
+  std::vector<std::vector<core::Sample>> samples_;
+};
+
+}  // namespace
+
+core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan) {
+  if (core::Status s = prepare_folder(plan.folder); !s) return s.error();
+  std::array<Side, 2> sides{Side(plan, plan.base, plan.folder / "base"), Side(plan, plan.head, plan.folder / "head")};
+  for (Side& side : sides) side.begin();
+  Progress progress("comparing", 2 * plan.scenes.size() * (1 + std::uint64_t{plan.processes}));
+  std::uint64_t done = 0;
+  for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
+    for (Side& side : sides) {
+      if (core::Status s = side.prove(scene); !s) return s.error();
+      progress.at(++done);
+    }
+  }
+  for (std::uint32_t pair = 1; pair <= plan.processes; ++pair) {
+    for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
+      for (const std::size_t turn : {0U, 1U}) {
+        if (core::Status s = sides[pair % 2 == 1 ? turn : 1 - turn].time(scene, pair); !s) return s.error();
+        progress.at(++done);
+      }
+    }
+  }
+  auto base = sides[0].rows();
+  if (!base) return base.error();
+  auto head = sides[1].rows();
+  if (!head) return head.error();
+  return InterleavedRows{std::move(base).value(), std::move(head).value()};
+}
+
+core::Result<std::vector<core::Sample>> time_in_processes(const Arguments& arguments, std::uint32_t processes,
+                                                          const std::filesystem::path& folder) {
+  std::vector<core::Sample> all;
+  Progress progress("timing in processes", processes);
+  const std::filesystem::path file = folder / "process.json";
+  const std::filesystem::path log = folder / "process.log";
+  for (std::uint32_t k = 0; k < processes; ++k) {
+    Arguments own{"time"};
+    own.insert(own.end(), arguments.begin(), arguments.end());
+    own.insert(own.end(), {"--out", file.string()});
+    auto code = run_program("/proc/self/exe", own, log);
+    if (!code) return code.error();
+    if (is_interrupted()) return core::Error{"interrupted: no time is kept", "time", "", core::Exit::kMissing};
+    if (code.value() != 0 && code.value() != 3)
+      return core::Error{last_line(log), "", "", code.value() == 2 ? core::Exit::kBadInput : core::Exit::kInternal};
+    auto samples = core::read_samples(file);
+    if (!samples) return samples.error();
+    for (core::Sample& sample : samples.value()) all.push_back(std::move(sample));
+    progress.at(k + 1);
+  }
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  std::filesystem::remove(log, ignored);
+  return all;
+}
+
+}  // namespace broadside::bench
