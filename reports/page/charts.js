@@ -156,10 +156,13 @@ export function draw_charts(specs) {
     drawn.set(place, { chart, spec });
   };
   const places = document.querySelectorAll("[data-chart]");
-  const seen = new IntersectionObserver((entries) => {
-    for (const entry of entries) if (entry.isIntersecting) draw(entry.target);
-  }, { rootMargin: "400px" });
-  for (const place of places) seen.observe(place);
+  // One after the other, so that the page answers while it draws.
+  const draw_next = (k) => {
+    if (k >= places.length) return;
+    draw(places[k]);
+    setTimeout(draw_next, 0, k + 1);
+  };
+  draw_next(0);
   new ResizeObserver(() => { for (const { chart } of drawn.values()) chart.resize(); }).observe(document.body);
   on_scheme_change(() => { for (const { chart, spec } of drawn.values()) chart.setOption(option(spec), true); });
   addEventListener("beforeprint", () => {
