@@ -148,7 +148,9 @@ export function draw_charts(specs) {
     // The plain picture makes way; with scripts off it stays.
     place.replaceChildren();
     place.classList.add("drawn");
-    if (spec.y.categories) place.style.height = `${90 + 34 * spec.y.categories.length}px`;
+    // Bars side by side need room each; points share a line.
+    const bars = spec.series.filter((one) => one.kind === "bar").length;
+    if (spec.y.categories) place.style.height = `${100 + Math.max(34, 12 * bars + 12) * spec.y.categories.length}px`;
     const chart = echarts.init(place, null, { renderer: "svg" });
     chart.setOption(option(spec));
     place.setAttribute("role", "img");
