@@ -75,7 +75,7 @@ core::Result<std::filesystem::path> record_one(const core::Scene& scene, const C
   request.frames = scene.frames;
   request.folder = folder;
   request.driver_trace = driver;
-  auto cell = spec.row->is_reference ? record_cell_in_child(request, kChildLimit_s) : record_cell(request);
+  auto cell = spec.row->is_reference ? record_cell_in_child(request, {kChildLimit_s}) : record_cell(request);
   if (!cell) return cell.error();
   if (cell.value().state != core::CellState::kRecorded)
     return core::Error{std::string(core::cell_state_word(cell.value().state)) + ": " + cell.value().reason,
