@@ -65,8 +65,9 @@ TEST(FrameDifference, NamesTheDatasetRowAndElementOfEveryFlippedBit) {
       EXPECT_EQ(d->kind, DifferenceKind::kValue) << c.path;
       EXPECT_EQ(d->record, row) << c.path;
       EXPECT_EQ(d->element, e) << c.path;
-      if (!std::isnan(d->a.value()) && !std::isnan(d->b.value()))
+      if (!std::isnan(d->a.value()) && !std::isnan(d->b.value())) {
         EXPECT_EQ(ulps_between(d->a, d->b), 1U) << c.path << ": the last bit of a little-endian number";
+      }
       if (c.layout == Layout::kFrameBodies) {
         EXPECT_EQ(d->body_count, 1U);
         EXPECT_EQ(d->bodies[0], row);
