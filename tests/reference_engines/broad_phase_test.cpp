@@ -388,6 +388,13 @@ TEST_P(BroadPhases, BadBoxesAreRefusedByName) {
   EXPECT_FALSE(phase().update({}).ok()) << "fewer boxes than were loaded";
 }
 
+// Some engines are optional at build time: what is not there has nothing to test.
+std::vector<Subject> subjects_that_are_built() {
+  std::vector<Subject> built = subjects();
+  std::erase_if(built, [](const Subject& subject) { return !subject.row().absent().empty(); });
+  return built;
+}
+
 INSTANTIATE_TEST_SUITE_P(Reference, BroadPhases, testing::ValuesIn(subjects_that_are_built()),
                          [](const auto& subject) { return subject.param.name; });
 

@@ -87,9 +87,9 @@ TEST(Fixture, ALaterVersionIsRefusedWithAdvice) {
   EXPECT_NE(line.find("use a newer Broadside"), std::string::npos) << line;
 }
 
-// When the format gets a new version, its fixture is written once, by this program:
-//   BROADSIDE_FIXTURE=tests/trace/fixtures/format-2.h5 tests_trace --gtest_also_run_disabled_tests \
-//     --gtest_filter=Fixture.DISABLED_IsWritten
+// When the format gets a new version, its fixture is written once, by this program with BROADSIDE_FIXTURE set to
+// tests/trace/fixtures/format-2.h5 and the options
+//   --gtest_also_run_disabled_tests --gtest_filter=Fixture.DISABLED_IsWritten
 TEST(Fixture, DISABLED_IsWritten) {
   const char* path = std::getenv("BROADSIDE_FIXTURE");
   ASSERT_NE(path, nullptr);

@@ -164,7 +164,9 @@ TEST(View, MeshesAndOctreeBoxesStandWhereTheirBodiesAre) {
     const auto body = integers(folder / "v.vtkhdf", "/VTKHDF/CellData/body");
     const std::vector<Box> cells = cells_of_step(folder / "v.vtkhdf", 4);
     ASSERT_EQ(body.size(), cells.size());
-    if (of == ViewOf::kMeshes) EXPECT_EQ(cells.size(), kBodies * 4U) << "tetrahedra";
+    if (of == ViewOf::kMeshes) {
+      EXPECT_EQ(cells.size(), kBodies * 4U) << "tetrahedra";
+    }
     // Body 1 is not turned: mesh 1's vertices, moved to its position at detection.
     Box all = empty_box();
     for (std::size_t c = 0; c < cells.size(); ++c)
