@@ -67,7 +67,8 @@ core::Result<std::filesystem::path> record_again(const core::TraceReader& trace,
   request.level = trace.header().groups == 0 ? core::RecordLevel::kDigest : core::RecordLevel::kFull;
   request.folder = folder;
   request.driver_trace = trace.path();
-  auto cell = engine.row->is_reference ? record_cell_in_child(request, {kTimeLimit_s}) : record_cell(request, capability);
+  auto cell =
+      engine.row->is_reference ? record_cell_in_child(request, {kTimeLimit_s}) : record_cell(request, capability);
   if (!cell) return cell.error();
   if (cell.value().state != core::CellState::kRecorded)
     return core::Error{std::string(core::cell_state_word(cell.value().state)) + ": " + cell.value().reason,

@@ -1,6 +1,5 @@
 // One body of tests for every broad-phase engine of the folder: whatever it does inside, read_back must give exactly
-// the pairs whose closed boxes overlap, P(6), save pairs of two static bodies. A new engine is one more line in
-// kSubjects.
+// the pairs whose closed boxes overlap, P(6), save pairs of two static bodies. A new engine is one line in subjects().
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,8 +33,7 @@ struct Subject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings;
-  // Empty, or the library's known defect (reference/README.md) that keeps boxes which only touch away from it, or
-  // boxes that change size.
+  // Empty, or the library's known defect (reference/README.md): it loses boxes that only touch, or that change size.
   std::string loses_touching = {};
   std::string breaks_on_resize = {};
 };

@@ -45,6 +45,9 @@ void holds_against(const core::Scene& scene, const core::Scene& other, Kind kind
   const Recording baseline = record(other, settings);
   RC_ASSERT(blame(subject, &baseline) == "");
   const core::Verdict v = verdict_of("metamorphic", subject, &baseline);
+  // Engines without a level 0 record no candidate pairs, and growing says nothing about what they do record.
+  const bool has_pairs = (subject.header.groups & core::bit(core::Group::kPairs)) != 0;
+  if (kind == Kind::kGrown && !has_pairs) return;
   RC_ASSERT(v.outcome == core::Outcome::kPass);
 }
 
