@@ -341,8 +341,7 @@ TEST_P(BroadPhases, RestThenMoveAgain) {
   boxes[0] = cube(4.5F, 0, 0, 1);
   ASSERT_TRUE(phase().update(boxes).ok());
   EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 1}}));
-  boxes[0] = cube(20, 0, 0, 1);
-  boxes[1] = cube(9.5F, 0, 0, 1);
+  boxes = {cube(20, 0, 0, 1), cube(9.5F, 0, 0, 1), boxes[2]};
   ASSERT_TRUE(phase().update(boxes).ok());
   EXPECT_EQ(find().pairs, (std::vector<Pair>{{1, 2}}));
 }
@@ -388,8 +387,8 @@ TEST_P(BroadPhases, BadBoxesAreRefusedByName) {
 
 // Some engines are optional at build time: what is not there has nothing to test.
 std::vector<Subject> subjects_that_are_built() {
-  std::vector<Subject> built = subjects();
-  std::erase_if(built, [](const Subject& subject) { return !subject.row().absent().empty(); });
+  auto built = subjects();
+  std::erase_if(built, [](const Subject& s) { return !s.row().absent().empty(); });
   return built;
 }
 
