@@ -25,7 +25,8 @@ std::optional<Where> divergence(const core::FrameRecord& a, const core::FrameRec
 class Determinism final : public Validator {
  public:
   explicit Determinism(const Subject& subject)
-      : baseline_(subject.baseline->stamp.label()), common_(subject.header.groups & subject.baseline->groups & kAllGroups) {}
+      : baseline_(subject.baseline->stamp.label()),
+        common_(subject.header.groups & subject.baseline->groups & kAllGroups) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.baseline == nullptr) {
