@@ -2,8 +2,11 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <numeric>
+#include <random>
 
 #include "core/method/contact_geometry.hpp"
 #include "core/method/frame_digest.hpp"
@@ -124,12 +127,18 @@ void ResponseStage::resolve_jacobi(Bodies& bodies, const ResponseRules& rules, s
   }
 }
 
-// E8: contacts of one body in whatever order the threads come, one's write over the other's.
+// E8: contacts of one body in whatever order the threads come, one's write over the other's. Which contact a thread
+// takes next is drawn anew in each pass: a scheduler promises no order, yet one that has few cores free keeps to the
+// same.
 void ResponseStage::resolve_racing(Bodies& bodies, const ResponseRules& rules, std::span<const Pair> touching) {
+  std::vector<std::size_t> taken(touching.size());
+  std::iota(taken.begin(), taken.end(), std::size_t{0});
+  std::shuffle(taken.begin(), taken.end(), std::minstd_rand(std::random_device{}()));
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, touching.size(), 1),
       [&](const auto& range) {
-        for (std::size_t k = range.begin(); k != range.end(); ++k) {
+        for (std::size_t place = range.begin(); place != range.end(); ++place) {
+          const std::size_t k = taken[place];
           Contact& contact = contacts_[k];
           const Pair p = touching[k];
           Kinematics& a = bodies.state[p.i];
