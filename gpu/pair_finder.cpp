@@ -30,6 +30,8 @@ struct PairFinder::Impl {
   std::vector<std::uint8_t> is_static;
   std::vector<PackedBox> packed;
   Counters counts;
+  std::uint64_t launches = 0;
+  std::uint64_t bytes_to_device = 0;
   DeviceBuffer<PackedBox> boxes;
   BroadBuffers broad;
   DeviceBuffer<core::Pair> pairs;
@@ -38,6 +40,7 @@ struct PairFinder::Impl {
   [[nodiscard]] Start start() const;
   core::Status reserve();
   core::Status pack_boxes(std::span<const Box> given);
+  core::Status upload();
 };
 
 PairFinder::PairFinder(const PairFinderOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -102,12 +105,18 @@ core::Status PairFinder::Impl::pack_boxes(std::span<const Box> given) {
   return core::Done{};
 }
 
+core::Status PairFinder::Impl::upload() {
+  bytes_to_device += packed.size() * sizeof(PackedBox);
+  return boxes.upload(packed, "boxes");
+}
+
 core::Status PairFinder::load(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
   Impl& d = *impl_;
   d.is_static.assign(is_static.begin(), is_static.end());
   BROADSIDE_TRY(d.pack_boxes(boxes));
   BROADSIDE_TRY(d.reserve());
-  return d.boxes.upload(d.packed, "boxes");
+  d.launches = d.bytes_to_device = 0;
+  return d.upload();
 }
 
 core::Status PairFinder::update(std::span<const Box> boxes) {
@@ -118,7 +127,7 @@ core::Status PairFinder::update(std::span<const Box> boxes) {
                        "broad phase on the GPU", "load again when the number of boxes changes"};
   BROADSIDE_TRY(d.pack_boxes(boxes));
   d.broad.refit(d.facts);
-  return d.boxes.upload(d.packed, "boxes");
+  return d.upload();
 }
 
 core::Status PairFinder::find() {
@@ -127,6 +136,7 @@ core::Status PairFinder::find() {
     d.broad.fill(d.view.broad);
     d.view.pairs = {d.pairs.data(), d.pairs.capacity()};
     BROADSIDE_TRY(d.timer.start(d.stream.get()));
+    ++d.launches;
     BROADSIDE_TRY(launch_pairs(d.view, d.launch, d.stream.get()));
     BROADSIDE_TRY(d.timer.stop(d.stream.get()));
     BROADSIDE_TRY(d.stream.wait("finding pairs"));
@@ -143,6 +153,13 @@ core::Result<core::PairSet> PairFinder::read_back() {
   std::sort(set.pairs.begin(), set.pairs.end());
   set.demanded = set.raw = set.pairs.size();
   return set;
+}
+
+std::vector<core::Counter> PairFinder::counters() const {
+  const Impl& d = *impl_;
+  return {{"launches", d.launches},
+          {"bytes to the device", d.bytes_to_device},
+          {"device bytes", d.boxes.bytes() + d.broad.bytes() + d.pairs.bytes()}};
 }
 
 FindTime PairFinder::find_time() const {

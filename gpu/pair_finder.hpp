@@ -38,6 +38,8 @@ class PairFinder final : public core::BroadPhase {
   core::Status update(std::span<const core::Box> boxes) override;
   core::Status find() override;
   core::Result<core::PairSet> read_back() override;
+  // Launches, bytes that load and update copied to the device, and bytes of device memory: the same on every GPU.
+  [[nodiscard]] std::vector<core::Counter> counters() const override;
 
   [[nodiscard]] FindTime find_time() const;
 

@@ -36,6 +36,8 @@ struct Pipeline::Impl {
   std::array<core::StageTime, kStageCount> times{};
   std::uint64_t steps = 0;
   std::uint64_t repeats = 0;
+  std::uint64_t pairs_tested = 0;
+  std::uint64_t all_pairs = 0;  // of the scene, without those of two static bodies
   // Frames on their way to the host: two, by turns.
   std::array<FrameCopy, 2> copies;
   std::uint64_t copies_started = 0;
@@ -83,7 +85,11 @@ core::Status Pipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(core::refuse_springs(scene));
   Impl& d = *impl_;
   d.scene = &scene;
-  d.steps = d.repeats = d.copies_started = d.copies_finished = 0;
+  d.steps = d.repeats = d.pairs_tested = d.copies_started = d.copies_finished = 0;
+  const auto pairs_of = [](std::uint64_t bodies) { return bodies < 2 ? 0 : bodies * (bodies - 1) / 2; };
+  const auto fixed = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                   [](const core::Body& body) { return body.inverse_mass == 0.0F; });
+  d.all_pairs = pairs_of(scene.bodies.size()) - pairs_of(static_cast<std::uint64_t>(fixed));
   d.last = {};
   d.times = {};
   d.view = {};
@@ -142,6 +148,7 @@ core::Status Pipeline::step(float dt_s) {
   }
   d.buffers.advance();
   ++d.steps;
+  d.pairs_tested += d.starts_at_level0() ? d.last.pairs : d.all_pairs;
   d.dt_s = static_cast<double>(dt_s);
   const auto& end = (*d.outcome).stage_end_ns;
   for (int k = 0; k < kStageCount; ++k) d.times[k] = {kStageNames[k], static_cast<double>(end[k + 1] - end[k]) * 1e-9};
@@ -218,6 +225,13 @@ core::Status Pipeline::finish_copy(core::FrameRecord& frame) {
 std::span<const core::StageTime> Pipeline::stage_times() const {
   if (impl_->steps == 0) return {};
   return impl_->times;
+}
+
+std::vector<core::Counter> Pipeline::counters() const {
+  const MemoryUse memory = memory_use();
+  return {{"launches", impl_->steps + impl_->repeats},
+          {"level stage: pairs tested", impl_->pairs_tested},
+          {"device bytes", memory.shapes + memory.bodies + memory.appended}};
 }
 
 const Counters& Pipeline::frame_counts() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/engine/dynamics.hpp"
 #include "core/engine/frame_copies.hpp"
@@ -47,6 +48,9 @@ class Pipeline final : public core::Dynamics, public core::FrameCopies {
   [[nodiscard]] std::uint32_t groups() const override;
   // Read off the GPU's clock within the one kernel: integrate, broad, levels, vertices, response, faces.
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override;
+  // Launches of the frame kernel, pairs that the level stage was given, and bytes of device memory; nothing that
+  // depends on what is recorded, on the GPU or on the order of its threads.
+  [[nodiscard]] std::vector<core::Counter> counters() const override;
 
   // Counts of the last step.
   [[nodiscard]] const Counters& frame_counts() const;

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string_view>
 #include <vector>
 
 #include "gpu/pair_finder.hpp"
@@ -42,6 +44,23 @@ std::vector<Box> boxes_of(std::uint32_t count, auto make) {
     boxes.push_back({center - half, center + half});
   }
   return boxes;
+}
+
+TEST(PairsOnHost, CountsLaunchesAndBytes) {
+  const std::vector<Box> boxes = boxes_of(300, [](Dice& dice, std::uint32_t) { return dice.cube(30.0F); });
+  const std::vector<std::uint8_t> is_static(boxes.size());
+  PairFinder subject({Broad::kTree, core::Variant::kSound, 0.5F, 50});
+  ASSERT_TRUE(subject.load(boxes, is_static).ok());
+  for (int frame = 0; frame < 3; ++frame) {
+    ASSERT_TRUE(subject.update(boxes).ok());
+    ASSERT_TRUE(subject.find().ok());
+    ASSERT_TRUE(subject.read_back().ok());
+  }
+  std::map<std::string_view, std::uint64_t> counts;
+  for (const core::Counter& counter : subject.counters()) counts[counter.name] = counter.count;
+  EXPECT_EQ(counts["launches"], 3U);
+  EXPECT_EQ(counts["bytes to the device"], 4U * boxes.size() * sizeof(PackedBox));
+  EXPECT_GT(counts["device bytes"], boxes.size() * sizeof(PackedBox));
 }
 
 TEST(PairsOnHost, Uniform) {

@@ -134,6 +134,38 @@ TEST(PipelineOnHost, BuffersGrow) {
   EXPECT_GE(subject.repeated_frames(), 1U);
 }
 
+using Counts = std::map<std::string_view, std::uint64_t>;
+Counts counts_of(const core::Dynamics& dynamics) {
+  Counts counts;
+  for (const core::Counter& counter : dynamics.counters()) counts[counter.name] = counter.count;
+  return counts;
+}
+
+// One launch a frame and none for a copy of it; as many pairs as octree-cpu tests; memory that any machine would take.
+TEST(PipelineOnHost, CountsLaunchesPairsAndBytes) {
+  const core::Scene scene = spheres(40, 2.5F, 4);
+  for (const char* broad : {"tree", "brute"}) {
+    SCOPED_TRACE(broad);
+    PipelineOptions options;
+    options.levels = core::Levels::kA;
+    options.broad = std::string_view(broad) == "tree" ? Broad::kTree : Broad::kBrute;
+    const std::unique_ptr<core::Dynamics> twin = twin_of({{"broad", broad}, {"levels", "A"}});
+    Counts before;
+    for (const char* seed : {"1", "2"}) {
+      Pipeline subject(options);
+      ASSERT_EQ(setenv("BROADSIDE_ON_HOST_SEED", seed, 1), 0);
+      EXPECT_GT(compare_pipelines(scene, subject, *twin, 5, 2), 0U);
+      const Counts counts = counts_of(subject);
+      EXPECT_EQ(counts.at("launches"), 5U + subject.repeated_frames());
+      EXPECT_EQ(counts.at("level stage: pairs tested"), counts_of(*twin).at("level stage: pairs tested"));
+      EXPECT_GT(counts.at("device bytes"), 40U * sizeof(core::Body));
+      EXPECT_TRUE(before.empty() || counts == before) << "the order of threads is no part of it";
+      before = counts;
+    }
+    unsetenv("BROADSIDE_ON_HOST_SEED");
+  }
+}
+
 // Whatever the order in which threads come: a frame is a function of the one before.
 TEST(PipelineOnHost, AnyOrderOfThreads) {
   for (const char* seed : {"1", "2", "3"}) {
