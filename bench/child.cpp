@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,11 +68,12 @@ std::string command_line(const std::vector<std::string>& args) {
   return line;
 }
 
-// Passes the child's stderr on and keeps its last line: an assert's message, or our own one clear line.
+// Keeps the last line of the child's stderr, an assert's message or our own one clear line, and may pass all of it on.
 class StderrTail {
  public:
+  explicit StderrTail(bool passes_on) : passes_on_(passes_on) {}
   void take(const char* data, std::size_t size) {
-    std::fwrite(data, 1, size, stderr);
+    if (passes_on_) std::fwrite(data, 1, size, stderr);
     for (std::size_t k = 0; k < size; ++k) {
       if (data[k] == '\n') {
         if (!line_.empty()) last_ = line_;
@@ -91,6 +93,7 @@ class StderrTail {
   }
 
  private:
+  bool passes_on_;
   std::string line_;
   std::string last_;
 };
@@ -122,10 +125,9 @@ bool drain(int from, Take&& take) {
 }
 
 // Reads both pipes until the child closes them, then reaps it; returns its status.
-int attend(pid_t child, int out, int err, double time_limit_s, ChildEnding& ending) {
+int attend(pid_t child, int out, int err, StderrTail tail, double time_limit_s, ChildEnding& ending) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  StderrTail tail;
   bool told = false;
   std::array<pollfd, 2> waiting{pollfd{err, POLLIN, 0}, pollfd{out, POLLIN, 0}};
   while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
@@ -213,27 +215,31 @@ core::Error no_process(const char* what) {
 
 }  // namespace
 
-core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits,
-                                   bool keeps_output) {
+core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits, Keeps keeps) {
   Pipe err;
   Pipe out;
-  if (!err.open() || (keeps_output && !out.open())) {
+  if (!err.open() || (keeps != Keeps::kNothing && !out.open())) {
     err.close_both();
     return no_process("no pipe");
   }
+  const bool passes_errors_on = keeps != Keeps::kOutputAndErrors;
   // The child's progress line passes through here to this terminal.
-  if (is_live()) setenv(kLiveVariable, "1", 1);
+  if (is_live() && passes_errors_on) setenv(kLiveVariable, "1", 1);
   std::string name = "broadside";
   std::vector<std::string> owned = arguments;
   std::vector<char*> argv{name.data()};
   for (std::string& a : owned) argv.push_back(a.data());
   argv.push_back(nullptr);
 
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0) {
-    // Only async-signal-safe calls here: other threads of the parent may hold locks.
+    // Only async-signal-safe calls here: other threads of the parent may hold locks. Nobody goes on writing where a
+    // later try begins: the parent's death is the child's, also when it came before this line.
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(127);
     dup2(err.to, STDERR_FILENO);
-    if (keeps_output) dup2(out.to, STDOUT_FILENO);
+    if (out.to >= 0) dup2(out.to, STDOUT_FILENO);
     for (const int end : {err.from, err.to, out.from, out.to})
       if (end >= 0) close(end);
     limit_this_process(limits.memory_mib);
@@ -243,7 +249,10 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
   close(std::exchange(err.to, -1));
   if (out.to >= 0) close(std::exchange(out.to, -1));
   ChildEnding ending;
-  if (child > 0) name_ending(ending, attend(child, out.from, err.from, limits.seconds, ending), limits.seconds);
+  if (child > 0) {
+    const int status = attend(child, out.from, err.from, StderrTail(passes_errors_on), limits.seconds, ending);
+    name_ending(ending, status, limits.seconds);
+  }
   err.close_both();
   out.close_both();
   if (child < 0) return no_process("no child process");
@@ -254,7 +263,7 @@ core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const 
   const CellFolder folder(request.folder);
   if (core::Status s = folder.status(); !s) return s.error();
   const std::vector<std::string> args = run_arguments(request, folder.path());
-  auto ended = run_self(args, limits, false);
+  auto ended = run_self(args, limits, Keeps::kNothing);
   if (!ended) return ended.error();
   const ChildEnding& ending = ended.value();
   auto rows = core::read_rows(folder.path());
@@ -270,7 +279,7 @@ core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const 
   std::vector<std::string> args = cell_arguments("time", request);
   append(args, {"--repetitions", "1", "--out", (request.folder / "samples.json").string(), "--in-process",
                 folder.path().string()});
-  auto ended = run_self(args, limits, true);
+  auto ended = run_self(args, limits, Keeps::kOutput);
   if (!ended) return ended.error();
   const ChildEnding& ending = ended.value();
   auto rows = core::read_rows(folder.path());

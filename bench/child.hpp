@@ -24,12 +24,14 @@ struct ChildEnding {
   bool timed_out = false;
   std::string words;      // "signal 6 (Aborted): ...", "no end after 10 s", "exit code 2: ..."; empty when good
   std::string last_line;  // of its stderr: an assert's message, or our own one clear line
-  std::string output;     // its stdout, where asked for
+  std::string output;     // its stdout, where kept
 };
 
-// Runs `broadside ARGUMENTS...`. Its stderr is passed on. Ctrl-C is passed on too.
-core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits,
-                                   bool keeps_output);
+// What of a child's streams is kept here instead of passed on. Of stderr that is the last line.
+enum class Keeps { kNothing, kOutput, kOutputAndErrors };
+
+// Runs `broadside ARGUMENTS...`. Ctrl-C is passed on. A parent that is killed takes its child along.
+core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits, Keeps keeps);
 
 // `broadside run ... --in-process`. Signal, time-out and an unexplained exit become cells that say so, with the command
 // that repeats them; bad input of the child comes back as its error.

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bench/program_output.hpp"
+#include "bench/child.hpp"
 #include "gpu/device_space.hpp"
 #include "reference/plugin/plugin_engine.hpp"
 
@@ -83,26 +83,21 @@ core::Result<reference::PluginDescription> description_from(const std::string& j
   }
 }
 
-// The message of the child's one clear line: "broadside: FILE: what; advice".
-std::string last_line(const std::string& text) {
-  std::string line = text;
-  while (!line.empty() && line.back() == '\n') line.pop_back();
-  const auto start = line.rfind('\n');
-  return start == std::string::npos ? line : line.substr(start + 1);
-}
-
 core::Result<reference::PluginDescription> described(const std::string& path) {
-  auto output = run_this_program({"describe-plugin", path}, kDescribeLimit_s);
-  if (!output)
-    return core::Error{"loading it in a child process: " + output.error().what, path,
+  auto ended = run_self({"describe-plugin", path}, {kDescribeLimit_s}, Keeps::kOutputAndErrors);
+  if (!ended) return ended.error();
+  const ChildEnding& ending = ended.value();
+  if (ending.exit_code < 0)
+    return core::Error{"loading it in a child process: " + ending.words, path,
                        "it must load and describe itself without work"};
-  if (output.value().exit_code != 0) {
+  if (!ending.is_good) {
+    // The child's one clear line: "broadside: FILE: what; advice".
     const std::string prefix = "broadside: " + path + ": ";
-    std::string line = last_line(output.value().err);
+    std::string line = ending.last_line;
     if (line.starts_with(prefix)) line = line.substr(prefix.size());
     return core::Error{line.empty() ? "it could not be described" : line, path};
   }
-  return description_from(output.value().out, path);
+  return description_from(ending.output, path);
 }
 
 void fill_row(Plugin& plugin) {

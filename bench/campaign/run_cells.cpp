@@ -12,8 +12,8 @@
 
 #include "bench/build_facts.hpp"
 #include "bench/campaign/cell_lock.hpp"
+#include "bench/child.hpp"
 #include "bench/interrupt.hpp"
-#include "bench/program_output.hpp"
 #include "core/rows.hpp"
 
 namespace broadside::bench::campaign {
@@ -42,14 +42,9 @@ std::vector<std::string> command(std::string name, const CellWork& work, std::in
   return arguments;
 }
 
-// What a part of a cell came to. Exit codes 0, 1 and 3 are results: judged good, judged bad, something is missing.
-core::Status done(const core::Result<ProgramOutput>& output, const std::string& what) {
-  if (!output) return core::Error{output.error().what, what, "", core::Exit::kMissing};
-  const int code = output.value().exit_code;
-  if (code == 0 || code == 1 || code == 3) return core::Done{};
-  const std::string& err = output.value().err;
-  return core::Error{fmt::format("exit code {}: {}", code, err.substr(0, err.find('\n'))), what, "",
-                     core::Exit::kMissing};
+// Judged good, judged bad, something is missing: results all three. Other exit codes are bad input or a full disk.
+bool is_result(const ChildEnding& ending) {
+  return ending.exit_code == 0 || ending.exit_code == 1 || ending.exit_code == 3;
 }
 
 std::vector<std::string> traces_in(const fs::path& folder) {
@@ -62,39 +57,37 @@ std::vector<std::string> traces_in(const fs::path& folder) {
 }
 
 // A crash or time-out of the harness's own child, written as the cell's row: it happened, and it is the result.
-core::Status write_ended_badly(const fs::path& part, const CellWork& work, const core::Error& error) {
+core::Status write_ended_badly(const fs::path& part, const CellWork& work, const ChildEnding& ending) {
   core::Cell cell;
   cell.stamp.scene_name = work.scene;
   cell.stamp.engine = work.engine;
   cell.stamp.broadside_build = build_line();
   cell.stamp.machine = machine_line();
-  cell.state = error.what.starts_with("no answer") ? core::CellState::kTimedOut : core::CellState::kCrashed;
-  cell.reason = error.line();
+  cell.state = ending.timed_out ? core::CellState::kTimedOut : core::CellState::kCrashed;
+  cell.reason = ending.words;
   return core::write_cells(part / "cells.json", {cell});
 }
 
-core::Status record_judge_time(const fs::path& part, const CellWork& work) {
+// How the last part of a cell ended, or the first that gave no result.
+core::Result<ChildEnding> record_judge_time(const fs::path& part, const CellWork& work) {
   // Each part has the limit for itself. Recording ends a hanging engine on its own: that is a result, and only a
   // harness that hangs too is ended from here.
   constexpr double kGrace_s = 30.0;
   const std::string limit = fmt::format("{}", work.time_limit_s);
-  if (auto s = done(run_this_program(command("run", work, {"--out", part.string(), "--time-limit", limit}),
-                                     work.time_limit_s + kGrace_s),
-                    "recording");
-      !s)
-    return s;
+  auto ended = run_self(command("run", work, {"--out", part.string(), "--time-limit", limit}),
+                        {work.time_limit_s + kGrace_s}, Keeps::kOutputAndErrors);
+  if (!ended || !is_result(ended.value())) return ended;
   std::vector<std::string> check{"check"};
   const std::vector<std::string> traces = traces_in(part);
+  if (traces.empty()) return ended;
   check.insert(check.end(), traces.begin(), traces.end());
   check.insert(check.end(), {"--json", (part / "verdicts.json").string()});
-  if (!traces.empty())
-    if (auto s = done(run_this_program(check, work.time_limit_s + kGrace_s), "judging"); !s) return s;
-  if (work.repetitions == 0 || traces.empty()) return core::Done{};
-  return done(run_this_program(command("time", work,
-                                       {"--repetitions", std::to_string(work.repetitions), "--out",
-                                        (part / "samples.json").string()}),
-                               work.time_limit_s),
-              "timing");
+  ended = run_self(check, {work.time_limit_s + kGrace_s}, Keeps::kOutputAndErrors);
+  if (!ended || !is_result(ended.value()) || work.repetitions == 0) return ended;
+  return run_self(
+      command("time", work,
+              {"--repetitions", std::to_string(work.repetitions), "--out", (part / "samples.json").string()}),
+      {work.time_limit_s}, Keeps::kOutputAndErrors);
 }
 
 enum class Ending { kDone, kBusy, kUnfinished };
@@ -109,16 +102,16 @@ core::Result<Ending> run_cell(const fs::path& folder, const ManifestCell& cell) 
   fs::remove_all(part, failed);
   fs::create_directories(part, failed);
   if (failed) return core::Error{"cannot write there: " + failed.message(), part.string(), "check the folder"};
-  const core::Status status = record_judge_time(part, cell.work);
+  auto ended = record_judge_time(part, cell.work);
+  if (!ended) return ended.error();
   if (is_interrupted()) return Ending::kUnfinished;
-  if (!status) {
+  if (ended.value().exit_code >= 0 && !is_result(ended.value())) {
     // Bad input and a full disk are not this engine's doing: the cell stays missing and says why.
-    if (status.error().what.starts_with("exit code")) {
-      fmt::print(stderr, "{} {}: {}\n", cell.id, cell.work.engine, status.error().line());
-      return Ending::kUnfinished;
-    }
-    if (core::Status written = write_ended_badly(part, cell.work, status.error()); !written) return written.error();
+    fmt::print(stderr, "{} {}: {}\n", cell.id, cell.work.engine, ended.value().words);
+    return Ending::kUnfinished;
   }
+  if (!is_result(ended.value()))
+    if (core::Status s = write_ended_badly(part, cell.work, ended.value()); !s) return s.error();
   fs::rename(part, final, failed);
   if (failed) return core::Error{"cannot rename it: " + failed.message(), part.string(), "check the folder"};
   return Ending::kDone;

@@ -36,6 +36,15 @@ Digests digests_in(const std::filesystem::path& folder) {
   return all;
 }
 
+// Processes that were given this text as an argument.
+int processes_about(const std::string& text) {
+  int count = 0;
+  std::error_code gone;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", gone))
+    count += read_text(entry.path() / "cmdline").find(text) != std::string::npos ? 1 : 0;
+  return count;
+}
+
 TEST(CampaignRun, SharesMergeToTheDigestsOfOneProcess) {
   const ScratchFolder folder;
   const std::string engines = R"("octree-cpu", "octree-cpu[levels=A]", "hash-cpu", "all-pairs")";
@@ -89,6 +98,9 @@ TEST(CampaignRun, AKilledCellIsDoneAgain) {
   EXPECT_TRUE(was_begun);
   kill(running, SIGKILL);
   EXPECT_EQ(wait_for(folder, running).exit_code, -1);
+  // Its children went with it, and write nothing where the next try begins. Their own limit would be 2 s and 30 s.
+  for (int k = 0; k < 100 && processes_about(d) > 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(processes_about(d), 0);
   const Ended merged = run_program({"merge", d});
   EXPECT_NE(merged.out.find("begun and not finished"), std::string::npos) << merged.out;
   EXPECT_NE(merged.out.find("not begun"), std::string::npos) << merged.out;
