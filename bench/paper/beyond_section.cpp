@@ -136,14 +136,15 @@ void add_fit_rows(Table& table, const std::string& model, const Family& family, 
       continue;
     }
     const auto depth = brute && curve.method != "flat" ? effective_depth(*brute, *fit) : std::nullopt;
-    const TableCell no_depth{fit->quadratic_s > 0.0 ? "\xE2\x80\x93" : "no quadratic term"};
+    const TableCell no_depth{fit->quadratic_share() >= 0.1 ? "\xE2\x80\x93" : "quadratic term below 10 %"};
     table.rows.push_back({{model},
                           {family.name},
                           {curve.method},
                           number_cell(1e6 * fit->fixed_s, 3),
                           number_cell(1e9 * fit->linear_s, 3),
                           number_cell(1e12 * fit->quadratic_s, 3),
-                          number_cell(100.0 * fit->worst_relative_error, 2),
+                          fit->is_tested() ? number_cell(100.0 * fit->worst_relative_error, 2)
+                                           : TableCell{fmt::format("untested: {} counts", fit->points)},
                           depth ? number_cell(*depth, 3) : no_depth});
   }
 }

@@ -160,7 +160,7 @@ std::optional<CostFit> fit_cost(const CostCurve& curve) {
       if ((mask >> c & 1U) != 0) chosen.push_back(c);
     std::array<double, kTerms> x{};
     if (!solve(rows, chosen, x) || *std::min_element(x.begin(), x.end()) < 0.0) continue;
-    CostFit fit{x[0], x[1], x[2], 0.0, points.counts.size()};
+    CostFit fit{x[0], x[1], x[2], 0.0, points.counts.size(), chosen.size(), points.counts.back()};
     double error = 0.0;
     for (std::size_t k = 0; k < points.counts.size(); ++k) {
       const double relative = fit.at(points.counts[k]) / points.means[k] - 1.0;
@@ -174,7 +174,8 @@ std::optional<CostFit> fit_cost(const CostCurve& curve) {
 }
 
 std::optional<double> effective_depth(const CostFit& brute, const CostFit& pruned) {
-  if (!(brute.quadratic_s > 0.0) || !(pruned.quadratic_s > 0.0)) return std::nullopt;
+  constexpr double kLeastShare = 0.1;
+  if (brute.quadratic_share() < kLeastShare || pruned.quadratic_share() < kLeastShare) return std::nullopt;
   return std::log(brute.quadratic_s / pruned.quadratic_s) / std::log(8.0);
 }
 

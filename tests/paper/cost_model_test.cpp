@@ -43,6 +43,18 @@ TEST(CostFit, ThreeUnknownsTakeThreeCounts) {
   EXPECT_FALSE(fit_cost(curve).has_value());
 }
 
+TEST(CostFit, AsManyCountsAsTermsTestNothing) {
+  CostCurve curve = curve_of("flat", 1e-5, 1e-8, 1e-11);
+  for (std::size_t k = 3; k < 5; ++k) curve.seconds[k].clear();
+  EXPECT_FALSE(fit_cost(curve)->is_tested());
+  EXPECT_TRUE(fit_cost(curve_of("flat", 1e-5, 1e-8, 1e-11))->is_tested());
+}
+
+TEST(EffectiveDepth, NeedsAQuadraticTermThatCounts) {
+  const auto brute = fit_cost(curve_of("flat", 0.0, 0.0, 64e-12));
+  EXPECT_FALSE(effective_depth(*brute, *fit_cost(curve_of("tree", 1e-3, 1e-7, 1e-17))).has_value());
+}
+
 TEST(EffectiveDepth, IsThePowerOfEightBetweenQuadraticTerms) {
   const auto brute = fit_cost(curve_of("flat", 0.0, 0.0, 64e-12));
   const auto pruned = fit_cost(curve_of("octree, L = 2", 0.0, 1e-8, 1e-12));
