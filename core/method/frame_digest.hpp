@@ -15,28 +15,51 @@ namespace broadside::core {
 // Sum modulo 2^64 of one hash per body, per confirmed pair and per contact. A sum, so that any number of CPU or GPU
 // threads may add their records in any order; each record's hash starts from a seed and its own identity, so equal
 // records of different bodies do not cancel or swap unseen.
+//
+// Two words are taken in by one multiplication to 128 bits whose halves are folded together. With one multiplication of
+// 64 bits and three shifts for each word, hashing cost a sixth of a sparse frame of 100,000 bodies on a CPU. A word is
+// lost only beside one of 2^64 values of its neighbour.
 class RecordHash {
  public:
   BROADSIDE_HD constexpr RecordHash(std::uint64_t seed, std::uint64_t identity)
-      : h_(splitmix64(seed ^ splitmix64(identity))) {}
+      : h_(folded(identity ^ kFirst, seed ^ kSecond)) {}
 
-  BROADSIDE_HD constexpr RecordHash& add(std::uint64_t word) {
-    h_ = splitmix64(h_ ^ word);
+  BROADSIDE_HD constexpr RecordHash& add(std::uint64_t first, std::uint64_t second) {
+    h_ = folded(first ^ h_, second ^ kThird);
     return *this;
   }
-  BROADSIDE_HD constexpr RecordHash& add(float low, float high) {
-    return add((static_cast<std::uint64_t>(bits(high)) << 32) | bits(low));
-  }
-  BROADSIDE_HD constexpr RecordHash& add(Vec3 v, float fourth) { return add(v.x, v.y).add(v.z, fourth); }
-  BROADSIDE_HD constexpr std::uint64_t value() const { return h_; }
+  BROADSIDE_HD constexpr RecordHash& add(float a, float b, float c, float d) { return add(word(a, b), word(c, d)); }
+  // The sum of records needs each well mixed up to its last word.
+  BROADSIDE_HD constexpr std::uint64_t value() const { return folded(h_ ^ kFirst, kSecond); }
 
  private:
-  BROADSIDE_HD static constexpr std::uint32_t bits(float f) { return std::bit_cast<std::uint32_t>(f); }
+  // Odd, with half of their bits set: the fractions of the square roots of 2, 3 and 5, the first made odd.
+  static constexpr std::uint64_t kFirst = 0x6a09e667f3bcc909ULL;
+  static constexpr std::uint64_t kSecond = 0xbb67ae8584caa73bULL;
+  static constexpr std::uint64_t kThird = 0x3c6ef372fe94f82bULL;
+
+  __extension__ using Wide = unsigned __int128;
+  BROADSIDE_HD static constexpr std::uint64_t folded(std::uint64_t a, std::uint64_t b) {
+    const Wide product = static_cast<Wide>(a) * b;
+    return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+  }
+  BROADSIDE_HD static constexpr std::uint64_t word(float low, float high) {
+    return (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(high)) << 32) | std::bit_cast<std::uint32_t>(low);
+  }
   std::uint64_t h_;
 };
 
+// What of a body's record never changes where nothing turns: engines that only translate hash it once.
+BROADSIDE_HD constexpr RecordHash still_body_digest(std::uint32_t body, Quat q, Vec3 omega) {
+  return RecordHash(0x626f6479ULL, body).add(q.w, q.x, q.y, q.z).add(omega.x, omega.y, omega.z, 0.0F);
+}
+
+BROADSIDE_HD constexpr std::uint64_t body_digest(RecordHash still, Vec3 x, Vec3 v) {
+  return still.add(x.x, x.y, x.z, v.x).add(v.y, v.z, 0.0F, 0.0F).value();
+}
+
 BROADSIDE_HD constexpr std::uint64_t body_digest(std::uint32_t body, Vec3 x, Quat q, Vec3 v, Vec3 omega) {
-  return RecordHash(0x626f6479ULL, body).add(x, v.x).add(v.y, v.z).add(q.w, q.x).add(q.y, q.z).add(omega, 0.0F).value();
+  return body_digest(still_body_digest(body, q, omega), x, v);
 }
 
 BROADSIDE_HD constexpr std::uint64_t confirmed_digest(Pair p) {
@@ -44,14 +67,15 @@ BROADSIDE_HD constexpr std::uint64_t confirmed_digest(Pair p) {
 }
 
 BROADSIDE_HD constexpr std::uint64_t contact_digest(const Contact& c) {
-  return RecordHash(0x636f6e74ULL, pair_key({c.a, c.b}))
-      .add(c.color)
-      .add(c.normal, c.depth_m)
-      .add(c.tangent, c.tangent_impulse_n_s)
-      .add(c.post_a.x, c.normal_impulse_n_s)
-      .add(c.post_a.v, c.post_b.x.x)
-      .add(c.post_b.x.y, c.post_b.x.z)
-      .add(c.post_b.v, 0.0F)
+  const Kinematics& a = c.post_a;
+  const Kinematics& b = c.post_b;
+  return RecordHash(0x636f6e74ULL + c.color, pair_key({c.a, c.b}))
+      .add(c.normal.x, c.normal.y, c.normal.z, c.depth_m)
+      .add(c.tangent.x, c.tangent.y, c.tangent.z, c.tangent_impulse_n_s)
+      .add(a.x.x, a.x.y, a.x.z, c.normal_impulse_n_s)
+      .add(a.v.x, a.v.y, a.v.z, b.x.x)
+      .add(b.x.y, b.x.z, b.v.x, b.v.y)
+      .add(b.v.z, 0.0F, 0.0F, 0.0F)
       .value();
 }
 

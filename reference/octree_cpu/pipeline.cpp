@@ -57,6 +57,9 @@ core::Status Pipeline::load(const core::Scene& scene) {
   rules_ = {scene.parameters, options_.variant, options_.solver, scene.domain, scene.face_material};
   steps_ = 0;
   told_at_.reset();
+  still_digest_.clear();
+  for (std::uint32_t i = 0; i < bodies_.count(); ++i)
+    still_digest_.push_back(core::still_body_digest(i, scene.bodies[i].orientation, scene.bodies[i].angular_velocity));
   if (core::Status s = check_step(); !s) return s;
   level_stage_.reset_counts();
   if (!options_.make_broad_phase) return core::Done{};
@@ -177,8 +180,7 @@ std::vector<core::Counter> Pipeline::counters() const {
 
 std::uint64_t Pipeline::digest() const {
   const auto body = [this](std::size_t i) {
-    return core::body_digest(static_cast<std::uint32_t>(i), bodies_.state[i].x, scene_->bodies[i].orientation,
-                             bodies_.state[i].v, scene_->bodies[i].angular_velocity);
+    return core::body_digest(still_digest_[i], bodies_.state[i].x, bodies_.state[i].v);
   };
   std::uint64_t sum = 0;
   threads_->arena.execute([&] {

@@ -9,6 +9,7 @@
 
 #include "core/engine/broad_phase.hpp"
 #include "core/engine/dynamics.hpp"
+#include "core/method/frame_digest.hpp"
 #include "core/method/levels.hpp"
 #include "core/method/proximity.hpp"
 #include "core/pair.hpp"
@@ -61,6 +62,7 @@ class Pipeline final : public core::Dynamics {
   std::unique_ptr<Threads> threads_;
   const core::Scene* scene_ = nullptr;
   Bodies bodies_;
+  std::vector<core::RecordHash> still_digest_;  // of each body: bodies translate only
   ResponseRules rules_;
   std::unique_ptr<core::BroadPhase> broad_phase_;
   LevelStage level_stage_;
