@@ -7,8 +7,8 @@
 #include <string>
 #include <system_error>
 
+#include "core/whole_file.hpp"
 #include "datasets/box_streams/check_boxes.hpp"
-#include "datasets/mesh/whole_file.hpp"
 
 namespace broadside::datasets {
 namespace {
@@ -50,7 +50,7 @@ core::Status write_raw_boxes(std::span<const Box> boxes, const std::filesystem::
   std::string bytes(sizeof count + boxes.size_bytes(), '\0');
   std::memcpy(bytes.data(), &count, sizeof count);
   if (!boxes.empty()) std::memcpy(bytes.data() + sizeof count, boxes.data(), boxes.size_bytes());
-  return write_whole_file(path, bytes);
+  return core::write_whole_file(path, bytes);
 }
 
 }  // namespace broadside::datasets

@@ -7,12 +7,12 @@
 
 #include "core/mesh/load_mesh.hpp"
 #include "core/nearest_name.hpp"
+#include "core/whole_file.hpp"
 #include "datasets/decimate/decimate.hpp"
 #include "datasets/fetch/child_process.hpp"
 #include "datasets/mesh/acquire_mesh.hpp"
 #include "datasets/mesh/mesh_catalogue.hpp"
 #include "datasets/mesh/sha256.hpp"
-#include "datasets/mesh/whole_file.hpp"
 #include "datasets/mesh/write_ply.hpp"
 
 namespace broadside::datasets {
@@ -133,7 +133,8 @@ Status make_product(const Recipe& recipe, const fs::path& folder, const fs::path
   const auto sum = sha256_of_file(made);
   if (!sum) return sum.error();
   const fs::path final_name = cache_dir / file.file;
-  if (Status s = write_whole_file(final_name.string() + ".sha256", sum.value() + "  " + std::string(file.file) + "\n");
+  if (Status s =
+          core::write_whole_file(final_name.string() + ".sha256", sum.value() + "  " + std::string(file.file) + "\n");
       !s)
     return s;
   std::error_code failed;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "datasets/mesh/whole_file.hpp"
+#include "core/whole_file.hpp"
 
 namespace broadside::datasets {
 
@@ -19,7 +19,7 @@ core::Status write_ply(const core::Mesh& mesh, const std::filesystem::path& path
     bytes += '\3';
     bytes.append(reinterpret_cast<const char*>(t.data()), sizeof t);
   }
-  return write_whole_file(path, bytes);
+  return core::write_whole_file(path, bytes);
 }
 
 }  // namespace broadside::datasets

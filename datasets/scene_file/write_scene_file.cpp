@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "datasets/mesh/whole_file.hpp"
+#include "core/whole_file.hpp"
 #include "datasets/mesh/write_ply.hpp"
 #include "datasets/scene_file/scene_file.hpp"
 
@@ -105,7 +105,7 @@ core::Status write_scene_file(const Scene& scene, const std::filesystem::path& p
   for (std::size_t m = 0; m < scene.meshes.size(); ++m)
     if (core::Status s = write_ply(*scene.meshes[m], path.parent_path() / (stem + "." + mesh_name(m) + ".ply")); !s)
       return s;
-  if (core::Status s = write_whole_file(path, whole_scene(scene, stem)); !s) return s;
+  if (core::Status s = core::write_whole_file(path, whole_scene(scene, stem)); !s) return s;
 
   // Loading cleans meshes: one with degenerate triangles or repeated points would come back as another.
   const core::Result<Scene> again = read_scene_file(path, SceneOptions{.meshes = {}, .frames = {}, .seed = {}});
