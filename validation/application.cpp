@@ -7,13 +7,25 @@
 
 namespace broadside::validation {
 
-double Application::relative_velocity_rounding() const {
-  return rounding(4) * speeds_before;
+double Application::approach_rounding() const {
+  return rounding(4) * along_before + 4.0 * kSubnormal;
 }
 
-double Application::velocity_after_rounding() const {
-  const double change = length(sliding_after - sliding_before) + std::abs(approach_after - approach_before);
-  return rounding(8) * (speeds_before + speeds_after + change) + 8.0 * kSubnormal;
+double Application::sliding_rounding() const {
+  return rounding(2) * length(sliding_before) + rounding(6) * along_before + std::sqrt(3.0 * kSubnormal);
+}
+
+double Application::leak() const {
+  const double along = w_sum * std::abs(contact->tangent_impulse_n_s * dot(Vec3d(contact->tangent), normal));
+  return std::min(along, sliding_rounding());
+}
+
+double Application::approach_after_rounding() const {
+  return rounding(2) * along_after + rounding(3) * along_change + leak() + 8.0 * kSubnormal;
+}
+
+double Application::sliding_after_rounding() const {
+  return rounding(2) * across_after + rounding(3) * across_change + leak() + 8.0 * kSubnormal;
 }
 
 bool ContactBodies::knows(std::uint32_t body) const {
@@ -53,8 +65,20 @@ std::optional<Application> ContactBodies::application(const core::Contact& conta
   app.sliding_after = after - app.approach_after * app.normal;
   app.moved_a = Vec3d(contact.post_a.x) - Vec3d(contact.pre_a.x);
   app.moved_b = Vec3d(contact.post_b.x) - Vec3d(contact.pre_b.x);
-  app.speeds_before = length(Vec3d(contact.pre_a.v)) + length(Vec3d(contact.pre_b.v));
-  app.speeds_after = length(Vec3d(contact.post_a.v)) + length(Vec3d(contact.post_b.v));
+  for (int k = 0; k < 3; ++k) {
+    const double along = std::abs(app.normal[k]);
+    const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
+    const double speeds = (app.w_a > 0.0 ? std::abs(static_cast<double>(contact.post_a.v[k])) : 0.0) +
+                          (app.w_b > 0.0 ? std::abs(static_cast<double>(contact.post_b.v[k])) : 0.0);
+    // Both impulses' parts by magnitude: they may cancel in a component.
+    const double change = std::abs((app.approach_after - app.approach_before) * app.normal[k]) +
+                          std::abs(app.sliding_after[k] - app.sliding_before[k]);
+    app.along_before += along * std::abs(before[k]);
+    app.along_after += along * speeds;
+    app.along_change += along * change;
+    app.across_after += across * speeds;
+    app.across_change += across * change;
+  }
   return app;
 }
 

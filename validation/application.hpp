@@ -32,17 +32,29 @@ struct Application {
   Vec3d sliding_after;
   Vec3d moved_a;  // post - pre position, m
   Vec3d moved_b;
-  // |v_a| + |v_b| before, and the same after: the magnitudes that rounding errors of velocities are relative to.
-  double speeds_before = 0.0;
-  double speeds_after = 0.0;
+  // What rounding is relative to, m/s. Along the normal a component counts by |n_k|, across it by sqrt(1 - n_k^2):
+  // METHOD 4's normals are axes, for which these are single components, and any unit normal is covered too.
+  double along_before = 0.0;  // sum of |n_k r_k|, r the relative velocity before
+  double along_after = 0.0;   // the same of |v_a| and |v_b| after, of bodies that can move
+  double along_change = 0.0;  // and of r' - r, its part along and its part across the normal each by magnitude
+  double across_after = 0.0;
+  double across_change = 0.0;
 
-  // Bound of the rounding error of v_n and v_t as the engine computes them from the pre states: a subtraction and a dot
-  // product of three terms, 4 operations relative to the speeds.
-  [[nodiscard]] double relative_velocity_rounding() const;
-  // Bound of the rounding error of one component of the relative velocity after: 8 operations (subtraction, product
-  // with 1+e, sum of inverse masses, quotient, product with the inverse mass, product with the direction, the normal
-  // addition and friction's addition) relative to the speeds and the change.
-  [[nodiscard]] double velocity_after_rounding() const;
+  // Bounds of rounding errors in float32, m/s; u = 2^-24.
+  // v_n from the pre states: a subtraction, a product, two additions: 4 operations on each |n_k r_k|.
+  [[nodiscard]] double approach_rounding() const;
+  // v_t from them: r, and r - v_n n, 2 operations on |v_t| and 6 on what v_n brings in. Its square underflows below
+  // sqrt(3 * 2^-149).
+  [[nodiscard]] double sliding_rounding() const;
+  // What the velocities after are off along the normal, given the impulses: two additions a body, 3 operations on the
+  // change (two products, and one for what the second addition sees), and what a tangent that is not quite across the
+  // normal leaks into it, as far as rounding explains that tangent.
+  [[nodiscard]] double approach_after_rounding() const;
+  // The same across the normal.
+  [[nodiscard]] double sliding_after_rounding() const;
+
+ private:
+  [[nodiscard]] double leak() const;
 };
 
 // The scene's bodies as contacts need them.

@@ -78,9 +78,9 @@ class ContactNormal final : public Validator {
   // Unit and along an axis; the axis, or -1.
   int judge_form(const core::Contact& c) {
     const Vec3d n(c.normal);
-    const bool is_unit = tally_.check(
-        std::abs(dot(n, n) - 1.0), {4.0 * kUnitRoundoff, "", "float rounding of a unit vector's components, squared"},
-        at(c, "contact.normal"));
+    const bool is_unit =
+        tally_.check(std::abs(dot(n, n) - 1.0), {0.0, "", "METHOD 4: a unit vector of an axis has components 0 and 1"},
+                     at(c, "contact.normal"));
     if (!is_unit) return -1;
     int axis = 0;
     for (int k = 1; k < 3; ++k)
@@ -102,8 +102,8 @@ class ContactNormal final : public Validator {
     // Rounding decides about epsilon only within its own error.
     const double apart =
         std::sqrt(o.between[0] * o.between[0] + o.between[1] * o.between[1] + o.between[2] * o.between[2]);
-    const double error =
-        o.between_rounding[0] + o.between_rounding[1] + o.between_rounding[2] + rounding(8) * (apart + epsilon_m_);
+    const double error = o.between_rounding[0] + o.between_rounding[1] + o.between_rounding[2] + rounding(3) * apart +
+                         rounding(1) * epsilon_m_ + std::sqrt(4.0 * kSubnormal);
     const bool may_coincide = apart < epsilon_m_ + error;
     if (may_coincide && axis == 0 && sign > 0.0) {
       tally_.require(true, "METHOD 4: centers nearer than epsilon take +x", at(c, "contact.normal"));

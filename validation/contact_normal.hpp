@@ -14,9 +14,11 @@ namespace broadside::validation {
 //   - a face's normal points inward; per body, faces come after pairs and in the order -x +x -y +y -z +z; colors rise,
 //     and no dynamic body is twice in one color (colored solver).
 //
-// Limits. Unit length: |n^2 - 1| <= 4 * 2^-24, three components rounded to float and their squares. Depth: one
-// subtraction, u p_k. Least axis: two of them. Sign: centers closer on the axis than the rounding of their two sums
-// decide nothing, either sign holds. Boxes themselves are compared bit for bit with what the engine must have used.
+// Limits, float32. Unit length and axis: 0, the components are 0 and 1. Depth: one subtraction, u p_k. Least axis: that
+// of two of them, 2 u p_k. Sign: centers closer on the axis than the rounding of their two sums (u |min + max| / 2
+// each; the difference of floats keeps its sign) decide nothing, either sign holds. Epsilon: the same on all axes, 3
+// operations on the distance (its subtraction; three products and two sums halved by the root) and one on epsilon
+// squared. Boxes themselves are rebuilt bit for bit as the engine must have used them: one float addition a bound.
 ValidatorRow contact_normal_row();
 
 }  // namespace broadside::validation

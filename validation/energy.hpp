@@ -10,9 +10,12 @@ namespace broadside::validation {
 // what was recorded of it (validation/energy_ledger.hpp). Whether a stage may do such work is the law of others.
 //
 // Limit: the sum over all stages of how far rounding moves the energy of a body whose state it moves by dx and dv:
-// m (|v| dv + dv^2 / 2) + F dx + K dx^2 / 2, F the pull of gravity and springs. dx and dv are those of integration (one
-// product and one addition each, 5 more a spring), of an impulse (4 operations and 2 additions) and of a correction (8
-// and 1); 2^-44 of each energy for the float64 sums. Clipping rounds nothing.
+// m (|v| dv + dv^2 / 2) + F dx + K dx^2 / 2, F the pull of gravity and springs. float32: integration, the operations of
+// spring_motion.hpp on dt A and one addition, one product and one addition for x; an impulse, 2 operations (products
+// with w and with the direction) and one addition, of each of two; a correction, 7 operations (contraction.hpp) and one
+// addition. Clipping rounds nothing. The books themselves are kept in double: 2^-53 of the sum of all magnitudes for
+// each of their terms, and for the operations behind one. So the limit of a frame grows with its bodies and contacts:
+// one stage of one body in a large scene is the other laws' to judge.
 ValidatorRow energy_row();
 
 }  // namespace broadside::validation

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "validation/rounding.hpp"
+#include "validation/spring_motion.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -12,10 +13,10 @@ bool has_states(const core::FrameRecord& frame, std::size_t bodies) {
   return frame.position.size() == bodies && frame.velocity.size() == bodies;
 }
 
-// What float64 itself may lose of a sum whose terms add up to this.
-double summing(double magnitude) {
-  return 0x1p-44 * magnitude;
-}
+// Rounded operations in double behind one energy: six of the kinetic one, seven of gravity's, their sum; and of a
+// spring.
+constexpr double kEnergyOperations = 14.0;
+constexpr double kSpringOperations = 11.0;
 
 }  // namespace
 
@@ -26,6 +27,7 @@ EnergyLedger::EnergyLedger(const core::Scene& scene)
       springs_(scene.springs.empty() ? 0 : scene.bodies.size()) {
   for (const core::Spring& s : scene.springs)
     if (s.body < springs_.size()) springs_[s.body].push_back(s);
+  for (const auto& of_body : springs_) most_springs_ = std::max(most_springs_, static_cast<double>(of_body.size()));
 }
 
 double EnergyLedger::potential(std::uint32_t body, Vec3d x) const {
@@ -52,24 +54,34 @@ double EnergyLedger::error(std::uint32_t body, Vec3d x, Vec3d v, double off_x, d
       stiffness += s.stiffness_n_m;
     }
   const double kinetic = m * (length(v) * off_v + 0.5 * off_v * off_v);
-  return kinetic + force * off_x + 0.5 * stiffness * off_x * off_x + summing(std::abs(energy(body, x, v)));
+  return kinetic + force * off_x + 0.5 * stiffness * off_x * off_x;
+}
+
+void EnergyLedger::add(EnergyRow& row, double magnitude) {
+  row.summed += magnitude;
+  row.terms += 1.0;
+}
+
+// Each term from its operations, and then every term from each of the additions that follow it.
+double EnergyLedger::double_rounding(const EnergyRow& row) const {
+  return 0x1p-53 * (kEnergyOperations + kSpringOperations * most_springs_ + row.terms) * row.summed;
 }
 
 void EnergyLedger::integrate(std::uint32_t body, Vec3d x0, Vec3d v0, EnergyRow& row) const {
   const double dt = scene_.dt_s;
   Vec3d a = gravity_;
   double size = length(gravity_);
-  int operations = 2;
   if (!springs_.empty())
     for (const core::Spring& s : springs_[body]) {
       const double w = bodies_.inverse_mass(body);
       a = a + (w * s.stiffness_n_m) * (Vec3d(s.anchor) - x0) - (w * s.damping_n_s_m) * v0;
       size += w * (s.stiffness_n_m * length(Vec3d(s.anchor) - x0) + s.damping_n_s_m * length(v0));
-      operations += 5;
     }
   const Vec3d v1 = v0 + dt * a;
   const Vec3d x1 = x0 + dt * v1;
   row.integration += energy(body, x1, v1) - energy(body, x0, v0);
+  add(row, std::abs(energy(body, x1, v1)) + std::abs(energy(body, x0, v0)));
+  const int operations = acceleration_operations(springs_.empty() ? 0 : springs_[body].size());
   const double off_v = rounding(operations) * dt * size + rounding(1) * length(v1) + 4.0 * kSubnormal;
   const double off_x = rounding(1) * (length(x1) + dt * length(v1)) + dt * off_v + 4.0 * kSubnormal;
   row.rounding += error(body, x1, v1, off_x, off_v);
@@ -95,14 +107,17 @@ void EnergyLedger::apply(const Application& app, EnergyRow& row) const {
     const Vec3d x1 = x0 + moved;
     const Vec3d v1 = v0 + (sign * w * j_n) * app.normal + (sign * w * j_t) * t;
     row.correction += potential(body, x1) - potential(body, x0);
+    add(row, std::abs(potential(body, x1)) + std::abs(potential(body, x0)));
     const double pushed = w * (std::abs(j_n) * length(app.normal) + std::abs(j_t) * length(t));
-    const double off_v = rounding(4) * pushed + rounding(2) * (length(v0) + length(v1) + pushed) + 4.0 * kSubnormal;
-    const double off_x = rounding(1) * length(x1) + rounding(8) * (length(moved) + c.depth_m) + 4.0 * kSubnormal;
+    const double middle = length(v0 + (sign * w * j_n) * app.normal);
+    const double off_v = rounding(2) * pushed + rounding(1) * (middle + length(v1)) + 4.0 * kSubnormal;
+    const double off_x = rounding(1) * length(x1) + rounding(7) * length(moved) + 4.0 * kSubnormal;
     row.rounding += error(body, x1, v1, off_x, off_v);
   };
   side(c.a, app.w_a, 1.0, c.pre_a);
   if (!core::is_face(c.b)) side(c.b, app.w_b, -1.0, c.pre_b);
-  row.rounding += summing(std::abs(row.normal) + std::abs(row.friction));
+  add(row, std::abs(j_n * dot(relative, app.normal)) + std::abs(j_t * dot(relative, t)) +
+               app.w_sum * (std::abs(j_n) + std::abs(j_t)) * (std::abs(j_n) + std::abs(j_t)));
 }
 
 // From the velocities that the last contact of each body left.
@@ -120,8 +135,8 @@ void EnergyLedger::clip(const core::FrameRecord& frame, EnergyRow& row) const {
     const Vec3d v(left[i]);
     const Vec3d clipped{std::clamp(v.x, -v_max, v_max), std::clamp(v.y, -v_max, v_max), std::clamp(v.z, -v_max, v_max)};
     row.clip += 0.5 * (dot(clipped, clipped) - dot(v, v)) / w;
+    if (clipped.x != v.x || clipped.y != v.y || clipped.z != v.z) add(row, dot(v, v) / w);
   }
-  row.rounding += summing(std::abs(row.clip));
 }
 
 std::optional<EnergyRow> EnergyLedger::row(const core::FrameRecord& frame, const core::FrameRecord* previous) const {
@@ -143,11 +158,12 @@ std::optional<EnergyRow> EnergyLedger::row(const core::FrameRecord& frame, const
     row.kinetic += energy(i, x, v) - potential(i, x);
     row.potential += potential(i, x);
     row.change += energy(i, x, v) - energy(i, x0, v0);
-    row.rounding += summing(std::abs(energy(i, x, v)) + std::abs(energy(i, x0, v0)) + std::abs(potential(i, x)));
+    add(row, std::abs(energy(i, x, v)) + std::abs(energy(i, x0, v0)));
   }
   for (const core::Contact& c : frame.contacts)
     if (const auto app = bodies_.application(c)) apply(*app, row);
   clip(frame, row);
+  row.rounding += double_rounding(row);
   return row;
 }
 

@@ -25,6 +25,9 @@ struct EnergyRow {
   double clip = 0.0;         // the velocity cap
   // What rounding may have added or taken: |change - sum| is at most this.
   double rounding = 0.0;
+  // Of the float64 sums themselves: how many terms, and the sum of their magnitudes, J.
+  double terms = 0.0;
+  double summed = 0.0;
 
   [[nodiscard]] double sum() const { return integration + normal + friction + correction + clip; }
 };
@@ -45,6 +48,8 @@ class EnergyLedger {
   [[nodiscard]] double energy(std::uint32_t body, Vec3d x, Vec3d v) const;
   // Bound of the energy's error when x and v are off by this much.
   [[nodiscard]] double error(std::uint32_t body, Vec3d x, Vec3d v, double off_x, double off_v) const;
+  static void add(EnergyRow& row, double magnitude);
+  [[nodiscard]] double double_rounding(const EnergyRow& row) const;
   void integrate(std::uint32_t body, Vec3d x0, Vec3d v0, EnergyRow& row) const;
   void apply(const Application& app, EnergyRow& row) const;
   void clip(const core::FrameRecord& frame, EnergyRow& row) const;
@@ -53,6 +58,7 @@ class EnergyLedger {
   ContactBodies bodies_;
   Vec3d gravity_;
   std::vector<std::vector<core::Spring>> springs_;  // by body; empty when the scene has none
+  double most_springs_ = 0.0;                       // on one body
 };
 
 }  // namespace broadside::validation

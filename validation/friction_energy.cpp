@@ -41,8 +41,9 @@ class FrictionEnergy final : public Validator {
   // Returns the work that friction did, J.
   double judge(const Application& app, std::uint64_t step) {
     const core::Contact& c = *app.contact;
-    const double band = app.relative_velocity_rounding();
-    const double error = app.velocity_after_rounding() + band;
+    const double band = app.approach_rounding();
+    const double slide = app.sliding_rounding();
+    const double after_error = app.sliding_after_rounding();
     const double speed = length(app.sliding_before);
     const double speed_after = length(app.sliding_after);
     const auto at = [&](std::string_view field) { return Where::pair(step, c.a, c.b, field); };
@@ -54,44 +55,56 @@ class FrictionEnergy final : public Validator {
     }
 
     const double work = 0.5 * (speed_after - speed) * (speed_after + speed) / app.w_sum;
-    const double work_limit = (speed_after * error + 0.5 * error * error) / app.w_sum;
-    tally_.check(work, {work_limit, "J", "|v_t'| E / (wA + wB), E = 12 operations relative to the speeds (float32)"},
+    const double error = slide + rounding(9) * speed + after_error;
+    tally_.check(work,
+                 {speed_after * error / app.w_sum, "J",
+                  "|v_t'| E / (wA + wB), E = 11 operations on v_t and the additions to both velocities (float32)"},
                  at("contact.post.v"));
 
     const double recorded = c.tangent_impulse_n_s;
     const Vec3d tangent(c.tangent);
     const Vec3d unexplained = (app.sliding_after - app.sliding_before) - (app.w_sum * recorded) * tangent;
-    tally_.check(length(unexplained),
-                 {error + rounding(8) * app.w_sum * std::abs(recorded), "m/s",
-                  "the recorded impulse explains the change of v_t, to E"},
-                 at("contact.tangent_impulse"));
+    tally_.check(
+        length(unexplained),
+        {after_error, "m/s", "the recorded impulse made the change of v_t, to the additions to both velocities"},
+        at("contact.tangent_impulse"));
     // A direction is meaningful only when the sliding is larger than its own rounding error.
-    if (speed > error) {
+    if (speed > slide) {
       const double off = recorded == 0.0 ? 0.0 : length(tangent - (1.0 / speed) * app.sliding_before);
-      tally_.check(off, {error / speed + rounding(8), "rad", "tangent = v_t / |v_t|, to E / |v_t|"},
+      tally_.check(off, {slide / (speed - 0.5 * slide) + rounding(4), "rad", "tangent = v_t / |v_t|, to S / |v_t|"},
                    at("contact.tangent"));
     }
-    judge_cone(app, speed, error, band, at("contact.tangent_impulse"));
+    judge_cone(app, speed, slide, band, at("contact.tangent_impulse"));
     return work;
   }
 
-  void judge_cone(const Application& app, double speed, double error, double band, const Where& where) {
+  void judge_cone(const Application& app, double speed, double slide, double band, const Where& where) {
     const double normal = std::max(0.0F, app.contact->normal_impulse_n_s);
     const double recorded = app.contact->tangent_impulse_n_s;
     const double stop = speed / app.w_sum;
     const double cone = app.surface.mu_static * normal;
-    const double rounded = error / app.w_sum + rounding(8) * (stop + cone);
-    const bool may_stick = stop <= cone + rounded;
-    const bool may_slide = stop >= cone - rounded;
-    double off = std::numeric_limits<double>::infinity();
-    if (may_stick) off = std::min(off, std::abs(recorded + stop));
-    if (may_slide) off = std::min(off, std::abs(recorded + app.surface.mu_kinetic * normal));
-    // Sliding that is all rounding error, or a contact that may have counted as separating: no friction is right too.
-    if (speed <= error || app.approach_before >= -band) off = std::min(off, std::abs(recorded));
-    if (std::isnan(recorded) || std::isnan(speed)) off = std::numeric_limits<double>::quiet_NaN();
+    const double stop_error = slide / app.w_sum + rounding(5) * stop;
+    const bool may_stick = stop <= cone + stop_error + rounding(3) * cone;
+    const bool may_slide = stop >= cone - stop_error - rounding(3) * cone;
     ++(may_slide ? sliding_ : sticking_);
+    // The answer that the record is nearest to, of those that rounding leaves open.
+    double off = std::numeric_limits<double>::infinity();
+    double limit = 0.0;
+    const auto allow = [&](double expected, double error) {
+      const double now = std::abs(recorded - expected);
+      if (!(now - error < off - limit)) return;
+      off = now;
+      limit = error;
+    };
+    if (may_stick) allow(-stop, stop_error);
+    if (may_slide) allow(-app.surface.mu_kinetic * normal, rounding(3) * app.surface.mu_kinetic * normal + kSubnormal);
+    // Sliding that is all rounding error, or a contact that may have counted as separating: no friction is right too.
+    if (speed <= slide || app.approach_before >= -band) allow(0.0, 0.0);
+    if (std::isnan(recorded) || std::isnan(speed)) off = std::numeric_limits<double>::quiet_NaN();
     tally_.check(
-        off, {rounded, "N s", "stick: -|v_t| / (wA + wB) up to mu_s J_n; slide: -mu_k J_n; 8 operations (METHOD 6)"},
+        off,
+        {limit, "N s",
+         "stick: -|v_t| / (wA + wB) up to mu_s J_n, S and 5 operations; slide: -mu_k J_n, 3 operations (METHOD 6)"},
         where);
   }
 

@@ -12,10 +12,14 @@ namespace broadside::validation {
 //   - nothing slides differently after a contact that separates (v_n >= 0).
 // J_n is the recorded impulse, whose truth is normal-energy's.
 //
-// Limits: with E the rounding error of v_t' (8 operations relative to the speeds, plus 4 for v_t), energy may round up
-// by
-// (|v_t'| E + E^2 / 2) / (wA + wB), J_t by E / (wA + wB) and 8 operations on itself, t by E / |v_t|. Where rounding
-// decides between stick and slide, or whether the contact approaches, either answer holds.
+// Limits, float32, with S = Application::sliding_rounding of v_t and B = Application::sliding_after_rounding:
+//   - energy: t is off by S / |v_t| and 4 operations (three products and two sums halved by the root, the root, a
+//     quotient), J_t by 5 on its size, so v_t' is off from something no faster than v_t by E = S + 9 u |v_t| + B;
+//     |v_t'| E / (wA + wB) as in normal-energy;
+//   - stick: S / (wA + wB) and 5 operations (|v_t|'s, the sum of inverse masses, a quotient); slide: 3 on mu_k J_n (mu
+//     a product and its root); the choice between them: both, with 3 on the cone. Where that decides, or whether the
+//     contact approaches at all, either answer holds;
+//   - the change of v_t: B. The tangent: S / (|v_t| - S / 2) and 4 operations, where |v_t| > S.
 ValidatorRow friction_energy_row();
 
 }  // namespace broadside::validation

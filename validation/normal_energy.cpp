@@ -28,20 +28,22 @@ class NormalEnergy final : public Validator {
  private:
   void judge(const Application& app, std::uint64_t step) {
     const core::Contact& c = *app.contact;
-    const double error = app.velocity_after_rounding() + app.relative_velocity_rounding();
+    const double after_error = app.approach_after_rounding();
     const double before = app.approach_before;
     const double after = app.approach_after;
 
     const double gain = 0.5 * (after - before) * (after + before) / app.w_sum;
     gained_j_ += gain;
-    const double gain_limit = (std::abs(after) * error + 0.5 * error * error) / app.w_sum;
-    tally_.check(gain, {gain_limit, "J", "|v_n'| E / (wA + wB), E = 12 operations relative to the speeds (float32)"},
+    const double error = 2.0 * (app.approach_rounding() + rounding(4) * std::abs(before)) + after_error;
+    const double gain_limit = std::abs(after) * error / app.w_sum;
+    tally_.check(gain,
+                 {gain_limit, "J", "|v_n'| E / (wA + wB), E = 2 times 8 operations on v_n and the additions (float32)"},
                  Where::pair(step, c.a, c.b, "contact.post.v"));
 
     const double impulse = (after - before) / app.w_sum;
-    const double impulse_limit = error / app.w_sum + rounding(3) * std::abs(impulse);
+    const double impulse_limit = after_error / app.w_sum + rounding(4) * std::abs(impulse);
     tally_.check(std::abs(c.normal_impulse_n_s - impulse),
-                 {impulse_limit, "N s", "the recorded impulse explains the change of v_n, to E / (wA + wB)"},
+                 {impulse_limit, "N s", "the recorded impulse made the change of v_n, to its additions (float32)"},
                  Where::pair(step, c.a, c.b, "contact.normal_impulse"));
     tally_.check(-static_cast<double>(c.normal_impulse_n_s), {0.0, "N s", "a contact only pushes: J_n >= 0 (METHOD 6)"},
                  Where::pair(step, c.a, c.b, "contact.normal_impulse"));

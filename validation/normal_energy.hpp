@@ -9,8 +9,11 @@ namespace broadside::validation {
 // 1 and an impulse floor up to the energy-neutral impulse only, E5). And the recorded impulse is the one that acted:
 // J_n = (v_n' - v_n) / (wA + wB), J_n >= 0.
 //
-// Limits: with E the rounding error of v_n' (Application::velocity_after_rounding plus that of v_n), energy may round
-// up by (|v_n'| E + E^2 / 2) / (wA + wB), the impulse by E / (wA + wB) and 3 operations on itself.
+// Limits, float32. Energy: no impulse asks for more than e = 1, so v_n' is off from something no faster than v_n by E =
+// 2 (A
+// + 4 u |v_n|) + B, with A the rounding of v_n, 4 operations of the impulse (restitution.hpp), and B =
+// Application::approach_after_rounding; (|v_n'|^2 - (|v_n'| - E)^2) / 2 <= |v_n'| E. Impulse: the velocities follow
+// from the recorded J_n by B alone; 4 u J_n is for normals that rounding left no unit vectors. J_n >= 0: a comparison.
 ValidatorRow normal_energy_row();
 
 }  // namespace broadside::validation

@@ -79,7 +79,7 @@ class OctreeInvariants final : public Validator {
       const double low = node.box.min[axis];
       const double high = node.box.max[axis];
       tally_.check(std::abs(middle[axis] - 0.5 * (low + high)),
-                   {rounding(1) * (std::abs(low) + std::abs(high)), "m",
+                   {rounding(1) * 0.5 * std::abs(low + high), "m",
                     "METHOD 2: halves meet in the middle, one addition (float32)"},
                    Where::frame(step_, "octree.box"));
     }

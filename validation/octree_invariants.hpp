@@ -15,7 +15,8 @@ namespace broadside::validation {
 //   - every vertex of every shape is in exactly one leaf, in the cell that halving the root's box twice gives;
 //   - a node's box is the tight box of its vertices, empty without any.
 //
-// Limits. Tiling: 0, the halves share their bounds; the plane is the middle to u |bound|, one addition. Containment: a
+// Limits. Tiling: 0, the halves share their bounds; the plane is the middle to u |low + high| / 2, one
+// addition. Containment: a
 // coordinate's cell comes from 4 operations (offset, side, cells per side, product), so a box is in a cell to
 // 4 u (offset from the domain's lower face) + 2 u |face|. Cells of vertices: two halvings, 2 u |root|. Tight boxes:
 // 0, minima and maxima of floats.

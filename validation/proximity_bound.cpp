@@ -121,7 +121,7 @@ class ProximityBound final : public Validator {
     const Vec3d d = Vec3d(a[proximity.vertex_a]) + Vec3d(frame_->detected_position[p.i]) -
                     (Vec3d(b[proximity.vertex_b]) + Vec3d(frame_->detected_position[p.j]));
     const double recorded = std::sqrt(static_cast<double>(proximity.squared_distance_m2));
-    const double limit = placement(p) + rounding(3) * recorded + std::sqrt(5.0 * kSubnormal);
+    const double limit = placement(p) + rounding(3) * recorded + std::sqrt(3.0 * kSubnormal);
     tally_.check(std::abs(recorded - length(d)), {limit, "m", kPlacement}, at(p, "proximity.squared_distance"));
     tally_.check(recorded, {theta(p) * (1.0 + rounding(2)), "m", "P(8): touching means nearer than theta"},
                  at(p, "proximity.squared_distance"));
@@ -136,7 +136,7 @@ class ProximityBound final : public Validator {
         trees_[surface_of_[p.i]].nearest(Vec3d(frame_->detected_position[p.i]), trees_[surface_of_[p.j]],
                                          Vec3d(frame_->detected_position[p.j]), claimed);
     tally_.check(claimed - nearest,
-                 {placement(p) + rounding(4) * claimed + std::sqrt(5.0 * kSubnormal), "m", kPlacement},
+                 {placement(p) + rounding(touches ? 3 : 4) * claimed + std::sqrt(3.0 * kSubnormal), "m", kPlacement},
                  at(p, touches ? "proximity: a nearer vertex pair" : "proximity: a vertex pair below theta"));
   }
 

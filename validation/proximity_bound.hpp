@@ -17,8 +17,9 @@ namespace broadside::validation {
 // sentence reports E13's share: of the pairs whose surfaces meet, those that vertices missed.
 //
 // Limits. World vertices are rounded once per coordinate, so a distance is off by at most sqrt(3) u (W_A + W_B), W the
-// largest coordinate of a body's box; the squared distance adds 5 operations (2.5 on the distance), theta^2 one more.
-// Baselines compute in float64 from the same float32 positions; their own rounding is far below that.
+// largest coordinate of a body's box; the squared distance adds 5 operations (a difference twice, a product, two sums),
+// so 3 at most on the distance; theta has 2 (the sum of two mean edges; half of its square's). Baselines compute in
+// float64 from the same float32 positions; their own rounding is far below that.
 ValidatorRow proximity_bound_row();
 
 }  // namespace broadside::validation

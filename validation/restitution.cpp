@@ -30,7 +30,7 @@ class Restitution final : public Validator {
 
  private:
   void judge(const Application& app, const Where& where) {
-    const double band = app.relative_velocity_rounding();
+    const double band = app.approach_rounding();
     const double v_n = app.approach_before;
     if (std::isnan(v_n)) {
       tally_.check(v_n, {0.0, "m/s", "velocities are numbers"}, where);
@@ -43,8 +43,8 @@ class Restitution final : public Validator {
 
     // The impulse that P(17) asks for; the floor takes over strictly below J_min.
     const double e_least = may_stop ? 0.0 : app.surface.restitution;
-    const double impulse = (1.0 + e_least) * -v_n / app.w_sum;
-    const double impulse_rounding = rounding(6) * std::abs(impulse) + 2.0 * band / app.w_sum;
+    const double impulse = (1.0 + e_least) * std::max(0.0, -v_n) / app.w_sum;
+    const double impulse_rounding = rounding(4) * impulse + (1.0 + e_least) * band / app.w_sum;
     if (may_approach && impulse + impulse_rounding < parameters_.impulse_min_n_s) {
       // Inside the band a contact may also have counted as separating, and then nothing may change.
       if (!(may_separate && app.approach_after == app.approach_before)) {
@@ -63,10 +63,12 @@ class Restitution final : public Validator {
     if (may_approach && may_bounce) allow(-app.surface.restitution * v_n);
     if (may_approach && may_stop) allow(0.0);
     if (std::isnan(app.approach_after)) error = app.approach_after;
-    const double limit = may_approach ? app.velocity_after_rounding() + band : 0.0;
+    const double e = may_bounce ? app.surface.restitution : 0.0;
+    const double limit =
+        may_approach ? (1.0 + e) * (band + rounding(4) * std::abs(v_n)) + app.approach_after_rounding() : 0.0;
     tally_.check(error,
                  {limit, "m/s",
-                  may_approach ? "12 operations relative to the speeds of both bodies (METHOD 6, float32)"
+                  may_approach ? "(1 + e) times 8 operations on v_n, and the additions to both velocities (float32)"
                                : "a separating contact changes nothing (METHOD 6)"},
                  where);
   }

@@ -9,8 +9,11 @@ namespace broadside::validation {
 // that separate (v_n >= 0) keep their velocities. Applications whose impulse the floor J_min lifts, P(18), are not
 // judged: normal-energy bounds those.
 //
-// Limit: Application::velocity_after_rounding, 8 operations relative to the speeds. Where rounding of v_n decides
-// whether a contact approaches, or on which side of v_th it is, either answer holds.
+// Limit, float32: v_n is off by Application::approach_rounding (A), the impulse by 4 more operations (1 + e, product,
+// sum of inverse masses, quotient), and both reach v_n' times 1 + e: (1 + e)(A + 4 u |v_n|). The velocities after add
+// Application::approach_after_rounding. 0 for a contact that separates: nothing is computed. Where A decides whether a
+// contact approaches, on which side of v_th it is, or whether the floor lifts it, either answer holds or, with nothing
+// else to hold, the contact is left undecided.
 ValidatorRow restitution_row();
 
 }  // namespace broadside::validation

@@ -52,6 +52,7 @@ void StepPowers::advance() {
   const double det = a * d - b * c;
   const double norm = std::sqrt(0.5 * (square + std::sqrt(std::max(0.0, square * square - 4.0 * det * det))));
   largest_ = std::max(largest_, norm);
+  steps_ += 1.0;
 }
 
 }  // namespace broadside::validation

@@ -74,10 +74,10 @@ class Stability final : public Validator {
       size += o.w * (k * length(reach) + c * length(v0));
     }
     const double v_limit =
-        rounding(6 + static_cast<int>(o.springs.size())) * dt_ * size + rounding(1) * length(v1) + 8.0 * kSubnormal;
+        rounding(acceleration_operations(o.springs.size())) * dt_ * size + rounding(1) * length(v1) + 8.0 * kSubnormal;
     const double x_limit = rounding(1) * (length(x1) + dt_ * length(v1)) + 8.0 * kSubnormal;
     tally_.check(length(v1 - (v0 + dt_ * acceleration)),
-                 {v_limit, "m/s", "P(1), P(2): 6 operations and one a spring on dt A, one addition (float32)"},
+                 {v_limit, "m/s", "P(1), P(2): 5 operations and one a spring on dt A, one addition (float32)"},
                  Where::body(frame.step, o.body, "detection.velocity"));
     tally_.check(length(x1 - (x0 + dt_ * v1)), {x_limit, "m", "P(3): one product and one addition (float32)"},
                  Where::body(frame.step, o.body, "detection.position"));
@@ -95,7 +95,7 @@ class Stability final : public Validator {
     }
     track.powers.advance();
     track.rounding += rounded;
-    const double limit = track.powers.largest_norm() * (track.start + track.rounding) * (1.0 + 0x1p-40);
+    const double limit = track.powers.bound() * (track.start + track.rounding);
     tally_.check(amplitude, {limit, "m/s", "bounded: |M^t| times the amplitude at the start, and rounding carried on"},
                  Where::body(step, o.body, "detection: amplitude"));
     if (track.start > 0.0) largest_ = std::max(largest_, amplitude / track.start);

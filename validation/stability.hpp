@@ -15,8 +15,10 @@ namespace broadside::validation {
 //     such bound; there the true motion's is asked for, which never leaves D of its start.
 //
 // Limits. The step: compared as it is; the limit is computed in float64. A frame's velocity: with s springs and
-// A = |gravity| + w sum (k |x - a| + c |v|), a chain of 6 + s operations, u (6 + s) dt A, and u |v| for the last
-// addition; the position as in state-sanity. Bounded: those roundings, each carried on by at most the largest |M^t|.
+// A = |gravity| + w sum (k |x - a| + c |v|), a chain of 5 + s operations
+// (spring_motion.hpp), u (5 + s) dt A, and u |v| for the last
+// addition; the position as in state-sanity. Bounded: those roundings, each carried on by at most the largest |M^t|,
+// whose own rounding in double is 2^-50 a step.
 // The recurrence needs frames that follow each other; the step's law does not.
 ValidatorRow stability_row();
 

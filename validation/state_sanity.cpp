@@ -42,7 +42,8 @@ class StateSanity final : public Validator {
     const FrameRecord& frame = evidence.frame;
     step_ = frame.step;
     const double time = static_cast<double>(frame.step) * scene_.dt_s;
-    tally_.check(std::abs(frame.time_s - time), {0x1p-52 * time, "s", "time = step * dt, one product in double"},
+    tally_.check(std::abs(frame.time_s - time),
+                 {0x1p-52 * time, "s", "time = step * dt, one product in double here and there"},
                  Where::frame(step_, "time"));
     const bool has_end = has(header_, core::Group::kBodies) && judge_end_states(frame);
     const bool has_detection = has(header_, core::Group::kDetection) && judge_detection(frame);
@@ -83,7 +84,7 @@ class StateSanity final : public Validator {
       tally_.require(is_finite(q), kFinite, Where::body(step_, i, "bodies.orientation"));
       const double square = double(q.w) * q.w + double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z;
       tally_.check(std::abs(square - 1.0),
-                   {2.0 * rounding(5), "", "normalizing in float: 5 operations a component, squared"},
+                   {2.0 * rounding(5), "", "normalizing in float: 5 operations a component, doubled by the square"},
                    Where::body(step_, i, "bodies.orientation"));
     }
     return true;
@@ -209,7 +210,7 @@ class StateSanity final : public Validator {
     const double wall = is_upper ? scene_.domain.max[axis] : scene_.domain.min[axis];
     const double bound = local + x[axis];
     const double outside = is_upper ? bound - wall : wall - bound;
-    const double error = rounding(1) * (std::abs(bound) + std::abs(x[axis]) + std::abs(wall));
+    const double error = rounding(1) * std::abs(bound);
     // A body pushed in by the opposite face, later in the order, may stick out here when the domain is narrower.
     const bool is_met = (met_[body] & (1U << face | 1U << (face ^ 1U))) != 0;
     if (!is_met) {

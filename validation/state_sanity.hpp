@@ -16,9 +16,11 @@ namespace broadside::validation {
 //   - a body whose box ends outside the domain has a contact with that face in the frame (colored solver); how many
 //     ended deeper than the slop is reported.
 //
-// Limits. Quaternions: |q^2 - 1| <= 2 * 5 operations (normalizing in float). Integration: u |v| + u |dt g| and
-// u |x| + u |dt v|, one addition and one product each. Boxes: one addition, u |bound|. Outside: u |bound| of both the
-// box and the position that the face's correction rounded. All else: 0, copies and comparisons.
+// Limits. Time: one product in double in the engine and one here, 2 u of double. Quaternions: |q^2 - 1| <= 2 * 5 u, a
+// component divided by the length: four products and three sums halved by the root, the root, a quotient, or a
+// reciprocal and a product. Integration: u |v| + u |dt g| and u |x| + u |dt v|, one addition and one product each.
+// Boxes: one addition, u |bound|. Outside: u |bound|, the addition by which the engine found the body inside. All else:
+// 0, copies and comparisons.
 ValidatorRow state_sanity_row();
 
 }  // namespace broadside::validation
