@@ -111,17 +111,26 @@ core::Status compare_separations(const core::TraceReader& a, const core::TraceRe
 core::Status compare_flights(const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
   FlightRule rule(a, b);
   replay.expectation =
-      "until a body is first touched its states agree within the rounding of P(1) to P(3) in float32, two operations a "
-      "step in each engine";
+      "until a body is first touched its state at the end of each step agrees within the rounding of P(1) to P(3) in "
+      "float32 in both engines: 6 operations on dt g, an addition to v, a product and an addition to x";
   if (core::Status s = compare_by(rule, a, b, replay); !s) return s;
   if (!rule.error().empty()) return core::Error{rule.error()};
   replay.has_judged = rule.judged() > 0;
+  if (rule.judged() > 0) replay.remark = fmt::format("{} states judged. ", rule.judged());
+  if (!rule.is_one_moment())
+    replay.remark += fmt::format(
+        "Detection states and boxes are not compared: {} looks for contacts before it moves the bodies, {} after, so "
+        "they are of moments dt apart. ",
+        (rule.detects_first() ? a : b).header().stamp.engine, (rule.detects_first() ? b : a).header().stamp.engine);
+  else if (rule.has_margin())
+    replay.remark += fmt::format("Boxes are not compared: {} adds a margin of {} m to its own. ",
+                                 a.header().stamp.engine, a.header().broad_margin_m);
   if (rule.touched() > 0)
-    replay.remark = fmt::format(
-        "{} of {} bodies were touched, the first at step {}; from then on no bound is derived for them, and they are "
-        "not "
-        "compared",
+    replay.remark += fmt::format(
+        "{} of {} bodies were touched, the first in step {}; from then on no bound is derived for them, and they are "
+        "not compared.",
         rule.touched(), a.header().scene.body_count(), rule.first_touch());
+  while (replay.remark.ends_with(' ')) replay.remark.pop_back();
   return core::Done{};
 }
 

@@ -48,17 +48,26 @@ class SeparationRule final : public DifferenceRule {
 };
 
 // A simulation from the recorded start. Two engines that integrate by P(1) to P(3) part by rounding alone until a body
-// is first touched: one product and one addition for each velocity and position and step, in both engines, and what the
+// is first touched: dt g (one product in ours; at most five operations where a recorder goes by forces: mass, m g, 1 /
+// m, two products), one addition for each velocity, a product and an addition for each position, and what the
 // velocity's error moves. After a body's first contact in either trace no bound is derived and nothing is judged:
 // contacts double a difference at every bounce. Where the recording has no contacts, a candidate pair counts as one.
+//
+// Ends of steps are compared always. What was found at detection is compared where both look at the same moment: the
+// pipeline's engines look after they moved the bodies; an engine whose detection states are those that the step began
+// with looked before, as Bullet does. Boxes are compared where the recorder adds no margin to them.
 class FlightRule final : public DifferenceRule {
  public:
   // Both outlive the rule; replayed has every step.
   FlightRule(const core::TraceReader& recorded, const core::TraceReader& replayed);
   [[nodiscard]] std::uint32_t groups() const override {
-    return core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection);
+    return core::bit(core::Group::kBodies) | (is_one_moment() ? core::bit(core::Group::kDetection) : 0U);
   }
   [[nodiscard]] bool includes_bookkeeping() const override { return false; }
+  // Whether the recorder looked for contacts before it moved the bodies, and whether both engines do it alike.
+  [[nodiscard]] bool detects_first() const { return detects_first_; }
+  [[nodiscard]] bool is_one_moment() const { return is_one_moment_; }
+  [[nodiscard]] bool has_margin() const { return has_margin_; }
   void enter(const core::FrameRecord& a, const core::FrameRecord& b) override;
   bool passes(const core::FrameDifference& difference) override;
 
@@ -75,6 +84,9 @@ class FlightRule final : public DifferenceRule {
   const core::TraceReader& recorded_;
   const core::TraceReader& replayed_;
   const core::Scene& scene_;
+  bool detects_first_ = false;
+  bool is_one_moment_ = true;
+  bool has_margin_ = false;
   std::uint64_t next_ = 0;  // frame of the replayed trace
   // Bounds on the difference of the two engines, per body: largest component.
   std::vector<double> velocity_bound_m_s_;

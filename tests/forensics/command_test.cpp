@@ -64,6 +64,22 @@ TEST_F(Forensics, ReplayRepeatsOwnTracesBitByBit) {
   EXPECT_NE(wrong.out.find("First difference"), std::string::npos) << wrong.out;
 }
 
+// Bullet looks for contacts before it moves the bodies. Once that alone made every replay differ in step 1, by g dt^2.
+TEST_F(Forensics, ReplayOfBulletsTraceComparesFlightsAndSaysWhatItLeavesOut) {
+  const std::string bullet = recorded("freefall:cube:8", "bullet-world", "90", "a");
+  const Ended by_us = run_program({"replay", bullet, "--engine", "octree-cpu"});
+  EXPECT_EQ(by_us.exit_code, 0) << by_us.out << by_us.err;
+  EXPECT_NE(by_us.out.find("bullet-world looks for contacts before it moves the bodies, octree-cpu after"),
+            std::string::npos)
+      << by_us.out;
+  EXPECT_NE(by_us.out.find("8 of 8 bodies were touched"), std::string::npos) << by_us.out;
+  const std::string ours = recorded("freefall:cube:8", "octree-cpu", "90", "b");
+  const Ended by_bullet = run_program({"replay", ours, "--engine", "bullet-world"});
+  EXPECT_EQ(by_bullet.exit_code, 0) << by_bullet.out << by_bullet.err;
+  const Ended same = run_program({"replay", bullet, "--engine", "bullet-world"});
+  EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+}
+
 TEST_F(Forensics, ReplayOfDigestsComparesDigests) {
   const std::string out = (folder_ / "digests").string();
   ASSERT_EQ(run_program({"run", "errata:E6", "--engine", "octree-cpu", "--record", "digest", "--out", out}).exit_code,
