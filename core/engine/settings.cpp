@@ -24,7 +24,8 @@ Result<Settings> Settings::parse(std::string_view engine_id, std::span<const Set
     settings.values_[std::string(row.key)] = {std::string(row.default_value), true};
   }
   for (const auto& [key, text] : given) {
-    const auto row = std::find_if(table.begin(), table.end(), [&](const SettingRow& r) { return r.key == key; });
+    const auto row =
+        std::find_if(table.begin(), table.end(), [&name = key](const SettingRow& r) { return r.key == name; });
     if (row == table.end()) {
       const std::string advice = keys.empty() ? "this engine has no settings" : advise_name(key, keys);
       return Error{"unknown setting '" + key + "'", std::string(engine_id), advice};
