@@ -47,7 +47,7 @@ std::unique_ptr<PartFile> compacted(PartFile& part, const std::filesystem::path&
       for (const char* name : {"trace", "scene", "provenance"})
         good = good && H5Ocopy(source.get(), name, target.get(), name, H5P_DEFAULT, H5P_DEFAULT) >= 0;
     }
-    good = target.close() && good && copy->refused() == 0;
+    good = target.close() && good && copy->commit();
   }
   hdf5_reason();
   if (good) return copy;
@@ -58,19 +58,17 @@ std::unique_ptr<PartFile> compacted(PartFile& part, const std::filesystem::path&
 
 void add_views(PartFile& complete, std::uint64_t frames, std::uint64_t bodies) {
   if (frames == 0 || bodies == 0) return;
-  complete.hold();
+  bool good = false;
   {
     Handle file = open_hdf5(complete, H5F_ACC_RDWR);
     Hdf5Sink sink(file.get());
     if (file) write_vtkhdf_group(sink, frames, bodies);
-    if (!file || !sink.ok() || !file.close()) {
-      file.close();
-      complete.drop();
-      hdf5_reason();
-      return;
-    }
+    good = file && sink.ok();
+    good = file.close() && good;
   }
-  static_cast<void>(complete.release());
+  if (good && complete.commit()) return;
+  complete.rollback();
+  hdf5_reason();
 }
 
 }  // namespace broadside::core

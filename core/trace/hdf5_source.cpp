@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/trace/hdf5_sink.hpp"
+#include "core/trace/page_journal.hpp"
 
 namespace broadside::core {
 namespace {
@@ -130,6 +131,8 @@ Storage storage_of(hid_t set, std::uint64_t element_bytes, std::uint64_t file_by
 Result<Hdf5Source> Hdf5Source::open(const std::filesystem::path& path) {
   struct stat status {};
   const std::string where = path.string();
+  if (path.extension() == ".part")
+    if (Status finished = finish_from_journal(path); !finished) return finished.error();
   if (stat(path.c_str(), &status) != 0) {
     const bool missing = errno == ENOENT || errno == ENOTDIR;
     return Error{

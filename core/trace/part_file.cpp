@@ -221,66 +221,46 @@ int PartFile::sync() {
   return fsync(fd_) == 0 ? 0 : errno;
 }
 
-int PartFile::write_disk(std::uint64_t& address, const std::byte*& data, std::size_t& size) const {
-  while (size > 0) {
-    const ssize_t n = pwrite(fd_, data, size, static_cast<off_t>(address));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return n < 0 ? errno : ENOSPC;
-    address += static_cast<std::uint64_t>(n);
-    data += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return 0;
-}
-
 void PartFile::write_at(std::uint64_t address, const std::byte* data, std::size_t size) {
   end_ = std::max(end_, address + size);
-  if (refused_ == 0 && !held_end_) refused_ = write_disk(address, data, size);
-  if (size > 0) write_pages(address, data, size);
-}
-
-void PartFile::hold() {
-  if (refused_ == 0) held_end_ = end_;
-}
-
-void PartFile::drop() {
-  if (!held_end_) return;
-  end_ = *std::exchange(held_end_, std::nullopt);
-  pages_.clear();
-}
-
-bool PartFile::release() {
-  if (!held_end_) return refused_ == 0;
-  const std::uint64_t old_end = *std::exchange(held_end_, std::nullopt);
-  std::vector<std::uint64_t> order;
-  for (const auto& [index, page] : pages_) order.push_back(index);
-  // New pages, then changed ones; the first page, which makes the new ones known, after all others.
-  const auto rank = [old_end](std::uint64_t index) { return index == 0 ? 2 : (index + 1) * kPage <= old_end ? 1 : 0; };
-  std::sort(order.begin(), order.end(),
-            [&rank](std::uint64_t p, std::uint64_t q) { return std::pair(rank(p), p) < std::pair(rank(q), q); });
-  int code = 0;
-  for (const std::uint64_t index : order) {
-    std::uint64_t address = index * kPage;
-    if (address >= end_) continue;
-    const std::byte* data = pages_[index].data();
-    std::size_t size = std::min<std::uint64_t>(kPage, end_ - address);
-    code = write_disk(address, data, size);
-    if (code != 0) break;
+  // A page in which the committed part ends belongs to it.
+  const std::uint64_t free_from = (committed_end_ + kPageBytes - 1) / kPageBytes * kPageBytes;
+  if (address < free_from) {
+    const std::size_t n = std::min<std::uint64_t>(size, free_from - address);
+    write_pages(address, data, n);
+    address += n;
+    data += n;
+    size -= n;
   }
+  if (refused_ == 0) refused_ = write_fully(fd_, address, data, size);
+  if (refused_ != 0) write_pages(address, data, size);
+}
+
+bool PartFile::commit() {
+  if (refused_ != 0) return false;
+  // One page is written whole or not at all; more need the journal, behind what either content needs.
+  const std::uint64_t behind = std::max(end_, committed_end_);
+  if (pages_.size() > 1) refused_ = append_journal(fd_, behind, end_, pages_);
+  if (refused_ == 0 && (!pages_.empty() || end_ < committed_end_)) refused_ = put_in_place(fd_, end_, pages_);
+  if (refused_ != 0) return false;
+  committed_end_ = end_;
   pages_.clear();
-  if (code == 0 && ftruncate(fd_, static_cast<off_t>(end_)) == 0) return true;
-  end_ = old_end;
-  if (ftruncate(fd_, static_cast<off_t>(old_end)) != 0) refused_ = errno;
-  return false;
+  return true;
+}
+
+void PartFile::rollback() {
+  pages_.clear();
+  end_ = committed_end_;
+  refused_ = ftruncate(fd_, static_cast<off_t>(end_)) == 0 ? 0 : errno;
 }
 
 void PartFile::write_pages(std::uint64_t address, const std::byte* data, std::size_t size) {
   while (size > 0) {
-    const std::uint64_t index = address / kPage;
-    const std::size_t at = address % kPage;
-    const std::size_t n = std::min(size, kPage - at);
+    const std::uint64_t index = address / kPageBytes;
+    const std::size_t at = address % kPageBytes;
+    const std::size_t n = std::min(size, kPageBytes - at);
     const auto [it, is_new] = pages_.try_emplace(index);
-    if (is_new) read_disk(index * kPage, it->second.data(), kPage);
+    if (is_new) read_disk(index * kPageBytes, it->second.data(), kPageBytes);
     std::memcpy(it->second.data() + at, data, n);
     address += n;
     data += n;
@@ -307,9 +287,9 @@ bool PartFile::read_disk(std::uint64_t address, std::byte* data, std::size_t siz
 bool PartFile::read_at(std::uint64_t address, std::byte* data, std::size_t size) const {
   if (pages_.empty()) return read_disk(address, data, size);
   while (size > 0) {
-    const std::size_t at = address % kPage;
-    const std::size_t n = std::min(size, kPage - at);
-    const auto it = pages_.find(address / kPage);
+    const std::size_t at = address % kPageBytes;
+    const std::size_t n = std::min(size, kPageBytes - at);
+    const auto it = pages_.find(address / kPageBytes);
     if (it != pages_.end())
       std::memcpy(data, it->second.data() + at, n);
     else if (!read_disk(address, data, n))
@@ -323,7 +303,8 @@ bool PartFile::read_at(std::uint64_t address, std::byte* data, std::size_t size)
 
 void PartFile::resize(std::uint64_t size) {
   end_ = size;
-  if (refused_ == 0 && !held_end_ && ftruncate(fd_, static_cast<off_t>(size)) != 0) refused_ = errno;
+  // What was committed is cut off by commit(), not before.
+  if (refused_ == 0 && size >= committed_end_ && ftruncate(fd_, static_cast<off_t>(size)) != 0) refused_ = errno;
 }
 
 }  // namespace broadside::core

@@ -2,23 +2,24 @@
 // HDF5 whole when the disk refuses a write. Private to core/trace/*.cpp.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <unordered_map>
 
 #include "core/result.hpp"
 #include "core/trace/hdf5_handle.hpp"
+#include "core/trace/page_journal.hpp"
 
 namespace broadside::core {
 
 // HDF5 1.10 cannot close a file whose last writes fail: identifiers stay open, and the library trips over them when the
 // process exits. So HDF5 writes through a driver of ours. The first refused write is remembered and freezes the file on
 // disk as a kill at that moment would; that write and all later ones go to pages in memory, which HDF5 reads back as if
-// they had been written, so that it always closes cleanly. Whoever writes asks refused() after every flush.
+// they had been written, so that it always closes cleanly. Whoever writes asks refused() after every commit.
+//
+// Between commits, what was committed is left alone: writes behind its end go to disk, where nothing points to them
+// yet, and writes into it wait in memory. A kill at any moment therefore leaves the last commit, whole.
 class PartFile {
  public:
   // Creates or empties the file. A missing or unwritable folder, a name that is a folder, and a file that another
@@ -36,13 +37,10 @@ class PartFile {
   [[nodiscard]] std::uint64_t size() const { return end_; }
   // To disk, with its data; 0 or an errno.
   int sync();
-  // From here on writes wait in memory, and reads see them, until release() puts them on disk: first what lies behind
-  // the old end, last the page with the superblock and the root group. So a full disk or a kill leaves the file that
-  // hold() found. False when the disk refused; the file is then what it was, and refused() stays 0.
-  void hold();
-  bool release();
-  // Forgets what was held.
-  void drop();
+  // Makes all that was written since the last commit part of the file. False when the disk refused.
+  bool commit();
+  // Back to the last commit, also after a refusal. HDF5 must have closed the file.
+  void rollback();
 
   // For the driver alone.
   void write_at(std::uint64_t address, const std::byte* data, std::size_t size);
@@ -50,21 +48,16 @@ class PartFile {
   void resize(std::uint64_t size);
 
  private:
-  static constexpr std::size_t kPage = 4096;
-  using Page = std::array<std::byte, kPage>;
-
   PartFile(std::filesystem::path path, int fd) : path_(std::move(path)), fd_(fd) {}
   bool read_disk(std::uint64_t address, std::byte* data, std::size_t size) const;
-  // 0, or the errno; address and the rest move on by what was written.
-  int write_disk(std::uint64_t& address, const std::byte*& data, std::size_t& size) const;
   void write_pages(std::uint64_t address, const std::byte* data, std::size_t size);
 
   std::filesystem::path path_;
   int fd_ = -1;
   int refused_ = 0;
   std::uint64_t end_ = 0;
-  std::optional<std::uint64_t> held_end_;  // of the file on disk, while writes are held back
-  std::unordered_map<std::uint64_t, Page> pages_;
+  std::uint64_t committed_end_ = 0;
+  Pages pages_;
   Handle driver_;
 };
 

@@ -78,7 +78,7 @@ struct TraceWriter::Impl {
     const QuietHdf5 quiet;
     if (part && !failed && !finished) static_cast<void>(flush());  // nobody is left to tell
     columns.clear();
-    file.close();
+    if (file.close() && part) static_cast<void>(part->commit());
   }
 
   Error stop(Error error) {
@@ -116,7 +116,7 @@ struct TraceWriter::Impl {
   }
 
   Status flush() {
-    const bool good = write_columns() && H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0 && write_steps();
+    const bool good = write_columns() && H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0 && write_steps() && part->commit();
     if (!good) return stop_writing("writing frame " + std::to_string(frames));
     frames_flushed = frames;
     last_flush = Clock::now();
@@ -182,7 +182,7 @@ struct TraceWriter::Impl {
     if (const Status s = flush(); !s) return s;
     const std::uint64_t stored = stored_bytes();
     columns.clear();
-    if (!file.close() || part->refused() != 0) return stop_writing("closing the trace");
+    if (!file.close() || !part->commit()) return stop_writing("closing the trace");
     std::unique_ptr<PartFile> copy;
     if (is_worth_compacting(*part, stored)) copy = compacted(*part, path);
     PartFile& complete = copy ? *copy : *part;
@@ -227,7 +227,7 @@ Result<TraceWriter> TraceWriter::create(const std::filesystem::path& path, const
     }
     // From here on a kill at any moment leaves a file that opens.
     good = sink.ok() && H5Fflush(impl->file.get(), H5F_SCOPE_LOCAL) >= 0 &&
-           H5Fstart_swmr_write(impl->file.get()) >= 0 && impl->part->refused() == 0;
+           H5Fstart_swmr_write(impl->file.get()) >= 0 && impl->part->commit();
   }
   if (!good) {
     const Error error = impl->stop_writing("creating the trace");
