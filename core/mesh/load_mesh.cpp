@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/check_off.hpp"
 #include "core/mesh/check_ply.hpp"
 #include "core/mesh/placement.hpp"
 #include "core/nearest_name.hpp"
@@ -52,6 +53,7 @@ Status check_file(const std::filesystem::path& path) {
     return bad(path, "the file has " + std::to_string(size >> 20) + " MiB, more than a mesh here may (2048 MiB)",
                "decimate it first");
   if (extension == ".ply") return check_ply(path);
+  if (extension == ".off") return check_off(path);
   return Done{};
 }
 

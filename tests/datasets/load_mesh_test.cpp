@@ -182,6 +182,29 @@ TEST(LoadMesh, ADamagedPlyIsRefused) {
             "");
 }
 
+// assimp leaves out faces of more than nine corners, counts them off, and reads on: more of them than there are faces
+// made the count huge, and the list was walked off its end. Found by fuzzing.
+TEST(LoadMesh, AnOffFileThatIsNotWholeIsRefused) {
+  const TemporaryFolder folder;
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const auto refused = [&](const std::string& text) { return error_line(folder.file("t.off", text)); };
+  const auto has = [](const std::string& line, const char* text) { return line.find(text) != std::string::npos; };
+  EXPECT_TRUE(has(refused("OFF\n4 2 0\n" + points + "77 0 1 2\n88 0 1 2\n99 0 1 2\n" + faces), "1 to 9 corners"));
+  EXPECT_TRUE(has(refused("OFF\n4 4 0\n" + points + "3 0 2 1\n"), "1 of 4 faces"));
+  EXPECT_TRUE(has(refused("OFF\n9 4 0\n" + points), "4 of 9 vertices"));
+  EXPECT_TRUE(has(refused("OFF\n4 1 0\n" + points + "3 0 2 4\n"), "does not exist"));
+  EXPECT_TRUE(has(refused("OFF\n4 1 0\n" + points + "3 0 2\n"), "cut short"));
+  EXPECT_TRUE(has(refused("OFF\n4 1 0\n" + points + std::string(5000, '3') + "\n"), "0 of 1 faces"));
+  EXPECT_TRUE(has(refused("OFF\n-4 1 0\n" + points), "counts are not understood"));
+  EXPECT_TRUE(has(refused("4 4 0\n" + points + faces), "does not begin with 'OFF'"));
+  for (const char* start : {"OFF\n4 4 0\n", "OFF 4 4 0\n", "# text\n\nOFF\r\n# more\n4 4 6\n"}) {
+    const auto loaded = load_mesh(folder.file("t.off", start + points + faces));
+    ASSERT_TRUE(loaded.ok()) << start << loaded.error().line();
+    EXPECT_EQ(loaded.value().mesh.triangles.size(), 4U);
+  }
+}
+
 // assimp's own PLY reader runs off the end of such files, and hangs on some.
 TEST(LoadMesh, APlyDamagedAnywhereIsRefusedOrReadButNeverCrashes) {
   const TemporaryFolder folder;

@@ -1,0 +1,16 @@
+// Is an OFF file whole? Asked before assimp reads it: its OFF reader counts faces that it leaves out below zero, and
+// then walks off its list.
+#pragma once
+
+#include <filesystem>
+
+#include "core/result.hpp"
+
+namespace broadside::core {
+
+// The keyword OFF, alone or with assimp's prefixes for colors and normals (ST, C, N, 4), the counts of vertices and
+// faces, that many lines of vertices with at least three numbers, and that many lines of faces of 1 to 9 corners, each
+// a vertex that exists. Error: what is wrong, in one line.
+Status check_off(const std::filesystem::path& path);
+
+}  // namespace broadside::core
