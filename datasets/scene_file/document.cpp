@@ -59,6 +59,13 @@ Result<std::string> content_of(const std::filesystem::path& path) {
 
 }  // namespace
 
+Node::Node() = default;
+Node::Node(const Node&) = default;
+Node::Node(Node&&) noexcept = default;
+Node& Node::operator=(const Node&) = default;
+Node& Node::operator=(Node&&) noexcept = default;
+Node::~Node() = default;
+
 Result<Node> parse_toml(const std::filesystem::path& path) {
   const Result<std::string> content = content_of(path);
   if (!content) return content.error();

@@ -21,6 +21,14 @@ struct Node {
   bool flag = false;                                  // kFlag
   std::vector<std::pair<std::string, Node>> members;  // kTable, in order of the keys
   std::vector<Node> items;                            // kArray
+
+  // Where Node is complete: clang 14 makes a pair of one that is not, when these are left to the class.
+  Node();
+  Node(const Node&);
+  Node(Node&&) noexcept;
+  Node& operator=(const Node&);
+  Node& operator=(Node&&) noexcept;
+  ~Node();
 };
 
 // Larger files are refused: a body takes about 100 bytes, so this is the ten million bodies that a scene may have.
