@@ -119,7 +119,8 @@ core::Exit write_case(const ShrinkArguments& a, const Question& q, const ShrunkS
   const std::string toml = a.out + ".toml";
   const std::string source = a.out + "_test.cpp";
   if (core::Status s = datasets::write_scene_file(shrunk.scene, toml); !s) return complain(s.error());
-  const std::string text = case_text(shrunk.scene, {command_of(a, q), label(q.engine), a.validator, shrunk.verdict});
+  const std::string text =
+      case_text(shrunk.scene, {command_of(a, q), label(q.engine), a.validator, a.against, shrunk.verdict});
   if (core::Status s = core::write_whole_file(source, text); !s) return complain(s.error());
   std::size_t triangles = 0;
   for (const auto& mesh : shrunk.scene.meshes) triangles += mesh->triangles.size();

@@ -12,11 +12,13 @@ struct CaseFacts {
   std::string command;    // that made it
   std::string engine;     // "octree-cpu[levels=A]"
   std::string validator;  // the law that the engine breaks there
+  std::string against;    // the engine that it was compared with; empty: none, or a second run
   core::Verdict verdict;
 };
 
 // A source file that needs nothing but this repository: it builds the scene number by number, with digits that name
-// every float, runs the engine and expects the validator to pass. It fails for as long as the engine is wrong.
+// every float, runs the engine and expects that the validator does not object. It fails for as long as the engine is
+// wrong.
 std::string case_text(const core::Scene& scene, const CaseFacts& facts);
 
 }  // namespace broadside::bench

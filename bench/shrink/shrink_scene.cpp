@@ -24,6 +24,8 @@ using core::Scene;
 
 // The longest piece of a run between two looks at the verdict.
 constexpr std::uint32_t kLongestPiece = 64;
+// Pieces grow no more once one takes this share of the time limit.
+constexpr double kPiecesInTime = 40.0;
 // Nine digits name every float: rounding to fewer is a change.
 constexpr int kAllDigits = 9;
 // Meshes larger than this lose their triangles only after a box of their extent was tried.
@@ -54,6 +56,7 @@ class Shrinker {
       before = changes_;
       drop_frames();
       drop_bodies();
+      drop_springs();
       simplify_meshes();
       make_plainer();
       drop_digits();
@@ -108,8 +111,14 @@ class Shrinker {
   core::Status find_fault(const Scene& scene) {
     Scene piece = scene;
     std::uint32_t length = 1;
-    for (std::uint32_t done = 0; done < scene.frames && !is_spent();) {
+    for (std::uint32_t done = 0; done < scene.frames;) {
+      if (is_spent())
+        return core::Error{fmt::format("no fault was found in the first {} of {} frames within {:.0f} s", done,
+                                       scene.frames, limits_.time_s),
+                           scene.name, "give more time (--time-limit), or the trace that shows the fault",
+                           core::Exit::kMissing};
       piece.frames = std::min(length, scene.frames - done);
+      const double began_s = elapsed_s();
       auto answer = ask(piece);
       if (!answer) return *last_error_;
       // A piece may leave undecided what the whole decides.
@@ -120,7 +129,8 @@ class Shrinker {
       }
       piece.bodies = std::move(answer->end);
       done += piece.frames;
-      length = std::min(2 * length, kLongestPiece);
+      // A longer piece wastes more: of what follows the fault in it, and of the time that is left.
+      if (elapsed_s() - began_s < limits_.time_s / kPiecesInTime) length = std::min(2 * length, kLongestPiece);
     }
     auto answer = ask(scene);
     if (!answer) return *last_error_;
@@ -192,6 +202,17 @@ class Shrinker {
         std::move(kept), [&](const std::vector<std::uint32_t>& part) { return take(with_bodies(whole, part)); },
         [&] { return is_spent(); });
     tell();
+  }
+
+  void drop_springs() {
+    if (best_.springs.empty() || is_spent()) return;
+    if (take(with_springs(best_, {}))) return;
+    const Scene whole = best_;
+    std::vector<std::uint32_t> springs(whole.springs.size());
+    std::iota(springs.begin(), springs.end(), 0U);
+    minimal_subset(
+        std::move(springs), [&](const std::vector<std::uint32_t>& part) { return take(with_springs(whole, part)); },
+        [&] { return is_spent(); });
   }
 
   void simplify_meshes() {

@@ -30,11 +30,11 @@ struct ShrunkScene {
 using Oracle = std::function<core::Result<Answer>(const core::Scene&)>;
 
 // In this order, until none changes anything or time is up: frames (the run is cut before the fault and, where the
-// engine has no memory but the bodies' states, started from the state just before it), bodies, mesh triangles,
-// settings of the scene that do not matter, and digits of positions, velocities, vertices and domain. Deterministic but
-// for the time limit; at every moment the best scene so far gets the verdict that the whole scene got, though perhaps
-// by another fault under the same law. Errors: the whole scene's own, and a verdict that is neither fail nor
-// inconclusive.
+// engine has no memory but the bodies' states, started from the state just before it), bodies, springs, mesh
+// triangles, settings of the scene that do not matter, and digits of positions, velocities, vertices and domain.
+// Deterministic but for the time limit; at every moment the best scene so far gets the verdict that the whole scene
+// got, though perhaps by another fault under the same law. Errors: the whole scene's own, and a verdict that is neither
+// fail nor inconclusive.
 core::Result<ShrunkScene> shrink_scene(const core::Scene& scene, const Oracle& oracle, const ShrinkLimits& limits);
 
 }  // namespace broadside::bench

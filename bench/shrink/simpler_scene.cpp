@@ -31,6 +31,10 @@ void visit_numbers(Scene& scene, Visit visit) {
     mesh = std::move(copy);
   }
   for (int k = 0; k < 3; ++k) visit(scene.domain.min[k]), visit(scene.domain.max[k]);
+  for (core::Spring& s : scene.springs) {
+    for (int k = 0; k < 3; ++k) visit(s.anchor[k]);
+    visit(s.stiffness_n_m), visit(s.damping_n_s_m);
+  }
 }
 
 double squared(Vec3 a, Vec3 b) {
@@ -55,6 +59,8 @@ float far_enough(const Scene& scene) {
   for (const auto& mesh : scene.meshes)
     for (const Vec3 v : mesh->vertices)
       for (int k = 0; k < 3; ++k) far = std::max(far, std::abs(double{v[k]}));
+  for (const core::Spring& s : scene.springs)
+    for (int k = 0; k < 3; ++k) far = std::max(far, std::abs(double{s.anchor[k]}));
   far += double{scene.parameters.v_max_m_s} * scene.dt_s * scene.frames;
   float power = 10.0F;
   while (power < 4.0 * far) power *= 10.0F;
@@ -65,6 +71,7 @@ Scene at_origin(Scene scene) {
   if (scene.bodies.empty()) return scene;
   const Vec3 shift = scene.bodies.front().position;
   for (core::Body& b : scene.bodies) b.position = b.position - shift;
+  for (core::Spring& s : scene.springs) s.anchor = s.anchor - shift;
   scene.domain.min = scene.domain.min - shift;
   scene.domain.max = scene.domain.max - shift;
   return scene;
@@ -78,15 +85,31 @@ Scene with_bodies(const Scene& scene, std::span<const std::uint32_t> bodies) {
   Scene smaller = scene;
   smaller.bodies.clear();
   smaller.meshes.clear();
+  smaller.springs.clear();
   std::map<std::uint32_t, std::uint32_t> new_index;
+  std::map<std::uint32_t, std::uint32_t> new_body;
   for (const std::uint32_t i : order) {
+    new_body[i] = static_cast<std::uint32_t>(smaller.bodies.size());
     core::Body body = scene.bodies[i];
     const auto [at, is_new] = new_index.try_emplace(body.mesh, static_cast<std::uint32_t>(smaller.meshes.size()));
     if (is_new) smaller.meshes.push_back(scene.meshes[body.mesh]);
     body.mesh = at->second;
     smaller.bodies.push_back(body);
   }
+  for (core::Spring spring : scene.springs) {
+    const auto at = new_body.find(spring.body);
+    if (at == new_body.end()) continue;
+    spring.body = at->second;
+    smaller.springs.push_back(spring);
+  }
   return smaller;
+}
+
+Scene with_springs(const Scene& scene, std::span<const std::uint32_t> springs) {
+  Scene fewer = scene;
+  fewer.springs.clear();
+  for (const std::uint32_t s : springs) fewer.springs.push_back(scene.springs[s]);
+  return fewer;
 }
 
 std::vector<std::uint32_t> by_distance(const Scene& scene, std::span<const std::uint32_t> from) {
@@ -167,7 +190,7 @@ float rounded_to(float value, int digits) {
 }
 
 std::uint64_t digit_count(const Scene& scene) {
-  std::uint64_t count = 6 * scene.bodies.size() + 6;
+  std::uint64_t count = 6 * scene.bodies.size() + 6 + 5 * scene.springs.size();
   for (const auto& mesh : scene.meshes) count += 3 * mesh->vertices.size();
   return count;
 }

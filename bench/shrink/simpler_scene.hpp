@@ -11,8 +11,11 @@
 
 namespace broadside::bench {
 
-// The scene with these of its bodies alone, in the scene's order, and the meshes that they use.
+// The scene with these of its bodies alone, in the scene's order, and the meshes and springs that they use.
 core::Scene with_bodies(const core::Scene& scene, std::span<const std::uint32_t> bodies);
+
+// The scene with these of its springs alone.
+core::Scene with_springs(const core::Scene& scene, std::span<const std::uint32_t> springs);
 
 // Body indices in the order of their distance from the nearest of `from`; those of `from` come first.
 std::vector<std::uint32_t> by_distance(const core::Scene& scene, std::span<const std::uint32_t> from);
@@ -32,13 +35,14 @@ enum class Plainer : std::uint8_t {
   kDefaultParameters,  // P-Table 1
   kUnitMass,           // of every body that is not static
   kNoTurn,             // orientation and angular velocity
-  kAtOrigin,           // the first body at the origin, the others and the domain moved with it
+  kAtOrigin,           // the first body at the origin; the others, the domain and anchors moved with it
   kNoDescription,      // name and seed of the scene this came from
 };
 inline constexpr int kPlainerCount = 8;
 core::Scene made_plainer(const core::Scene& scene, Plainer how);
 
-// Number k of the numbers whose digits can go: positions and velocities of all bodies, then mesh vertices, then domain.
+// Number k of the numbers whose digits can go: positions and velocities of all bodies, then mesh vertices, then domain,
+// then springs.
 std::uint64_t digit_count(const core::Scene& scene);
 // Number k rounded to this many significant digits; 0 digits = zero.
 core::Scene with_digits(const core::Scene& scene, std::uint64_t k, int digits);

@@ -129,11 +129,17 @@ core::Result<Answer> ask(const Question& question, const core::Scene& scene) {
   return is_foreign ? ask_child(question, scene) : ask_here(question, *validator.value(), scene);
 }
 
-core::Result<core::Verdict> judge_engine(const core::Scene& scene, std::string_view engine,
-                                         std::string_view validator) {
+core::Result<core::Verdict> judge_engine(const core::Scene& scene, std::string_view engine, std::string_view validator,
+                                         std::string_view against) {
   auto spec = parse_cell_spec(engine);
   if (!spec) return spec.error();
-  auto answer = ask({std::string(validator), std::move(spec).value(), {}}, scene);
+  Question question{std::string(validator), std::move(spec).value(), {}};
+  if (!against.empty()) {
+    auto other = parse_cell_spec(against);
+    if (!other) return other.error();
+    question.against = std::move(other).value();
+  }
+  auto answer = ask(question, scene);
   if (!answer) return answer.error();
   return std::move(answer.value().verdict);
 }

@@ -31,7 +31,8 @@ struct Answer {
 // that refuses the scene or fails.
 core::Result<Answer> ask(const Question& question, const core::Scene& scene);
 
-// The same for test cases: engine as on the command line, "octree-cpu[levels=A]".
-core::Result<core::Verdict> judge_engine(const core::Scene& scene, std::string_view engine, std::string_view validator);
+// The same for test cases: engine and against as on the command line, "octree-cpu[levels=A]"; against may be empty.
+core::Result<core::Verdict> judge_engine(const core::Scene& scene, std::string_view engine, std::string_view validator,
+                                         std::string_view against = {});
 
 }  // namespace broadside::bench

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bench/engines.hpp"
+#include "bench/shrink/case_text.hpp"
 #include "bench/shrink/minimal_subset.hpp"
 #include "bench/shrink/shrink_boxes.hpp"
 #include "bench/shrink/shrink_scene.hpp"
@@ -121,6 +122,45 @@ TEST(ShrinkScene, TurnsAPrintedFormIntoACaseThatRepeatsIt) {
   EXPECT_LE(shrunk.value().scene.body_count(), 3U);
   EXPECT_LE(shrunk.value().scene.frames, 5U);
   EXPECT_EQ(shrunk.value().verdict.outcome, core::Outcome::kFail);
+}
+
+// Bodies were once dropped and their springs left to others.
+TEST(WithBodies, KeepsTheSpringsOfThoseThatStay) {
+  const core::Scene scene = named("springs:hanging");
+  const core::Scene last = bench::with_bodies(scene, std::vector<std::uint32_t>{2});
+  std::size_t wanted = 0;
+  for (const core::Spring& s : scene.springs) wanted += s.body == 2 ? 1 : 0;
+  ASSERT_GT(wanted, 0U);
+  ASSERT_LT(wanted, scene.springs.size());
+  ASSERT_EQ(last.springs.size(), wanted);
+  for (const core::Spring& s : last.springs) EXPECT_EQ(s.body, 0U);
+  EXPECT_TRUE(core::check_scene(last).ok());
+}
+
+TEST(ShrinkScene, OfAFaultOnSpringsEndsAtOne) {
+  const bench::Question question{
+      "stability", {bench::find_engine("octree-cpu").value(), {{"variant", "printed-E1"}}}, {}};
+  const auto shrunk = bench::shrink_scene(
+      named("errata:E1"), [&](const core::Scene& s) { return bench::ask(question, s); }, no_hurry());
+  ASSERT_TRUE(shrunk.ok()) << shrunk.error().line();
+  EXPECT_EQ(shrunk.value().scene.body_count(), 1U);
+  EXPECT_EQ(shrunk.value().scene.springs.size(), 1U);
+  EXPECT_EQ(shrunk.value().verdict.outcome, core::Outcome::kFail);
+  const std::string text = bench::case_text(
+      shrunk.value().scene, {"a command", "octree-cpu[variant=printed-E1]", "stability", "octree-cpu", {}});
+  EXPECT_NE(text.find("scene.springs = {"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"stability\", \"octree-cpu\")"), std::string::npos) << "the other engine is named: " << text;
+}
+
+TEST(ShrinkScene, SaysWhenTimeIsUpBeforeAFaultIsFound) {
+  const auto passes = [](const core::Scene& scene) -> core::Result<Answer> {
+    Answer answer{{}, scene.bodies};
+    answer.verdict.outcome = core::Outcome::kPass;
+    return answer;
+  };
+  const auto shrunk = bench::shrink_scene(named("freefall:cube:20", 1000), passes, {0.0, {}});
+  ASSERT_FALSE(shrunk.ok());
+  EXPECT_NE(shrunk.error().line().find("of 1000 frames within 0 s"), std::string::npos) << shrunk.error().line();
 }
 
 TEST(ShrinkScene, FindsAFaultOfAComparisonOfTwoEngines) {
