@@ -16,7 +16,7 @@ TEST(Agree, EveryKindIsAnsweredAndRowed) {
   for (const std::string kind : {"boxes", "spheres", "capsules", "convex", "meshes"}) {
     const ScratchFolder folder;
     const Ended ended = run_program(
-        {"agree", "--pairs", kind, "--n", "20", "--json", "--time-limit", "0.3", "--out", (folder / "out").string()});
+        {"agree", "--pairs", kind, "--n", "20", "--json", "--time-limit", "2", "--out", (folder / "out").string()});
     ASSERT_EQ(ended.exit_code, 0) << kind << ": " << ended.err;
     const json out = json::parse(ended.out);
     ASSERT_FALSE(out.at("engines").empty());
