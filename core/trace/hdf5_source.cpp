@@ -8,6 +8,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/trace/check_attributes.hpp"
 #include "core/trace/hdf5_sink.hpp"
 #include "core/trace/page_journal.hpp"
 
@@ -142,6 +143,7 @@ Result<Hdf5Source> Hdf5Source::open(const std::filesystem::path& path) {
   if (!S_ISREG(status.st_mode)) return Error{"it is not a file", where, "give the path of a trace file"};
   if (access(path.c_str(), R_OK) != 0)
     return Error{"it cannot be read (" + std::system_category().message(errno) + ")", where, "change its permissions"};
+  if (Status fits = check_attributes(path); !fits) return fits.error();
   Handle file = open_file(path, 0);
   // A writer that was killed leaves its mark in the file; so does one that is still at work.
   const bool was_left_open = !file;
