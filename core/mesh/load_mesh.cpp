@@ -1,5 +1,6 @@
 #include "core/mesh/load_mesh.hpp"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -13,6 +14,7 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -33,6 +35,12 @@ Error bad(const std::filesystem::path& path, std::string what, std::string advic
   return {std::move(what), path.string(), std::move(advice), Exit::kBadInput};
 }
 
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
 Status check_file(const std::filesystem::path& path) {
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
@@ -40,8 +48,7 @@ Status check_file(const std::filesystem::path& path) {
   if (failed) return bad(path, "cannot be opened: " + failed.message(), "check the path and its permissions");
   if (status.type() != std::filesystem::file_type::regular) return bad(path, "not a file", "give a mesh file");
 
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_extension(path);
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end())
     return bad(path, "unknown mesh format '" + extension + "'", advise_name(extension, kFormats));
 
@@ -193,6 +200,19 @@ struct Imported {
 
 constexpr unsigned kCleaning = aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
 
+// assimp gives a file that the reader of its extension does not want to whichever of its forty others takes it for its
+// own, past the checks above: only the former stays.
+void keep_reader_of(Assimp::Importer& importer, const std::filesystem::path& path) {
+  const std::string wanted = lower_extension(path).substr(1);
+  for (std::size_t k = importer.GetImporterCount(); k-- > 0;) {
+    Assimp::BaseImporter* reader = importer.GetImporter(k);
+    std::set<std::string> extensions;
+    reader->GetExtensionList(extensions);
+    if (extensions.contains(wanted) || importer.UnregisterLoader(reader) != aiReturn_SUCCESS) continue;
+    delete reader;  // who unregisters a reader owns it
+  }
+}
+
 // The file as it is, checked for what post-processing would trip over.
 Result<const aiScene*> read_checked(Assimp::Importer& importer, const std::filesystem::path& path) {
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
@@ -200,6 +220,7 @@ Result<const aiScene*> read_checked(Assimp::Importer& importer, const std::files
                                                           aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
                                                           aiComponent_TEXTURES | aiComponent_LIGHTS |
                                                           aiComponent_CAMERAS | aiComponent_MATERIALS);
+  keep_reader_of(importer, path);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr)
     return bad(path, "not a readable mesh: " + one_line(importer.GetErrorString()), "check that the file is whole");

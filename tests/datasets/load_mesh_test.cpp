@@ -182,6 +182,17 @@ TEST(LoadMesh, ADamagedPlyIsRefused) {
             "");
 }
 
+// assimp tries all of its readers on a file that the one of its extension refuses; a damaged PLY file under another
+// name was read past the check, and hung. Found by fuzzing.
+TEST(LoadMesh, AFileIsReadAsWhatItsNameSays) {
+  const TemporaryFolder folder;
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  ASSERT_TRUE(load_mesh(folder.file("t.ply", ply)).ok());
+  for (const char* name : {"t.glb", "t.gltf", "t.stl", "t.off"}) error_line(folder.file(name, ply));
+}
+
 // assimp leaves out faces of more than nine corners, counts them off, and reads on: more of them than there are faces
 // made the count huge, and the list was walked off its end. Found by fuzzing.
 TEST(LoadMesh, AnOffFileThatIsNotWholeIsRefused) {
