@@ -6,6 +6,7 @@
 
 #include "bench/box_race.hpp"
 #include "bench/commands.hpp"
+#include "bench/limit_arguments.hpp"
 #include "bench/scene_arguments.hpp"
 
 namespace broadside::bench {
@@ -81,13 +82,7 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
   command->add_option("--frames", a->frames, "Frames of a moving stream (default: all)")->check(CLI::PositiveNumber);
   command->add_flag("--digest", a->only_digest, "Print only digest and engine");
   command->add_flag("--json", a->as_json, "As JSON");
-  command->add_option("--time-limit", a->limits.seconds, "Seconds after which a reference engine's process is ended")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--memory-limit", a->limits.memory_mib,
-                   "MiB of memory that a reference engine's process may take; 0 = no limit")
-      ->capture_default_str();
+  add_limits(*command, a->limits);
   command->add_flag("--in-process", a->is_in_process, "Run references in this process")->group("");
   command->callback([a, &exit] { exit = pairs(*a); });
 }

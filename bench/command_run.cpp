@@ -5,6 +5,7 @@
 
 #include "bench/campaign/run_cells.hpp"
 #include "bench/commands.hpp"
+#include "bench/limit_arguments.hpp"
 #include "bench/record.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
@@ -26,10 +27,9 @@ struct RunArguments {
   std::string folder = "out";
   std::string driver;
   std::string in_process;  // folder for the one cell's row
-  double time_limit_s = 3600.0;
+  ChildLimits limits;
   std::string cell;   // of a campaign whose folder stands in the scene's place
   std::string shard;  // likewise
-  std::uint64_t memory_limit_mib = 0;
   bool as_json = false;
 };
 
@@ -59,8 +59,7 @@ core::Result<RunPlan> make_plan(const RunArguments& a) {
   if (plan.resume && plan.level != core::RecordLevel::kFull)
     return core::Error{"a run goes on from recorded states, and --record " + a.level + " records none", "--resume",
                        "record full, or leave out --resume"};
-  plan.time_limit_s = a.time_limit_s;
-  plan.memory_limit_mib = a.memory_limit_mib;
+  plan.limits = a.limits;
   return plan;
 }
 
@@ -147,13 +146,7 @@ void add_run(CLI::App& program, core::Exit& exit) {
   command->add_option("--narrow-every", a->narrow_every,
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
   command->add_option("--out", a->folder, "Folder for the traces and cells.json")->capture_default_str();
-  command->add_option("--time-limit", a->time_limit_s, "Seconds after which a reference engine's process is ended")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--memory-limit", a->memory_limit_mib,
-                   "MiB of memory that a reference engine's process may take; 0 = no limit")
-      ->capture_default_str();
+  add_limits(*command, a->limits);
   command->add_flag("--json", a->as_json, "Print the cells as JSON instead of a table");
   command->add_option("--driver", a->driver, "Trace that feeds engines that do not simulate")->group("");
   command->add_option("--in-process", a->in_process, "Run one cell here and leave its row in this folder")->group("");

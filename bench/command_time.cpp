@@ -10,6 +10,7 @@
 #include "bench/commands.hpp"
 #include "bench/engines.hpp"
 #include "bench/interleave.hpp"
+#include "bench/limit_arguments.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
 #include "bench/timing.hpp"
@@ -27,8 +28,7 @@ struct TimeArguments {
   std::uint32_t narrow_every = 0;
   std::string out = "out/samples.json";
   std::string in_process;  // folder for the samples of one cell
-  double time_limit_s = 3600.0;
-  std::uint64_t memory_limit_mib = 0;
+  ChildLimits limits;
 };
 
 // Exit 3 when a cell that was asked for has no sample.
@@ -66,8 +66,7 @@ core::Exit time(const TimeArguments& a) {
   plan.folder = out.has_parent_path() ? out.parent_path() : ".";
   if (core::Status s = prepare_folder(plan.folder); !s) return complain(s.error());
 
-  plan.time_limit_s = a.time_limit_s;
-  plan.memory_limit_mib = a.memory_limit_mib;
+  plan.limits = a.limits;
   plan.times_here = !a.in_process.empty();
   for (const CellSpec& spec : plan.cells) {
     const std::string reason = why_absent(*spec.row);
@@ -111,13 +110,7 @@ void add_time(CLI::App& program, core::Exit& exit) {
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
   command->add_option("--out", a->out, "File for the samples; traces and verdicts beside it are the proof")
       ->capture_default_str();
-  command->add_option("--time-limit", a->time_limit_s, "Seconds after which a reference engine's process is ended")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--memory-limit", a->memory_limit_mib,
-                   "MiB of memory that a reference engine's process may take; 0 = no limit")
-      ->capture_default_str();
+  add_limits(*command, a->limits);
   command->add_option("--in-process", a->in_process, "Time one cell here and leave its samples in this folder")
       ->group("");
   command->callback([a, &exit] { exit = time(*a); });

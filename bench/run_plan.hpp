@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/cell_request.hpp"
+#include "bench/child.hpp"
 #include "core/result.hpp"
 #include "core/rows.hpp"
 #include "core/scene/scene.hpp"
@@ -26,8 +27,7 @@ struct RunPlan {
   bool reuse = false;
   // Go on from traces of the same stamp that are in the folder and not complete.
   bool resume = false;
-  double time_limit_s = 3600.0;
-  std::uint64_t memory_limit_mib = 0;  // of a reference's process; 0 = none
+  ChildLimits limits;  // of a reference's process
   // Time references here instead of in processes of their own: what such a process does.
   bool times_here = false;
 };

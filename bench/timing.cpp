@@ -201,7 +201,7 @@ core::Result<core::Sample> time_in_child(const RunPlan& plan, const CellSpec& sp
   request.frames = plan.frames;
   request.narrow_every = plan.narrow_every;
   request.folder = plan.folder;
-  return time_cell_in_child(request, {plan.time_limit_s, plan.memory_limit_mib});
+  return time_cell_in_child(request, plan.limits);
 }
 
 core::Result<core::Sample> time_here(const RunPlan& plan, Timer& timer, const CellSpec& spec, bool is_first) {
