@@ -58,6 +58,18 @@ json bin_json(const AgreementBin& bin) {
           {"median_s", std::isnan(median) ? json(nullptr) : json(median)}};
 }
 
+// Over all separations; the report draws it.
+template <std::size_t N>
+std::string histogram_text(const AgreementTable& table, std::array<std::uint64_t, N> AgreementBin::*of) {
+  std::string text;
+  for (std::size_t k = 0; k < N; ++k) {
+    std::uint64_t sum = 0;
+    for (const AgreementBin& bin : table.by_separation) sum += (bin.*of)[k];
+    text += (k == 0 ? "" : " ") + std::to_string(sum);
+  }
+  return text;
+}
+
 core::Cell cell_of(const EngineStudy& study) {
   core::Cell cell;
   cell.stamp = study.stamp;
@@ -73,6 +85,8 @@ core::Cell cell_of(const EngineStudy& study) {
   for (std::size_t k = 0; k < std::size(kSeparations); ++k) add("s", k, kSeparations[k], study.table.by_separation[k]);
   for (std::size_t k = 1; k < std::size(kDegeneracies); ++k)
     add("t", k, kDegeneracies[k], study.table.by_degeneracy[k]);
+  cell.notes["agreement histogram: distance, m, from -8"] = histogram_text(study.table, &AgreementBin::error);
+  cell.notes["agreement histogram: normal, rad, from -6"] = histogram_text(study.table, &AgreementBin::angle);
   return cell;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/commands.hpp"
+#include "bench/paper/report_part.hpp"
 #include "bench/playback_of_trace.hpp"
 #include "bench/program.hpp"
 #include "core/rows.hpp"
@@ -25,12 +26,22 @@ struct ReportArguments {
   std::string plots;
   bool with_png = false;
   std::string history;
+  std::string paper;
   std::string title;
 };
 
 template <typename T>
 void append(std::vector<T>& to, std::vector<T>&& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+// The paper's experiments of a folder, where there are any.
+core::Result<bool> add_paper(const std::string& folder, reports::ReportOptions& options) {
+  auto part =
+      paper::report_part(folder, options.guests.empty() ? "paper" : fmt::format("paper{}", options.guests.size() + 1));
+  if (!part) return part.error();
+  if (part.value()) options.guests.push_back(*std::move(part).value());
+  return part.value().has_value();
 }
 
 // Rows of all folders; what the page shows beside them comes from the traces there.
@@ -42,7 +53,9 @@ core::Result<core::RunRows> gather(const ReportArguments& a, reports::ReportOpti
     auto rows = core::read_rows(folder);
     if (!rows) return rows.error();
     core::RunRows& r = rows.value();
-    if (r.cells.empty() && r.verdicts.empty() && r.samples.empty())
+    auto has_paper = add_paper(folder, options);
+    if (!has_paper) return has_paper.error();
+    if (r.cells.empty() && r.verdicts.empty() && r.samples.empty() && !has_paper.value())
       return core::Error{"there is nothing to report: no cells.json, verdicts.json or samples.json", folder,
                          "run 'broadside run' and 'broadside check --json' into it first"};
     if (!a.html.empty()) append(options.playbacks, playbacks_of(r, folder, a.folders.size()));
@@ -112,6 +125,13 @@ core::Exit report(const ReportArguments& a) {
   for (const std::string& folder : a.folders) options.command += " " + folder;
   auto rows = gather(a, options);
   if (!rows) return complain(rows.error());
+  if (!a.paper.empty()) {
+    auto has_paper = add_paper(a.paper, options);
+    if (!has_paper) return complain(has_paper.error());
+    if (!has_paper.value())
+      return complain({"there is no rows.json of the paper's experiments", a.paper,
+                       "name a folder that 'broadside paper' or 'merge' wrote"});
+  }
   if (!a.history.empty()) {
     auto history = reports::read_history(a.history);
     if (!history) return complain(history.error());
@@ -139,6 +159,9 @@ void add_report(CLI::App& program, core::Exit& exit) {
   command->add_option("--plots", a->plots, "Write each chart as SVG and CSV into this folder");
   command->add_flag("--png", a->with_png, "With --plots: PNG files too (needs rsvg-convert)");
   command->add_option("--history", a->history, "Show earlier runs from this file of 'broadside history'");
+  command->add_option("--paper", a->paper,
+                      "Show the paper's tables and figures from this folder of 'broadside paper'; a DIR that has them "
+                      "shows them anyway");
   command->add_option("--title", a->title, "Title of the page");
   command->callback([a, &exit] { exit = report(*a); });
 }

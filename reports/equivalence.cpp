@@ -1,8 +1,10 @@
 #include "reports/equivalence.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "reports/escape.hpp"
 #include "reports/wording.hpp"
@@ -11,12 +13,14 @@ namespace broadside::reports {
 namespace {
 
 constexpr std::string_view kAgreement = "agreement: ";
+// "agreement histogram: distance, m, from -8" -> "0 12 300 0 0 0 0 1".
+constexpr std::string_view kHistogram = "agreement histogram: ";
 
 }  // namespace
 
 bool is_equivalence_note(std::string_view key) {
   return core::equivalence_of_note(key, "").has_value() || core::defect_of_note(key, "0 of 0").has_value() ||
-         key.starts_with(kAgreement);
+         key.starts_with(kAgreement) || key.starts_with(kHistogram);
 }
 
 std::uint64_t EngineCard::differences() const {
@@ -69,6 +73,28 @@ AgreementGrid agreement_of(const SceneView& scene) {
     grid.rows.emplace_back(trace.label, std::move(texts));
   }
   return grid;
+}
+
+std::vector<std::pair<std::string, AgreementHistograms>> agreement_histograms_of(const SceneView& scene) {
+  std::vector<std::pair<std::string, AgreementHistograms>> all{{"distance", {"Distance and depth, off by", "m"}},
+                                                               {"normal", {"Normal, off by", "rad"}}};
+  for (auto& [what, histograms] : all) {
+    const std::string start = std::string(kHistogram) + what + ", " + histograms.unit + ", from ";
+    for (const TraceView& trace : scene.traces) {
+      if (trace.cell == nullptr) continue;
+      for (const auto& [key, text] : trace.cell->notes) {
+        if (!key.starts_with(start)) continue;
+        histograms.lowest_power = std::atoi(key.c_str() + start.size());
+        std::istringstream in(text);
+        std::vector<double> counts;
+        for (double count = 0.0; in >> count;) counts.push_back(count);
+        histograms.bins = std::max(histograms.bins, counts.size());
+        histograms.rows.emplace_back(trace.label, std::move(counts));
+      }
+    }
+  }
+  std::erase_if(all, [](const auto& one) { return one.second.rows.empty(); });
+  return all;
 }
 
 }  // namespace broadside::reports

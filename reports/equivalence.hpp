@@ -42,7 +42,19 @@ struct AgreementGrid {
 
 AgreementGrid agreement_of(const SceneView& scene);
 
-// Escaped HTML; empty when no cell of the scene says anything of the kind.
+// How many answers are off by how much, by powers of ten: bin 0 holds what is below 10^lowest_power, the last one what
+// is 10^(lowest_power + bins - 2) or more.
+struct AgreementHistograms {
+  std::string title;
+  std::string unit;
+  int lowest_power = 0;
+  std::size_t bins = 0;
+  std::vector<std::pair<std::string, std::vector<double>>> rows = {};  // label, counts
+};
+// "distance" and "normal"; what no cell speaks of is left out.
+std::vector<std::pair<std::string, AgreementHistograms>> agreement_histograms_of(const SceneView& scene);
+
+// Cards and defects as escaped HTML; empty when no cell of the scene says anything of the kind.
 std::string equivalence_section(const SceneView& scene);
 
 // Escaped Markdown blocks: differences alone, defects that were met, the agreement table.

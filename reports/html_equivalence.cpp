@@ -1,4 +1,4 @@
-// Equivalence cards, known defects and agreement on the page.
+// Equivalence cards and known defects on the page.
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
@@ -35,30 +35,13 @@ std::string defects_html(const std::vector<DefectRow>& rows) {
   return out + "</tbody></table>";
 }
 
-std::string agreement_html(const AgreementGrid& grid) {
-  if (grid.columns.empty()) return "";
-  std::string out =
-      "<h4>Agreement with the exact answer</h4><table class=\"cells\"><thead><tr><th scope=\"col\">engine</th>";
-  for (const std::string& column : grid.columns) out += "<th scope=\"col\">" + html(column) + "</th>";
-  out += "</tr></thead><tbody>";
-  for (const auto& [label, texts] : grid.rows) {
-    out += "<tr><th scope=\"row\">" + html(label) + "</th>";
-    for (std::size_t k = 0; k < texts.size(); ++k)
-      out += "<td data-name=\"" + html(grid.columns[k]) + "\">" +
-             (texts[k].empty() ? "<span class=\"void\">none</span>" : html(texts[k])) + "</td>";
-    out += "</tr>";
-  }
-  return out + "</tbody></table>";
-}
-
 }  // namespace
 
 std::string equivalence_section(const SceneView& scene) {
   const std::vector<EngineCard> cards = cards_of(scene);
   const std::vector<DefectRow> defects = defects_of(scene);
-  const AgreementGrid grid = agreement_of(scene);
-  if (cards.empty() && defects.empty() && grid.columns.empty()) return "";
-  std::string out = "<section><h3>Is it the same scene?</h3>" + agreement_html(grid);
+  if (cards.empty() && defects.empty()) return "";
+  std::string out = "<section><h3>Is it the same scene?</h3>";
   for (const EngineCard& card : cards) out += card_html(card);
   return out + defects_html(defects) + "</section>";
 }

@@ -34,12 +34,12 @@ std::string equivalence_part(const SceneView& scene, PageParts&) {
   return equivalence_section(scene);
 }
 
-constexpr ScenePart kSceneParts[] = {matrix_section,      times_section,    side_by_side_section,
-                                     over_frames_section, counts_section,   frame_series_section,
-                                     cells_section,       equivalence_part, facts_section};
+constexpr ScenePart kSceneParts[] = {matrix_section,   times_section,        side_by_side_section, over_frames_section,
+                                     counts_section,   frame_series_section, agreement_section,    cells_section,
+                                     equivalence_part, facts_section};
 constexpr RunPart kPartsBeforeScenes[] = {findings_section, view_section};
-constexpr RunPart kPartsAfterScenes[] = {energy_section, scaling_section, history_section, repeat_section,
-                                         legend_section};
+constexpr RunPart kPartsAfterScenes[] = {energy_section,  scaling_section, guest_sections,
+                                         history_section, repeat_section,  legend_section};
 
 std::string scene_article(const SceneView& scene, PageParts& page) {
   std::string out =
@@ -60,6 +60,7 @@ std::string contents(const PageParts& page, const std::string& body) {
   for (std::size_t k = 0; k < page.scenes.size(); ++k) add("scene-" + std::to_string(k), page.scenes[k].name);
   add("energy", "Energy");
   add("scaling", "Cost against bodies");
+  for (const GuestPart& part : page.options.guests) add(part.id, part.title);
   add("history", "Earlier runs");
   add("repeat", "How to repeat");
   add("legend", "How to read this page");
@@ -71,7 +72,20 @@ std::string data_block(std::string_view id, const std::string& json) {
   return "<script type=\"application/json\" id=\"" + std::string(id) + "\">" + json + "</script>\n";
 }
 
+std::string guest_style(const ReportOptions& options) {
+  std::string style;
+  for (const GuestPart& part : options.guests) style += part.style;
+  return style;
+}
+
 }  // namespace
+
+std::string guest_sections(PageParts& page) {
+  std::string out;
+  for (const GuestPart& part : page.options.guests)
+    out += "<section id=\"" + part.id + "\"><h2>" + html(part.title) + "</h2>" + part.body + "</section>\n";
+  return out;
+}
 
 bool has_html_page() {
   return true;
@@ -104,7 +118,7 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       html(options.title.empty() ? kDefaultTitle : options.title) + "</title>\n<style>\n" + std::string(kPageStyle) +
-      plots::plot_style() + "</style>\n</head>\n<body>\n";
+      plots::plot_style() + guest_style(options) + "</style>\n</head>\n<body>\n";
   out += "<header><p class=\"brand\"><b>Broadside</b> <span>" +
          html(options.title.empty() ? kDefaultTitle : options.title) + "</span>";
   if (!options.generated_at.empty()) out += " <time>" + html(options.generated_at) + "</time>";

@@ -28,6 +28,8 @@ using RunPart = std::string (*)(PageParts& page);
 std::string findings_section(PageParts& page);
 // The 3-D view, with a picture for paper and for browsers without WebGL.
 std::string view_section(PageParts& page);
+// Parts that were made elsewhere, such as the paper's tables.
+std::string guest_sections(PageParts& page);
 // Cost against the number of bodies, over scenes of one family.
 std::string scaling_section(PageParts& page);
 // Where each run's energy went, for runs whose ledger is there.
@@ -51,6 +53,8 @@ std::string side_by_side_section(const SceneView& scene, PageParts& page);
 std::string counts_section(const SceneView& scene, PageParts& page);
 // Figures along the steps that recording or judging left: penetration, energy.
 std::string frame_series_section(const SceneView& scene, PageParts& page);
+// How far narrow phases are from the exact answer.
+std::string agreement_section(const SceneView& scene, PageParts& page);
 // What ran and what did not, with pair counts; facts of scene, machine and build.
 std::string cells_section(const SceneView& scene, PageParts& page);
 std::string facts_section(const SceneView& scene, PageParts& page);

@@ -16,6 +16,14 @@ namespace broadside::reports {
 
 inline constexpr const char* kDefaultTitle = "Collision engines compared";
 
+// A part of the page that was made elsewhere: its text is HTML already, escaped, with ids that start with its own.
+struct GuestPart {
+  std::string id;     // "paper"
+  std::string title;  // plain text
+  std::string body;
+  std::string style;  // CSS of its own; the page's is there too
+};
+
 struct ReportOptions {
   std::string title;                // empty = kDefaultTitle
   std::string command;              // the command line that made the rows; empty = not shown
@@ -26,6 +34,7 @@ struct ReportOptions {
   std::vector<Playback> playbacks;
   std::vector<FrameSeries> series;
   std::vector<HistorySeries> history;
+  std::vector<GuestPart> guests;
 };
 
 // Built without the page (BROADSIDE_REPORT_HTML=OFF)? Then html_page is empty, and write_html an error that says so.

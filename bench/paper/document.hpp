@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -56,6 +57,10 @@ struct Document {
 
 // Self-contained; light and dark; fetches nothing.
 std::string html_text(const Document& document);
+// The same without the page around it, for another page: headings one level lower, every id behind `prefix`.
+std::string html_blocks(const Document& document, const std::string& prefix, int heading_level);
+// What these blocks need beside the report's own style.
+std::string_view block_style();
 // Pictures by file name: the SVG files lie beside it.
 std::string markdown_text(const Document& document);
 // A column of means gets a second one, NAME_std.

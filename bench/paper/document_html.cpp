@@ -8,21 +8,24 @@ namespace {
 
 using reports::html;
 
-// What this page has and the report's own style does not.
-constexpr std::string_view kOwnStyle =
+constexpr std::string_view kBlockStyle =
     ".wide{overflow-x:auto;margin:.4rem 0 1.2rem}.wide table{width:auto;min-width:60%}\n"
     ".wide th,.wide td{white-space:nowrap}\n"
-    "figure{margin:1rem 0;display:inline-block;vertical-align:top;max-width:100%}\n"
-    "figcaption{font-size:.8rem;color:var(--soft);max-width:40rem}\n"
-    "nav ul{list-style:none;padding:0;display:flex;flex-wrap:wrap;gap:.2rem 1.4rem;font-size:.875rem}\n"
-    "nav a{color:var(--accent)}\n.notes{font-size:.875rem;padding-left:1.2rem;max-width:80ch}\n"
+    "figure.drawing{margin:1rem 0;display:inline-block;vertical-align:top;max-width:100%}\n"
+    "figure.drawing figcaption{font-size:.8rem;color:var(--soft);max-width:40rem}\n"
+    ".notes{font-size:.875rem;padding-left:1.2rem;max-width:80ch;overflow-wrap:anywhere}\n"
     "@media screen and (max-width:60rem){.wide thead{position:static;width:auto;height:auto;clip-path:none}\n"
     ".wide table{display:table}.wide thead{display:table-header-group}.wide tbody{display:table-row-group}\n"
     ".wide tr{display:table-row}.wide th,.wide td{display:table-cell;padding:.3rem .5rem}\n"
     ".wide caption{display:table-caption}}\n";
 
-std::string as_html(const Heading& heading) {
-  return "<h2 id=\"" + html(heading.id) + "\">" + html(heading.text) + "</h2>\n";
+// What this page has and the report's own style does not.
+constexpr std::string_view kOwnStyle =
+    "nav ul{list-style:none;padding:0;display:flex;flex-wrap:wrap;gap:.2rem 1.4rem;font-size:.875rem}\n"
+    "nav a{color:var(--accent)}\n";
+
+std::string as_html(const Heading&) {
+  return "";  // whose level and id depend on the page
 }
 
 std::string as_html(const Paragraph& paragraph) {
@@ -37,7 +40,8 @@ std::string as_html(const Notes& notes) {
 }
 
 std::string as_html(const Table& table) {
-  std::string out = "<div class=\"wide\"><table><caption>" + html(table.caption) + "</caption><thead><tr>";
+  std::string out = "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"" + html(table.caption) +
+                    "\"><table><caption>" + html(table.caption) + "</caption><thead><tr>";
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     out +=
         std::string("<th scope=\"col\"") + (c == 0 ? "" : " class=\"figure\"") + ">" + html(table.columns[c]) + "</th>";
@@ -54,7 +58,8 @@ std::string as_html(const Table& table) {
 }
 
 std::string as_html(const Figure& figure) {
-  return "<figure>" + figure.inline_svg + "<figcaption>" + html(figure.caption) + "</figcaption></figure>\n";
+  return "<figure class=\"drawing\">" + figure.inline_svg + "<figcaption>" + html(figure.caption) +
+         "</figcaption></figure>\n";
 }
 
 std::string contents(const Document& document) {
@@ -67,6 +72,22 @@ std::string contents(const Document& document) {
 
 }  // namespace
 
+std::string_view block_style() {
+  return kBlockStyle;
+}
+
+std::string html_blocks(const Document& document, const std::string& prefix, int heading_level) {
+  const std::string level = std::to_string(heading_level);
+  std::string out;
+  for (const Block& block : document.blocks) {
+    if (const auto* heading = std::get_if<Heading>(&block))
+      out += "<h" + level + " id=\"" + html(prefix + heading->id) + "\">" + html(heading->text) + "</h" + level + ">\n";
+    else
+      out += std::visit([](const auto& b) { return as_html(b); }, block);
+  }
+  return out;
+}
+
 std::string html_text(const Document& document) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -74,12 +95,11 @@ std::string html_text(const Document& document) {
       "base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-      html(document.title) + "</title>\n<style>\n" + std::string(reports::kPageStyle) + std::string(kOwnStyle) +
-      reports::plots::plot_style() +
+      html(document.title) + "</title>\n<style>\n" + std::string(reports::kPageStyle) + std::string(kBlockStyle) +
+      std::string(kOwnStyle) + reports::plots::plot_style() +
       "</style>\n</head>\n<body>\n<header><p class=\"brand\"><b>Broadside</b></p>\n<h1>" + html(document.title) +
       "</h1>\n<p>" + html(document.lead) + "</p>\n" + contents(document) + "</header>\n<main>\n";
-  for (const Block& block : document.blocks) out += std::visit([](const auto& b) { return as_html(b); }, block);
-  return out + "</main>\n</body>\n</html>\n";
+  return out + html_blocks(document, "", 2) + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace broadside::bench::paper

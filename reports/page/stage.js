@@ -84,9 +84,10 @@ export class Stage {
     this.pair_lines = lines(0.8);
     this.contact_lines = lines(1);
     this.mark_lines = lines(1);
-    // What is inside bodies is seen through them.
+    // What is inside bodies is seen through them: drawn after them, and so among what is transparent, as they are.
     for (const object of [this.pair_lines, this.contact_lines, this.mark_lines]) {
       object.material.depthTest = false;
+      object.material.transparent = true;
       object.renderOrder = 2;
     }
     this.domain_lines = lines(0.6);

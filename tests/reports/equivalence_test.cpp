@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -29,6 +30,8 @@ core::RunRows rows_with_notes() {
   bullet["agreement: s0 deep"] = "12 agree, 3 depth off; median 2 us";
   bullet["agreement: t1 thin plate"] = "5 agree";
   rows.cells[1].notes["agreement: s0 deep"] = "15 agree";
+  bullet["agreement histogram: distance, m, from -8"] = "3 0 0 12";
+  rows.cells[1].notes["agreement histogram: distance, m, from -8"] = "15 0 0 0";
   return rows;
 }
 
@@ -70,10 +73,31 @@ TEST(Equivalence, PageMarksDifferencesAndCountsThem) {
   EXPECT_NE(section.find("differs:</strong> geometric mean"), std::string::npos);
   EXPECT_NE(section.find("7 of 20"), std::string::npos);
   EXPECT_NE(section.find("&lt;that&gt;"), std::string::npos) << "escaped";
-  EXPECT_NE(section.find("12 agree, 3 depth off"), std::string::npos);
   const std::string page = html_page(rows, {});
   EXPECT_NE(page.find(section), std::string::npos);
   EXPECT_EQ(page.find("equivalence: friction rule"), std::string::npos) << "nowhere else";
+  EXPECT_EQ(testing_markup::check_markup(page, true).problem, "");
+}
+
+// Bin 0 is below 10^-8 m; the last of four is 10^-6 m or more.
+TEST(Equivalence, AgreementIsATableAndHistogramsWithTheirTable) {
+  const core::RunRows rows = rows_with_notes();
+  const auto histograms = agreement_histograms_of(by_scene(rows).at(0));
+  ASSERT_EQ(histograms.size(), 1U) << "nothing speaks of normals";
+  EXPECT_EQ(histograms[0].second.lowest_power, -8);
+  ASSERT_EQ(histograms[0].second.rows.size(), 2U);
+  EXPECT_EQ(histograms[0].second.rows[0].second, (std::vector<double>{3, 0, 0, 12}));
+  const std::string page = html_page(rows, {});
+  EXPECT_NE(page.find("12 agree, 3 depth off"), std::string::npos);
+  const auto charts = page_charts(rows, {});
+  const auto chart = std::find_if(charts.begin(), charts.end(),
+                                  [](const Chart& c) { return c.title == "Distance and depth, off by"; });
+  ASSERT_NE(chart, charts.end());
+  EXPECT_EQ(chart->y.categories, (std::vector<std::string>{"below 1e-8", "below 1e-7", "below 1e-6", "1e-6 or more"}));
+  ASSERT_EQ(chart->series.size(), 2U);
+  EXPECT_EQ(chart->series[0].x, (std::vector<double>{20, 0, 0, 80})) << "percent of its answers";
+  EXPECT_NE(chart_table(*chart).find("below 1e-8"), std::string::npos);
+  EXPECT_EQ(page.find("3 0 0 12"), std::string::npos) << "the note itself is printed nowhere";
   EXPECT_EQ(testing_markup::check_markup(page, true).problem, "");
 }
 

@@ -293,6 +293,16 @@ TEST(JunitReport, AHostileNameStaysText) {
   }
 }
 
+TEST(HtmlPage, ShowsPartsThatWereMadeElsewhere) {
+  ReportOptions options;
+  options.guests.push_back({"paper", "The <paper>", "<h3 id=\"paper-one\">One</h3><p>text</p>", ".own{color:red}\n"});
+  const std::string page = html_page(sample_rows(), options);
+  EXPECT_NE(page.find("<section id=\"paper\"><h2>The &lt;paper&gt;</h2><h3 id=\"paper-one\">"), std::string::npos);
+  EXPECT_NE(page.find("<a href=\"#paper\">The &lt;paper&gt;</a>"), std::string::npos) << "in the contents";
+  EXPECT_LT(page.find(".own{color:red}"), page.find("</style>"));
+  EXPECT_EQ(testing_markup::check_markup(page, true).problem, "");
+}
+
 TEST(Reports, AreWrittenWholeOrNotAtAll) {
   const char* keep = std::getenv("BROADSIDE_REPORT_PREVIEW");  // a folder: leave the pages there to be looked at
   const std::filesystem::path folder =

@@ -33,6 +33,17 @@ function make_page(folder, scene) {
   return page;
 }
 
+// What has no place in a run of one scene: narrow phases beside the exact answer, and a paper's table with its figures.
+function make_other_page(folder) {
+  broadside([0, 3], "agree", "--pairs", "boxes", "--n", "400", "--out", folder);
+  const paper = path.join(folder, "paper");
+  broadside([0, 1, 3], "paper", "table5", "figure4", "memory", "--engine", "octree-cpu", "--frames", "60", "--runs", "2", "--models", "dragon",
+    "--counts", "6,12", "--stand-in", "--out", paper);
+  const page = path.join(folder, "report.html");
+  broadside([0], "report", folder, "--paper", paper, "--html", page);
+  return page;
+}
+
 function hostile_scene() {
   const name = "</script><script>window.hostile=1</script><img src=x onerror=window.hostile=2>";
   const file = path.join(work, "hostile.toml");
@@ -132,6 +143,13 @@ const tests = {
     assert.notEqual(near.content, whole.content, "the camera flew");
     assert.ok(near.red > 100, `the marked pair is red: ${near.red} pixels`);
     await page.screenshot({ path: path.join(work, "view.png") });
+    // Each layer is to be seen, also where it lies inside bodies.
+    for (const layer of ["candidate pairs", "contacts, normals"]) {
+      const toggle = () => page.evaluate((name) => [...document.querySelectorAll("#view .layers label")].find((l) => l.textContent.includes(name)).querySelector("input").click(), layer);
+      await toggle();
+      assert.notEqual((await pixels(page)).content, near.content, `${layer} were seen`);
+      await toggle();
+    }
     assert.deepEqual(troubles, []);
     await page.close();
   },
@@ -238,6 +256,26 @@ try {
     assert.ok((await page.$eval("body", (b) => b.innerText)).includes(name));
     assert.deepEqual(troubles, []);
     await page.close();
+  });
+  await run("agreement is drawn with a table beside each chart, and the paper's tables and figures are there", async () => {
+    const other = make_other_page(path.join(work, "other"));
+    for (const [scheme, width, name] of [["light", 1280, "other"], ["dark", 390, "other_narrow"]]) {
+      const { page, troubles } = await opened(other, { scheme, width });
+      await walk_down(page);
+      const charts = await page.evaluate(() => [...document.querySelectorAll("figure.chart")].map((c) => ({
+        title: c.querySelector("figcaption").textContent, drawn: c.querySelector(".drawn svg path") !== null, cells: c.querySelectorAll("details td").length })));
+      assert.deepEqual(charts.map((c) => c.title), ["Distance and depth, off by", "Normal, off by"]);
+      for (const chart of charts) assert.ok(chart.drawn && chart.cells >= 8, JSON.stringify(chart));
+      const paper = await page.evaluate(() => ({ tables: document.querySelectorAll("#paper table").length, figures: document.querySelectorAll("#paper figure svg").length,
+        link: document.querySelector("nav a[href='#paper']") !== null }));
+      assert.ok(paper.tables >= 4 && paper.figures >= 2 && paper.link, JSON.stringify(paper));
+      assert.deepEqual(await serious_faults(page), [], `${scheme}, ${width} pixels wide`);
+      const overflow = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      assert.ok(overflow <= 0, `${overflow} pixels too wide at ${width}`);
+      assert.deepEqual(troubles, []);
+      await page.screenshot({ path: path.join(work, `${name}.png`), fullPage: true });
+      await page.close();
+    }
   });
 } finally {
   await browser.close();
