@@ -16,8 +16,10 @@ core::Exit merge(const std::string& folder, const std::string& out) {
   const campaign::MergeSummary& summary = merged.value();
   fmt::print("{} cells planned, {} missing; rows:", summary.cells, summary.missing);
   for (const auto& [state, count] : summary.by_state) fmt::print(" {} {}", count, state);
+  if (summary.failed > 0) fmt::print("; {} verdicts failed", summary.failed);
   fmt::print("\n");
   for (const std::string& line : summary.notable) fmt::print("  {}\n", line);
+  if (summary.failed > 0) return core::Exit::kFailed;
   return summary.notable.empty() ? core::Exit::kGood : core::Exit::kMissing;
 }
 

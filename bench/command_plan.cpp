@@ -51,7 +51,10 @@ void add_plan(CLI::App& program, core::Exit& exit) {
   CLI::App* command = program.add_subcommand("plan", "Plan a campaign of many cells, for this machine or a cluster");
   auto file = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>("out/campaign");
-  command->add_option("CAMPAIGN", *file, "A .toml file: scenes, engines, values to vary (bench/campaign/README.md)")
+  command
+      ->add_option("CAMPAIGN", *file,
+                   "A .toml file: scenes, engines and values to vary, or experiments of the paper "
+                   "(bench/campaign/README.md)")
       ->required();
   command->add_option("--out", *out, "The campaign's folder, on a file system that every node sees")
       ->capture_default_str();

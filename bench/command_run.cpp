@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "bench/campaign/run_cells.hpp"
@@ -84,7 +85,13 @@ core::Exit run_campaign(const RunArguments& a) {
     if (!shard) return complain(shard.error());
     selection = shard.value();
   }
-  auto tally = campaign::run_cells(a.scene.spec, selection);
+  const auto tell = [](const campaign::GroupEnd& end) {
+    for (const campaign::ManifestCell& cell : end.cells)
+      fmt::print("{} {}: {} on {}{}\n", cell.id, end.word, cell.work.engine, cell.work.scene,
+                 &cell == &end.cells.back() ? fmt::format(", {:.1f} s", end.seconds) : "");
+    std::fflush(stdout);
+  };
+  auto tally = campaign::run_cells(a.scene.spec, selection, tell);
   if (!tally) return complain(tally.error());
   const campaign::Tally& t = tally.value();
   fmt::print("{} cells done, {} were there, {} busy elsewhere, {} unfinished\n", t.done, t.there, t.busy, t.unfinished);

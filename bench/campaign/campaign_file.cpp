@@ -1,6 +1,7 @@
 #include "bench/campaign/campaign_file.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <set>
 #include <utility>
@@ -75,6 +76,13 @@ std::string replaced(std::string text, const Choice& choice) {
   return text;
 }
 
+// 0 when it is no count of bodies.
+std::uint32_t count_of(const std::string& text) {
+  std::uint32_t count = 0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), count);
+  return bad == std::errc() && end == text.data() + text.size() ? count : 0;
+}
+
 struct Wanted {
   std::vector<std::string> scenes;
   std::vector<std::string> engines;
@@ -109,6 +117,31 @@ std::vector<CellWork> expanded(const Wanted& wanted) {
   return cells;
 }
 
+// The rest of a file that names experiments of the paper.
+core::Status read_paper(TableReader& table, paper::PaperRequest& request, FileErrors& errors) {
+  std::string engine;
+  table.text("engine", engine);
+  table.whole("frames", 1U, 1'000'000U, request.plan.frames);
+  table.whole("repetitions", 1U, 10'000U, request.plan.runs);
+  table.flag("stand_in", request.allow_stand_in);
+  table.positive("limit_s", request.plan.limit_s);
+  for (const auto& [key, list] : read_values(table.table("vary"), errors)) {
+    if (key == "models") request.plan.models = list;
+    if (key == "counts")
+      for (const std::string& text : list) request.plan.counts.push_back(count_of(text));
+    if (key != "models" && key != "counts")
+      errors.add(table.line(), "[vary] " + key + " is nothing that the paper varies", "vary models and counts");
+  }
+  if (std::count(request.plan.counts.begin(), request.plan.counts.end(), 0U) > 0)
+    errors.add(table.line(), "[vary] counts has an entry that is not a whole number above 0",
+               "give for example counts = [50]");
+  if (errors.first) return *errors.first;
+  auto device = paper::choose_device(engine);
+  if (!device) return device.error();
+  request.device = std::move(device).value();
+  return core::Done{};
+}
+
 }  // namespace
 
 core::Result<CampaignFile> read_campaign_file(const std::filesystem::path& file) {
@@ -119,16 +152,26 @@ core::Result<CampaignFile> read_campaign_file(const std::filesystem::path& file)
   CampaignFile campaign;
   Wanted wanted;
   table.text("name", campaign.name);
+  if (!is_name(campaign.name))
+    errors.add(table.line(), "name is not 1 to 64 letters, digits, - and _", "give for example name = \"nightly\"");
+  if (table.has("paper")) {
+    campaign.paper.emplace();
+    table.texts("paper", campaign.paper->experiments);
+    if (core::Status s = read_paper(table, *campaign.paper, errors); !s) return s.error();
+    table.finish();
+    if (errors.first) return *errors.first;
+    return campaign;
+  }
   table.texts("scenes", wanted.scenes);
   table.texts("engines", wanted.engines);
   table.whole("frames", 1U, 1'000'000'000U, wanted.each.frames);
   table.whole("repetitions", 0U, 10'000U, wanted.each.repetitions);
+  table.whole("processes", 1U, 10'000U, wanted.each.processes);
+  table.text("against", wanted.each.against);
   table.flag("stand_in", wanted.each.stand_in);
   table.positive("time_limit_s", wanted.each.time_limit_s);
   wanted.values = read_values(table.table("vary"), errors);
   table.finish();
-  if (!is_name(campaign.name))
-    errors.add(table.line(), "name is not 1 to 64 letters, digits, - and _", "give for example name = \"nightly\"");
   if (wanted.scenes.empty()) errors.add(table.line(), "there is no scene", "add scenes = [\"freefall:cube:50\"]");
   if (wanted.engines.empty()) errors.add(table.line(), "there is no engine", "add engines = [\"octree-cpu\"]");
   check_placeholders(wanted, table, errors);

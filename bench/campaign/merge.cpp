@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <system_error>
 #include <tuple>
 
 #include "bench/campaign/manifest.hpp"
+#include "bench/paper/campaign.hpp"
 #include "core/rows.hpp"
 
 namespace broadside::bench::campaign {
@@ -28,12 +30,19 @@ class Merger {
 
   core::Result<MergeSummary> merge() {
     summary_.cells = static_cast<std::uint32_t>(manifest_.cells.size());
+    std::set<std::string> taken;  // the paper shows some cells twice
     for (const ManifestCell& cell : manifest_.cells)
-      if (core::Status s = take(cell); !s) return s.error();
+      if (taken.insert(cell.id).second)
+        if (core::Status s = take(cell); !s) return s.error();
     for (const core::Cell& cell : rows_.cells) ++summary_.by_state[std::string(core::cell_state_word(cell.state))];
     if (core::Status s = core::write_cells(out_ / "cells.json", rows_.cells); !s) return s.error();
     if (core::Status s = core::write_verdicts(out_ / "verdicts.json", rows_.verdicts); !s) return s.error();
     if (core::Status s = core::write_samples(out_ / "samples.json", rows_.samples); !s) return s.error();
+    if (manifest_.paper) {
+      auto rows = paper::rows_of_campaign(manifest_, folder_);
+      if (!rows) return rows.error();
+      if (core::Status s = paper::write_paper_rows(out_ / "rows.json", rows.value()); !s) return s.error();
+    }
     return summary_;
   }
 
@@ -57,6 +66,8 @@ class Merger {
     // Engines that do not simulate bring their driver along; its rows are wanted once.
     for (core::CellVerdicts& verdicts : rows.value().verdicts) {
       if (!is_kept[fs::path(verdicts.trace_file).filename().string()]) continue;
+      for (const core::Verdict& verdict : verdicts.verdicts)
+        summary_.failed += verdict.outcome == core::Outcome::kFail ? 1U : 0U;
       verdicts.trace_file = relative(folder / fs::path(verdicts.trace_file).filename());
       rows_.verdicts.push_back(std::move(verdicts));
     }

@@ -14,6 +14,7 @@
 #include "bench/campaign/cell_lock.hpp"
 #include "bench/child.hpp"
 #include "bench/interrupt.hpp"
+#include "bench/paper/measure_group.hpp"
 #include "core/rows.hpp"
 
 namespace broadside::bench::campaign {
@@ -27,17 +28,10 @@ bool read_number(std::string_view text, std::uint32_t& out) {
   return bad == std::errc() && end == text.data() + text.size();
 }
 
-std::vector<std::string> scene_arguments(const CellWork& work) {
-  std::vector<std::string> arguments{work.scene, "--engine", work.engine};
+std::vector<std::string> command(std::string name, const CellWork& work, std::initializer_list<std::string> rest) {
+  std::vector<std::string> arguments{std::move(name), work.scene, "--engine", work.engine};
   if (work.frames > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(work.frames)});
   if (work.stand_in) arguments.emplace_back("--stand-in");
-  return arguments;
-}
-
-std::vector<std::string> command(std::string name, const CellWork& work, std::initializer_list<std::string> rest) {
-  std::vector<std::string> arguments{std::move(name)};
-  const std::vector<std::string> scene = scene_arguments(work);
-  arguments.insert(arguments.end(), scene.begin(), scene.end());
   arguments.insert(arguments.end(), rest);
   return arguments;
 }
@@ -54,6 +48,15 @@ std::vector<std::string> traces_in(const fs::path& folder) {
     if (entry.path().extension() == ".h5") names.push_back(entry.path().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+// The trace of this engine, among those of the rows; empty when there is none.
+std::string trace_of(const fs::path& folder, const std::string& engine) {
+  const auto rows = core::read_rows(folder);
+  if (engine.empty() || !rows) return "";
+  for (const core::Cell& cell : rows.value().cells)
+    if (cell.stamp.label() == engine && !cell.trace_file.empty()) return (folder / cell.trace_file).string();
+  return "";
 }
 
 // A crash or time-out of the harness's own child, written as the cell's row: it happened, and it is the result.
@@ -74,47 +77,46 @@ core::Result<ChildEnding> record_judge_time(const fs::path& part, const CellWork
   // harness that hangs too is ended from here.
   constexpr double kGrace_s = 30.0;
   const std::string limit = fmt::format("{}", work.time_limit_s);
-  auto ended = run_self(command("run", work, {"--out", part.string(), "--time-limit", limit}),
-                        {work.time_limit_s + kGrace_s}, Keeps::kOutputAndErrors);
+  std::vector<std::string> record = command("run", work, {"--out", part.string(), "--time-limit", limit});
+  if (!work.against.empty() && work.against != work.engine) record.insert(record.end(), {"--engine", work.against});
+  auto ended = run_self(record, {work.time_limit_s + kGrace_s}, Keeps::kOutputAndErrors);
   if (!ended || !is_result(ended.value())) return ended;
   std::vector<std::string> check{"check"};
   const std::vector<std::string> traces = traces_in(part);
   if (traces.empty()) return ended;
   check.insert(check.end(), traces.begin(), traces.end());
   check.insert(check.end(), {"--json", (part / "verdicts.json").string()});
+  if (const std::string baseline = trace_of(part, work.against); !baseline.empty())
+    check.insert(check.end(), {"--against", baseline});
   ended = run_self(check, {work.time_limit_s + kGrace_s}, Keeps::kOutputAndErrors);
   if (!ended || !is_result(ended.value()) || work.repetitions == 0) return ended;
-  return run_self(
-      command("time", work,
-              {"--repetitions", std::to_string(work.repetitions), "--out", (part / "samples.json").string()}),
-      {work.time_limit_s}, Keeps::kOutputAndErrors);
+  return run_self(command("time", work,
+                          {"--repetitions", std::to_string(work.repetitions), "--processes",
+                           std::to_string(work.processes), "--out", (part / "samples.json").string()}),
+                  {work.time_limit_s}, Keeps::kOutputAndErrors);
 }
 
-enum class Ending { kDone, kBusy, kUnfinished };
-
-core::Result<Ending> run_cell(const fs::path& folder, const ManifestCell& cell) {
+// Done when its folder is there; bad input, a full disk or an interrupt leave it unfinished.
+core::Status run_cell(const fs::path& folder, const ManifestCell& cell) {
   const fs::path final = cell_folder(folder, cell.id);
   const fs::path part = final.string() + ".part";
-  const auto lock = CellLock::take(final.string() + ".lock");
-  if (!lock) return Ending::kBusy;
   std::error_code failed;
-  if (fs::exists(final, failed)) return Ending::kDone;  // finished while we waited for our turn
   fs::remove_all(part, failed);
   fs::create_directories(part, failed);
   if (failed) return core::Error{"cannot write there: " + failed.message(), part.string(), "check the folder"};
   auto ended = record_judge_time(part, cell.work);
   if (!ended) return ended.error();
-  if (is_interrupted()) return Ending::kUnfinished;
+  if (is_interrupted()) return core::Done{};
   if (ended.value().exit_code >= 0 && !is_result(ended.value())) {
     // Bad input and a full disk are not this engine's doing: the cell stays missing and says why.
     fmt::print(stderr, "{} {}: {}\n", cell.id, cell.work.engine, ended.value().words);
-    return Ending::kUnfinished;
+    return core::Done{};
   }
   if (!is_result(ended.value()))
     if (core::Status s = write_ended_badly(part, cell.work, ended.value()); !s) return s.error();
   fs::rename(part, final, failed);
   if (failed) return core::Error{"cannot rename it: " + failed.message(), part.string(), "check the folder"};
-  return Ending::kDone;
+  return core::Done{};
 }
 
 }  // namespace
@@ -131,45 +133,69 @@ core::Result<Selection> Selection::of_shard(const std::string& text) {
   return selection;
 }
 
-bool Selection::includes(std::size_t place, const ManifestCell& cell) const {
-  return id.empty() ? place % shards == shard : cell.id == id;
+bool Selection::includes(std::size_t place, std::span<const ManifestCell> group) const {
+  if (id.empty()) return place % shards == shard;
+  return std::any_of(group.begin(), group.end(), [&](const ManifestCell& c) { return c.id == id; });
 }
 
-core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection) {
-  auto manifest = read_manifest(folder);
-  if (!manifest) return manifest.error();
-  if (manifest.value().build != build_line())
-    return core::Error{"it was planned by another build: " + manifest.value().build, folder.string(),
+core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection, const TellGroup& tell) {
+  auto read = read_manifest(folder);
+  if (!read) return read.error();
+  const Manifest& manifest = read.value();
+  if (manifest.build != build_line())
+    return core::Error{"it was planned by another build: " + manifest.build, folder.string(),
                        "use that program, or plan again into another folder"};
-  const std::vector<ManifestCell>& cells = manifest.value().cells;
-  const bool is_known = selection.id.empty() || std::any_of(cells.begin(), cells.end(), [&](const ManifestCell& c) {
-                          return c.id == selection.id;
-                        });
+  const bool is_known =
+      selection.id.empty() || std::any_of(manifest.cells.begin(), manifest.cells.end(),
+                                          [&](const ManifestCell& c) { return c.id == selection.id; });
   if (!is_known) return core::Error{"there is no cell " + selection.id, folder.string(), "ids stand in manifest.json"};
   std::error_code failed;
   fs::create_directories(folder / "cells", failed);
   if (failed) return core::Error{"cannot write there: " + failed.message(), folder.string(), "check the folder"};
+  std::vector<paper::PaperCell> of_paper;
+  if (manifest.paper) {
+    auto cells = paper_cells(manifest);
+    if (!cells) return cells.error();
+    of_paper = std::move(cells).value();
+  }
 
+  const auto finished = [&](std::span<const ManifestCell> cells) {
+    return static_cast<std::uint32_t>(std::count_if(cells.begin(), cells.end(), [&](const ManifestCell& c) {
+      std::error_code ignored;
+      return fs::exists(cell_folder(folder, c.id), ignored);
+    }));
+  };
   Tally tally;
-  for (std::size_t place = 0; place < cells.size() && !is_interrupted(); ++place) {
-    if (!selection.includes(place, cells[place])) continue;
-    if (fs::exists(cell_folder(folder, cells[place].id), failed)) {
-      ++tally.there;
+  const auto groups = groups_of(manifest);
+  for (std::size_t place = 0; place < groups.size() && !is_interrupted(); ++place) {
+    const std::span<const ManifestCell> group = groups[place];
+    if (!selection.includes(place, group)) continue;
+    const auto first = static_cast<std::size_t>(group.data() - manifest.cells.data());
+    const auto lock = CellLock::take(folder / "cells" / (group.front().turns + ".lock"));
+    // Counted when the lock is ours: what another process finished while we came here is there.
+    const std::uint32_t before = finished(group);
+    const auto missing = static_cast<std::uint32_t>(group.size()) - before;
+    tally.there += before;
+    if (missing == 0) continue;
+    const auto start = Clock::now();
+    if (!lock) {
+      tally.busy += missing;
+      tell({group, "busy", 0.0, first + group.size()});
       continue;
     }
-    const auto start = Clock::now();
-    auto ending = run_cell(folder, cells[place]);
-    if (!ending) return ending.error();
+    if (manifest.paper) {
+      auto rows = paper::measure_group(
+          std::span(of_paper).subspan(first, group.size()),
+          {folder, manifest.paper->plan.runs, manifest.paper->allow_stand_in, manifest.paper->keeps_traces, {}});
+      if (!rows && !is_interrupted()) return rows.error();
+    } else if (core::Status s = run_cell(folder, group.front()); !s) {
+      return s.error();
+    }
+    const std::uint32_t done = finished(group) - before;
+    tally.done += done;
+    tally.unfinished += missing - done;
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    const char* word = ending.value() == Ending::kDone   ? "done"
-                       : ending.value() == Ending::kBusy ? "busy"
-                                                         : "unfinished";
-    fmt::print("{} {}: {} on {}, {:.1f} s\n", cells[place].id, word, cells[place].work.engine, cells[place].work.scene,
-               seconds);
-    std::fflush(stdout);
-    if (ending.value() == Ending::kDone) ++tally.done;
-    if (ending.value() == Ending::kBusy) ++tally.busy;
-    if (ending.value() == Ending::kUnfinished) ++tally.unfinished;
+    tell({group, done == missing ? "done" : "unfinished", seconds, first + group.size()});
   }
   return tally;
 }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 
 #include "bench/campaign/manifest.hpp"
@@ -10,7 +12,7 @@
 
 namespace broadside::bench::campaign {
 
-// Which cells: one by id, or those whose place in the manifest is `shard` modulo `shards`.
+// Which groups of cells: that of an id, or those whose place in the manifest is `shard` modulo `shards`.
 struct Selection {
   std::string id;  // empty = by shard
   std::uint32_t shard = 0;
@@ -18,7 +20,7 @@ struct Selection {
 
   // "3/8": the third of eight.
   static core::Result<Selection> of_shard(const std::string& text);
-  [[nodiscard]] bool includes(std::size_t place, const ManifestCell& cell) const;
+  [[nodiscard]] bool includes(std::size_t place, std::span<const ManifestCell> group) const;
 };
 
 struct Tally {
@@ -28,9 +30,19 @@ struct Tally {
   std::uint32_t unfinished = 0;  // broken off: they will be done again
 };
 
+// What became of a group that was not finished before.
+struct GroupEnd {
+  std::span<const ManifestCell> cells;
+  const char* word;        // "done", "busy", "unfinished"
+  double seconds;          // that it took
+  std::size_t next_place;  // in the manifest's cells
+};
+using TellGroup = std::function<void(const GroupEnd&)>;
+
 // A cell is recorded and judged, and timed where its work says so, by this program in child processes with the cell's
 // time limit each; its folder appears whole or not at all. An engine that crashes or hangs is a result, and finishes
-// its cell; a harness that was killed or ran out of disk is not. Errors: no manifest, another build, an unknown id.
-core::Result<Tally> run_cells(const std::filesystem::path& folder, const Selection& selection);
+// its cell; a harness that was killed or ran out of disk is not. Groups of the paper's experiments are measured in this
+// process, as bench/paper/measure_group says. Errors: no manifest, another build, an unknown id.
+core::Result<Tally> run_cells(const std::filesystem::path& folder, const Selection& selection, const TellGroup& tell);
 
 }  // namespace broadside::bench::campaign

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace broadside::bench::campaign {
@@ -28,10 +29,18 @@ constexpr std::array<Needs, 4> kNeeds{{{"checked", false, false, ""},
                                        {"timed", true, false, "--exclusive"},
                                        {"timed_gpu", true, true, "--exclusive --gres=gpu:1"}}};
 
+bool is_timed(std::span<const ManifestCell> group) {
+  return std::any_of(group.begin(), group.end(), [](const ManifestCell& c) { return c.work.repetitions > 0; });
+}
+bool needs_gpu(std::span<const ManifestCell> group) {
+  return std::any_of(group.begin(), group.end(), [](const ManifestCell& c) { return c.needs_gpu; });
+}
+
+// One id does its whole group.
 std::vector<std::string> ids_of(const Manifest& manifest, const Needs& needs) {
   std::vector<std::string> ids;
-  for (const ManifestCell& cell : manifest.cells)
-    if ((cell.work.repetitions > 0) == needs.timed && cell.needs_gpu == needs.gpu) ids.push_back(cell.id);
+  for (const std::span<const ManifestCell> group : groups_of(manifest))
+    if (is_timed(group) == needs.timed && needs_gpu(group) == needs.gpu) ids.push_back(group.front().id);
   return ids;
 }
 
@@ -104,9 +113,9 @@ std::string snakemake(const Manifest& manifest, const fs::path& folder, const st
       "PROGRAM = {:?}\n"
       "CELLS = {{\n",
       manifest.name, folder.string(), program);
-  for (const ManifestCell& cell : manifest.cells)
-    text += fmt::format("    \"{}\": {{\"timed\": {}, \"gpu\": {}}},\n", cell.id,
-                        cell.work.repetitions > 0 ? "True" : "False", cell.needs_gpu ? 1 : 0);
+  for (const std::span<const ManifestCell> group : groups_of(manifest))
+    text += fmt::format("    \"{}\": {{\"timed\": {}, \"gpu\": {}}},\n", group.front().id,
+                        is_timed(group) ? "True" : "False", needs_gpu(group) ? 1 : 0);
   text +=
       "}\n\n"
       "rule all:\n"

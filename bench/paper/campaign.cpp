@@ -4,9 +4,10 @@
 
 #include <chrono>
 #include <cstdio>
-#include <iterator>
 
+#include "bench/campaign/run_cells.hpp"
 #include "bench/interrupt.hpp"
+#include "bench/paper/cell_files.hpp"
 
 namespace broadside::bench::paper {
 namespace {
@@ -31,44 +32,40 @@ std::string minutes(double seconds) {
 
 }  // namespace
 
-core::Result<std::vector<PaperRow>> run_campaign(const std::vector<PaperCell>& cells, const MeasureOptions& options) {
-  double all = 0.0;
-  for (const PaperCell& cell : cells) all += weight_of(cell);
-  double done = 0.0;
-  double taken_over = 0.0;  // weight of groups that were finished before: they say nothing about the pace
-  const auto start = Clock::now();
-  std::vector<PaperRow> rows;
-  for (std::size_t first = 0; first < cells.size();) {
-    std::size_t end = first;
-    double weight = 0.0;
-    const auto is_same_scene = [&](const PaperCell& c) {
-      const PaperCell& f = cells[first];
-      return c.scene == f.scene && c.beta == f.beta && c.delta_m == f.delta_m && c.frames == f.frames &&
-             c.every == f.every;
-    };
-    while (end < cells.size() && is_same_scene(cells[end])) weight += weight_of(cells[end++]);
+core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, const std::filesystem::path& folder) {
+  auto manifest = campaign::make_manifest({"paper", {}, request});
+  if (!manifest) return manifest.error();
+  auto cells = campaign::paper_cells(manifest.value());
+  if (!cells) return cells.error();
+  if (core::Status s = campaign::write_manifest(folder, manifest.value()); !s) return s.error();
 
-    bool was_measured = false;
-    MeasureOptions own = options;
-    own.progress = [&](double) { was_measured = true; };
-    auto group = measure_group(std::span(cells).subspan(first, end - first), own);
-    if (!group) return group.error();
-    rows.insert(rows.end(), std::make_move_iterator(group.value().begin()),
-                std::make_move_iterator(group.value().end()));
-    done += weight;
-    if (!was_measured) taken_over += weight;
-    first = end;
+  std::vector<double> weight_before{0.0};
+  for (const PaperCell& cell : cells.value()) weight_before.push_back(weight_before.back() + weight_of(cell));
+  double measured = 0.0;  // groups that were finished before say nothing about the pace
+  const auto start = Clock::now();
+  const auto tell = [&](const campaign::GroupEnd& end) {
+    const std::size_t next = end.next_place;
+    measured += weight_before[next] - weight_before[next - end.cells.size()];
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
-    const double measured = done - taken_over;
-    if (was_measured || first == cells.size())
-      fmt::print(stderr, "paper: {} of {} cells, {} so far{}\n", first, cells.size(), minutes(elapsed),
-                 first < cells.size() && measured > 0.0
-                     ? fmt::format(", about {} left", minutes(elapsed / measured * (all - done)))
-                     : "");
-    if (is_interrupted() && first < cells.size())
-      return core::Error{"interrupted: finished cells are kept", options.folder.string(),
-                         "the same command goes on from there", core::Exit::kMissing};
-  }
+    const double left = elapsed / measured * (weight_before.back() - weight_before[next]);
+    fmt::print(stderr, "paper: {} of {} cells, {} so far{}\n", next, cells.value().size(), minutes(elapsed),
+               left > 0.0 ? fmt::format(", about {} left", minutes(left)) : "");
+  };
+  auto tally = campaign::run_cells(folder, {}, tell);
+  if (!tally) return tally.error();
+  if (is_interrupted())
+    return core::Error{"interrupted: finished cells are kept", folder.string(), "the same command goes on from there",
+                       core::Exit::kMissing};
+  return rows_of_campaign(manifest.value(), folder);
+}
+
+core::Result<std::vector<PaperRow>> rows_of_campaign(const campaign::Manifest& manifest,
+                                                     const std::filesystem::path& folder) {
+  auto cells = campaign::paper_cells(manifest);
+  if (!cells) return cells.error();
+  const CellFiles files(folder);
+  std::vector<PaperRow> rows;
+  for (const PaperCell& cell : cells.value()) rows.push_back(files.row(cell));
   return rows;
 }
 

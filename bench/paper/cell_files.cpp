@@ -1,104 +1,91 @@
 #include "bench/paper/cell_files.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include <system_error>
 #include <utility>
 
 #include "bench/run_plan.hpp"
-#include "core/rows.hpp"
-#include "reports/figures.hpp"
 
 namespace broadside::bench::paper {
 namespace {
 
-// FNV-1a with a separator, so that neighboring fields cannot run together.
-class Hash {
- public:
-  void add(const std::string& text) {
-    for (const char c : text) state_ = (state_ ^ static_cast<unsigned char>(c)) * kPrime;
-    state_ = (state_ ^ 0xffU) * kPrime;
-  }
-  [[nodiscard]] std::string digits() const { return reports::hexadecimal(state_).substr(2); }
+namespace fs = std::filesystem;
 
- private:
-  static constexpr std::uint64_t kPrime = 0x100000001b3ULL;
-  std::uint64_t state_ = 0xcbf29ce484222325ULL;
-};
-
-std::string as_file_name(std::string text) {
-  for (char& c : text)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '=' && c != '-' && c != '+' && c != '.') c = '-';
-  return text.substr(0, 120);
-}
-
-std::string scene_part(const core::Stamp& stamp) {
-  Hash hash;
-  hash.add(reports::hexadecimal(stamp.scene_digest));
-  hash.add(stamp.broadside_build);
-  hash.add(stamp.machine);
-  return as_file_name(stamp.scene_name) + "+" + hash.digits();
-}
-
-}  // namespace
-
-std::string CellKey::name() const {
-  Hash hash;
-  for (const std::string& part :
-       {reports::hexadecimal(stamp.scene_digest), stamp.engine, stamp.settings, stamp.broadside_build, stamp.machine,
-        std::to_string(frames), std::to_string(every), std::to_string(runs), std::string(wants_memory ? "m" : "")})
-    hash.add(part);
-  std::string name = stamp.scene_name + "+" + stamp.engine;
-  if (!stamp.settings_short.empty()) name += "+" + stamp.settings_short;
-  std::replace(name.begin(), name.end(), ',', '+');
-  return as_file_name(std::move(name)) + "+" + hash.digits();
-}
-
-core::Status CellFiles::prepare() const {
-  for (const char* part : {"cells", "work"})
-    if (core::Status s = prepare_folder(folder_ / part); !s) return s;
-  return core::Done{};
-}
-
-std::optional<PaperRow> CellFiles::finished(const CellKey& key) const {
-  auto rows = read_paper_rows(folder_ / "cells" / (key.name() + ".json"));
+std::optional<PaperRow> row_in(const fs::path& folder) {
+  auto rows = read_paper_rows(folder / "row.json");
   if (!rows || rows.value().size() != 1) return std::nullopt;
   return std::move(rows).value().front();
 }
 
-core::Status CellFiles::finish(const CellKey& key, const PaperRow& row) const {
-  if (core::Status s = write_paper_rows(folder_ / "cells" / (key.name() + ".json"), {row}); !s) return s;
-  std::error_code ignored;
-  for (std::uint32_t r = 0; r < key.runs; ++r) std::filesystem::remove_all(run_folder(key, r), ignored);
+}  // namespace
+
+void describe(const PaperCell& cell, PaperRow& row) {
+  row.experiments = cell.experiments;
+  row.model = cell.model;
+  row.count = cell.count;
+  row.method = cell.method;
+  row.beta = cell.beta;
+  row.delta_m = cell.delta_m;
+}
+
+std::optional<PaperRow> CellFiles::finished(const std::string& id) const {
+  return row_in(done(id));
+}
+
+PaperRow CellFiles::row(const PaperCell& cell) const {
+  std::optional<PaperRow> known = finished(cell.id);
+  if (!known) known = row_in(part(cell.id));
+  PaperRow row;
+  if (known) {
+    row = *std::move(known);
+  } else {
+    std::error_code failed;
+    row.absence = fs::exists(part(cell.id), failed) ? "begun and not finished" : "not begun";
+    row.frames = cell.frames;
+    row.stamp.scene_name = cell.scene;
+    row.stamp.engine = cell.engine;
+  }
+  describe(cell, row);
+  return row;
+}
+
+core::Status CellFiles::finish(const std::string& id, const PaperRow& row, const core::RunRows& proof) const {
+  if (core::Status s = prepare_folder(part(id)); !s) return s;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(part(id), failed))
+    if (entry.is_directory()) fs::remove_all(entry.path(), failed);
+  if (core::Status s = core::write_cells(part(id) / "cells.json", proof.cells); !s) return s;
+  if (core::Status s = core::write_verdicts(part(id) / "verdicts.json", proof.verdicts); !s) return s;
+  if (core::Status s = write_paper_rows(part(id) / "row.json", {row}); !s) return s;
+  fs::remove_all(done(id), failed);  // a damaged one
+  fs::rename(part(id), done(id), failed);
+  if (failed) return core::Error{"cannot rename it: " + failed.message(), part(id).string(), "check the folder"};
   return core::Done{};
 }
 
-std::filesystem::path CellFiles::run_folder(const CellKey& key, std::uint32_t repetition) const {
-  CellKey of_run = key;  // one more run leaves the others as they are
-  of_run.runs = 0;
-  of_run.wants_memory = false;
-  return folder_ / "work" / (of_run.name() + ".run" + std::to_string(repetition));
+core::Status CellFiles::give_up(const std::string& id, const PaperRow& row) const {
+  if (core::Status s = prepare_folder(part(id)); !s) return s;
+  return write_paper_rows(part(id) / "row.json", {row});
 }
 
-std::optional<core::Sample> CellFiles::run(const CellKey& key, std::uint32_t repetition) const {
-  auto rows = core::read_rows(run_folder(key, repetition));
+fs::path CellFiles::run_folder(const std::string& id, std::uint32_t repetition) const {
+  return part(id) / ("run" + std::to_string(repetition));
+}
+
+std::optional<core::Sample> CellFiles::run(const std::string& id, std::uint32_t repetition) const {
+  auto rows = core::read_rows(run_folder(id, repetition));
   if (!rows || rows.value().samples.size() != 1) return std::nullopt;
   return std::move(rows).value().samples.front();
 }
 
-core::Status CellFiles::keep_run(const CellKey& key, const core::Sample& sample) const {
-  const std::filesystem::path folder = run_folder(key, sample.repetition);
+core::Status CellFiles::keep_run(const std::string& id, const core::Sample& sample) const {
+  const fs::path folder = run_folder(id, sample.repetition);
   if (core::Status s = prepare_folder(folder); !s) return s;
   return core::write_samples(folder / "samples.json", {sample});
 }
 
-std::filesystem::path CellFiles::work(const CellKey& key) const {
-  return folder_ / "work" /
-         (scene_part(key.stamp) + "-" + std::to_string(key.frames) + "-" + std::to_string(key.every));
-}
-
-void CellFiles::drop_work(const CellKey& key) const {
+void CellFiles::drop_work(const std::string& turns) const {
   std::error_code ignored;
-  std::filesystem::remove_all(work(key), ignored);
+  fs::remove_all(work(turns), ignored);
 }
 
 }  // namespace broadside::bench::paper

@@ -1,52 +1,48 @@
-// Where finished cells and unfinished work lie, by stamp.
+// Where finished cells and unfinished work of the paper's experiments lie in a campaign's folder.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "bench/paper/paper_plan.hpp"
 #include "bench/paper/paper_row.hpp"
 #include "core/result.hpp"
+#include "core/rows.hpp"
 #include "core/sample.hpp"
-#include "core/stamp.hpp"
 
 namespace broadside::bench::paper {
 
-// What a finished cell must have been measured with to be taken over.
-struct CellKey {
-  core::Stamp stamp;  // without engine_build, which is part of the program's build
-  std::uint64_t frames = 0;
-  std::uint32_t every = 0;
-  std::uint32_t runs = 0;  // 0 where nothing is timed
-  bool wants_memory = false;
-
-  // "randommove-bunny-300+octree-cpu+levels=A+0123456789abcdef": readable, and unique by its digits.
-  [[nodiscard]] std::string name() const;
-};
+// DIR/cells/ID is a finished cell: row.json, and cells.json and verdicts.json as every campaign has them. It appears
+// whole, by a rename. DIR/cells/ID.part holds its single runs until then, and row.json where it says why there is no
+// result. DIR/work/TURNS holds the traces of a scene until all its cells are finished.
+// What the plan says of a cell, and no measurement: which experiments show it, and under which name.
+void describe(const PaperCell& cell, PaperRow& row);
 
 class CellFiles {
  public:
   explicit CellFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Makes the folders, or says why not.
-  [[nodiscard]] core::Status prepare() const;
-
-  // A damaged file counts as absent: the cell is measured again and the file replaced.
-  [[nodiscard]] std::optional<PaperRow> finished(const CellKey& key) const;
-  [[nodiscard]] core::Status finish(const CellKey& key, const PaperRow& row) const;
+  // A damaged file counts as absent: the cell is measured again and replaced.
+  [[nodiscard]] std::optional<PaperRow> finished(const std::string& id) const;
+  // The row of a cell as its plan names it; where nothing is finished it says why.
+  [[nodiscard]] PaperRow row(const PaperCell& cell) const;
+  [[nodiscard]] core::Status finish(const std::string& id, const PaperRow& row, const core::RunRows& proof) const;
+  // Kept for row(), and tried again by the next call.
+  [[nodiscard]] core::Status give_up(const std::string& id, const PaperRow& row) const;
 
   // Runs of a cell that is not finished. A run that is missing or damaged is no run.
-  [[nodiscard]] std::optional<core::Sample> run(const CellKey& key, std::uint32_t repetition) const;
-  [[nodiscard]] core::Status keep_run(const CellKey& key, const core::Sample& sample) const;
+  [[nodiscard]] std::optional<core::Sample> run(const std::string& id, std::uint32_t repetition) const;
+  [[nodiscard]] core::Status keep_run(const std::string& id, const core::Sample& sample) const;
 
-  // Where a scene's traces, cells.json and verdicts.json lie while its cells are not finished.
-  [[nodiscard]] std::filesystem::path work(const CellKey& key) const;
-  void drop_work(const CellKey& key) const;
+  [[nodiscard]] std::filesystem::path work(const std::string& turns) const { return folder_ / "work" / turns; }
+  void drop_work(const std::string& turns) const;
 
  private:
-  [[nodiscard]] std::filesystem::path run_folder(const CellKey& key, std::uint32_t repetition) const;
+  [[nodiscard]] std::filesystem::path done(const std::string& id) const { return folder_ / "cells" / id; }
+  [[nodiscard]] std::filesystem::path part(const std::string& id) const { return folder_ / "cells" / (id + ".part"); }
+  [[nodiscard]] std::filesystem::path run_folder(const std::string& id, std::uint32_t repetition) const;
   std::filesystem::path folder_;
 };
 

@@ -34,9 +34,10 @@ core::Error interrupted() {
 struct Work {
   const PaperCell* cell = nullptr;
   CellSpec spec;
-  CellKey key;
+  std::uint32_t runs = 0;  // that are timed
   PaperRow row;
   bool is_done = false;
+  bool is_again = false;  // another experiment's name for a cell that comes before it
 };
 
 PaperRun run_of(const core::Sample& sample, std::uint64_t window_frames) {
@@ -60,7 +61,6 @@ class Group {
       : cells_(cells), options_(options), files_(options.folder) {}
 
   core::Result<std::vector<PaperRow>> measure() {
-    if (core::Status s = files_.prepare(); !s) return s.error();
     if (core::Status s = prepare(); !s) return s.error();
     if (std::any_of(works_.begin(), works_.end(), [](const Work& w) { return !w.is_done; })) {
       if (core::Status s = record(); !s) return s.error();
@@ -68,34 +68,42 @@ class Group {
       if (core::Status s = time(); !s) return s.error();
       if (core::Status s = finish(); !s) return s.error();
     }
-    if (!options_.keeps_traces)
-      for (const Work& work : works_)
-        if (work.is_done && work.row.absence.empty()) files_.drop_work(work.key);
+    if (!options_.keeps_traces) files_.drop_work(cells_.front().turns);
     std::vector<PaperRow> rows;
-    for (Work& work : works_) rows.push_back(std::move(work.row));
+    for (const Work& work : works_) rows.push_back(work.is_again ? files_.row(*work.cell) : work.row);
     return rows;
   }
 
  private:
   core::Status prepare() {
-    auto scene = make_paper_scene(cells_.front(), options_.allow_stand_in);
+    bool is_all_there = true;
     for (const PaperCell& cell : cells_) {
       Work work;
       work.cell = &cell;
+      work.runs = cell.is_timed ? options_.runs : 0;
       work.row.frames = cell.frames;
       work.row.window_frames = window_frames_of(cell.frames);
       auto spec = parse_cell_spec(cell.engine);
       if (!spec) return spec.error();
       work.spec = std::move(spec).value();
-      if (scene) {
-        if (core::Status s = identify(work, scene.value()); !s) return s;
-      } else {
-        work.row.stamp.scene_name = cell.scene;
-        work.row.stamp.engine = work.spec.row->id;
-        give_up(work, scene.error().line());
+      work.is_again = std::any_of(works_.begin(), works_.end(), [&](const Work& w) { return w.cell->id == cell.id; });
+      work.is_done = work.is_again;
+      if (auto known = files_.finished(cell.id)) {
+        work.row = *std::move(known);
+        work.is_done = true;
       }
-      describe(work);
+      is_all_there = is_all_there && work.is_done;
+      describe(cell, work.row);
       works_.push_back(std::move(work));
+    }
+    return is_all_there ? core::Status(core::Done{}) : prepare_scene();
+  }
+
+  core::Status prepare_scene() {
+    auto scene = make_paper_scene(cells_.front(), options_.allow_stand_in);
+    for (Work& work : works_) {
+      if (work.is_done) continue;
+      if (core::Status s = scene ? identify(work, scene.value()) : no_scene(work, scene.error()); !s) return s;
     }
     if (!scene) return core::Done{};
     plan_.scene = std::move(scene).value();
@@ -103,54 +111,40 @@ class Group {
     plan_.frames = cells_.front().frames;
     plan_.selection.every = cells_.front().every;
     plan_.reuse = true;
-    plan_.folder = files_.work(works_.front().key);
-    steps_ = 0;
+    plan_.folder = files_.work(cells_.front().turns);
     for (const Work& work : works_) steps_ += work.is_done ? 0 : steps_of(work);
     return core::Done{};
   }
 
-  // The stamp that the cell will have; a finished file of it is taken over.
+  core::Status no_scene(Work& work, const core::Error& error) {
+    work.row.stamp.scene_name = work.cell->scene;
+    work.row.stamp.engine = work.spec.row->id;
+    return give_up(work, error.line());
+  }
+
+  // The stamp that the cell will have.
   core::Status identify(Work& work, const core::Scene& scene) {
     auto settings = core::Settings::parse(work.spec.row->id, work.spec.row->settings, work.spec.settings);
     if (!settings) return settings.error();
     core::Engine engine;
     engine.id = work.spec.row->id;
     engine.settings = std::move(settings).value();
-    work.key = {stamp_of(scene, engine), work.cell->frames, work.cell->every, work.cell->is_timed ? options_.runs : 0,
-                work.cell->wants_memory};
-    work.row.stamp = work.key.stamp;
-    if (auto known = files_.finished(work.key)) {
-      work.row = *std::move(known);
-      work.is_done = true;
-      return core::Done{};
-    }
+    work.row.stamp = stamp_of(scene, engine);
     work.row.mesh = scene.meshes.empty() ? "" : scene.meshes[0]->source;
     work.row.is_stand_in = !scene.meshes.empty() && scene.meshes[0]->is_stand_in;
-    if (!work.cell->left_out.empty()) {
-      give_up(work, work.cell->left_out);
-      return core::Done{};
-    }
+    if (!work.cell->left_out.empty()) return give_up(work, work.cell->left_out);
     const std::string reason = work.spec.row->absent != nullptr ? work.spec.row->absent() : "";
-    if (!reason.empty()) give_up(work, "not measured: " + reason);
-    return core::Done{};
+    return reason.empty() ? core::Status(core::Done{}) : give_up(work, "not measured: " + reason);
   }
 
-  static void describe(Work& work) {
-    work.row.experiments = work.cell->experiments;
-    work.row.model = work.cell->model;
-    work.row.count = work.cell->count;
-    work.row.method = work.cell->method;
-    work.row.beta = work.cell->beta;
-    work.row.delta_m = work.cell->delta_m;
-  }
-
-  static void give_up(Work& work, const std::string& reason) {
+  core::Status give_up(Work& work, const std::string& reason) {
     work.row.absence = reason;
     work.is_done = true;
+    return files_.give_up(work.cell->id, work.row);
   }
 
   [[nodiscard]] std::uint64_t steps_of(const Work& work) const {
-    return 1 + work.key.runs + (work.key.wants_memory ? options_.runs : 0);
+    return 1 + work.runs + (work.cell->wants_memory ? options_.runs : 0);
   }
 
   void advance() {
@@ -168,15 +162,13 @@ class Group {
       alone.cells = {work.spec};
       auto outcome = run_plan(alone);
       if (is_interrupted()) return interrupted();
-      if (!outcome) {
-        give_up(work, outcome.error().line());
+      const bool is_recorded = outcome && outcome.value().cells.back().state == core::CellState::kRecorded;
+      if (!is_recorded) {
+        const std::string why = outcome ? reports::state_text(outcome.value().cells.back()) : outcome.error().line();
+        if (core::Status s = give_up(work, why); !s) return s;
         continue;
       }
       const core::Cell& cell = outcome.value().cells.back();
-      if (cell.state != core::CellState::kRecorded) {
-        give_up(work, reports::state_text(cell));
-        continue;
-      }
       if (core::Status s = note_recording(work, cell); !s) return s;
       advance();
     }
@@ -223,8 +215,8 @@ class Group {
   core::Status time() {
     for (std::uint32_t r = 0; r < options_.runs; ++r) {
       for (Work& work : works_) {
-        if (work.is_done || r >= work.key.runs) continue;
-        auto kept = files_.run(work.key, r);
+        if (work.is_done || r >= work.runs) continue;
+        auto kept = files_.run(work.cell->id, r);
         if (!kept) {
           if (core::Status s = time_once(work, r); !s) return s;
         } else {
@@ -245,21 +237,19 @@ class Group {
     if (!sample) return failed(work, sample.error());
     sample.value().repetition = repetition;
     sample.value().warm_up_frames = kWarmUpFrames;
-    if (core::Status s = files_.keep_run(work.key, sample.value()); !s) return s;
+    if (core::Status s = files_.keep_run(work.cell->id, sample.value()); !s) return s;
     proof_.samples.push_back(std::move(sample).value());
     return core::Done{};
   }
 
-  static core::Status failed(Work& work, const core::Error& error) {
-    if (is_interrupted()) return interrupted();
-    give_up(work, error.line());
-    return core::Done{};
+  core::Status failed(Work& work, const core::Error& error) {
+    return is_interrupted() ? core::Status(interrupted()) : give_up(work, error.line());
   }
 
   core::Status measure_memories() {
     for (std::uint32_t r = 0; r < options_.runs; ++r) {
       for (Work& work : works_) {
-        if (work.is_done || !work.key.wants_memory) continue;
+        if (work.is_done || !work.cell->wants_memory) continue;
         work.row.memory_kind = memory_kind(work.spec);
         auto bytes = memory_of_run(plan_, work.spec, work.row.window_frames);
         if (is_interrupted()) return interrupted();
@@ -288,10 +278,20 @@ class Group {
         work.row.refusal = timing.admission.reason;
         work.row.caveat = timing.admission.caveat;
       }
-      if (core::Status s = files_.finish(work.key, work.row); !s) return s;
+      if (core::Status s = files_.finish(work.cell->id, work.row, proof_of(work.row.stamp)); !s) return s;
       work.is_done = true;
     }
     return core::Done{};
+  }
+
+  // The rows that every campaign's cell has.
+  [[nodiscard]] core::RunRows proof_of(const core::Stamp& stamp) const {
+    core::RunRows own;
+    for (const core::Cell& cell : proof_.cells)
+      if (reports::same_stamp(cell.stamp, stamp)) own.cells.push_back(cell);
+    for (const core::CellVerdicts& verdicts : proof_.verdicts)
+      if (reports::same_stamp(verdicts.stamp, stamp)) own.verdicts.push_back(verdicts);
+    return own;
   }
 
   // Without times, what is admitted are the recorded statistics: nothing failed and something was proven.

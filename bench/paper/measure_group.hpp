@@ -15,7 +15,7 @@
 namespace broadside::bench::paper {
 
 struct MeasureOptions {
-  std::filesystem::path folder;  // cells/ and work/ are made in it
+  std::filesystem::path folder;  // a campaign's: cells/ and work/ are made in it
   std::uint32_t runs = 5;
   bool allow_stand_in = false;
   bool keeps_traces = false;
@@ -23,10 +23,10 @@ struct MeasureOptions {
   std::function<void(double)> progress;
 };
 
-// One row per cell, in order. A cell whose file of the same stamp, frames and runs is in cells/ is taken over; the
-// others are measured, and each leaves such a file, whole or not at all. A cell that this machine or program cannot run
-// is a row that says why, not an error. An interrupt is an error of exit code 3; what was recorded and timed by then is
-// in work/ and is taken up by the next call.
+// One row per cell, in order; all have one `turns`. A cell whose folder is in cells/ is taken over; the others are
+// measured, and each leaves such a folder, whole or not at all. A cell that this machine or program cannot run is a row
+// that says why, not an error, and is tried again by the next call. An interrupt is an error of exit code 3; what was
+// recorded and timed by then is taken up by the next call.
 core::Result<std::vector<PaperRow>> measure_group(std::span<const PaperCell> cells, const MeasureOptions& options);
 
 }  // namespace broadside::bench::paper

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/build_facts.hpp"
 #include "bench/commands.hpp"
 #include "bench/paper/campaign.hpp"
 #include "bench/paper/paper_plan.hpp"
@@ -20,9 +21,7 @@ namespace broadside::bench {
 namespace {
 
 struct PaperArguments {
-  std::vector<std::string> names;
-  paper::PlanOptions plan;
-  paper::MeasureOptions measure;
+  paper::PaperRequest asked;
   std::string engine;
   std::string rows;
   std::string out = "out/paper";
@@ -30,10 +29,10 @@ struct PaperArguments {
 
 std::string command_of(const PaperArguments& a) {
   std::string text = "broadside paper";
-  for (const std::string& name : a.names) text += " " + name;
-  text += fmt::format(" --frames {} --runs {}", a.plan.frames, a.measure.runs);
-  for (const std::string& model : a.plan.models) text += " --models " + model;
-  for (const std::uint32_t count : a.plan.counts) text += fmt::format(" --counts {}", count);
+  for (const std::string& name : a.asked.experiments) text += " " + name;
+  text += fmt::format(" --frames {} --runs {}", a.asked.plan.frames, a.asked.plan.runs);
+  for (const std::string& model : a.asked.plan.models) text += " --models " + model;
+  for (const std::uint32_t count : a.asked.plan.counts) text += fmt::format(" --counts {}", count);
   if (!a.engine.empty()) text += " --engine " + a.engine;
   return text;
 }
@@ -42,7 +41,7 @@ bool asks_for(const PaperArguments& a, const std::string& name) {
   const auto rows = paper::experiments();
   const bool is_of_paper =
       std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.id == name && row.is_of_paper; });
-  return std::any_of(a.names.begin(), a.names.end(),
+  return std::any_of(a.asked.experiments.begin(), a.asked.experiments.end(),
                      [&](const std::string& n) { return n == name || (n == "all" && is_of_paper); });
 }
 
@@ -63,11 +62,15 @@ core::Result<std::vector<paper::PaperRow>> rows_of(const PaperArguments& a, std:
   }
   auto device = paper::choose_device(a.engine);
   if (!device) return device.error();
-  auto cells = paper::plan_cells(a.names, a.plan, device.value());
-  if (!cells) return cells.error();
   device_words = device.value().words;
-  if (!cells.value().empty()) fmt::print("{}\n", device_words);
-  return paper::run_campaign(cells.value(), a.measure);
+  paper::PaperRequest request = a.asked;
+  request.device = std::move(device).value();
+  request.machine = machine_line();
+  auto cells = paper::plan_cells(request.experiments, request.plan, request.device);
+  if (!cells) return cells.error();
+  if (cells.value().empty()) return std::vector<paper::PaperRow>{};
+  fmt::print("{}\n", device_words);
+  return paper::run_campaign(request, a.out);
 }
 
 // 1 a validator failed; 3 a cell is absent or its time does not count; else 0.
@@ -80,18 +83,16 @@ core::Exit exit_of(const std::vector<paper::PaperRow>& rows) {
   return exit;
 }
 
-core::Exit run_paper(PaperArguments a) {
+core::Exit run_paper(const PaperArguments& a) {
   const std::filesystem::path folder = a.out;
-  a.measure.folder = folder;
-  a.plan.runs = a.measure.runs;
   if (core::Status s = prepare_folder(folder); !s) return complain(s.error());
   paper::PaperText text;
   auto rows = rows_of(a, text.device);
   if (!rows) return complain(rows.error());
   text.command = command_of(a);
   text.shows_models = asks_for(a, "figureA1");
-  text.models = a.plan.models;
-  text.allow_stand_in = a.measure.allow_stand_in;
+  text.models = a.asked.plan.models;
+  text.allow_stand_in = a.asked.allow_stand_in;
   const paper::Document document = paper::paper_document(rows.value(), text);
   if (core::Status s = paper::write_document(document, folder, "paper"); !s) return complain(s.error());
   const paper::Table cells = paper::cell_table(rows.value());
@@ -114,32 +115,32 @@ void add_paper(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<PaperArguments>();
   CLI::App* command = program.add_subcommand(
       "paper", "The paper's experiments: our tables and figures beside the published ones, judged and timed");
-  command->add_option("EXPERIMENT", a->names, "What to repeat; see below")->required();
-  command->add_option("--frames", a->plan.frames, "Frames of each run")
+  command->add_option("EXPERIMENT", a->asked.experiments, "What to repeat; see below")->required();
+  command->add_option("--frames", a->asked.plan.frames, "Frames of each run")
       ->check(CLI::Range(1U, 1000000U))
       ->capture_default_str();
-  command->add_option("--runs", a->measure.runs, "Timed runs of each cell, in turns with the scene's others")
+  command->add_option("--runs", a->asked.plan.runs, "Timed runs of each cell, in turns with the scene's others")
       ->check(CLI::Range(1U, 10000U))
       ->capture_default_str();
-  command->add_option("--models", a->plan.models, "Of bunny, armadillo, dragon, asian_dragon (default: all)")
+  command->add_option("--models", a->asked.plan.models, "Of bunny, armadillo, dragon, asian_dragon (default: all)")
       ->delimiter(',');
-  command->add_option("--counts", a->plan.counts, "Numbers of bodies instead of the paper's")
+  command->add_option("--counts", a->asked.plan.counts, "Numbers of bodies instead of the paper's")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   command->add_option("--engine", a->engine, "octree-gpu or octree-cpu (default: the best that runs here)");
-  command->add_option("--limit", a->plan.limit_s, "Seconds that a cell of 'beyond' may be expected to take")
+  command->add_option("--limit", a->asked.plan.limit_s, "Seconds that a cell of 'beyond' may be expected to take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_flag("--stand-in", a->measure.allow_stand_in,
+  command->add_flag("--stand-in", a->asked.allow_stand_in,
                     "Use a procedural body of the same size class where a mesh cannot be had; reports say so");
-  command->add_flag("--keep-traces", a->measure.keeps_traces, "Keep the traces of finished cells in OUT/work");
+  command->add_flag("--keep-traces", a->asked.keeps_traces, "Keep the traces of finished cells in OUT/work");
   command->add_option("--rows", a->rows, "Measure nothing: make the report from this rows.json");
   command
       ->add_option("--out", a->out, "Folder for the report, its data and finished cells; a second call goes on in it")
       ->capture_default_str();
   command->footer(
       list_of_experiments() +
-      "\nFinished cells are files in OUT/cells, keyed by scene, engine, settings, build and machine: after\n"
+      "\nFinished cells are folders in OUT/cells, keyed by scene, engine, settings, build and machine: after\n"
       "an interrupt the same command does only what is missing.");
   command->callback([a, &exit] { exit = run_paper(*a); });
 }

@@ -194,6 +194,10 @@ std::vector<std::string> paper_models() {
   return models;
 }
 
+bool takes_turns(const PaperCell& a, const PaperCell& b) {
+  return a.scene == b.scene && a.beta == b.beta && a.delta_m == b.delta_m && a.frames == b.frames && a.every == b.every;
+}
+
 core::Result<Device> choose_device(const std::string& wanted) {
   constexpr std::array<std::string_view, 2> kOctrees{"octree-gpu", "octree-cpu"};
   if (!wanted.empty() && std::find(kOctrees.begin(), kOctrees.end(), wanted) == kOctrees.end())

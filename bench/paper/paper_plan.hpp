@@ -37,7 +37,13 @@ struct PaperCell {
   bool is_timed = true;
   bool wants_memory = false;
   std::string left_out;  // why it is not even tried; empty when it is
+  // In a campaign: the cell's folder, and what it shares with the cells that are timed in turns with it.
+  std::string id;
+  std::string turns;
 };
+
+// Whether both are of one scene and recorded alike, so that their runs go in turns.
+bool takes_turns(const PaperCell& a, const PaperCell& b);
 
 struct PlanOptions {
   std::vector<std::string> models;    // empty = the paper's four

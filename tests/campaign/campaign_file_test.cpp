@@ -102,8 +102,8 @@ TEST(Manifest, IdsAreOfTheWorkAndSurviveTheFile) {
 }
 
 TEST(Manifest, AnEngineOrSettingThatIsNotThereIsFoundWhenPlanning) {
-  const auto refused = [](const std::string& scene, const std::string& engine) {
-    const auto campaign = read("name = \"a\"\nscenes = [\"" + scene + "\"]\nengines = [\"" + engine + "\"]");
+  const auto refused = [](const std::string& scene, const std::string& engine, const std::string& rest = "") {
+    const auto campaign = read("name = \"a\"\nscenes = [\"" + scene + "\"]\nengines = [\"" + engine + "\"]\n" + rest);
     const auto manifest = bench::campaign::make_manifest(campaign.value());
     return manifest.ok() ? std::string("accepted") : manifest.error().line();
   };
@@ -111,6 +111,7 @@ TEST(Manifest, AnEngineOrSettingThatIsNotThereIsFoundWhenPlanning) {
   EXPECT_NE(refused("freefall:cube:5", "octree-cup").find("octree-cup"), std::string::npos);
   EXPECT_NE(refused("freefall:cube:5", "octree-cpu[lev=A]").find("lev"), std::string::npos);
   EXPECT_NE(refused("freefal:cube:5", "octree-cpu").find("freefal"), std::string::npos);
+  EXPECT_NE(refused("freefall:cube:5", "octree-cpu", "against = \"all-pears\"").find("all-pears"), std::string::npos);
 }
 
 TEST(Manifest, ADamagedOrLaterOneIsRefused) {
@@ -123,12 +124,69 @@ TEST(Manifest, ADamagedOrLaterOneIsRefused) {
   EXPECT_NE(bench::campaign::read_manifest(folder / ".").error().line().find("no manifest"), std::string::npos);
   EXPECT_NE(refused("{").find("damaged"), std::string::npos);
   EXPECT_NE(refused(R"({"format": "other"})").find("no campaign's manifest"), std::string::npos);
-  EXPECT_NE(refused(R"({"format": "broadside-campaign", "version": 2})").find("version 2"), std::string::npos);
-  EXPECT_NE(refused(R"({"format": "broadside-campaign", "version": 1, "name": "a", "build": "b", "cells": [{"id":
-    "../../x", "scene": "s", "engine": "e", "frames": 1, "repetitions": 0, "stand_in": false, "time_limit_s": 1,
-    "needs_gpu": false}]})")
+  EXPECT_NE(refused(R"({"format": "broadside-campaign", "version": 99})").find("version 99"), std::string::npos);
+  EXPECT_NE(refused(R"({"format": "broadside-campaign", "version": 2, "name": "a", "build": "b", "cells": [{"id":
+    "../../x", "scene": "s", "engine": "e", "frames": 1, "repetitions": 0, "processes": 1, "against": "",
+    "stand_in": false, "time_limit_s": 1, "needs_gpu": false, "turns": "0000000000000001"}]})")
                 .find("no proper id"),
             std::string::npos);
+}
+
+constexpr const char* kPaper = R"(
+name = "paper"
+paper = ["table5", "figure4", "tableA1"]
+engine = "octree-cpu"
+frames = 30
+repetitions = 2
+stand_in = true
+[vary]
+models = ["dragon"]
+counts = [4]
+)";
+
+// The cells of a scene take turns, and one id stands for them; level 2 of Figure 4 is A of Table 5.
+TEST(Manifest, ThePapersExperimentsAreGroupsThatSurviveTheFile) {
+  const auto campaign = read(kPaper);
+  ASSERT_TRUE(campaign.ok()) << campaign.error().line();
+  const auto manifest = bench::campaign::make_manifest(campaign.value());
+  ASSERT_TRUE(manifest.ok()) << manifest.error().line();
+  const auto groups = bench::campaign::groups_of(manifest.value());
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].size(), 5U) << "A, B, C, level 1 and level 2 of random move";
+  EXPECT_EQ(groups[1].size(), 2U) << "hash and octree of free fall";
+  EXPECT_EQ(groups[0][0].id, groups[0][4].id);
+  std::set<std::string> ids;
+  for (const auto& cell : manifest.value().cells) ids.insert(cell.id);
+  EXPECT_EQ(ids.size(), 6U);
+  for (const auto& scheduler : bench::campaign::schedulers()) {
+    const std::string text = scheduler.text(manifest.value(), "/shared", "/opt/broadside");
+    for (const auto& cell : manifest.value().cells) {
+      const bool is_first = cell.id == groups[0][0].id || cell.id == groups[1][0].id;
+      EXPECT_EQ(text.find(cell.id) != std::string::npos, is_first) << scheduler.name;
+    }
+  }
+
+  const tests::ScratchFolder folder;
+  ASSERT_TRUE(bench::campaign::write_manifest(folder / ".", manifest.value()).ok());
+  const auto again = bench::campaign::read_manifest(folder / ".");
+  ASSERT_TRUE(again.ok()) << again.error().line();
+  const auto cells = bench::campaign::paper_cells(again.value());
+  ASSERT_TRUE(cells.ok()) << cells.error().line();
+  ASSERT_EQ(cells.value().size(), 7U);
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(cells.value()[k].id, manifest.value().cells[k].id);
+  EXPECT_EQ(cells.value()[4].method, "level 2");
+}
+
+TEST(CampaignFile, RefusesWhatThePaperDoesNotVary) {
+  const std::string start = "name = \"p\"\nengine = \"octree-cpu\"\npaper = [\"table5\"]\n";
+  EXPECT_EQ(refusal(start), "accepted");
+  EXPECT_NE(refusal(start + "scenes = [\"x\"]").find("unknown key 'scenes'"), std::string::npos);
+  EXPECT_NE(refusal(start + "[vary]\nn = [1]").find("nothing that the paper varies"), std::string::npos);
+  EXPECT_NE(refusal(start + "[vary]\ncounts = [\"many\"]").find("not a whole number"), std::string::npos);
+  const auto unknown = read("name = \"p\"\nengine = \"octree-cpu\"\npaper = [\"table55\"]\n");
+  const auto manifest = bench::campaign::make_manifest(unknown.value());
+  ASSERT_FALSE(manifest.ok());
+  EXPECT_NE(manifest.error().line().find("table5"), std::string::npos);
 }
 
 TEST(Selection, SharesAreDisjointAndWhole) {
@@ -156,10 +214,12 @@ TEST(Schedulers, EveryCellStandsInEveryFileOnce) {
 }
 
 TEST(Schedulers, TimedCellsGetWholeNodesAndGpuCellsAGpu) {
-  Manifest manifest{"m", "b", {}};
-  manifest.cells.push_back({.id = "0000000000000001", .work = {}, .needs_gpu = false});
-  manifest.cells.push_back(
-      {.id = "0000000000000002", .work = {.scene = "", .engine = "", .repetitions = 3}, .needs_gpu = true});
+  Manifest manifest{"m", "b", {}, {}};
+  manifest.cells.push_back({.id = "0000000000000001", .work = {}, .needs_gpu = false, .turns = "1"});
+  manifest.cells.push_back({.id = "0000000000000002",
+                            .work = {.scene = "", .engine = "", .repetitions = 3},
+                            .needs_gpu = true,
+                            .turns = "2"});
   const std::string text = bench::campaign::schedulers()[0].text(manifest, "/d", "/p");
   EXPECT_NE(text.find("submit checked '' \"$@\" <<'IDS'\n0000000000000001\n"), std::string::npos) << text;
   EXPECT_NE(text.find("submit timed_gpu '--exclusive --gres=gpu:1' \"$@\" <<'IDS'\n0000000000000002\n"),

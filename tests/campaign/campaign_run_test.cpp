@@ -7,8 +7,10 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <tuple>
 
 #include "bench/campaign/merge.hpp"
+#include "bench/paper/paper_row.hpp"
 #include "core/rows.hpp"
 #include "tests/command_line/program.hpp"
 
@@ -120,6 +122,62 @@ TEST(CampaignRun, TimedCellsHaveSamples) {
   ASSERT_TRUE(rows.ok());
   EXPECT_EQ(rows.value().samples.size(), 4U);
   EXPECT_EQ(rows.value().verdicts.size(), 2U);
+}
+
+// What `paper` does in one go, two processes and a merge do too: the same rows but for the times.
+TEST(CampaignRun, ThePapersExperimentsAreACampaign) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "p.toml") << "name = \"paper\"\npaper = [\"table5\", \"tableA1\"]\nengine = \"octree-cpu\"\n"
+                                      "frames = 30\nrepetitions = 2\nstand_in = true\n"
+                                      "[vary]\nmodels = [\"dragon\"]\ncounts = [4]\n";
+  const std::string d = (folder / "d").string();
+  ASSERT_EQ(run_program({"plan", (folder / "p.toml").string(), "--out", d}).exit_code, 0);
+  EXPECT_EQ(run_program({"run", d, "--shard", "1/2"}).exit_code, 0);
+  EXPECT_NE(run_program({"merge", d}).out.find("5 cells planned, 2 missing"), std::string::npos);
+  EXPECT_EQ(run_program({"run", d, "--shard", "2/2"}).exit_code, 0);
+  EXPECT_NE(run_program({"run", d, "--shard", "1/1"}).out.find("0 cells done, 5 were there"), std::string::npos);
+  EXPECT_EQ(run_program({"merge", d}).exit_code, 0);
+  const Ended alone =
+      run_program({"paper", "table5", "tableA1", "--engine", "octree-cpu", "--frames", "30", "--runs", "2", "--models",
+                   "dragon", "--counts", "4", "--stand-in", "--out", (folder / "o").string()});
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  auto merged = bench::paper::read_paper_rows(folder / "d/rows.json");
+  auto whole = bench::paper::read_paper_rows(folder / "o/rows.json");
+  ASSERT_TRUE(merged.ok() && whole.ok());
+  ASSERT_EQ(merged.value().size(), 5U);
+  ASSERT_EQ(whole.value().size(), 5U);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const auto& [a, b] = std::tie(merged.value()[k], whole.value()[k]);
+    EXPECT_EQ(a.stamp.label(), b.stamp.label());
+    EXPECT_EQ(a.experiments, b.experiments);
+    EXPECT_EQ(a.final_digest, b.final_digest);
+    EXPECT_NE(a.final_digest, 0U);
+    EXPECT_EQ(a.runs.size(), 2U);
+    EXPECT_TRUE(a.is_admitted && b.is_admitted) << a.refusal << b.refusal;
+  }
+  // Both folders are shown by the report: rows of cells and verdicts, and the paper's tables.
+  const std::string page = (folder / "page.html").string();
+  EXPECT_EQ(run_program({"report", d, "--html", page}).exit_code, 0);
+  EXPECT_NE(read_text(page).find("id=\"paper-table5\""), std::string::npos);
+  EXPECT_EQ(run_program({"report", (folder / "o").string(), "--html", page}).exit_code, 0);
+  EXPECT_NE(read_text(page).find("id=\"paper-table5\""), std::string::npos);
+}
+
+// As the nightly run has it: a baseline beside each cell, and timed processes.
+TEST(CampaignRun, CellsAreHeldAgainstABaselineAndTimedInProcesses) {
+  const ScratchFolder folder;
+  const std::string d =
+      planned(folder, R"("octree-cpu", "all-pairs")", "against = \"all-pairs\"\nrepetitions = 1\nprocesses = 2\n");
+  EXPECT_EQ(run_program({"run", d, "--shard", "1/1"}).exit_code, 0);
+  EXPECT_EQ(run_program({"merge", d}).exit_code, 0);
+  const auto rows = core::read_rows(d);
+  ASSERT_TRUE(rows.ok());
+  EXPECT_EQ(rows.value().cells.size(), 4U) << "the baseline of each scene is one row";
+  EXPECT_EQ(rows.value().samples.size(), 2U * 2U * 2U);
+  bool has_baseline = false;
+  for (const core::CellVerdicts& verdicts : rows.value().verdicts)
+    for (const core::Verdict& verdict : verdicts.verdicts) has_baseline |= !verdict.baseline.empty();
+  EXPECT_TRUE(has_baseline);
 }
 
 TEST(CampaignRun, OtherBuildsAndUnequalTwinsAreRefused) {

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/paper/cell_files.hpp"
 #include "bench/paper/measure_group.hpp"
 #include "bench/paper/memory_in_use.hpp"
 #include "bench/paper/paper_scene.hpp"
+#include "core/rows.hpp"
 #include "core/scene/shapes.hpp"
 #include "tests/datasets/temporary_folder.hpp"
 
@@ -29,12 +31,16 @@ PaperCell cube_cell(const std::string& method, const std::string& engine) {
   cell.engine = engine;
   cell.frames = 60;
   cell.every = 10;
+  cell.id = method;
+  cell.turns = "turns";
   return cell;
 }
 
-std::size_t files_in(const std::filesystem::path& folder) {
+// Folders of finished cells.
+std::size_t finished_in(const std::filesystem::path& folder) {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) count += entry.is_regular_file() ? 1U : 0U;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    count += entry.path().extension().empty() ? 1U : 0U;
   return count;
 }
 
@@ -61,7 +67,13 @@ TEST(MeasureGroup, CellsAreJudgedTimedAndKept) {
   ASSERT_EQ(first.value()[1].memory_bytes.size(), 2U);
   EXPECT_GE(first.value()[1].memory_bytes[0], 0.0);
   EXPECT_EQ(first.value()[0].final_digest, first.value()[1].final_digest) << "C and A confirm the same pairs";
-  EXPECT_EQ(files_in(folder.path() / "cells"), 2U);
+  EXPECT_EQ(finished_in(folder.path() / "cells"), 2U);
+  for (const PaperCell& cell : cells) {
+    const auto rows = core::read_rows(folder.path() / "cells" / cell.id);
+    ASSERT_TRUE(rows.ok()) << rows.error().line();
+    EXPECT_EQ(rows.value().cells.size(), 1U) << "as every campaign's cell has them";
+    EXPECT_EQ(rows.value().verdicts.size(), 1U);
+  }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "work")) << "traces and runs of finished cells are gone";
   EXPECT_EQ(steps, 3 + 5);
 
@@ -79,8 +91,7 @@ TEST(MeasureGroup, OnlyWhatIsMissingIsMeasured) {
   const std::vector<PaperCell> cells{cube_cell("B", "octree-cpu[broad=brute,levels=B]"), cube_cell("C", "octree-cpu")};
   ASSERT_TRUE(measure_group(std::span(cells).first(1), options).ok());
   // A damaged file counts as absent.
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "cells"))
-    std::ofstream(entry.path()) << "{";
+  std::ofstream(folder.path() / "cells/B/row.json") << "{";
   steps = 0;
   ASSERT_TRUE(measure_group(std::span(cells).first(1), options).ok());
   EXPECT_EQ(steps, 2);
@@ -89,12 +100,22 @@ TEST(MeasureGroup, OnlyWhatIsMissingIsMeasured) {
   ASSERT_TRUE(both.ok());
   EXPECT_EQ(steps, 2) << "recording and one run of the second cell";
   EXPECT_TRUE(both.value()[0].is_admitted && both.value()[1].is_admitted);
-  // Another number of frames is another cell.
-  std::vector<PaperCell> longer = cells;
-  for (PaperCell& cell : longer) cell.frames = 30;
-  steps = 0;
-  ASSERT_TRUE(measure_group(longer, options).ok());
-  EXPECT_EQ(steps, 4);
+}
+
+// Level 2 of Figure 4 is A of Table 5: one measurement under two names.
+TEST(MeasureGroup, ACellThatTwoExperimentsShowIsMeasuredOnce) {
+  const TemporaryFolder folder;
+  int steps = 0;
+  std::vector<PaperCell> cells(2, cube_cell("A", "octree-cpu[broad=brute,levels=A]"));
+  cells[1].method = "level 2";
+  cells[1].experiments = {"figure4"};
+  const auto rows = measure_group(cells, {folder.path(), 2, false, false, [&](double) { ++steps; }});
+  ASSERT_TRUE(rows.ok()) << rows.error().line();
+  EXPECT_EQ(steps, 1 + 2);
+  for (const PaperRow& row : rows.value()) EXPECT_EQ(row.runs.size(), 2U);
+  EXPECT_EQ(rows.value()[1].method, "level 2");
+  EXPECT_EQ(rows.value()[1].final_digest, rows.value()[0].final_digest);
+  EXPECT_TRUE(rows.value()[1].is_admitted);
 }
 
 TEST(MeasureGroup, AWrongEngineIsStruckOut) {
@@ -122,7 +143,8 @@ TEST(MeasureGroup, WhatCannotRunSaysWhy) {
   const auto none = measure_group(std::vector<PaperCell>{no_scene}, {folder.path(), 1, false, false, {}});
   ASSERT_TRUE(none.ok());
   EXPECT_NE(none.value()[0].absence.find("unheard"), std::string::npos);
-  EXPECT_EQ(files_in(folder.path() / "cells"), 0U) << "an absence is not kept: the next call may find it";
+  EXPECT_EQ(finished_in(folder.path() / "cells"), 0U) << "an absence is not kept: the next call may find it";
+  EXPECT_NE(CellFiles(folder.path()).row(no_scene).absence.find("unheard"), std::string::npos) << "and says why";
 }
 
 // A fall from rest over h takes the speed sqrt(2 g h).

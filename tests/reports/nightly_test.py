@@ -44,15 +44,16 @@ def main(program):
         assert night(tree, program) == [0, 0], "a sound engine's first night"
         assert night(tree, program) == [0, 0], "the same program again"
         results = tree / "out/nightly"
-        for name in ("report.md", "junit.xml", "benchmark.json", "history.sqlite", "last/scene-1/cells.json"):
+        for name in ("report.md", "junit.xml", "benchmark.json", "history.sqlite", "last/cells.json"):
             assert (results / name).stat().st_size > 0, name
         assert (tree / "summary").read_text(encoding="utf-8").count("## Broadside: Nightly") == 2
         # A wrong build under the same name, as a bad change would be one.
         wrong = tree / "wrong"
-        wrong.write_text('#!/bin/bash\nwords=()\nfor w in "$@"; do [[ $w == octree-cpu ]] && w="octree-cpu[variant=printed-E3]"; words+=("$w"); done\n'
-                         f'"{program}" "${{words[@]}}"\ncode=$?\n'
+        wrong.write_text('#!/bin/bash\ntonight=out/nightly/tonight\n'
+                         '[[ $1 != plan ]] || sed -i \'/^engines/s/"octree-cpu"/"octree-cpu[variant=printed-E3]"/\' "$tonight/nightly.toml"\n'
+                         f'"{program}" "$@"\ncode=$?\n'
                          # The label is what compare goes by: here the wrong engine answers to the sound one's.
-                         'for f in out/nightly/tonight/scene-1/{cells,verdicts,samples}.json; do\n'
+                         'for f in "$tonight"/{cells,verdicts,samples}.json; do\n'
                          '  [[ ! -f $f ]] || sed -i \'s/"settings_short":"variant=printed-E3"/"settings_short":""/g\' "$f"\ndone\n'
                          'exit $code\n', encoding="utf-8")
         wrong.chmod(0o755)
