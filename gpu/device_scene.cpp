@@ -5,6 +5,7 @@
 
 #include "core/method/levels.hpp"
 #include "core/scene/shapes.hpp"
+#include "core/scene/springs_of_bodies.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -60,7 +61,16 @@ core::Status DeviceScene::load(const core::Scene& scene, float hash_cell_m) {
   BROADSIDE_TRY(tree_vertices_.upload(trees.vertices, "vertices"));
   BROADSIDE_TRY(shape_of_body_.upload(table.shape_of_body, "bodies"));
   BROADSIDE_TRY(material_.upload(material, "materials"));
-  return orientation_.upload(orientation, "orientations");
+  BROADSIDE_TRY(orientation_.upload(orientation, "orientations"));
+  return load_springs(scene);
+}
+
+core::Status DeviceScene::load_springs(const core::Scene& scene) {
+  const core::SpringsOfBodies sorted = core::springs_of_bodies(scene);
+  has_springs_ = !sorted.springs.empty();
+  if (!has_springs_) return core::Done{};
+  BROADSIDE_TRY(springs_.upload(sorted.springs, "springs"));
+  return spring_begin_.upload(sorted.begin, "springs");
 }
 
 void DeviceScene::fill(FrameView& view) const {
@@ -68,6 +78,8 @@ void DeviceScene::fill(FrameView& view) const {
                  trees_.data(),  tree_nodes_.data(), tree_vertices_.data()};
   view.shape_of_body = shape_of_body_.data();
   view.material = material_.data();
+  view.springs = has_springs_ ? springs_.data() : nullptr;
+  view.spring_begin = has_springs_ ? spring_begin_.data() : nullptr;
 }
 
 std::uint64_t DeviceScene::shape_bytes() const {
@@ -76,7 +88,7 @@ std::uint64_t DeviceScene::shape_bytes() const {
 }
 
 std::uint64_t DeviceScene::body_bytes() const {
-  return shape_of_body_.bytes() + material_.bytes() + orientation_.bytes();
+  return shape_of_body_.bytes() + material_.bytes() + orientation_.bytes() + springs_.bytes() + spring_begin_.bytes();
 }
 
 }  // namespace broadside::gpu

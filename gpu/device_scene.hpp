@@ -28,6 +28,8 @@ class DeviceScene {
   [[nodiscard]] std::uint64_t body_bytes() const;
 
  private:
+  core::Status load_springs(const core::Scene& scene);
+
   DeviceBuffer<PackedBox> octree_;
   DeviceBuffer<PackedBox> level2_;
   DeviceBuffer<std::uint32_t> level2_count_;
@@ -37,6 +39,9 @@ class DeviceScene {
   DeviceBuffer<std::uint32_t> shape_of_body_;
   DeviceBuffer<core::Material> material_;
   DeviceBuffer<core::Quat> orientation_;
+  DeviceBuffer<core::Spring> springs_;
+  DeviceBuffer<std::uint32_t> spring_begin_;
+  bool has_springs_ = false;
   std::uint32_t tree_levels_ = 1;
   BoxFacts box_facts_;
 };

@@ -18,7 +18,8 @@ const std::array<core::SettingRow, 5>& octree_settings() {
       {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
       {"variant",
        "sound",
-       {"sound", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7", "printed-E8"},
+       {"sound", "printed-E1", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7",
+        "printed-E8"},
        "a printed, wrong form of the paper to run instead"},
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
   }};

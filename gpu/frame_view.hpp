@@ -11,6 +11,7 @@
 #include "core/method/proximity.hpp"
 #include "core/pair.hpp"
 #include "core/parameters.hpp"
+#include "core/scene/spring.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad_view.hpp"
 #include "gpu/packed_box.hpp"
@@ -91,6 +92,10 @@ struct FrameView {
   ShapesView shapes;
   const std::uint32_t* shape_of_body = nullptr;
   const core::Material* material = nullptr;
+  // By body, in the scene's order for each: body i has springs[spring_begin[i] .. spring_begin[i + 1]). Null: no
+  // springs.
+  const core::Spring* springs = nullptr;
+  const std::uint32_t* spring_begin = nullptr;
   StateView previous;
   StateView detected;
   StateView next;

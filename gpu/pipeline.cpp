@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "core/scene/refuse_springs.hpp"
+#include "core/scene/springs_of_bodies.hpp"
 #include "gpu/broad_buffers.hpp"
 #include "gpu/device_scene.hpp"
 #include "gpu/frame_buffers.hpp"
@@ -82,8 +82,8 @@ core::Status Pipeline::load(const core::Scene& scene) {
       return core::Error{"angular_velocity is not zero, and this pipeline's bodies translate only",
                          scene.name + ": body " + std::to_string(i), "set angular_velocity to 0 0 0"};
   }
-  BROADSIDE_TRY(core::refuse_springs(scene));
   Impl& d = *impl_;
+  BROADSIDE_TRY(core::check_spring_step(scene, d.options.variant));
   d.scene = &scene;
   d.steps = d.repeats = d.pairs_tested = d.copies_started = d.copies_finished = 0;
   const auto pairs_of = [](std::uint64_t bodies) { return bodies < 2 ? 0 : bodies * (bodies - 1) / 2; };

@@ -19,6 +19,16 @@ __device__ inline bool is_static(const FrameView& f, std::uint32_t body) {
   return !(f.previous.position[body].w > 0.0F);
 }
 
+// w F of a body: gravity, then its springs in the scene's order.
+__device__ inline core::Vec3 acceleration(const FrameView& f, std::uint64_t body, const core::Kinematics& state,
+                                          float inverse_mass) {
+  core::Vec3 sum = f.gravity_m_s2;
+  if (f.spring_begin == nullptr) return sum;
+  for (std::uint32_t k = f.spring_begin[body]; k < f.spring_begin[body + 1]; ++k)
+    sum = sum + core::spring_acceleration(f.springs[k], state, inverse_mass);
+  return sum;
+}
+
 // P(1) to P(3), P(5); and clean slates for the frame's later stages. The previous state stays as it is, so that a frame
 // whose buffers turn out too small can be repeated.
 template <typename Team>
@@ -26,7 +36,8 @@ __device__ void integrate(const Team& team, const FrameView& f) {
   for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
     const PackedVec3 x = f.previous.position[i];
     const PackedVec3 v = f.previous.velocity[i];
-    const core::Kinematics s = core::semi_implicit_euler({x.v, v.v}, x.w, f.gravity_m_s2, f.dt_s);
+    const core::Kinematics before{x.v, v.v};
+    const core::Kinematics s = core::semi_implicit_euler(before, x.w, acceleration(f, i, before, x.w), f.dt_s);
     const PackedVec3 new_x{s.x, x.w};
     const PackedVec3 new_v{s.v, v.w};
     f.detected.position[i] = f.next.position[i] = new_x;

@@ -1,22 +1,10 @@
 #include "reference/octree_cpu/bodies.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "core/scene/springs_of_bodies.hpp"
+
 namespace broadside::reference {
-namespace {
-
-void sort_springs(const core::Scene& scene, Bodies& bodies) {
-  bodies.springs = scene.springs;
-  if (bodies.springs.empty()) return;
-  std::stable_sort(bodies.springs.begin(), bodies.springs.end(),
-                   [](const core::Spring& p, const core::Spring& q) { return p.body < q.body; });
-  bodies.spring_begin.assign(scene.bodies.size() + 1, 0);
-  for (const core::Spring& s : bodies.springs) ++bodies.spring_begin[s.body + 1];
-  for (std::size_t i = 1; i < bodies.spring_begin.size(); ++i) bodies.spring_begin[i] += bodies.spring_begin[i - 1];
-}
-
-}  // namespace
 
 Bodies make_bodies(const core::Scene& scene) {
   Bodies bodies;
@@ -32,7 +20,9 @@ Bodies make_bodies(const core::Scene& scene) {
     bodies.material.push_back(body.material);
     bodies.is_static.push_back(body.inverse_mass > 0.0F ? 0 : 1);
   }
-  sort_springs(scene, bodies);
+  core::SpringsOfBodies sorted = core::springs_of_bodies(scene);
+  bodies.springs = std::move(sorted.springs);
+  bodies.spring_begin = std::move(sorted.begin);
   bodies.boxes.resize(bodies.state.size());
   bodies.detected.resize(bodies.state.size());
   return bodies;

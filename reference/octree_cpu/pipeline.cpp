@@ -4,12 +4,12 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "core/method/frame_digest.hpp"
 #include "core/method/integrate.hpp"
+#include "core/scene/springs_of_bodies.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
 #include "reference/octree_cpu/vertex_stage.hpp"
 #include "reference/scene_octree/octree_record.hpp"
@@ -60,33 +60,13 @@ core::Status Pipeline::load(const core::Scene& scene) {
   still_digest_.clear();
   for (std::uint32_t i = 0; i < bodies_.count(); ++i)
     still_digest_.push_back(core::still_body_digest(i, scene.bodies[i].orientation, scene.bodies[i].angular_velocity));
-  if (core::Status s = check_step(); !s) return s;
+  if (core::Status s = core::check_spring_step(scene, options_.variant); !s) return s;
   level_stage_.reset_counts();
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
   for (std::uint32_t i = 0; i < bodies_.count(); ++i)
     bodies_.boxes[i] = core::translated(bodies_.local_box(i), bodies_.state[i].x);
   return broad_phase_->load(bodies_.boxes, bodies_.is_static);
-}
-
-// A step above the limit would be simulated, and diverge. printed-E1 takes P(4) at its word and lets it through.
-core::Status Pipeline::check_step() const {
-  for (std::uint32_t i = 0; i < bodies_.count(); ++i) {
-    double stiffness = 0.0;
-    double damping = 0.0;
-    for (const core::Spring& s : bodies_.springs_of(i)) stiffness += s.stiffness_n_m, damping += s.damping_n_s_m;
-    const double w = bodies_.inverse_mass[i];
-    const double w0 = std::sqrt(stiffness * w);
-    const double g = damping * w;
-    if (w0 == 0.0 && g == 0.0) continue;
-    const double limit_s =
-        options_.variant == core::Variant::kE1 ? core::step_limit_printed(w0, g) : core::step_limit_sound(w0, g);
-    if (scene_->dt_s < limit_s) continue;
-    return core::Error{"dt_s is " + std::to_string(scene_->dt_s) + ", and the springs of body " + std::to_string(i) +
-                           " are stable only below " + std::to_string(limit_s) + " s",
-                       scene_->name, "take a shorter step, softer springs or less damping"};
-  }
-  return core::Done{};
 }
 
 core::Status Pipeline::step(float dt_s) {

@@ -47,7 +47,6 @@ class Pipeline final : public core::Dynamics {
 
  private:
   core::Status run_stages(float dt_s);
-  [[nodiscard]] core::Status check_step() const;
   void integrate(float dt_s);
   core::Status find_candidates();
   void confirm();

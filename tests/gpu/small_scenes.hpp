@@ -94,4 +94,11 @@ inline core::Scene thrown(std::vector<std::shared_ptr<const core::Mesh>> meshes,
   return scene;
 }
 
+// On the first bodies, one or two each; some bodies stay free.
+inline void add_springs(core::Scene& scene, std::uint32_t count) {
+  for (std::uint32_t k = 0; k < count; ++k)
+    scene.springs.push_back(
+        {k * 7 % (2 * count / 3), {0.1F * static_cast<float>(k), 1.0F, -0.5F}, 20.0F + static_cast<float>(k), 0.4F});
+}
+
 }  // namespace broadside::gpu
