@@ -51,7 +51,12 @@ core::Status FrameCopy::start(const unsigned long long* digest_sum, const FrameB
     total += aligned(bytes_[k]);
   }
   // A quarter more than asked for, so that frames that grow slowly do not allocate each time.
-  if (total > device_.capacity()) BROADSIDE_TRY(device_.reserve(total + total / 4, "a frame on its way to the host"));
+  if (total > device_.capacity()) {
+    BROADSIDE_TRY(device_.reserve(total + total / 4, "a frame on its way to the host"));
+    // What is between sections travels too.
+    BROADSIDE_TRY(device_.fill_bytes(0));
+    BROADSIDE_TRY(wait_for_device("clearing the copy of a frame"));
+  }
   BROADSIDE_TRY(host_.reserve(device_.capacity()));
 
   BROADSIDE_TRY(add(0, digest_sum, bytes_[0], work));
