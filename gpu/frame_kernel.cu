@@ -9,15 +9,17 @@ namespace {
 
 constexpr std::uint32_t kThreads = 512;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
+constexpr std::uint32_t kFewBlocksPerMultiprocessor = 1;  // few bodies get no more, so that registers suffice
 constexpr std::uint32_t kPairsThreads = 512;
 constexpr std::uint32_t kPairsBlocksPerMultiprocessor = 2;
 constexpr std::uint32_t kDigestThreads = 256;
 
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
+template <bool kIsFew>
+__global__ void __launch_bounds__(kThreads, kIsFew ? kFewBlocksPerMultiprocessor : kBlocksPerMultiprocessor)
     frame_kernel(const __grid_constant__ FrameView frame) {
   extern __shared__ __align__(16) unsigned char shared[];
   __shared__ ProximityScratch scratch;
-  run_frame(frame, scratch, shared);
+  run_frame<kIsFew>(frame, scratch, shared);
 }
 
 __global__ void __launch_bounds__(kPairsThreads, kPairsBlocksPerMultiprocessor)
@@ -75,15 +77,19 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
   for (std::uint32_t threads = kThreads; threads >= 32; threads /= 2) {
     LaunchShape shape{threads, 0, threads / 32 * bytes_per_warp, 0};
     if (shape.shared_bytes + sizeof(ProximityScratch) > block_limit.value()) continue;
-    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel), shape));
-    if (shape.blocks != 0) return shape;
+    LaunchShape few = shape;
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<false>), shape));
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<true>), few));
+    // run_frame gives few bodies one block a multiprocessor.
+    if (shape.blocks != 0 && few.blocks >= few.multiprocessors) return shape;
   }
   return core::Error{"this GPU has too little shared memory for the vertex trees' stack", "octree-gpu",
                      "use a mesh of fewer vertices", core::Exit::kMissing};
 }
 
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream) {
-  return launch(frame_kernel, frame, shape, stream);
+  const bool are_few = has_few_bodies(frame, std::uint64_t{shape.blocks} * shape.threads);
+  return launch(are_few ? frame_kernel<true> : frame_kernel<false>, frame, shape, stream);
 }
 
 core::Result<LaunchShape> pairs_launch_shape() {

@@ -31,8 +31,12 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle /*stream*/) {
   std::vector<ProximityScratch> scratch(shape.blocks);
-  on_host::run(launch_of(shape), shape.shared_bytes,
-               [&](unsigned char* shared) { run_frame(frame, scratch[blockIdx.x], shared); });
+  on_host::run(launch_of(shape), shape.shared_bytes, [&](unsigned char* shared) {
+    if (has_few_bodies(frame, std::uint64_t{shape.blocks} * shape.threads))
+      run_frame<true>(frame, scratch[blockIdx.x], shared);
+    else
+      run_frame<false>(frame, scratch[blockIdx.x], shared);
+  });
   return core::Done{};
 }
 

@@ -18,24 +18,52 @@ __device__ inline PlacedShape placed_shape(const FrameView& f, std::uint32_t bod
   return {shape, f.shapes.octree + std::uint64_t{shape} * core::kBodyOctreeNodes, f.detected.position[body].v};
 }
 
-// The 64 pairs of eight boxes of each body, two a lane: bit 8 p + q of the result for box p of A and q of B.
-__device__ inline std::uint64_t eight_by_eight(const PackedBox* a, core::Vec3 xa, const PackedBox* b, core::Vec3 xb) {
-  const core::Box box_b = core::translated(unpack(b[lane() % 8]), xb);
-  const core::Box low = core::translated(unpack(a[lane() / 8]), xa);
-  const core::Box high = core::translated(unpack(a[lane() / 8 + 4]), xa);
-  const std::uint64_t low_hits = __ballot_sync(kFullWarp, core::overlaps(low, box_b));
-  const std::uint64_t high_hits = __ballot_sync(kFullWarp, core::overlaps(high, box_b));
-  return low_hits | high_hits << 32;
+// Eight boxes of each body, as the lanes of a warp hold them: one of B, two of A.
+struct EightByEight {
+  core::Box b;
+  core::Box low;
+  core::Box high;
+
+  __device__ EightByEight(const PackedBox* of_a, core::Vec3 xa, const PackedBox* of_b, core::Vec3 xb)
+      : b(core::translated(unpack(of_b[lane() % 8]), xb)),
+        low(core::translated(unpack(of_a[lane() / 8]), xa)),
+        high(core::translated(unpack(of_a[lane() / 8 + 4]), xa)) {}
+
+  // Of their 64 pairs, two a lane: bit 8 p + q for box p of A and q of B.
+  __device__ std::uint64_t hits() const {
+    const std::uint64_t low_hits = __ballot_sync(kFullWarp, core::overlaps(low, b));
+    const std::uint64_t high_hits = __ballot_sync(kFullWarp, core::overlaps(high, b));
+    return low_hits | high_hits << 32;
+  }
+};
+
+__device__ inline EightByEight first_level(const PlacedShape& a, const PlacedShape& b) {
+  return {a.octree + core::kLevelOffset[1], a.x, b.octree + core::kLevelOffset[1], b.x};
 }
 
-// core::descent_overlaps by a warp: empty boxes overlap nothing, so they need no care.
-__device__ inline bool descends(const PlacedShape& a, const PlacedShape& b) {
-  std::uint64_t hits = eight_by_eight(a.octree + core::kLevelOffset[1], a.x, b.octree + core::kLevelOffset[1], b.x);
-  for (; hits != 0; hits &= hits - 1) {
-    const int bit = __ffsll(static_cast<long long>(hits)) - 1;
-    const int p = core::first_child(core::kLevelOffset[1] + bit / 8);
-    const int q = core::first_child(core::kLevelOffset[1] + bit % 8);
-    if (eight_by_eight(a.octree + p, a.x, b.octree + q, b.x) != 0) return true;
+// The children of boxes p of A and q of B, which `bit` = 8 p + q of the first level's hits names.
+__device__ inline EightByEight second_level(const PlacedShape& a, const PlacedShape& b, int bit) {
+  return {a.octree + core::first_child(core::kLevelOffset[1] + bit / 8), a.x,
+          b.octree + core::first_child(core::kLevelOffset[1] + bit % 8), b.x};
+}
+
+// core::descent_overlaps by a warp: empty boxes overlap nothing, so they need no care. So many of the first level's
+// hits at a time: two where what takes the time is waiting for boxes, one where warps are many and hide each other's
+// waits.
+template <unsigned kAtOnce>
+__device__ bool descends(const PlacedShape& a, const PlacedShape& b) {
+  static_assert(kAtOnce == 1 || kAtOnce == 2);
+  for (std::uint64_t hits = first_level(a, b).hits(); hits != 0;) {
+    const int one = __ffsll(static_cast<long long>(hits)) - 1;
+    hits &= hits - 1;
+    const EightByEight below_one = second_level(a, b, one);
+    std::uint64_t below = 0;
+    if constexpr (kAtOnce == 2) {
+      const int other = hits != 0 ? __ffsll(static_cast<long long>(hits)) - 1 : one;
+      hits &= hits - 1;
+      below = second_level(a, b, other).hits();
+    }
+    if ((below | below_one.hits()) != 0) return true;
   }
   return false;
 }
@@ -59,19 +87,18 @@ __device__ inline bool level2_meets(const FrameView& f, const PlacedShape& a, co
 }
 
 // core::is_confirmed by a warp, for the levels that have a first level below 0 or passed it already.
-__device__ inline bool are_levels_overlapping(const FrameView& f, std::uint32_t i, std::uint32_t j) {
-  const PlacedShape a = placed_shape(f, i);
-  const PlacedShape b = placed_shape(f, j);
+template <unsigned kAtOnce = 1>
+__device__ bool are_levels_overlapping(const FrameView& f, const PlacedShape& a, const PlacedShape& b) {
   switch (f.levels) {
     case core::Levels::kFlat:
       return true;
     case core::Levels::kLevel1:
-      return eight_by_eight(a.octree + core::kLevelOffset[1], a.x, b.octree + core::kLevelOffset[1], b.x) != 0;
+      return first_level(a, b).hits() != 0;
     case core::Levels::kA:
       return level2_meets(f, a, b);
     case core::Levels::kB:
     case core::Levels::kC:
-      return descends(a, b);
+      return descends<kAtOnce>(a, b);
   }
   return false;
 }
@@ -88,7 +115,7 @@ __device__ void confirm_pairs(const Team& team, const FrameView& f) {
     unsigned hits = 0;
     for (std::uint64_t k = first; k < last; ++k) {
       const core::Pair p = f.pairs.items[k];
-      if (are_levels_overlapping(f, p.i, p.j)) hits |= 1U << (k - first);
+      if (are_levels_overlapping(f, placed_shape(f, p.i), placed_shape(f, p.j))) hits |= 1U << (k - first);
     }
     const bool mine = ((hits >> lane()) & 1U) != 0;
     const unsigned long long place = warp_append(mine ? 1U : 0U, &f.counters->confirmed);

@@ -185,10 +185,10 @@ class BodyTurn {
 
 // All contacts in the order of their keys, without a barrier: a contact waits for the earlier ones of its own bodies
 // and for nothing else. Every thread of the team is resident and looks at its bodies in turn, so the first contact left
-// always has somebody who comes to it.
-template <typename Team, typename Live>
+// always has somebody who comes to it. kIsFew: no more bodies than threads.
+template <bool kIsFew, typename Team, typename Live>
 __device__ void resolve_in_order(const Team& team, const FrameView& f, const Live& live) {
-  if (f.body_count <= team.size()) {
+  if (kIsFew || f.body_count <= team.size()) {
     // Lonely threads where there are many warps for them; otherwise neighbors, whose words lie side by side.
     const std::uint64_t body = std::uint64_t{f.body_count} * 2 <= team.size() ? team.lonely_rank() : team.spread_rank();
     if (body < f.body_count) {

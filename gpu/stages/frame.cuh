@@ -8,6 +8,7 @@
 #include "gpu/stages/broad_stage.cuh"
 #include "gpu/stages/confirm_stage.cuh"
 #include "gpu/stages/contact_stage.cuh"
+#include "gpu/stages/few_stage.cuh"
 #include "gpu/stages/order_stage.cuh"
 #include "gpu/stages/proximity_stage.cuh"
 #include "gpu/stages/team.cuh"
@@ -31,23 +32,22 @@ __device__ void report(const Team& team, const FrameView& f, bool is_aborted) {
 }
 
 // Contacts, faces and the report: what a single block does alone when it is little.
-template <typename Team, typename Live>
+template <bool kIsFew, typename Team, typename Live>
 __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed, const Live& live) {
   collect_touching(team, f, confirmed);
   team.sync();
   const std::uint64_t count = f.counters->touching;
-  if (count > 0 && f.solver == Solver::kRacing) {
+  if (!kIsFew && count > 0 && f.solver == Solver::kRacing) {
     resolve_racing(team, f, count);
-  } else if (count > 0) {
-    if (f.solver == Solver::kColored) start_live(team, f, live);
+  } else if (!kIsFew && count > 0 && f.solver == Solver::kJacobi) {
     list_contacts(team, f, count);
-    if (f.solver == Solver::kJacobi) {
-      resolve_jacobi(team, f, count);
-    } else {
-      resolve_in_order(team, f, live);
-      team.sync();
-      finish_live(team, f, live);
-    }
+    resolve_jacobi(team, f, count);
+  } else if (count > 0) {
+    start_live(team, f, live);
+    list_contacts(team, f, count);
+    resolve_in_order<kIsFew>(team, f, live);
+    team.sync();
+    finish_live(team, f, live);
   }
   mark(team, f, 5);
   resolve_faces(team, f);
@@ -56,16 +56,20 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
   report(team, f, f.counters->faces > f.face_contacts.capacity);
 }
 
-// `shared`: what LaunchShape says, a block's own.
-__device__ inline void run_frame(const FrameView& f, ProximityScratch& scratch, unsigned char* shared) {
+// `shared`: what LaunchShape says, a block's own. kIsFew: has_few_bodies. A kernel of its own, because what is left out
+// there leaves registers and instruction cache to the rest. Always inlined: a call would take the view through memory.
+template <bool kIsFew>
+__device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& scratch, unsigned char* shared) {
   const GridTeam grid;
   mark(grid, f, 0);
   integrate(grid, f);
   grid.sync();
   mark(grid, f, 1);
 
-  const bool starts_at_level0 = f.broad.start != Start::kNone;
-  if (starts_at_level0) {
+  const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
+  if constexpr (kIsFew) {
+    find_and_confirm_few(grid, f);
+  } else if (starts_at_level0) {
     PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
     if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
       return report(grid, f, true);
@@ -78,7 +82,7 @@ __device__ inline void run_frame(const FrameView& f, ProximityScratch& scratch, 
 
   // From level 0 alone, what was found is what is confirmed.
   const bool is_confirmed_by_level0 = starts_at_level0 && f.levels == core::Levels::kFlat;
-  if (starts_at_level0 && !is_confirmed_by_level0) {
+  if (!kIsFew && starts_at_level0 && !is_confirmed_by_level0) {
     confirm_pairs(grid, f);
     grid.sync();
   }
@@ -93,7 +97,7 @@ __device__ inline void run_frame(const FrameView& f, ProximityScratch& scratch, 
   mark(grid, f, 4);
 
   if (confirmed <= kOneBlockPairs && f.body_count <= f.block_bodies) {
-    if (blockIdx.x == 0) resolve(BlockTeam{}, f, confirmed, BlockLive{reinterpret_cast<LiveBody*>(shared)});
+    if (blockIdx.x == 0) resolve<kIsFew>(BlockTeam{}, f, confirmed, BlockLive{reinterpret_cast<LiveBody*>(shared)});
     return;
   }
   // No more blocks than there is work for: fewer meet sooner. Up to half of the grid, a body a warp is work enough: a
@@ -102,7 +106,8 @@ __device__ inline void run_frame(const FrameView& f, ProximityScratch& scratch, 
   const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
   const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
   if (blockIdx.x >= blocks) return;
-  resolve(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed, GridLive{f.live});
+  resolve<kIsFew>(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed,
+                  GridLive{f.live});
 }
 
 // The broad phase alone: boxes in, pairs out.

@@ -12,6 +12,10 @@ constexpr unsigned kFullWarp = 0xFFFFFFFFU;
 // sync() waits for all threads of the grid and makes their writes visible: the kernel must be launched cooperatively.
 struct GridTeam {
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
+  // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
+  __device__ std::uint64_t spread_rank() const {
+    return (std::uint64_t{threadIdx.x / 32} * gridDim.x + blockIdx.x) * 32 + threadIdx.x % 32;
+  }
   __device__ std::uint64_t size() const { return std::uint64_t{gridDim.x} * blockDim.x; }
   __device__ void sync() const { sync_grid(); }
 };
@@ -32,7 +36,7 @@ struct PartialGridTeam {
   mutable std::uint32_t meetings = 0;
 
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
-  // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
+  // As in GridTeam.
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x) * 32 + threadIdx.x % 32;
   }

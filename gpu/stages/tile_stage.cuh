@@ -74,7 +74,7 @@ __device__ void confirm_by_brute_force(const Team& team, const FrameView& f) {
     unsigned hits = 0;
     for (std::uint32_t j = max(first, i + 1); j < last; ++j) {
       if (is_static(f, i) && is_static(f, j)) continue;
-      if (are_levels_overlapping(f, i, j)) hits |= 1U << (j - first);
+      if (are_levels_overlapping(f, placed_shape(f, i), placed_shape(f, j))) hits |= 1U << (j - first);
     }
     if (hits == 0) continue;
     const unsigned long long place = warp_append(lane() < kChunk ? (hits >> lane()) & 1U : 0U, &f.counters->confirmed);

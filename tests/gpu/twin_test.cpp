@@ -1,6 +1,7 @@
 // The law of the GPU pipeline: at every frame its digest is octree-cpu's, bit for bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -116,6 +117,22 @@ TEST_F(Twin, StaticBodies) {
   EXPECT_GT(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"solver", "jacobi"}}, 300), 0U);
   shape.static_every = 1;
   EXPECT_EQ(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"broad", "brute"}}, 3), 0U);
+}
+
+TEST_F(Twin, Springs) {
+  core::Scene scene = spheres(60, 4.0F);
+  add_springs(scene, 45);
+  EXPECT_GT(compare(scene, {{"broad", "brute"}}, 300), 0U);
+}
+
+// Around the numbers of bodies where the start changes its shape: of warps, of a ring's half, of 32.
+TEST_F(Twin, FewBodiesOfEveryNumber) {
+  for (const std::uint32_t bodies : {2U, 3U, 31U, 32U, 64U, 65U, 91U, 92U, 129U, 364U, 365U, 511U, 512U, 513U}) {
+    SCOPED_TRACE(bodies);
+    const core::Scene scene = spheres(bodies, 0.8F * std::cbrt(static_cast<float>(bodies)));
+    for (const std::string levels : {"flat", "A", "C"})
+      compare(scene, {{"levels", levels}}, {{"broad", "brute"}, {"levels", levels}}, 20);
+  }
 }
 
 // 80 bodies at one point are 3160 contacts of one clique: as many waits of each for each as there can be.

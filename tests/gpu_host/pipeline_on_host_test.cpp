@@ -2,6 +2,7 @@
 // octree-cpu's, bit for bit. Where there is a GPU, tests/gpu runs larger scenes on it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -74,6 +75,44 @@ TEST(PipelineOnHost, StaticBodiesAndTheJacobiSolver) {
   EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {}, 12), 0U);
   options.solver = Solver::kJacobi;
   EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {{"solver", "jacobi"}}, 12), 0U);
+}
+
+// Springs act on some bodies, several on one; a step that is too long for one of them is refused, as by the twin.
+TEST(PipelineOnHost, Springs) {
+  core::Scene scene = spheres(40, 2.5F);
+  add_springs(scene, 30);
+  EXPECT_GT(compare(scene, {}, {}, 12), 0U);
+  core::Scene without = scene;
+  without.springs.clear();
+  Pipeline pulled(PipelineOptions{});
+  Pipeline free(PipelineOptions{});
+  ASSERT_TRUE(pulled.load(scene).ok());
+  ASSERT_TRUE(free.load(without).ok());
+  ASSERT_TRUE(pulled.step(scene.dt_s).ok());
+  ASSERT_TRUE(free.step(scene.dt_s).ok());
+  core::FrameRecord a;
+  core::FrameRecord b;
+  ASSERT_TRUE(pulled.read_back(a, core::RecordLevel::kDigest).ok());
+  ASSERT_TRUE(free.read_back(b, core::RecordLevel::kDigest).ok());
+  EXPECT_NE(a.digest, b.digest);
+
+  scene.springs.push_back({3, {}, 1e6F, 0.0F});
+  const core::Status refused = Pipeline(PipelineOptions{}).load(scene);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().line(), twin_of({})->load(scene).error().line());
+}
+
+// From two bodies on a ring to more than there are warps for, and to where the tiles begin.
+TEST(PipelineOnHost, FewBodiesOfEveryNumber) {
+  for (const std::uint32_t bodies : {1U, 2U, 3U, 33U, 64U, 128U, 129U}) {
+    SCOPED_TRACE(bodies);
+    const core::Scene scene = spheres(bodies, 0.55F * std::cbrt(static_cast<float>(bodies)), 7);
+    for (const std::string name : {"flat", "C"}) {
+      PipelineOptions options;
+      options.levels = *core::levels_named(name);
+      compare(scene, options, {{"levels", name}}, 2);
+    }
+  }
 }
 
 // A frame that is copied while the next one is computed is the frame that it was; two may be under way, a third may
