@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "tests/command_line/program.hpp"
 
@@ -44,6 +46,31 @@ TEST(PluginRun, TheExampleIsRecordedAndJudged) {
   EXPECT_EQ(both.run.exit_code, 0) << both.run.err;
   EXPECT_EQ(both.check.exit_code, 0) << both.check.out;
   EXPECT_EQ(verdict_of("candidate-set", both.check.out), "pass") << both.check.out;
+}
+
+// The four commands of the walk-through as they stand there, with the example and a small scene: the page proves the
+// times.
+TEST(PluginRun, TheWalkThroughEndsInAProvenReport) {
+  const ScratchFolder folder;
+  const std::string text = read_text(std::string(BROADSIDE_SOURCE_DIR) + "/core/plugin/README.md");
+  const std::string head = "## Twenty minutes: the report\n\n";
+  const std::size_t at = text.find(head);
+  ASSERT_NE(at, std::string::npos);
+  std::istringstream lines(text.substr(at + head.size()));
+  std::string script = "set -e\ncd '" + folder.text() + "'\nbroadside() { \"$BROADSIDE_PROGRAM\" \"$@\"; }\n";
+  int commands = 0;
+  for (std::string line; std::getline(lines, line) && line.starts_with("    broadside "); ++commands) {
+    for (const auto& [from, to] : {std::pair<std::string, std::string>{"./libmine.so", kFolder + "/libsweep.so"},
+                                   {"freefall:bunny:50", "freefall:cube:20 --frames 60"}})
+      if (const std::size_t place = line.find(from); place != std::string::npos) line.replace(place, from.size(), to);
+    script += line + "\n";
+  }
+  ASSERT_EQ(commands, 4);
+  std::ofstream(folder / "walk.sh") << script;
+  ASSERT_EQ(std::system(("bash '" + (folder / "walk.sh").string() + "' >/dev/null 2>&1").c_str()), 0) << script;
+  const std::string page = read_text(folder / "out/mine/report.html");
+  EXPECT_NE(page.find("verdicts passed"), std::string::npos);
+  EXPECT_NE(page.find("<b>2</b> times admitted"), std::string::npos) << "of the example and of Bullet";
 }
 
 TEST(PluginRun, ADroppedAndADoubledPairFailTheCandidateSet) {
