@@ -266,6 +266,8 @@ try {
         title: c.querySelector("figcaption").textContent, drawn: c.querySelector(".drawn svg path") !== null, cells: c.querySelectorAll("details td").length })));
       assert.deepEqual(charts.map((c) => c.title), ["Distance and depth, off by", "Normal, off by"]);
       for (const chart of charts) assert.ok(chart.drawn && chart.cells >= 8, JSON.stringify(chart));
+      const name_width = await page.$eval("figure.chart details", (d) => { d.open = true; return d.querySelector("tbody th").getBoundingClientRect().width; });
+      assert.ok(name_width > 60, `names of rows stand in ${name_width} pixels`);
       const paper = await page.evaluate(() => ({ tables: document.querySelectorAll("#paper table").length, figures: document.querySelectorAll("#paper figure svg").length,
         link: document.querySelector("nav a[href='#paper']") !== null }));
       assert.ok(paper.tables >= 4 && paper.figures >= 2 && paper.link, JSON.stringify(paper));
