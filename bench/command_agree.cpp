@@ -13,6 +13,7 @@
 #include "bench/agree_report.hpp"
 #include "bench/build_facts.hpp"
 #include "bench/commands.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/progress.hpp"
 #include "bench/run_plan.hpp"
 #include "core/pair.hpp"
@@ -207,7 +208,7 @@ void add_agree(CLI::App& program, core::Exit& exit) {
   command->add_option("--seed", a->seed, "Of the pairs")->capture_default_str();
   command->add_option("--out", a->folder, "Folder for rows, tables and saved inputs")->capture_default_str();
   command->add_option("--time-limit", a->limits.seconds_per_query, "Seconds after which one query is ended")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--memory-limit", a->limits.memory_mib, "MiB that an engine's process may take; 0 = no limit")
       ->capture_default_str();

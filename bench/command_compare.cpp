@@ -9,6 +9,7 @@
 
 #include "bench/commands.hpp"
 #include "bench/interleave.hpp"
+#include "bench/more_than_zero.hpp"
 #include "core/rows.hpp"
 #include "reports/comparison.hpp"
 
@@ -94,10 +95,10 @@ void add_compare(CLI::App& program, core::Exit& exit) {
       ->check(CLI::Range(6, 100'000))
       ->capture_default_str();
   command->add_option("--repetitions", a->plan.repetitions, "With --interleave: timed runs of each process")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--frames", a->plan.frames, "With --interleave: frames (default: each scene's own)")
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_zero, "POSITIVE");
   command->add_flag("--stand-in", a->plan.allow_stand_in, "With --interleave: as in run");
   command->add_option("--out", a->folder, "With --interleave: folder for both builds' rows and traces")
       ->capture_default_str();

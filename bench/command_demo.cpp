@@ -6,6 +6,7 @@
 
 #include "bench/commands.hpp"
 #include "bench/main_job.hpp"
+#include "bench/more_than_zero.hpp"
 #include "reports/report.hpp"
 #include "reports/terminal_table.hpp"
 
@@ -32,9 +33,9 @@ void add_demo(CLI::App& program, core::Exit& exit) {
   command->add_option("--out", *folder, "Folder for traces and reports")->capture_default_str();
   command->add_option("--scene", job->scene.spec, "Another scene")->capture_default_str();
   command->add_option("--frames", job->scene.frames, "Frames to simulate (default: the scene's own)")
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_zero, "POSITIVE");
   command->add_option("--repetitions", job->repetitions, "Timed runs of each engine")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->callback([job, folder, &exit] {
     job->folder = *folder;

@@ -7,6 +7,7 @@
 #include "bench/box_race.hpp"
 #include "bench/commands.hpp"
 #include "bench/limit_arguments.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/scene_arguments.hpp"
 
 namespace broadside::bench {
@@ -79,7 +80,8 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
           "boxes:uniform:N and the like (broadside list scenes), a raw .boxes file, an .h5 box stream, or a trace")
       ->required();
   a->engines.add_to(*command);
-  command->add_option("--frames", a->frames, "Frames of a moving stream (default: all)")->check(CLI::PositiveNumber);
+  command->add_option("--frames", a->frames, "Frames of a moving stream (default: all)")
+      ->check(more_than_zero, "POSITIVE");
   command->add_flag("--digest", a->only_digest, "Print only digest and engine");
   command->add_flag("--json", a->as_json, "As JSON");
   add_limits(*command, a->limits);

@@ -7,6 +7,7 @@
 #include "bench/campaign/run_cells.hpp"
 #include "bench/commands.hpp"
 #include "bench/limit_arguments.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/record.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
@@ -143,7 +144,7 @@ void add_run(CLI::App& program, core::Exit& exit) {
       ->check(CLI::IsMember({"full", "digest", "none"}))
       ->capture_default_str();
   command->add_option("--every", a->every, "Record every k-th frame")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option(
       "--window", a->windows,

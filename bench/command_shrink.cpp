@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/commands.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/scene_arguments.hpp"
 #include "bench/shrink/case_text.hpp"
 #include "bench/shrink/shrink_boxes.hpp"
@@ -172,7 +173,7 @@ void add_shrink(CLI::App& program, core::Exit& exit) {
   command->add_option("--out", a->out, "Writes OUT.toml with its meshes and OUT_test.cpp, or OUT.boxes")
       ->capture_default_str();
   command->add_option("--time-limit", a->time_limit_s, "Seconds after which the best so far is taken")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->footer(
       "SCENE may also be a trace (.h5) or boxes (boxes:uniform:N, FILE.boxes). Exit codes: 0 a case was written;\n"

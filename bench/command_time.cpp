@@ -11,6 +11,7 @@
 #include "bench/engines.hpp"
 #include "bench/interleave.hpp"
 #include "bench/limit_arguments.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
 #include "bench/timing.hpp"
@@ -98,13 +99,13 @@ void add_time(CLI::App& program, core::Exit& exit) {
   a->scene.add_to(*command);
   a->engines.add_to(*command);
   command->add_option("--repetitions", a->repetitions, "Runs of each engine, alternating")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command
       ->add_option(
           "--processes", a->processes,
           "Processes, each with its own repetitions: what compare needs to tell a change from chance (10 are good)")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--narrow-every", a->narrow_every,
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");

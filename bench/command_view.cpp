@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/commands.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/step_selection.hpp"
 #include "core/trace/view_file.hpp"
 
@@ -77,7 +78,7 @@ void add_view(CLI::App& program, core::Exit& exit) {
       ->check(CLI::IsMember(names))
       ->capture_default_str();
   command->add_option("--every", a->every, "Take every k-th recorded frame")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--window", a->window, "Take only steps FIRST:LAST, such as 100:200");
   command->add_option("--out", a->out,

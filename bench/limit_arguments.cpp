@@ -2,11 +2,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/more_than_zero.hpp"
+
 namespace broadside::bench {
 
 void add_limits(CLI::App& command, ChildLimits& limits) {
   command.add_option("--time-limit", limits.seconds, "Seconds after which a reference engine's process is ended")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command
       .add_option("--memory-limit", limits.memory_mib,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/engines.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/trace_scene.hpp"
 #include "bench/transformed_spec.hpp"
 #include "core/engine/settings.hpp"
@@ -46,7 +47,8 @@ void SceneArguments::add_to(CLI::App& command) {
           "file, or a trace (.h5), whose scene is taken (broadside list scenes); "
           "@mirrored-x, @doubled, @renumbered or @grown after it: the scene transformed")
       ->required();
-  command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")->check(CLI::PositiveNumber);
+  command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")
+      ->check(more_than_zero, "POSITIVE");
   command.add_flag("--stand-in", allow_stand_in,
                    "Use a procedural body of the same size class where a mesh is not on this machine; reports say so");
 }

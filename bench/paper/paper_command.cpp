@@ -11,6 +11,7 @@
 
 #include "bench/build_facts.hpp"
 #include "bench/commands.hpp"
+#include "bench/more_than_zero.hpp"
 #include "bench/paper/campaign.hpp"
 #include "bench/paper/paper_plan.hpp"
 #include "bench/paper/sections.hpp"
@@ -126,10 +127,10 @@ void add_paper(CLI::App& program, core::Exit& exit) {
       ->delimiter(',');
   command->add_option("--counts", a->asked.plan.counts, "Numbers of bodies instead of the paper's")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_zero, "POSITIVE");
   command->add_option("--engine", a->engine, "octree-gpu or octree-cpu (default: the best that runs here)");
   command->add_option("--limit", a->asked.plan.limit_s, "Seconds that a cell of 'beyond' may be expected to take")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_flag("--stand-in", a->asked.allow_stand_in,
                     "Use a procedural body of the same size class where a mesh cannot be had; reports say so");
