@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/method/response.hpp"
 #include "reference/mutants/mutants.hpp"
 
 namespace broadside::reference {
@@ -12,10 +11,8 @@ namespace {
 using core::Contact;
 using core::ContactGeometry;
 using core::Kinematics;
-using core::Material;
 using core::Pair;
 using core::Parameters;
-using core::Variant;
 using core::Vec3;
 
 core::Box box_now(const World& w, std::uint32_t body) {
@@ -38,14 +35,6 @@ ContactGeometry along(const World& w, Pair p, const ContactGeometry& sound, int 
   const bool is_below = core::center(box_now(w, p.i))[axis] < core::center(box_now(w, p.j))[axis];
   g.normal = core::axis_vector(axis, is_below ? -1.0F : 1.0F);
   return g;
-}
-
-// The sound response with other parameters.
-template <typename Change>
-void respond_with(Contact& c, const ContactGeometry& g, float w_a, float w_b, const Material& m, Parameters p,
-                  const Change& change) {
-  change(p);
-  core::respond(c, g, w_a, w_b, m, p, Variant::kSound);
 }
 
 // The sound response, and then other positions: as far as the sound ones, times these factors.
@@ -174,32 +163,23 @@ std::span<const Mutant> table() {
        "beta is multiplied in twice",
        "contraction",
        "mixed",
-       {.respond =
-            [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b, const Material& m,
-               const Parameters& p) { respond_with(c, g, w_a, w_b, m, p, [](Parameters& q) { q.beta *= q.beta; }); }}},
+       {.respond = [](const World&, const Application& a) { a.apply_with([](Parameters& q) { q.beta *= q.beta; }); }}},
       {"forgets-alpha",
        "the smoothing is left out",
        "contraction",
        "mixed",
-       {.respond =
-            [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b, const Material& m,
-               const Parameters& p) { respond_with(c, g, w_a, w_b, m, p, [](Parameters& q) { q.alpha = 1.0F; }); }}},
+       {.respond = [](const World&, const Application& a) { a.apply_with([](Parameters& q) { q.alpha = 1.0F; }); }}},
       {"forgets-the-slop",
        "the whole depth is corrected, not that above the slop",
        "contraction",
        "mixed",
-       {.respond =
-            [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b, const Material& m,
-               const Parameters& p) { respond_with(c, g, w_a, w_b, m, p, [](Parameters& q) { q.delta_m = 0.0F; }); }}},
+       {.respond = [](const World&, const Application& a) { a.apply_with([](Parameters& q) { q.delta_m = 0.0F; }); }}},
       {"adds-the-slop",
        "the slop is added to the depth",
        "contraction",
        "mixed",
-       {.respond =
-            [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b, const Material& m,
-               const Parameters& p) {
-              respond_with(c, g, w_a, w_b, m, p, [](Parameters& q) { q.delta_m = -q.delta_m; });
-            }}},
+       {.respond = [](const World&,
+                      const Application& a) { a.apply_with([](Parameters& q) { q.delta_m = -q.delta_m; }); }}},
       {"pulls-together",
        "the correction has the wrong sign",
        "contraction",

@@ -111,10 +111,11 @@ void SerialPipeline::apply(Contact& contact, const core::ContactGeometry& geomet
                            const core::Material& material) {
   World& w = world_;
   const float w_a = w.bodies.inverse_mass[contact.a];
+  const Application application{contact, geometry, w_a, w_b, material, w.scene->parameters};
   if (stages_.respond != nullptr)
-    stages_.respond(w, contact, geometry, w_a, w_b, material, w.scene->parameters);
+    stages_.respond(w, application);
   else
-    core::respond(contact, geometry, w_a, w_b, material, w.scene->parameters, core::Variant::kSound);
+    application.apply(material, w.scene->parameters);
   if (stages_.store != nullptr) stages_.store(w, contact);
   if (is_written(contact.a)) w.bodies.state[contact.a] = contact.post_a;
   if (!core::is_face(contact.b) && is_written(contact.b)) w.bodies.state[contact.b] = contact.post_b;

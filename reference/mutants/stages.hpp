@@ -10,6 +10,7 @@
 #include "core/material.hpp"
 #include "core/method/contact_geometry.hpp"
 #include "core/method/proximity.hpp"
+#include "core/method/response.hpp"
 #include "core/pair.hpp"
 #include "core/parameters.hpp"
 #include "core/scene/scene.hpp"
@@ -35,6 +36,28 @@ struct World {
   std::vector<core::Pair> last_pairs;
 };
 
+// One contact that is being applied, with the pre states in it; w: inverse masses.
+struct Application {
+  core::Contact& c;
+  const core::ContactGeometry& g;
+  float w_a;
+  float w_b;
+  const core::Material& m;
+  const core::Parameters& p;
+
+  // The sound response, with what may be another material and other parameters.
+  void apply(const core::Material& material, const core::Parameters& parameters) const {
+    core::respond(c, g, w_a, w_b, material, parameters, core::Variant::kSound);
+  }
+  // change(core::Parameters&)
+  template <typename Change>
+  void apply_with(const Change& change) const {
+    core::Parameters changed = p;
+    change(changed);
+    apply(m, changed);
+  }
+};
+
 // Contacts of one frame in the order of application, colored.
 struct Order {
   std::vector<core::Pair> pairs;
@@ -56,8 +79,7 @@ struct Stages {
                                          const core::ContactGeometry& sound) = nullptr;
   core::Material (*combine)(const core::Material& a, const core::Material& b) = nullptr;
   // Fills the contact from the pre states in it.
-  void (*respond)(const World&, core::Contact&, const core::ContactGeometry&, float w_a, float w_b,
-                  const core::Material&, const core::Parameters&) = nullptr;
+  void (*respond)(const World&, const Application&) = nullptr;
   // What a contact leaves, before it is stored.
   void (*store)(const World&, core::Contact&) = nullptr;
   core::Vec3 (*clip)(core::Vec3 v, float v_max) = nullptr;

@@ -244,25 +244,14 @@ std::span<const Mutant> table() {
        "the slop is 1 mm, whatever the scene says",
        "metamorphic",
        "two-body:unequal",
-       {.respond =
-            [](const World&, Contact& c, const core::ContactGeometry& g, float w_a, float w_b, const Material& m,
-               const Parameters& p) {
-              Parameters q = p;
-              q.delta_m = 0.001F;
-              core::respond(c, g, w_a, w_b, m, q, core::Variant::kSound);
-            }},
+       {.respond = [](const World&, const Application& a) { a.apply_with([](Parameters& q) { q.delta_m = 0.001F; }); }},
        Showing::kScaled},
       {"threshold-in-meters",
        "the threshold speed is 0.3 m/s, whatever the scene says",
        "metamorphic",
        "two-body:slow",
-       {.respond =
-            [](const World&, Contact& c, const core::ContactGeometry& g, float w_a, float w_b, const Material& m,
-               const Parameters& p) {
-              Parameters q = p;
-              q.v_threshold_m_s = 0.3F;
-              core::respond(c, g, w_a, w_b, m, q, core::Variant::kSound);
-            }},
+       {.respond = [](const World&,
+                      const Application& a) { a.apply_with([](Parameters& q) { q.v_threshold_m_s = 0.3F; }); }},
        Showing::kScaled},
       {"rounds-downward",
        "positions are rounded towards minus infinity",

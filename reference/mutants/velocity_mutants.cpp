@@ -3,171 +3,145 @@
 #include <cmath>
 #include <limits>
 
-#include "core/method/response.hpp"
 #include "reference/mutants/mutants.hpp"
 
 namespace broadside::reference {
 namespace {
 
 using core::Contact;
-using core::ContactGeometry;
 using core::Material;
 using core::Parameters;
-using core::Variant;
 using core::Vec3;
-
-void sound(Contact& c, const ContactGeometry& g, float w_a, float w_b, const Material& m, const Parameters& p) {
-  core::respond(c, g, w_a, w_b, m, p, Variant::kSound);
-}
 
 float approach(const Contact& c) {
   return core::dot(c.pre_a.v - c.pre_b.v, c.normal);
 }
 
 // A further impulse along a direction, on both bodies.
-void push(Contact& c, float impulse_n_s, Vec3 direction, float w_a, float w_b) {
-  c.post_a.v = c.post_a.v + (impulse_n_s * w_a) * direction;
-  c.post_b.v = c.post_b.v - (impulse_n_s * w_b) * direction;
+void push(const Application& a, float impulse_n_s, Vec3 direction) {
+  a.c.post_a.v = a.c.post_a.v + (impulse_n_s * a.w_a) * direction;
+  a.c.post_b.v = a.c.post_b.v - (impulse_n_s * a.w_b) * direction;
 }
 
-void push_normal(Contact& c, float impulse_n_s, float w_a, float w_b) {
-  c.normal_impulse_n_s += impulse_n_s;
-  push(c, impulse_n_s, c.normal, w_a, w_b);
+void push_normal(const Application& a, float impulse_n_s) {
+  a.c.normal_impulse_n_s += impulse_n_s;
+  push(a, impulse_n_s, a.c.normal);
 }
 
-void push_tangent(Contact& c, float impulse_n_s, float w_a, float w_b) {
-  c.tangent_impulse_n_s += impulse_n_s;
-  push(c, impulse_n_s, c.tangent, w_a, w_b);
+void push_tangent(const Application& a, float impulse_n_s) {
+  a.c.tangent_impulse_n_s += impulse_n_s;
+  push(a, impulse_n_s, a.c.tangent);
 }
 
-using Respond = void (*)(const World&, Contact&, const ContactGeometry&, float, float, const Material&,
-                         const Parameters&);
+using Respond = void (*)(const World&, const Application&);
 
-constexpr Respond kBouncesBelowThreshold = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                              const Material& m, const Parameters& p) {
-  Parameters q = p;
-  q.v_threshold_m_s = 0.0F;
-  sound(c, g, w_a, w_b, m, q);
+constexpr Respond kBouncesBelowThreshold = [](const World&, const Application& a) {
+  a.apply_with([](Parameters& q) { q.v_threshold_m_s = 0.0F; });
 };
 
-constexpr Respond kNeverBounces = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                     const Material& m, const Parameters& p) {
-  Material n = m;
+constexpr Respond kNeverBounces = [](const World&, const Application& a) {
+  Material n = a.m;
   n.restitution = 0.0F;
-  sound(c, g, w_a, w_b, n, p);
+  a.apply(n, a.p);
 };
 
-constexpr Respond kStopsSeparating = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                        const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  const float v_n = approach(c);
-  if (v_n > 0.0F) push_normal(c, -v_n / (w_a + w_b), w_a, w_b);
+constexpr Respond kStopsSeparating = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  const float v_n = approach(a.c);
+  if (v_n > 0.0F) push_normal(a, -v_n / (a.w_a + a.w_b));
 };
 
-constexpr Respond kBouncesTooHard = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                       const Material& m, const Parameters& p) {
-  Material n = m;
-  n.restitution = 1.0F + m.restitution;
-  sound(c, g, w_a, w_b, n, p);
+constexpr Respond kBouncesTooHard = [](const World&, const Application& a) {
+  Material n = a.m;
+  n.restitution = 1.0F + a.m.restitution;
+  a.apply(n, a.p);
 };
 
-constexpr Respond kFloorsTwiceNeutral = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                           const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  const float v_n = approach(c);
-  const float wanted = std::min(p.impulse_min_n_s, -4.0F * v_n / (w_a + w_b));
-  if (v_n < 0.0F && c.normal_impulse_n_s < wanted) push_normal(c, wanted - c.normal_impulse_n_s, w_a, w_b);
+constexpr Respond kFloorsTwiceNeutral = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  const float v_n = approach(a.c);
+  const float wanted = std::min(a.p.impulse_min_n_s, -4.0F * v_n / (a.w_a + a.w_b));
+  if (v_n < 0.0F && a.c.normal_impulse_n_s < wanted) push_normal(a, wanted - a.c.normal_impulse_n_s);
 };
 
-constexpr Respond kPulls = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                              const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  push_normal(c, -2.0F * c.normal_impulse_n_s, w_a, w_b);
+constexpr Respond kPulls = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  push_normal(a, -2.0F * a.c.normal_impulse_n_s);
 };
 
-constexpr Respond kForgetsOneMass = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                       const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  if (w_a > 0.0F && w_b > 0.0F) push_normal(c, c.normal_impulse_n_s * (w_b / w_a), w_a, w_b);
+constexpr Respond kForgetsOneMass = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  if (a.w_a > 0.0F && a.w_b > 0.0F) push_normal(a, a.c.normal_impulse_n_s * (a.w_b / a.w_a));
 };
 
-constexpr Respond kSlidesWithStatic = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                         const Material& m, const Parameters& p) {
-  Material n = m;
-  n.mu_kinetic = m.mu_static;
-  sound(c, g, w_a, w_b, n, p);
+constexpr Respond kSlidesWithStatic = [](const World&, const Application& a) {
+  Material n = a.m;
+  n.mu_kinetic = a.m.mu_static;
+  a.apply(n, a.p);
 };
 
-constexpr Respond kSticksByKinetic = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                        const Material& m, const Parameters& p) {
-  Material n = m;
-  n.mu_static = m.mu_kinetic;
-  sound(c, g, w_a, w_b, n, p);
+constexpr Respond kSticksByKinetic = [](const World&, const Application& a) {
+  Material n = a.m;
+  n.mu_static = a.m.mu_kinetic;
+  a.apply(n, a.p);
 };
 
-constexpr Respond kNoFriction = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                   const Material& m, const Parameters& p) {
-  Material n = m;
+constexpr Respond kNoFriction = [](const World&, const Application& a) {
+  Material n = a.m;
   n.mu_static = n.mu_kinetic = 0.0F;
-  sound(c, g, w_a, w_b, n, p);
+  a.apply(n, a.p);
 };
 
-constexpr Respond kFrictionBeforeFloor = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                            const Material& m, const Parameters& p) {
-  Contact unfloored = c;
-  Parameters q = p;
-  q.impulse_min_n_s = 0.0F;
-  sound(unfloored, g, w_a, w_b, m, q);
-  sound(c, g, w_a, w_b, m, p);
-  push_tangent(c, unfloored.tangent_impulse_n_s - c.tangent_impulse_n_s, w_a, w_b);
+constexpr Respond kFrictionBeforeFloor = [](const World&, const Application& a) {
+  const Contact before = a.c;
+  a.apply_with([](Parameters& q) { q.impulse_min_n_s = 0.0F; });
+  const float unfloored_n_s = a.c.tangent_impulse_n_s;
+  a.c = before;
+  a.apply(a.m, a.p);
+  push_tangent(a, unfloored_n_s - a.c.tangent_impulse_n_s);
 };
 
-constexpr Respond kFrictionAlongVelocity = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                              const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  const float impulse = c.tangent_impulse_n_s;
+constexpr Respond kFrictionAlongVelocity = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  const float impulse = a.c.tangent_impulse_n_s;
   if (impulse == 0.0F) return;
-  push_tangent(c, -impulse, w_a, w_b);
-  const Vec3 relative = c.pre_a.v - c.pre_b.v;
-  c.tangent = (1.0F / core::length(relative)) * relative;
-  push_tangent(c, impulse, w_a, w_b);
+  push_tangent(a, -impulse);
+  const Vec3 relative = a.c.pre_a.v - a.c.pre_b.v;
+  a.c.tangent = (1.0F / core::length(relative)) * relative;
+  push_tangent(a, impulse);
 };
 
-constexpr Respond kTangentNotUnit = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                       const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  const float impulse = c.tangent_impulse_n_s;
+constexpr Respond kTangentNotUnit = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  const float impulse = a.c.tangent_impulse_n_s;
   if (impulse == 0.0F) return;
-  push_tangent(c, -impulse, w_a, w_b);
-  const Vec3 relative = c.pre_a.v - c.pre_b.v;
-  c.tangent = relative - core::dot(relative, c.normal) * c.normal;
-  push_tangent(c, impulse, w_a, w_b);
+  push_tangent(a, -impulse);
+  const Vec3 relative = a.c.pre_a.v - a.c.pre_b.v;
+  a.c.tangent = relative - core::dot(relative, a.c.normal) * a.c.normal;
+  push_tangent(a, impulse);
 };
 
-constexpr Respond kRubsSeparating = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                       const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  const Vec3 relative = c.pre_a.v - c.pre_b.v;
-  const Vec3 sliding = relative - approach(c) * c.normal;
-  if (!(approach(c) > 0.0F) || !(core::length(sliding) > 0.0F)) return;
-  c.tangent = (1.0F / core::length(sliding)) * sliding;
-  push_tangent(c, -0.1F * core::length(sliding) / (w_a + w_b), w_a, w_b);
+constexpr Respond kRubsSeparating = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  const Vec3 relative = a.c.pre_a.v - a.c.pre_b.v;
+  const Vec3 sliding = relative - approach(a.c) * a.c.normal;
+  if (!(approach(a.c) > 0.0F) || !(core::length(sliding) > 0.0F)) return;
+  a.c.tangent = (1.0F / core::length(sliding)) * sliding;
+  push_tangent(a, -0.1F * core::length(sliding) / (a.w_a + a.w_b));
 };
 
-constexpr Respond kStopsTooHard = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                     const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  push_tangent(c, 0.5F * c.tangent_impulse_n_s, w_a, w_b);
+constexpr Respond kStopsTooHard = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  push_tangent(a, 0.5F * a.c.tangent_impulse_n_s);
 };
 
 // 0 / 0 where nothing slides.
-constexpr Respond kDividesByZero = [](const World&, Contact& c, const ContactGeometry& g, float w_a, float w_b,
-                                      const Material& m, const Parameters& p) {
-  sound(c, g, w_a, w_b, m, p);
-  if (c.normal_impulse_n_s == 0.0F || c.tangent_impulse_n_s != 0.0F) return;
+constexpr Respond kDividesByZero = [](const World&, const Application& a) {
+  a.apply(a.m, a.p);
+  if (a.c.normal_impulse_n_s == 0.0F || a.c.tangent_impulse_n_s != 0.0F) return;
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-  c.tangent = {kNaN, kNaN, kNaN};
-  push_tangent(c, 0.0F, w_a, w_b);
+  a.c.tangent = {kNaN, kNaN, kNaN};
+  push_tangent(a, 0.0F);
 };
 
 std::span<const Mutant> table() {
