@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "reference/bullet_margin.hpp"
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
 #include "reference/vendor_build.hpp"
@@ -125,8 +126,8 @@ std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 2> rows{{
       {"margin",
        "bullet",
-       {"bullet", "0"},
-       "by how much a moving leaf is fattened: what Bullet ships (0.05 m in 3.24), or nothing"},
+       {"bullet", core::kMeters},
+       "by how much a moving leaf is fattened: what Bullet ships (0.05 m in 3.24), or meters; 0 = not at all"},
       {"deferred", "off", {"off", "on"}, "on: pairs are found by one tree-tree pass in find instead of inside setAabb"},
   }};
   return rows;
@@ -138,7 +139,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.build = bullet_build();
   engine.settings = settings;
   // Nobody leaves gDbvtMargin changed, so this is the value that the loaded library ships: 0.05 m in 3.24.
-  const btScalar margin = settings.text("margin") == "0" ? btScalar(0) : gDbvtMargin;
+  const btScalar margin = margin_m_of(settings, gDbvtMargin);
   const auto stale = std::make_shared<DefectCounter>(Defect::kBulletStalePairs);
   engine.broad_phase = std::make_unique<BulletDbvt>(margin, settings.text("deferred") == "on", stale);
   engine.equivalence = [margin](const core::Scene&) {

@@ -40,5 +40,22 @@ TEST(BulletDbvt, ReportsItsMarginPairsApart) {
   }
 }
 
+// The margin is a length: a leaf that moved meets a box 15 mm away with 20 mm of margin, and not with 10 mm.
+TEST(BulletDbvt, TakesAnyMarginInMeters) {
+  const std::vector<std::uint8_t> moving(2, 0);
+  for (const core::EngineRow& row : {reference::bullet_dbvt_row(), reference::bullet_dbvt_tree_row()}) {
+    for (const auto& [margin, raw] : {std::pair{"0.02", 1U}, std::pair{"0.01", 0U}}) {
+      auto made = row.create(core::Settings::parse(row.id, row.settings, {{"margin", margin}}).value());
+      ASSERT_TRUE(made.ok());
+      core::BroadPhase& broad = *made.value().broad_phase;
+      ASSERT_TRUE(broad.load(std::vector{unit_cube(0), unit_cube(1.02F)}, moving).ok());
+      ASSERT_TRUE(broad.update(std::vector{unit_cube(0.005F), unit_cube(1.02F)}).ok());
+      ASSERT_TRUE(broad.find().ok());
+      EXPECT_EQ(broad.read_back().value().raw, raw) << row.id << " margin " << margin;
+      EXPECT_NEAR(broad.traits().margin_m, raw == 1 ? 0.02 : 0.01, 1e-8);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace broadside
