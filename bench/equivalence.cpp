@@ -2,7 +2,9 @@
 
 #include <string>
 
+#include "bench/build_facts.hpp"
 #include "core/engine/settings.hpp"
+#include "reference/worker_count.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -11,11 +13,23 @@ bool is_pipeline(const core::Engine& engine) {
   return engine.id.starts_with("octree-") || engine.id.starts_with("hash-");
 }
 
+std::string threads_of(const core::Engine& engine) {
+  if (engine.id.ends_with("-gpu")) return "those of the device";
+  return std::to_string(reference::worker_count(engine.settings.number("threads")));
+}
+
 // The pipeline is what a scene describes, so nothing differs but what somebody set otherwise.
 core::EquivalenceCard pipeline_card(const core::Engine& engine) {
+  const bool is_on_gpu = engine.id.ends_with("-gpu");
   core::EquivalenceCard card{
       {"library loaded", engine.build, ""},
+      {"library build", build_line(), ""},
       {"precision", "float32 without contraction", ""},
+      {"SIMD",
+       is_on_gpu ? "none: one thread a body, pair or vertex"
+                 : "as the compiler made it; octree joins use AVX2 where it is",
+       ""},
+      {"threads", threads_of(engine), ""},
       {"shape margin", "none", ""},
       {"contact margin", "none", ""},
       {"broad-phase margin", "none", ""},

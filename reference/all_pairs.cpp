@@ -12,6 +12,7 @@
 
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
+#include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
 #include "reference/worker_count.hpp"
 
@@ -150,7 +151,14 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.build =
       "own, float32 compare, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
-  engine.broad_phase = std::make_unique<AllPairs>(worker_count(settings.number("threads")));
+  const int workers = worker_count(settings.number("threads"));
+  engine.equivalence = [build = engine.build, workers](const core::Scene&) {
+    core::EquivalenceCard card =
+        own_card(build, "float32", "rows of columns, as the compiler vectorizes them", workers);
+    card.push_back({"broad-phase margin", "none", ""});
+    return card;
+  };
+  engine.broad_phase = std::make_unique<AllPairs>(workers);
   return engine;
 }
 

@@ -98,6 +98,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.equivalence = [](const core::Scene&) {
     core::EquivalenceCard card = bullet_card();
     card.push_back({"shape", "axis-aligned boxes of the bodies", "triangle surfaces"});
+    card.push_back({"shape margin", "none", ""});
+    card.push_back({"tolerance", "none: separating axes in float32", ""});
     return card;
   };
   return engine;

@@ -1,6 +1,7 @@
 // Bullet's GJK and EPA on the shapes that bullet-world gives the scene's meshes: signed distance in float.
 #include "reference/bullet_world/bullet_shapes.hpp"
 
+#include <BulletCollision/CollisionShapes/btCollisionMargin.h>
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -11,13 +12,16 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene/primitive.hpp"
+#include "reference/bullet_margin.hpp"
 #include "reference/engines.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
+#include "reference/vendor_defects.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -38,15 +42,22 @@ btTransform transform(const core::Pose& pose) {
   return btTransform(btQuaternion(q.x, q.y, q.z, q.w), bullet(pose.position));
 }
 
+// Which of its ways btGjkPairDetector took, by the numbers in its source.
+constexpr int kNormalOfDistance = 6;
+constexpr int kNormalOfDistanceTurnedRound = 10;
+
 class BulletShapes final : public core::NarrowPhase {
  public:
+  BulletShapes(const BulletShapeOptions& options, SharedDefectCounter near_normals)
+      : options_(options), near_normals_(std::move(near_normals)) {}
+
   Status load(const core::Scene& scene) override {
     return vendor_call("bullet-shapes: load", [&]() -> Status {
       shapes_.clear();
       mesh_of_body_.clear();
       for (const auto& mesh : scene.meshes) {
         if (!core::primitive_of(*mesh) && !core::is_convex(*mesh)) return no_shape(kId, *mesh);
-        shapes_.push_back(make_bullet_shape(mesh, {}));
+        shapes_.push_back(make_bullet_shape(mesh, options_));
       }
       for (const core::Body& body : scene.bodies) mesh_of_body_.push_back(body.mesh);
       return core::Done{};
@@ -70,6 +81,10 @@ class BulletShapes final : public core::NarrowPhase {
     return static_cast<const btConvexShape&>(*shapes_[mesh_of_body_[body]].shape);
   }
 
+  static bool is_in_frame_of_a(int method) {
+    return method == kNormalOfDistance || method == kNormalOfDistanceTurnedRound;
+  }
+
   Separation measure_one(const btConvexShape& a, const btConvexShape& b, const core::Pose& pose_a,
                          const core::Pose& pose_b) {
     btGjkPairDetector detector(&a, &b, &simplex_, &depth_);
@@ -78,6 +93,11 @@ class BulletShapes final : public core::NarrowPhase {
     input.m_transformB = transform(pose_b);
     btPointCollector found;
     detector.getClosestPoints(input, found, nullptr);
+    near_normals_->note(found.m_hasResult && found.m_distance > 0 && is_in_frame_of_a(detector.m_lastUsedMethod) &&
+                                pose_a.orientation != core::Quat{}
+                            ? 1
+                            : 0,
+                        1);
     Separation out;
     if (!found.m_hasResult) {
       out.distance_m = std::numeric_limits<double>::quiet_NaN();
@@ -91,6 +111,8 @@ class BulletShapes final : public core::NarrowPhase {
     return out;
   }
 
+  BulletShapeOptions options_;
+  SharedDefectCounter near_normals_;
   std::vector<BulletShape> shapes_;
   std::vector<std::uint32_t> mesh_of_body_;
   btVoronoiSimplexSolver simplex_;
@@ -98,23 +120,37 @@ class BulletShapes final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-core::EquivalenceCard card_of(const core::Scene& scene) {
+std::span<const core::SettingRow> setting_rows() {
+  static const std::array<core::SettingRow, 1> rows{{
+      {"margin",
+       "0",
+       {"bullet", core::kMeters},
+       "rounds the edges of boxes and thickens hulls: meters, or what Bullet ships (0.04 m)"},
+  }};
+  return rows;
+}
+
+core::EquivalenceCard card_of(const core::Scene& scene, const BulletShapeOptions& options) {
   core::EquivalenceCard card = bullet_card();
   for (const auto& mesh : scene.meshes) {
-    const BulletShape shape = make_bullet_shape(mesh, {});
+    const BulletShape shape = make_bullet_shape(mesh, options);
     card.push_back({"shape of " + mesh->name, shape.what, shape.differs});
   }
-  card.push_back({"shape margin", "none", ""});
+  card.push_back(shape_margin_fact(options.margin_m));
+  card.push_back({"tolerance", "1e-6 of the squared distance in GJK, 1e-4 of the depth in EPA", "none"});
   return card;
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {
+  const BulletShapeOptions options{.margin_m = margin_m_of(settings, CONVEX_DISTANCE_MARGIN)};
+  const auto near_normals = std::make_shared<DefectCounter>(Defect::kBulletNearNormal);
   core::Engine engine;
   engine.id = kId;
   engine.build = bullet_build();
   engine.settings = settings;
-  engine.narrow_phase = std::make_unique<BulletShapes>();
-  engine.equivalence = card_of;
+  engine.narrow_phase = std::make_unique<BulletShapes>(options, near_normals);
+  engine.equivalence = [options](const core::Scene& scene) { return card_of(scene, options); };
+  engine.defects = defects_of(near_normals);
   return engine;
 }
 
@@ -124,7 +160,7 @@ core::EngineRow bullet_shapes_row() {
   return {.id = kId,
           .capabilities = "narrow",
           .what = "Bullet's GJK and EPA on boxes, spheres, capsules and convex meshes: signed distance",
-          .settings = {},
+          .settings = setting_rows(),
           .is_reference = true,
           .create = create,
           .absent = [] { return std::string(); }};

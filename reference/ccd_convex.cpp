@@ -33,6 +33,9 @@ constexpr std::string_view kId = "ccd";
 // At which EPA and MPR stop refining, m: ten times the rounding of a float coordinate of 1 m, so that the library is
 // not asked for more than the poses carry. Its default, 1e-4, is a tenth of the method's slop.
 constexpr ccd_real_t kTolerance = 1e-6;
+// EPA compares it with squares: of the distance of a new point from the face that it would split, and of distances from
+// the origin. 1e-6 would leave round bodies a millimeter off.
+constexpr ccd_real_t kEpaTolerance = kTolerance * kTolerance;
 // GJK on polytopes ends after a few tens of steps; libccd's default is 2^64 - 1, so a cycle would never end.
 constexpr unsigned long kMostIterations = 1000;
 
@@ -100,7 +103,8 @@ Separation measure_one(const Placed& a, const Placed& b, bool is_mpr, DefectCoun
   ccd.support1 = ccd.support2 = support;
   ccd.center1 = ccd.center2 = middle;
   ccd.max_iterations = kMostIterations;
-  ccd.epa_tolerance = ccd.mpr_tolerance = ccd.dist_tolerance = kTolerance;
+  ccd.epa_tolerance = kEpaTolerance;
+  ccd.mpr_tolerance = ccd.dist_tolerance = kTolerance;
   ccd_real_t depth = 0;
   ccd_vec3_t direction{};
   ccd_vec3_t at{};
@@ -234,6 +238,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.narrow_phase = std::make_unique<CcdConvex>(settings.text("algorithm") == "mpr", choice, workers, not_numbers);
   engine.equivalence = [workers, shape](const core::Scene&) {
     core::EquivalenceCard card = ccd_card(workers);
+    card.push_back({"shape margin", "none", ""});
+    card.push_back({"iterations", std::to_string(kMostIterations) + " at most of GJK; EPA has no limit", ""});
     card.push_back({"tolerance", "1e-6 m, where EPA and MPR stop", "none"});
     card.push_back({"shape", shape, shape == "primitive" ? "" : "triangle surfaces"});
     return card;

@@ -13,6 +13,7 @@
 #include "core/engine/broad_phase.hpp"
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
+#include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
 
 namespace broadside::reference {
@@ -95,6 +96,13 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = "CGAL " CGAL_VERSION_STR ", float";
   engine.settings = settings;
+  engine.equivalence = [build = engine.build, cutoff = settings.text("cutoff")](const core::Scene&) {
+    core::EquivalenceCard card = own_card(build + ", headers alone", "float32", "as the compiler made it", 1);
+    card.push_back({"broad-phase margin", "none", ""});
+    card.push_back({"topology", "closed intervals", ""});
+    card.push_back({"cutoff", cutoff + " boxes are scanned rather than divided", ""});
+    return card;
+  };
   engine.broad_phase = std::make_unique<CgalBoxes>(settings.number("cutoff"));
   return engine;
 }

@@ -16,6 +16,7 @@
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
 #include "reference/loaded_library.hpp"
+#include "reference/vendor_build.hpp"
 #include "reference/worker_count.hpp"
 
 namespace broadside::reference {
@@ -145,6 +146,24 @@ RTCBuildQuality quality_of(const core::Settings& settings) {
   return word == "medium" ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW;
 }
 
+// The widest packets that this build of Embree takes as they are on this processor.
+std::string simd_of(RTCDevice device) {
+  const auto has = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device, property) != 0; };
+  const char* lanes = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)  ? "16"
+                      : has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? "8"
+                                                                       : "4";
+  return std::string("picked by Embree for this processor, up to ") + lanes + " lanes";
+}
+
+core::EquivalenceCard card_of(RTCDevice device, const std::string& build, int threads, const std::string& quality) {
+  core::EquivalenceCard card =
+      library_card(build, reinterpret_cast<const void*>(&rtcCollide), "float32", simd_of(device), threads);
+  card.push_back({"broad-phase margin", "none", ""});
+  card.push_back({"hierarchy", "rebuilt each frame, quality " + quality, ""});
+  card.push_back({"pairs", "each in both orders, one is kept", ""});
+  return card;
+}
+
 std::string build_of(RTCDevice device) {
   const auto version = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION);  // 31305 is 3.13.5
   return "Embree " + std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
@@ -152,7 +171,8 @@ std::string build_of(RTCDevice device) {
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {
-  const std::string config = "threads=" + std::to_string(worker_count(settings.number("threads")));
+  const int workers = worker_count(settings.number("threads"));
+  const std::string config = "threads=" + std::to_string(workers);
   Device device(rtcNewDevice(config.c_str()));
   if (device == nullptr)
     return core::Error{"Embree makes no device, error " + std::to_string(rtcGetDeviceError(nullptr)), std::string(kId),
@@ -161,6 +181,9 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = build_of(device.get());
   engine.settings = settings;
+  // The card outlives no device: what it says of it is asked here.
+  engine.equivalence = [card = card_of(device.get(), engine.build, workers, settings.text("quality"))](
+                           const core::Scene&) { return card; };
   engine.broad_phase = std::make_unique<EmbreeCollide>(std::move(device), quality_of(settings));
   return engine;
 }

@@ -126,6 +126,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.equivalence = [workers](const core::Scene&) {
     core::EquivalenceCard card = fcl_card(workers);
     card.push_back({"shape", "axis-aligned boxes of the bodies", "triangle surfaces"});
+    card.push_back({"shape margin", "none", ""});
+    card.push_back({"tolerance", "1e-6 m, where its iterations stop", "none"});
     return card;
   };
   return engine;

@@ -59,7 +59,7 @@ core::Vec3 to_core(const fcl::Vector3<double>& v) {
 }
 
 Separation measure_one(const Model& a, const fcl::Transform3<double>& pose_a, const Model& b,
-                       const fcl::Transform3<double>& pose_b) {
+                       const fcl::Transform3<double>& pose_b, bool asks_collide) {
   Separation out;
   fcl::DistanceRequest<double> distance_request(/*enable_nearest_points_=*/true);
   fcl::DistanceResult<double> near;
@@ -72,6 +72,10 @@ Separation measure_one(const Model& a, const fcl::Transform3<double>& pose_a, co
     const fcl::Vector3<double> from_b_to_a = near.nearest_points[0] - near.nearest_points[1];
     if (from_b_to_a.norm() > 0.0) out.normal = to_core(from_b_to_a.normalized());
   }
+  if (!asks_collide) {
+    out.is_touching = out.distance_m == 0.0;
+    return out;
+  }
   const fcl::CollisionRequest<double> collision_request(/*num_max_contacts_=*/1, /*enable_contact_=*/false);
   fcl::CollisionResult<double> touch;
   out.is_touching = fcl::collide(&a, pose_a, &b, pose_b, collision_request, touch) > 0;
@@ -80,7 +84,8 @@ Separation measure_one(const Model& a, const fcl::Transform3<double>& pose_a, co
 
 class FclMesh final : public core::NarrowPhase {
  public:
-  FclMesh(int workers, SharedDefectCounter no_depth) : arena_(workers), no_depth_(std::move(no_depth)) {}
+  FclMesh(int workers, bool asks_collide, SharedDefectCounter no_depth)
+      : arena_(workers), asks_collide_(asks_collide), no_depth_(std::move(no_depth)) {}
 
   Status load(const core::Scene& scene) override {
     return vendor_call("fcl-mesh: load", [&]() -> Status {
@@ -101,8 +106,8 @@ class FclMesh final : public core::NarrowPhase {
       arena_.execute([&] {
         tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
           const auto [i, j] = pairs[k];
-          separations_[k] =
-              measure_one(*model_of_body_[i], transform(poses[i]), *model_of_body_[j], transform(poses[j]));
+          separations_[k] = measure_one(*model_of_body_[i], transform(poses[i]), *model_of_body_[j],
+                                        transform(poses[j]), asks_collide_);
           no_depth_->note(separations_[k].is_touching ? 1 : 0, 1);
         });
       });
@@ -114,6 +119,7 @@ class FclMesh final : public core::NarrowPhase {
 
  private:
   tbb::task_arena arena_;
+  bool asks_collide_;
   SharedDefectCounter no_depth_;
   std::vector<std::unique_ptr<Model>> models_;
   std::vector<const Model*> model_of_body_;
@@ -121,7 +127,11 @@ class FclMesh final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 2> rows{{
+      {"query",
+       "both",
+       {"both", "distance"},
+       "distance with nearest points and collide, which is sure about touching; or distance alone, 0 = touching"},
       {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
   }};
   return rows;
@@ -134,10 +144,11 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.settings = settings;
   const int workers = worker_count(settings.number("threads"));
   const auto no_depth = std::make_shared<DefectCounter>(Defect::kFclMeshDepth);
-  engine.narrow_phase = std::make_unique<FclMesh>(workers, no_depth);
+  engine.narrow_phase = std::make_unique<FclMesh>(workers, settings.text("query") == "both", no_depth);
   engine.equivalence = [workers](const core::Scene&) {
     core::EquivalenceCard card = fcl_card(workers);
     card.push_back({"shape", "BVHModel<OBBRSS> of the triangles, turned in double", ""});
+    card.push_back({"shape margin", "none", ""});
     card.push_back({"tolerance", "none for distances; 0 in overlap", ""});
     return card;
   };

@@ -204,6 +204,7 @@ std::span<const core::SettingRow> setting_rows() {
 
 core::EquivalenceCard card_of(const core::Scene& scene, const Query& query, int workers) {
   core::EquivalenceCard card = fcl_card(workers);
+  card.push_back({"shape margin", "none", ""});
   card.push_back({"tolerance", "1e-6 m, where its iterations stop", "none"});
   card.push_back({"solver", query.solver == fcl::GST_INDEP ? "GST_INDEP" : "GST_LIBCCD", ""});
   for (const auto& mesh : scene.meshes) {

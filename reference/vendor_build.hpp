@@ -13,8 +13,14 @@ std::string ccd_build();     // "libccd 2.1 (libccd.so.2.0), double"
 
 // The facts of a library that hold for every engine made of it: file loaded, its build as far as it shows, precision,
 // SIMD, threads. `threads` is what the adapter uses.
+// The same of any library that `address` lies in.
+core::EquivalenceCard library_card(std::string loaded, const void* address, const char* precision, std::string simd,
+                                   int threads);
+// Of an engine that is compiled into this program.
+core::EquivalenceCard own_card(std::string build, const char* precision, std::string simd, int threads);
 core::EquivalenceCard bullet_card();
 core::EquivalenceFact bullet_margin_fact(float margin_m);  // of a broad phase with leaves fattened by so much
+core::EquivalenceFact shape_margin_fact(float margin_m);   // of shapes made with so much
 core::EquivalenceCard fcl_card(int threads);
 core::EquivalenceCard ccd_card(int threads);
 

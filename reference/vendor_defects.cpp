@@ -11,10 +11,14 @@ constexpr std::string_view kBullet = "Bullet 3.24";
 constexpr std::string_view kFcl = "FCL 0.7.0";
 constexpr std::string_view kCcd = "libccd 2.1";
 
-constexpr std::array<DefectRow, 9> kRows{{
+constexpr std::array<DefectRow, 11> kRows{{
     {Defect::kBulletStalePairs, kBullet, "none known",
      "the dbvt broad phase reports a pair whose boxes do not overlap (fat leaves, pairs kept after they parted)",
      "filtered on the given boxes; raw and tight pairs are counted apart"},
+    {Defect::kBulletNearNormal, kBullet, "bullet3#889",
+     "bodies less than 1 mm apart, no margin: GJK gives way to btGjkEpaSolver2::Distance, whose normal stays in A's "
+     "frame",
+     "passed on as it is, right where A is not turned; the distance is right, and a margin avoids it"},
     {Defect::kFclMeshDepth, kFcl, "fcl#221, fcl#491", "overlapping meshes get no penetration depth",
      "reported as distance 0, touching taken from collide"},
     {Defect::kFclBoxAxis, kFcl, "none known",
@@ -27,11 +31,15 @@ constexpr std::array<DefectRow, 9> kRows{{
      "queries run in a process of their own, which starts again behind the pair"},
     {Defect::kFclThrow, kFcl, "fcl#319, fcl#415", "a query throws std::logic_error about a degenerate polytope",
      "caught, counted as exception"},
-    {Defect::kFclHang, kFcl, "fcl#578", "a query does not come back", "ended after a time limit"},
+    {Defect::kFclHang, kFcl, "fcl#578, fcl#346", "a query does not come back (round bodies with one center; others)",
+     "ended after a time limit"},
     {Defect::kCcdGjkNan, kCcd, "libccd#25, libccd#68", "GJK's depth or direction is not a number where bodies overlap",
      "reported as touching with depth 0 and no normal"},
     {Defect::kCcdMprDepth, kCcd, "libccd#71", "MPR's depth, along the line of centers, is more than the least depth",
      "an upper bound of the depth"},
+    {Defect::kCcdEpaHang, kCcd, "libccd#7, fcl#346",
+     "EPA does not come back from round bodies that overlap deeply: it refines a whole ball",
+     "ended after a time limit"},
 }};
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace broadside::reference {
 
 enum class Defect {
   kBulletStalePairs,
+  kBulletNearNormal,
   kFclMeshDepth,
   kFclBoxAxis,
   kFclConvexNormal,
@@ -23,6 +24,7 @@ enum class Defect {
   kFclHang,
   kCcdGjkNan,
   kCcdMprDepth,
+  kCcdEpaHang,
 };
 
 struct DefectRow {

@@ -31,13 +31,20 @@ std::string millimeters(double meters) {
   return text;
 }
 
+// Of the least half side: as Bullet's own boxes have it, so that thin ones keep their form.
+constexpr float kLargestBoxMargin = 0.1F;
+
+float least_of(core::Vec3 v) {
+  return std::min({v.x, v.y, v.z});
+}
+
 BulletShape primitive_shape(const core::Primitive& p, const BulletShapeOptions& options) {
   BulletShape out;
   out.what = core::primitive_word(p.kind);
   if (p.kind == core::PrimitiveKind::kBox) {
     auto box = std::make_shared<btBoxShape>(btVector3(p.half_extents.x, p.half_extents.y, p.half_extents.z));
     // Bullet's margin of a box lies inside it: its size stays, but GJK sees edges and corners rounded by so much.
-    if (options.margin_m == 0.0F) box->setMargin(0);
+    box->setMargin(std::min(options.margin_m, kLargestBoxMargin * least_of(p.half_extents)));
     if (options.margin_m > 0.0F) out.differs = "sharp edges";
     out.shape = std::move(box);
     return out;

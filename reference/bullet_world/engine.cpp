@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "reference/bullet_margin.hpp"
 #include "reference/bullet_world/bullet_world.hpp"
 #include "reference/engines.hpp"
 #include "reference/vendor_build.hpp"
@@ -38,9 +39,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const BulletWorldOptions
   add_shapes(scene, o, card);
   const btContactSolverInfo info;
   const core::Parameters& p = scene.parameters;
-  card.push_back({"shape margin",
-                  number(o.shapes.margin_m) + " m around hulls and triangles, and rounding the edges of boxes",
-                  o.shapes.margin_m > 0.0F ? "none" : ""});
+  card.push_back(shape_margin_fact(o.shapes.margin_m));
   card.push_back({"contact margin", number(gContactBreakingThreshold) + " m: contacts are kept to this distance", "0"});
   card.push_back({"broad-phase margin",
                   number(gContactBreakingThreshold) + " m a side, and " + number(gDbvtMargin) + " m on moving leaves",
@@ -78,7 +77,10 @@ std::span<const core::SettingRow> setting_rows() {
        "gimpact",
        {"gimpact", "hull", "tetrahedra"},
        "bodies that are neither primitive nor convex: their triangles, their hull, or a convex decomposition"},
-      {"margin", "0", {"0", "bullet"}, "by how much hulls and triangles are thickened: nothing, or Bullet's 0.04 m"},
+      {"margin",
+       "0",
+       {"bullet", core::kMeters},
+       "by how much hulls and triangles are thickened: meters, or what Bullet ships (0.04 m)"},
       {"combine",
        "scene",
        {"scene", "bullet"},
@@ -94,7 +96,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   BulletWorldOptions options;
   if (settings.text("mesh") == "hull") options.shapes.mesh = BulletMesh::kHull;
   if (settings.text("mesh") == "tetrahedra") options.shapes.mesh = BulletMesh::kTetrahedra;
-  if (settings.text("margin") == "bullet") options.shapes.margin_m = CONVEX_DISTANCE_MARGIN;
+  options.shapes.margin_m = margin_m_of(settings, CONVEX_DISTANCE_MARGIN);
   options.uses_scene_rules = settings.text("combine") == "scene";
   options.always_rotates = settings.text("rotation") == "on";
   options.iterations = static_cast<int>(settings.number("iterations"));

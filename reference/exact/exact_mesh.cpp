@@ -13,6 +13,7 @@
 #include "reference/exact/triangle_tree.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/turned_shapes.hpp"
+#include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
 #include "reference/worker_count.hpp"
 
@@ -93,10 +94,20 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = "own, double, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
+  const int workers = worker_count(settings.number("threads"));
+  engine.equivalence = [build = engine.build, workers, method](const core::Scene&) {
+    core::EquivalenceCard card =
+        own_card(build, "float64, touching by exact predicates", "as the compiler made it", workers);
+    card.push_back({"shape", "triangle surfaces, vertices turned and moved in float32 as the pipeline does", ""});
+    card.push_back({"method", method, method == "vertices-brute" ? "distance of surfaces" : ""});
+    card.push_back({"shape margin", "none", ""});
+    card.push_back({"tolerance", "none: rounding of double", ""});
+    return card;
+  };
   engine.narrow_phase = std::make_unique<ExactMesh>(method == "surface-tree"    ? nearest_of_trees
                                                     : method == "surface-brute" ? nearest_by_brute_force
                                                                                 : nearest_vertices,
-                                                    worker_count(settings.number("threads")));
+                                                    workers);
   return engine;
 }
 

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/primitive.hpp"
 #include "reference/engines.hpp"
 #include "reference/exact/convex_core.hpp"
 #include "reference/pair_check.hpp"
+#include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
 #include "reference/worker_count.hpp"
 
@@ -80,7 +82,20 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = "own, double, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
-  engine.narrow_phase = std::make_unique<ExactShapes>(worker_count(settings.number("threads")));
+  const int workers = worker_count(settings.number("threads"));
+  engine.equivalence = [build = engine.build, workers](const core::Scene& scene) {
+    core::EquivalenceCard card = own_card(build, "float64", "as the compiler made it", workers);
+    for (const auto& mesh : scene.meshes) {
+      const auto primitive = core::primitive_of(*mesh);
+      card.push_back({"shape of " + mesh->name,
+                      std::string(primitive ? core::primitive_word(primitive->kind) : "convex body"),
+                      primitive && primitive->facet_gap_m > 0.0F ? "a mesh with facets inside that surface" : ""});
+    }
+    card.push_back({"shape margin", "none", ""});
+    card.push_back({"tolerance", "none: rounding of double", ""});
+    return card;
+  };
+  engine.narrow_phase = std::make_unique<ExactShapes>(workers);
   return engine;
 }
 
