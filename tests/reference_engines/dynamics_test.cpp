@@ -163,6 +163,88 @@ TEST_P(DynamicsEngines, MomentumOfTwoIsKept) {
   EXPECT_LT(frame.velocity[0].x, frame.velocity[1].x) << "they met and part";
 }
 
+// Cubes of 1 m whose faces just meet, at rest and without gravity: nothing may push them.
+TEST_P(DynamicsEngines, TouchingBodiesAtRestStayAtRest) {
+  core::Scene scene = empty_scene();
+  scene.gravity_m_s2 = {};
+  add(scene, {-0.5F, 0, 0});
+  add(scene, {0.5F, 0, 0});
+  const core::FrameRecord frame = run(scene, 16);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(frame.position[k].x, k == 0 ? -0.5 : 0.5, 1e-4);
+    EXPECT_NEAR(core::length(frame.velocity[k]), 0.0, 1e-4);
+  }
+}
+
+// A small cube wholly inside a large one, off its center: whatever an engine makes of it, states stay finite, momentum
+// is kept, and it is told as a pair.
+TEST_P(DynamicsEngines, AContainedBodyIsAPairAndStaysFinite) {
+  core::Scene scene = empty_scene();
+  scene.gravity_m_s2 = {};
+  scene.meshes.push_back(std::make_shared<const core::Mesh>(datasets::box_mesh({4.0, 4.0, 4.0}, {4, 4, 4}).value()));
+  add(scene, {0.5F, 0.25F, 0});
+  add(scene, {0, 0, 0}).mesh = 1;
+  core::FrameRecord frame = run(scene, 1);
+  EXPECT_EQ(frame.pairs, (std::vector<core::Pair>{{0, 1}}));
+  frame = run(scene, 32);
+  Vec3 momentum{};
+  for (int k = 0; k < 2; ++k) {
+    momentum = momentum + frame.velocity[k];
+    for (int axis = 0; axis < 3; ++axis) EXPECT_TRUE(std::isfinite(frame.position[k][axis]));
+  }
+  EXPECT_NEAR(core::length(momentum), 0.0, 1e-3);
+}
+
+TEST_P(DynamicsEngines, FarBodiesDoNotKnowOfEachOther) {
+  core::Scene scene = empty_scene();
+  scene.domain = {{-4096, -4096, -4096}, {4096, 4096, 4096}};
+  add(scene, {0, 0, 0}, {0.5F, 0, 0});
+  const core::FrameRecord alone = run(scene, 24);
+  add(scene, {2000, 2000, -2000}, {0, 0, 1});
+  const core::FrameRecord two = run(scene, 24);
+  EXPECT_EQ(two.position[0], alone.position[0]);
+  EXPECT_EQ(two.velocity[0], alone.velocity[0]);
+  EXPECT_TRUE(two.pairs.empty());
+  EXPECT_TRUE(two.contacts.empty());
+}
+
+// A body that was moved elsewhere, or taken away, between two loads leaves nothing behind.
+TEST_P(DynamicsEngines, MovedAndRemovedBodiesLeaveNothingBehind) {
+  core::Scene scene = empty_scene();
+  scene.gravity_m_s2 = {};
+  add(scene, {0, 0, 0});
+  add(scene, {0.9F, 0, 0});
+  EXPECT_EQ(run(scene, 1).pairs.size(), 1U);
+  scene.bodies[1].position = {5, 0, 0};
+  EXPECT_TRUE(run(scene, 1).pairs.empty());
+  scene.bodies.pop_back();
+  const core::FrameRecord frame = run(scene, 4);
+  ASSERT_EQ(frame.position.size(), 1U);
+  EXPECT_EQ(frame.position[0], Vec3{});
+  EXPECT_TRUE(frame.pairs.empty());
+}
+
+// A lattice of 100,000 cubes, 2 m apart, in free fall: each follows the discrete solution, and none meets another.
+TEST_P(DynamicsEngines, HundredThousandBodiesSlow) {
+  constexpr int kSide = 47;  // 47^3 = 103,823
+  constexpr std::size_t kBodies = 100'000;
+  core::Scene scene = empty_scene();
+  scene.meshes = {std::make_shared<const core::Mesh>(datasets::box_mesh({1.0, 1.0, 1.0}, {1, 1, 1}).value())};
+  scene.domain = {{-128, -128, -128}, {128, 128, 128}};
+  for (int k = 0; scene.bodies.size() < kBodies; ++k)
+    add(scene,
+        {2.0F * static_cast<float>(k % kSide - kSide / 2), 2.0F * static_cast<float>(k / kSide % kSide - kSide / 2),
+         2.0F * static_cast<float>(k / kSide / kSide - kSide / 2)});
+  const core::FrameRecord frame = run(scene, 3);
+  ASSERT_EQ(frame.position.size(), kBodies);
+  EXPECT_TRUE(frame.pairs.empty());
+  for (std::size_t k = 0; k < kBodies; ++k) {
+    ASSERT_NEAR(frame.velocity[k].y, -8.0 * 3.0 / 64.0, 1e-5) << k;
+    ASSERT_NEAR(frame.position[k].y, scene.bodies[k].position.y - 8.0 * 3.0 * 4.0 / 2.0 / 4096.0, 1e-4) << k;
+    ASSERT_EQ(frame.position[k].x, scene.bodies[k].position.x) << k;
+  }
+}
+
 TEST_P(DynamicsEngines, LoadStartsAfreshAndTheSameSceneGivesTheSameDigests) {
   core::Scene scene = empty_scene();
   for (int k = 0; k < 8; ++k) add(scene, {0.3F * static_cast<float>(k % 2), -7.4F + 1.05F * static_cast<float>(k), 0});
