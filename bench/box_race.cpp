@@ -115,6 +115,8 @@ core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& c
   RaceRow row;
   row.label = label_of(cell);
   row.absent = ended.value().words;
+  row.verdict = class_of(ended.value());
+  row.repeat = command_line(args);
   return row;
 }
 
@@ -136,7 +138,7 @@ std::string race_json(const std::vector<RaceRow>& rows) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (const RaceRow& r : rows) {
     if (!r.absent.empty()) {
-      out.push_back({{"engine", r.label}, {"absent", r.absent}});
+      out.push_back({{"engine", r.label}, {"absent", r.absent}, {"verdict", r.verdict}, {"repeat", r.repeat}});
       continue;
     }
     out.push_back({{"engine", r.label},

@@ -24,6 +24,8 @@ struct RaceRow {
   double filter_s = 0.0;     // of read_back_s: the engine's raw pairs filtered on the given boxes
   double read_back_s = 0.0;  // copies, the engine's own filter, canonical order
   std::string absent;        // why a reference's process left no answer; empty when it did
+  std::string verdict;       // then: "abort", "time-out", ... (class_of in bench/child.hpp)
+  std::string repeat;        // and the command that repeats it; the boxes follow from their name, or are its file
 };
 
 // frames: at most so many; 0 = all of the stream. References run in processes of their own, unless `here`. Errors:

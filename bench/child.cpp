@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -56,16 +55,6 @@ std::vector<std::string> run_arguments(const CellRequest& r, const std::filesyst
   for (const StepWindow& w : r.selection.windows) append(args, {"--window", fmt::format("{}:{}", w.first, w.last)});
   if (r.resume) args.emplace_back("--resume");
   return args;
-}
-
-// As somebody types it: arguments with spaces or brackets are quoted.
-std::string command_line(const std::vector<std::string>& args) {
-  std::string line = "broadside";
-  for (const std::string& a : args) {
-    const bool is_plain = !a.empty() && a.find_first_of(" []'\"$*?;&|<>()") == std::string::npos;
-    line += is_plain ? " " + a : " '" + a + "'";
-  }
-  return line;
 }
 
 // Keeps the last line of the child's stderr, an assert's message or our own one clear line, and may pass all of it on.
@@ -157,6 +146,7 @@ int attend(pid_t child, int out, int err, StderrTail tail, double time_limit_s, 
 void name_ending(ChildEnding& ending, int status, double time_limit_s) {
   const std::string after = ending.last_line.empty() ? "" : ": " + ending.last_line;
   if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) ending.signal = WTERMSIG(status);
   ending.is_good = !ending.timed_out && ending.exit_code == 0;
   if (ending.timed_out) {
     ending.words = fmt::format("no end after {:g} s", time_limit_s);
@@ -179,6 +169,7 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
   // The driver's trace is the input of an engine that does not simulate; together with the arguments it repeats what
   // happened, in a process that may die of it.
   cell.notes["repeat"] = command_line(args);
+  cell.notes["verdict on its process"] = std::string(class_of(ending));
   const std::string part = trace_file_name(cell.stamp) + ".part";
   std::error_code ignored;
   if (std::filesystem::exists(request.folder / part, ignored)) cell.trace_file = part;
@@ -215,6 +206,25 @@ core::Error no_process(const char* what) {
 
 }  // namespace
 
+std::string command_line(const std::vector<std::string>& arguments) {
+  std::string line = "broadside";
+  for (const std::string& a : arguments) {
+    const bool is_plain = !a.empty() && a.find_first_of(" []'\"$*?;&|<>()") == std::string::npos;
+    line += is_plain ? " " + a : " '" + a + "'";
+  }
+  return line;
+}
+
+std::string_view class_of(const ChildEnding& ending) {
+  if (ending.is_good) return {};
+  if (ending.timed_out) return "time-out";
+  if (ending.signal != 0) return ending.signal == SIGABRT ? "abort" : "crash";
+  // vendor_call's word for std::bad_alloc, and the word of an allocation that nobody caught.
+  const bool has_no_memory = ending.last_line.find("out of memory") != std::string::npos ||
+                             ending.last_line.find("bad_alloc") != std::string::npos;
+  return has_no_memory ? "out of memory" : "exception";
+}
+
 core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits, Keeps keeps) {
   Pipe err;
   Pipe out;
@@ -236,8 +246,7 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
   if (child == 0) {
     // Only async-signal-safe calls here: other threads of the parent may hold locks. Nobody goes on writing where a
     // later try begins: the parent's death is the child's, also when it came before this line.
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(127);
+    die_with(parent);
     dup2(err.to, STDERR_FILENO);
     if (out.to >= 0) dup2(out.to, STDOUT_FILENO);
     for (const int end : {err.from, err.to, out.from, out.to})
@@ -265,10 +274,18 @@ core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const 
   const std::vector<std::string> args = run_arguments(request, folder.path());
   auto ended = run_self(args, limits, Keeps::kNothing);
   if (!ended) return ended.error();
-  const ChildEnding& ending = ended.value();
+  ChildEnding& ending = ended.value();
   auto rows = core::read_rows(folder.path());
   const bool left_a_row = ending.exit_code >= 0 && rows.ok() && rows.value().cells.size() == 1;
-  if (left_a_row) return rows.value().cells[0];
+  if (left_a_row) {
+    core::Cell cell = std::move(rows.value().cells[0]);
+    if (cell.state == core::CellState::kFailed) {
+      ending.last_line = cell.reason;
+      cell.notes["repeat"] = command_line(args);
+      cell.notes["verdict on its process"] = std::string(class_of(ending));
+    }
+    return cell;
+  }
   if (ending.exit_code == static_cast<int>(core::Exit::kBadInput)) return core::Error{ending.last_line};
   return ended_badly(request, ending, args);
 }
@@ -285,8 +302,8 @@ core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const 
   auto rows = core::read_rows(folder.path());
   if (ending.is_good && rows.ok() && rows.value().samples.size() == 1) return rows.value().samples[0];
   const std::string why = ending.exit_code > 0 && !ending.last_line.empty() ? ending.last_line : ending.words;
-  return core::Error{why.empty() ? "it left no sample" : why, std::string(request.row->id), command_line(args),
-                     core::Exit::kMissing};
+  const std::string verdict = why.empty() ? "it left no sample" : fmt::format("{}: {}", class_of(ending), why);
+  return core::Error{verdict, std::string(request.row->id), "repeat: " + command_line(args), core::Exit::kMissing};
 }
 
 }  // namespace broadside::bench

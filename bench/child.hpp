@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/cell_request.hpp"
@@ -21,11 +22,19 @@ struct ChildLimits {
 struct ChildEnding {
   bool is_good = false;  // ended by itself with exit code 0
   int exit_code = -1;    // -1 when a signal or the time limit ended it
+  int signal = 0;        // that ended it; 0 when none did
   bool timed_out = false;
   std::string words;      // "signal 6 (Aborted): ...", "no end after 10 s", "exit code 2: ..."; empty when good
   std::string last_line;  // of its stderr: an assert's message, or our own one clear line
   std::string output;     // its stdout, where kept
 };
+
+// The verdict on an ending, in the words of `agree`: "abort", "crash", "time-out", "out of memory", "exception"; empty
+// when it is good.
+std::string_view class_of(const ChildEnding& ending);
+
+// As somebody types it: arguments with spaces or brackets are quoted.
+std::string command_line(const std::vector<std::string>& arguments);
 
 // What of a child's streams is kept here instead of passed on. Of stderr that is the last line.
 enum class Keeps { kNothing, kOutput, kOutputAndErrors };

@@ -28,7 +28,7 @@ void print_table(const std::vector<RaceRow>& rows) {
              "update ms", "find ms", "filter ms", "read back ms");
   for (const RaceRow& r : rows) {
     if (!r.absent.empty())
-      fmt::print("{:<28} not measured: {}\n", r.label, r.absent);
+      fmt::print("{:<28} {}: {}\n{:<28} repeat: {}\n", r.label, r.verdict, r.absent, "", r.repeat);
     else
       fmt::print("{:<28} {:>12} {:>12} {:#018x} {:>12.3f} {:>12.3f} {:>12.3f} {:>12.3f}\n", r.label, r.pairs, r.raw,
                  r.digest, r.update_s * 1e3, r.find_s * 1e3, r.filter_s * 1e3, r.read_back_s * 1e3);

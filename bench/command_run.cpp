@@ -72,9 +72,11 @@ core::Exit run_in_process(const RunArguments& a, const RunPlan& plan) {
                             plan.selection, plan.narrow_every, plan.folder, a.driver,      plan.resume};
   auto cell = record_cell(request);
   if (!cell) return complain(cell.error());
+  // It is there unless somebody repeats what a parent, which made it, has cleared away.
+  if (core::Status s = prepare_folder(a.in_process); !s) return complain(s.error());
   if (core::Status s = core::write_cells(std::filesystem::path(a.in_process) / "cells.json", {cell.value()}); !s)
     return complain(s.error());
-  return core::Exit::kGood;
+  return cell.value().state == core::CellState::kRecorded ? core::Exit::kGood : core::Exit::kMissing;
 }
 
 // SCENE is the folder that `broadside plan` made.

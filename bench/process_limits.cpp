@@ -1,10 +1,12 @@
 #include "bench/process_limits.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 
 namespace broadside::bench {
 namespace {
@@ -34,6 +36,11 @@ void lower(int resource, rlim_t most) {
 void limit_this_process(std::uint64_t memory_mib) {
   lower(RLIMIT_CORE, 0);
   if (memory_mib > 0) lower(RLIMIT_AS, address_space_in_use() + (memory_mib << 20U));
+}
+
+void die_with(int parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);
 }
 
 }  // namespace broadside::bench

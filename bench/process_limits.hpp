@@ -10,4 +10,8 @@ namespace broadside::bench {
 // fork and exec.
 void limit_this_process(std::uint64_t memory_mib);
 
+// In a child that was just forked by `parent`: it dies when its parent does, also when that came before.
+// Async-signal-safe.
+void die_with(int parent);
+
 }  // namespace broadside::bench

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/rows.hpp"
 #include "tests/command_line/program.hpp"
 
 namespace broadside::tests {
@@ -103,6 +106,61 @@ TEST(PluginRun, AHangEndsAtTheTimeLimit) {
       {"run", "freefall:cube:3", "--frames", "2", "--engine", wrong(2), "--time-limit", "1", "--out", folder.text()});
   EXPECT_EQ(ended.exit_code, 3);
   EXPECT_NE(ended.out.find("timed out"), std::string::npos) << ended.out;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+// What became of an engine's process, in the same words from each command, with the command that does it again.
+struct Fault {
+  int number;
+  std::string verdict;
+  int exit_code_of_repeat;  // -1: a signal
+};
+const std::vector<Fault> kFaults{{1, "abort", -1}, {7, "crash", -1}, {12, "exception", 3}};
+
+TEST(PluginRun, PairsNamesTheVerdictAndRepeatsIt) {
+  for (const Fault& fault : kFaults) {
+    const Ended ended = run_program({"pairs", "boxes:uniform:200", "--engine", wrong(fault.number), "--json"});
+    EXPECT_EQ(ended.exit_code, 3) << ended.out;
+    const nlohmann::json row = nlohmann::json::parse(ended.out).at(0);
+    EXPECT_EQ(row.at("verdict"), fault.verdict) << ended.out;
+    std::vector<std::string> repeat = words_of(row.at("repeat"));
+    ASSERT_EQ(repeat.front(), "broadside");
+    repeat.erase(repeat.begin());
+    EXPECT_EQ(run_program(repeat).exit_code, fault.exit_code_of_repeat) << row.at("repeat");
+  }
+  const Ended late = run_program({"pairs", "boxes:uniform:200", "--engine", wrong(2), "--time-limit", "0.5", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(late.out).at(0).at("verdict"), "time-out") << late.out;
+}
+
+TEST(PluginRun, TimeAndRunNameTheVerdictAndRepeatIt) {
+  const ScratchFolder folder;
+  const std::vector<std::string> scene{"freefall:cube:30", "--frames", "20", "--out"};
+  const auto command = [&](const std::string& name, int fault, const std::string& out) {
+    return run_program({name, scene[0], scene[1], scene[2], scene[3], out, "--engine", wrong(fault)});
+  };
+  for (const Fault& fault : kFaults) {
+    const std::string out = (folder / std::to_string(fault.number)).string();
+    EXPECT_EQ(command("run", fault.number, out).exit_code, 3);
+    const auto rows = core::read_rows(out);
+    ASSERT_TRUE(rows.ok());
+    const core::Cell& cell = rows.value().cells.back();
+    EXPECT_EQ(cell.stamp.engine, "wrong-engine");
+    EXPECT_EQ(cell.notes.at("verdict on its process"), fault.verdict);
+    std::vector<std::string> repeat = words_of(cell.notes.at("repeat"));
+    repeat.erase(repeat.begin());
+    EXPECT_EQ(run_program(repeat).exit_code, fault.exit_code_of_repeat) << cell.notes.at("repeat");
+
+    const Ended timed = command("time", fault.number, out + "/samples.json");
+    EXPECT_EQ(timed.exit_code, 3);
+    EXPECT_NE(timed.err.find(fault.verdict + ": "), std::string::npos) << timed.err;
+    EXPECT_NE(timed.err.find("repeat: broadside time"), std::string::npos) << timed.err;
+  }
 }
 
 TEST(PluginRun, BadPathsAreOneClearLine) {
