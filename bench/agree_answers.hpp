@@ -19,7 +19,7 @@ enum class Asked : std::uint8_t { kNothing, kAnswered, kThrew, kAborted, kCrashe
 
 struct Answer {
   Asked asked = Asked::kNothing;
-  float seconds = 0.0F;  // of this one query, the adapter's conversions with it
+  float seconds = 0.0F;  // of this one query, the adapter's conversions with it; elapsed or processor's, the lesser
   core::Separation separation;
   std::array<char, 96> thrown{};  // what the library threw, cut short
 };
@@ -33,13 +33,14 @@ struct Answers {
 };
 
 struct AskLimits {
-  double seconds_per_query = 1.0;
+  double seconds_per_query = 1.0;   // of processor time: others on the machine do not count
   std::uint64_t memory_mib = 4096;  // of address space beyond what this program has
+  std::uint32_t processes = 1;      // side by side
 };
 
-// One query at a time. The process starts again behind the pair that it died of. Must be called before this process has
-// started a thread: the children are forks of it. Errors: the engine cannot be made, has no narrow phase, or refuses
-// the shapes. progress is called with pairs done.
+// One query at a time in each process. A process starts again behind the pair that it died of. Must be called before
+// this process has started a thread: the children are forks of it. Errors: the engine cannot be made, has no narrow
+// phase, or refuses the shapes. progress is called with pairs done.
 core::Result<Answers> ask(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs,
                           const AskLimits& limits, const std::function<void(std::uint64_t)>& progress);
 

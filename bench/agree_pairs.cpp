@@ -57,8 +57,16 @@ std::array<double, 3> sides(RandomStream& random, Degeneracy form) {
   return s;
 }
 
+// To a grid on which sums and halves are exact in float.
+constexpr double kGrid_m = 1.0 / 256.0;
+double on_grid(double m) {
+  return kGrid_m * std::round(m / kGrid_m);
+}
+
 core::Result<core::Mesh> shape(PairKind kind, Degeneracy form, RandomStream& random, std::uint64_t seed) {
-  const std::array<double, 3> s = sides(random, form);
+  std::array<double, 3> s = sides(random, form);
+  if (kind == PairKind::kKissing)
+    for (double& side : s) side = on_grid(side);
   switch (kind) {
     case PairKind::kBoxes:
     case PairKind::kKissing:
@@ -184,6 +192,8 @@ TestPair PairSource::pair(std::uint64_t index) {
   if (kind_ == PairKind::kKissing && index % 3 == 0) pair.pose_a.orientation = pair.pose_b.orientation = Quat{};
   if (kind_ == PairKind::kKissing && index % 3 == 1) pair.pose_b.orientation = pair.pose_a.orientation;
   pair.pose_a.position = to_core(draw.random.between(0.0, 2.0) * draw.direction());
+  if (kind_ == PairKind::kKissing)
+    for (int k = 0; k < 3; ++k) pair.pose_a.position[k] = static_cast<float>(on_grid(pair.pose_a.position[k]));
   place(pair, draw, index);
   arbitrate(pair);
   return pair;
@@ -223,9 +233,15 @@ void PairSource::place(TestPair& pair, Draw& draw, std::uint64_t index) {
     Vec3 beside;
     for (int k = 0; k < 3; ++k)
       if (k != axis) beside[k] = static_cast<float>(draw.random.between(-1.0, 1.0) * s);
+    if (kind_ == PairKind::kKissing)
+      for (int k = 0; k < 3; ++k) beside[k] = static_cast<float>(on_grid(beside[k]));
     offset = reference::to_point(core::rotate(pair.pose_a.orientation, beside));
   }
-  move_to(pair, along, offset, target);
+  const double t = move_to(pair, along, offset, target);
+  // Parallel to the axes, all is on the grid (or on half of it: middles) but for what rounding left of t: such boxes
+  // touch exactly.
+  if (kind_ == PairKind::kKissing && index % 3 == 0)
+    pair.pose_b.position = to_core(reference::to_point(pair.pose_a.position) + offset + 0.5 * on_grid(2.0 * t) * along);
 }
 
 // Newton's method from outside: along a line the signed distance of convex bodies is convex, so no step goes too far;
@@ -233,12 +249,14 @@ void PairSource::place(TestPair& pair, Draw& draw, std::uint64_t index) {
 double PairSource::move_to(TestPair& pair, Point along, Point offset, double target) {
   double t = reach_m_[pair.mesh_a] + reach_m_[pair.mesh_b] + std::max(0.0, target);
   const Point origin = reference::to_point(pair.pose_a.position);
+  // Meshes are asked about wherever they come to lie; each step costs a search of two trees.
+  const double near_enough = is_convex_ ? 1e-8 : 0.1 * std::abs(target);
   for (int step = 0; step < 16; ++step) {
     pair.pose_b.position = to_core(origin + offset + t * along);
     arbitrate(pair);
     const double error = pair.distance_m - target;
     const double slope = -dot(pair.normal, along);
-    if (error < 1e-8 || !(slope > 1e-3)) break;
+    if (error < near_enough || !(slope > 1e-3)) break;
     t -= error / slope;
   }
   return t;

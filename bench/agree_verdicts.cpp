@@ -143,10 +143,13 @@ std::vector<core::DefectHits> defects_met(std::string_view engine_label, PairKin
     if (kind == PairKind::kBoxes && is_collide) report(Defect::kFclBoxAxis, Agreement::kDepthOff);
     if (kind == PairKind::kConvex) report(Defect::kFclConvexNormal, Agreement::kDepthOff);
   }
+  if (engine_label.starts_with("bullet-shapes") && kind != PairKind::kKissing)
+    report(Defect::kBulletNearNormal, Agreement::kNormalOff);
   if (engine_label.starts_with("ccd")) {
     const bool is_mpr = engine_label.find("algorithm=mpr") != std::string_view::npos;
     if (is_mpr) report(Defect::kCcdMprDepth, Agreement::kDepthOff);
     if (!is_mpr) report(Defect::kCcdGjkNan, Agreement::kNoNumber);
+    if (!is_mpr) report(Defect::kCcdEpaHang, Agreement::kTimedOut);
   }
   return met;
 }

@@ -6,10 +6,12 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bench/agree_answers.hpp"
 #include "bench/agree_case.hpp"
+#include "bench/agree_draw.hpp"
 #include "bench/agree_report.hpp"
 #include "bench/build_facts.hpp"
 #include "bench/commands.hpp"
@@ -34,7 +36,7 @@ struct AgreeArguments {
   std::string folder = "out/agree";
   std::string case_file;
   bool as_json = false;
-  AskLimits limits;
+  AskLimits limits{.processes = std::max(1U, std::thread::hardware_concurrency())};
 };
 
 std::vector<std::string> default_engines(PairKind kind) {
@@ -159,14 +161,12 @@ core::Exit agree(const AgreeArguments& a) {
   if (core::Status s = prepare_folder(a.folder); !s) return complain(s.error());
   auto source = PairSource::make(kind, a.seed, a.mesh);
   if (!source) return complain(source.error());
-  std::vector<TestPair> pairs;
-  {
+  auto drawn = [&] {
     Progress progress("pairs and the arbiter's answers", a.count);
-    for (std::uint64_t k = 0; k < a.count; ++k) {
-      pairs.push_back(source.value().pair(k));
-      progress.at(k + 1);
-    }
-  }
+    return draw_pairs(source.value(), a.count, a.limits.processes, [&](std::uint64_t done) { progress.at(done); });
+  }();
+  if (!drawn) return complain(drawn.error());
+  const std::vector<TestPair>& pairs = drawn.value();
   const std::string scene = fmt::format("agree:{}:{}{}", a.kind, a.count, a.mesh.empty() ? "" : ":" + a.mesh);
   std::vector<EngineStudy> studies;
   core::Exit exit = core::Exit::kGood;
@@ -207,11 +207,13 @@ void add_agree(CLI::App& program, core::Exit& exit) {
   command->add_option("--mesh", a->mesh, "With --pairs meshes: this mesh instead of lumpy bodies");
   command->add_option("--seed", a->seed, "Of the pairs")->capture_default_str();
   command->add_option("--out", a->folder, "Folder for rows, tables and saved inputs")->capture_default_str();
-  command->add_option("--time-limit", a->limits.seconds_per_query, "Seconds after which one query is ended")
+  command->add_option("--time-limit", a->limits.seconds_per_query, "Processor seconds after which one query is ended")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--memory-limit", a->limits.memory_mib, "MiB that an engine's process may take; 0 = no limit")
       ->capture_default_str();
+  command->add_option("--processes", a->limits.processes, "Processes that ask side by side (default: one per core)")
+      ->check(CLI::Range(1, 256));
   command->add_option("--case", a->case_file, "Ask about one saved pair instead (exit 1 when an answer is wrong)");
   command->add_flag("--json", a->as_json, "As JSON");
   command->callback([a, &exit] { exit = agree(*a); });
