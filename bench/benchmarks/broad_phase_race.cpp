@@ -57,6 +57,18 @@ std::uint64_t expected_digest(const BoxSet& set, bool is_for_octree) {
   return at->second;
 }
 
+// Once for all repetitions: on a million boxes it takes as long as what is timed.
+bool is_right(core::BroadPhase& broad, const Racer& racer, const BoxSet& set) {
+  static std::map<std::pair<std::string, std::string>, bool> known;
+  const auto [at, is_new] = known.try_emplace({set.path, std::string(racer.name)}, false);
+  if (is_new) {
+    const auto found = pairs_of(broad, boxes_of(set));
+    at->second = found.ok() &&
+                 core::pair_digest(found.value().pairs) == expected_digest(set, racer.engine.substr(0, 6) == "octree");
+  }
+  return at->second;
+}
+
 enum class Work { kScratch, kMoving };
 
 // Frame after frame to and fro, so that every step is a small one.
@@ -84,13 +96,15 @@ void race(benchmark::State& state, const Racer& racer, const BoxSet& set, Work w
     return;
   }
   const Boxes& boxes = boxes_of(set);
-  const auto checked = pairs_of(*broad, boxes);
-  if (!checked.ok() ||
-      core::pair_digest(checked.value().pairs) != expected_digest(set, racer.engine.substr(0, 6) == "octree")) {
+  if (!is_right(*broad, racer, set)) {
     state.SkipWithError("not measured: its pairs are not those of the arbiter");
     return;
   }
   const std::vector<std::uint8_t> is_static(boxes.size(), 0);
+  if (work == Work::kMoving && (!broad->load(boxes, is_static).ok() || !broad->find().ok())) {
+    state.SkipWithError("failed");
+    return;
+  }
   const std::vector<Boxes> frames = work == Work::kMoving ? moving_frames(boxes) : std::vector<Boxes>{};
   double take_s = 0.0;
   double find_s = 0.0;
