@@ -1,0 +1,132 @@
+"""The scripts that measure and keep: with programs that only pretend, and on what the repository keeps."""
+import json
+import os
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+RACE = os.path.join(ROOT, "bench", "benchmarks", "measure")
+REFERENCES = os.path.join(ROOT, "reference", "results", "measure")
+
+# Google Benchmark as far as the script looks at it: names that the filter takes, with these times in ms.
+PRETENDED_RACE = """
+import json, re, sys
+options = dict(a.split("=", 1) for a in sys.argv[1:])
+times = {"octree-cpu": 10.0, "embree-collide": 25.0, "fcl-tree": 60.0, "cgal-boxes": 19.0, "bullet-dbvt-tree": 90.0,
+         "bullet-dbvt": 80.0, "bullet-dbvt-deferred": 45.0, "all-pairs": 1.0}
+rows = []
+for suite, families in (("scratch", ("uniform", "heaps", "mixed")), ("moving", ("uniform", "heaps"))):
+    for family in families:
+        for count in (10000, 1000000, 10000000):
+            for engine, ms in times.items():
+                name = f"{suite}/{family}/{count}/{engine}"
+                if not re.search(options["--benchmark_filter"], name + "/manual_time"):
+                    continue
+                slow = 3 if family == "mixed" and engine == "octree-cpu" else 1
+                for k in range(int(options["--benchmark_repetitions"])):
+                    rows.append({"name": name + "/manual_time/repeats:3", "run_type": "iteration", "repetition_index": k,
+                                 "real_time": slow * ms})
+json.dump({"context": {"host_name": "secret", "executable": "secret"}, "benchmarks": rows},
+          open(options["--benchmark_out"], "w"))
+"""
+
+PRETENDED_BROADSIDE = """
+import json, os, sys
+arguments = sys.argv[1:]
+option = lambda name: arguments[arguments.index(name) + 1]
+if arguments[0] == "pairs":
+    rows = [{"engine": "octree-cpu", "frames": 2, "boxes": 9, "pairs": 40, "raw_pairs": 40, "digest": "0x1", "update_s": 0.002,
+             "find_s": 0.004, "filter_s": 0.0, "read_back_s": 0.0},
+            {"engine": "bullet-dbvt", "frames": 2, "boxes": 9, "pairs": 40, "raw_pairs": 50, "digest": "0x1", "update_s": 0.02,
+             "find_s": 0.04, "filter_s": 0.002, "read_back_s": 0.0},
+            {"engine": "fcl-sap", "absent": "signal 6 (Aborted)", "verdict": "abort", "repeat": "broadside of-this-run"}]
+    print(json.dumps(rows))
+    sys.exit(0)
+os.makedirs(option("--out"), exist_ok=True)
+stamp = {"machine": "a machine", "broadside_build": "a build"}
+json.dump({"rows": [{"stamp": stamp}]}, open(os.path.join(option("--out"), "cells.json"), "w"))
+bin_ = lambda **verdicts: {"pairs": sum(verdicts.values()), "verdicts": verdicts, "median_s": 2.5e-6 if verdicts else None}
+engine = {"engine": "an-engine", "build": "1.0", "absent": "", "by_separation": {"deep": bin_(agree=7, abort=2), "far": bin_()},
+          "by_degeneracy": {"general": bin_(agree=7), "needle": bin_(abort=2)}, "words": {"Assertion": 2},
+          "repeat": ["broadside agree --case of-this-run/case.json"]}
+print(json.dumps({"pairs": option("--pairs") if "--pairs" in arguments else "boxes", "engines": [engine]}))
+"""
+
+
+def program(folder, text):
+    path = os.path.join(folder, "program")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f"#!{sys.executable}\n{text}")
+    os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
+    return path
+
+
+def run(*command):
+    return subprocess.run([sys.executable, "-B", *command], check=True, capture_output=True, text=True).stdout
+
+
+class CpuRace(unittest.TestCase):
+    def test_targets_are_met_and_missed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "race.json")
+            said = run(RACE, program(folder, PRETENDED_RACE), out, "--cpu-race", "--counts", "10000", "1000000")
+            with open(os.path.join(folder, "race.md"), encoding="utf-8") as file:
+                self.assertEqual(file.read(), said)
+            with open(out, encoding="utf-8") as file:
+                kept = json.load(file)
+        self.assertNotIn("secret", json.dumps(kept))
+        names = {row["name"] for row in kept["benchmarks"]}
+        self.assertFalse([n for n in names if "10000000" in n or "all-pairs" in n or n.startswith("moving/heaps")])
+        # 10 ms is more than half of cgal's 19; moving, more than a fifth of the deferred 45; 30 ms of mixed is far beyond.
+        self.assertIn("| scratch uniform 10,000 | 10 | 9.5 | 1/2 of cgal-boxes | MISSED: 1.05 times too slow |", said)
+        self.assertIn("| scratch uniform 1,000,000 | 10 | 260 | set | met: 26.00 times as fast as asked |", said)
+        self.assertIn("| scratch mixed 10,000 | 30 | 9.5 | 1/2 of cgal-boxes | MISSED: 3.16 times too slow |", said)
+        self.assertIn("| moving uniform 1,000,000 | 10 | 9 | 1/5 of bullet-dbvt-deferred | MISSED: 1.11 times too slow |", said)
+
+    def test_what_was_not_timed_says_so(self):
+        with tempfile.TemporaryDirectory() as folder:
+            said = run(RACE, program(folder, PRETENDED_RACE), os.path.join(folder, "race.json"), "--filter",
+                       "scratch/heaps/10000/(octree-cpu|embree-collide)")
+        self.assertIn("| scratch heaps 10,000 | 10 | 12.5 | 1/2 of embree-collide | met: 1.25 times as fast as asked |", said)
+        self.assertIn("| scratch mixed 10,000 | not measured | | | |", said)
+
+
+class References(unittest.TestCase):
+    def test_everything_is_kept_without_paths_and_tabled(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run(REFERENCES, program(folder, PRETENDED_BROADSIDE), "--to", folder)
+            with open(os.path.join(folder, "README.md"), encoding="utf-8") as file:
+                page = file.read()
+            files = [name for name in os.listdir(folder) if name.endswith(".json")]
+            self.assertEqual(len(files), 8, files)
+            for name in files:
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    text = file.read()
+                self.assertNotIn("of-this-run", text, name)
+                self.assertIn("a machine", text, name)
+        self.assertIn("| `an-engine` | 7 agree, 2 abort |", page)
+        self.assertIn("| `bullet-dbvt` | 50 | 40 | +25.0 % | 10 | 20 | 1 |", page)
+        self.assertIn("abort: signal 6 (Aborted)", page)
+        self.assertIn("| asian_dragon | `an-engine` | 0.0025 (9) |", page)
+        self.assertIn("2 x Assertion", page)
+
+    def test_the_page_that_is_kept_is_that_of_the_files(self):
+        here = os.path.dirname(REFERENCES)
+        files = [name for name in os.listdir(here) if name.endswith(".json")]
+        if not files:
+            self.skipTest("nothing is kept yet")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in files:
+                shutil.copy(os.path.join(here, name), folder)
+            run(REFERENCES, "--tables", "--to", folder)
+            with open(os.path.join(folder, "README.md"), encoding="utf-8") as made, \
+                    open(os.path.join(here, "README.md"), encoding="utf-8") as kept:
+                self.assertEqual(made.read(), kept.read())
+
+
+if __name__ == "__main__":
+    unittest.main()
