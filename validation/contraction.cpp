@@ -1,6 +1,7 @@
 #include "validation/contraction.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "validation/application.hpp"
 #include "validation/rounding.hpp"
@@ -39,14 +40,19 @@ class Contraction final : public Validator {
       return;
     }
     const double corrected = static_cast<double>(parameters_.alpha) * parameters_.beta * (depth - delta);
-    // Axis by axis: the worst of what it moved too far or too little, and how much rounding explains there.
-    double off = -1.0;
+    // Axis by axis: what it moved too far or too little, and how much rounding explains there. The axis that is nearest
+    // to its limit, or farthest beyond it, stands for the contact.
+    double off = 0.0;
     double limit = 0.0;
+    double worst = -1.0;
     for (int k = 0; k < 3; ++k) {
       const double expected = corrected * app.normal[k];
       const double now = std::abs(moved[k] - expected);
       const double error = expected == 0.0 ? 0.0 : added(app, k) + rounding(7) * std::abs(expected) + 8.0 * kSubnormal;
-      if (!std::isnan(off) && (std::isnan(now) || now - error > off - limit || off < 0.0)) off = now, limit = error;
+      constexpr double kInf = std::numeric_limits<double>::infinity();
+      const double ratio =
+          now == 0.0 ? (error > 0.0 ? 0.0 : -0.5) : (error > 0.0 && !std::isnan(now) ? now / error : kInf);
+      if (ratio > worst) worst = ratio, off = now, limit = error;
     }
     tally_.check(off,
                  {limit, "m", "u |x| per position addition and 7 operations on the displacement (METHOD 5, float32)"},
