@@ -16,7 +16,7 @@ namespace broadside::bench::paper {
 
 // DIR/cells/ID is a finished cell: row.json, and cells.json and verdicts.json as every campaign has them. It appears
 // whole, by a rename. DIR/cells/ID.part holds its single runs until then, and row.json where it says why there is no
-// result. DIR/work/TURNS holds the traces of a scene until all its cells are finished.
+// result. TURNS in the folder work of DIR holds the traces of a scene until all its cells are finished.
 // What the plan says of a cell, and no measurement: which experiments show it, and under which name.
 void describe(const PaperCell& cell, PaperRow& row);
 

@@ -17,7 +17,7 @@ namespace broadside::core {
 // records of different bodies do not cancel or swap unseen.
 //
 // Two words are taken in by one multiplication to 128 bits whose halves are folded together. With one multiplication of
-// 64 bits and three shifts for each word, hashing cost a sixth of a sparse frame of 100,000 bodies on a CPU. A word is
+// 64 bits and three shifts for each word, hashing took a sixth of the instructions of a sparse CPU frame. A word is
 // lost only beside one of 2^64 values of its neighbour.
 class RecordHash {
  public:
