@@ -103,6 +103,7 @@ core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& c
     args.emplace_back("--frames");
     args.push_back(std::to_string(frames));
   }
+  append_memory_limit(args, limits);
   auto ended = run_self(args, limits, Keeps::kOutput);
   if (!ended) return ended.error();
   if (ended.value().is_good) return row_of_json(ended.value().output);

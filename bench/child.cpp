@@ -215,6 +215,10 @@ std::string command_line(const std::vector<std::string>& arguments) {
   return line;
 }
 
+void append_memory_limit(std::vector<std::string>& arguments, const ChildLimits& limits) {
+  if (limits.memory_mib > 0) append(arguments, {"--memory-limit", std::to_string(limits.memory_mib)});
+}
+
 std::string_view class_of(const ChildEnding& ending) {
   if (ending.is_good) return {};
   if (ending.timed_out) return "time-out";
@@ -251,7 +255,7 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
     if (out.to >= 0) dup2(out.to, STDOUT_FILENO);
     for (const int end : {err.from, err.to, out.from, out.to})
       if (end >= 0) close(end);
-    limit_this_process(limits.memory_mib);
+    leave_no_core_file();
     execv("/proc/self/exe", argv.data());
     _exit(127);
   }
@@ -271,7 +275,8 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
 core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const ChildLimits& limits) {
   const CellFolder folder(request.folder);
   if (core::Status s = folder.status(); !s) return s.error();
-  const std::vector<std::string> args = run_arguments(request, folder.path());
+  std::vector<std::string> args = run_arguments(request, folder.path());
+  append_memory_limit(args, limits);
   auto ended = run_self(args, limits, Keeps::kNothing);
   if (!ended) return ended.error();
   ChildEnding& ending = ended.value();
@@ -296,6 +301,7 @@ core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const 
   std::vector<std::string> args = cell_arguments("time", request);
   append(args, {"--repetitions", "1", "--out", (request.folder / "samples.json").string(), "--in-process",
                 folder.path().string()});
+  append_memory_limit(args, limits);
   auto ended = run_self(args, limits, Keeps::kOutput);
   if (!ended) return ended.error();
   const ChildEnding& ending = ended.value();

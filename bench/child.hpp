@@ -16,8 +16,12 @@ namespace broadside::bench {
 
 struct ChildLimits {
   double seconds = 3600.0;
-  std::uint64_t memory_mib = 0;  // of address space beyond the program's own; 0 = no limit
+  std::uint64_t memory_mib = 0;  // of address space beyond what the child has when it begins its work; 0 = no limit
 };
+
+// "--memory-limit N" where there is a limit: a child sets it on itself (`limit_this_process`) when its libraries are
+// loaded and before it loads a scene, and the line that repeats a cell repeats its limit too.
+void append_memory_limit(std::vector<std::string>& arguments, const ChildLimits& limits);
 
 struct ChildEnding {
   bool is_good = false;  // ended by itself with exit code 0

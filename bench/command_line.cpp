@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "bench/build_facts.hpp"
@@ -103,14 +104,21 @@ core::Exit complain(const core::Error& error) {
 
 int run_command_line(int argc, char** argv) {
   watch_for_interrupt();
+  const auto gave_up = [](const char* what, const char* where, const char* advice) {
+    return static_cast<int>(complain({what, where, advice, core::Exit::kInternal}));
+  };
+  constexpr const char* kLess = "fewer bodies or frames, or a larger machine";
   try {
     return static_cast<int>(parse_and_run(argc, argv));
   } catch (const std::bad_alloc&) {
-    return static_cast<int>(
-        complain({"out of memory", "this run", "fewer bodies or frames, or a larger machine", core::Exit::kInternal}));
+    return gave_up("out of memory", "this run", kLess);
+  } catch (const std::system_error& error) {
+    // What a thread says that finds no room for its stack.
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return gave_up("out of memory: no room for another thread", "this run", kLess);
+    return gave_up(error.what(), "internal error", "please report it with the command");
   } catch (const std::exception& error) {
-    return static_cast<int>(
-        complain({error.what(), "internal error", "please report it with the command", core::Exit::kInternal}));
+    return gave_up(error.what(), "internal error", "please report it with the command");
   }
 }
 

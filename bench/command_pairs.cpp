@@ -8,6 +8,7 @@
 #include "bench/commands.hpp"
 #include "bench/limit_arguments.hpp"
 #include "bench/more_than_zero.hpp"
+#include "bench/process_limits.hpp"
 #include "bench/scene_arguments.hpp"
 
 namespace broadside::bench {
@@ -53,6 +54,7 @@ core::Exit verdict_of(const std::vector<RaceRow>& rows) {
 }
 
 core::Exit pairs(const PairsArguments& a) {
+  if (a.is_in_process) limit_this_process(a.limits.memory_mib);
   auto cells = a.engines.make();
   if (!cells) return complain(cells.error());
   auto rows = race_boxes(a.boxes, cells.value(), a.frames, a.limits, a.is_in_process);

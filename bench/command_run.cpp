@@ -8,6 +8,7 @@
 #include "bench/commands.hpp"
 #include "bench/limit_arguments.hpp"
 #include "bench/more_than_zero.hpp"
+#include "bench/process_limits.hpp"
 #include "bench/record.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
@@ -116,6 +117,7 @@ core::Exit run(const RunArguments& a) {
   if (!a.cell.empty() || !a.shard.empty()) return run_campaign(a);
   if (a.engines.engines.empty())
     return complain({"no engine was named", "--engine", "one of those that 'broadside list engines' shows"});
+  if (!a.in_process.empty()) limit_this_process(a.limits.memory_mib);
   auto plan = make_plan(a);
   if (!plan) return complain(plan.error());
   if (core::Status s = prepare_folder(plan.value().folder); !s) return complain(s.error());

@@ -12,6 +12,7 @@
 #include "bench/interleave.hpp"
 #include "bench/limit_arguments.hpp"
 #include "bench/more_than_zero.hpp"
+#include "bench/process_limits.hpp"
 #include "bench/run_plan.hpp"
 #include "bench/scene_arguments.hpp"
 #include "bench/timing.hpp"
@@ -53,6 +54,7 @@ std::vector<std::string> own_arguments(const TimeArguments& a) {
 }
 
 core::Exit time(const TimeArguments& a) {
+  if (!a.in_process.empty()) limit_this_process(a.limits.memory_mib);
   RunPlan plan;
   auto scene = a.scene.make();
   if (!scene) return complain(scene.error());

@@ -33,8 +33,12 @@ void lower(int resource, rlim_t most) {
 
 }  // namespace
 
-void limit_this_process(std::uint64_t memory_mib) {
+void leave_no_core_file() {
   lower(RLIMIT_CORE, 0);
+}
+
+void limit_this_process(std::uint64_t memory_mib) {
+  leave_no_core_file();
   if (memory_mib > 0) lower(RLIMIT_AS, address_space_in_use() + (memory_mib << 20U));
 }
 

@@ -1,5 +1,6 @@
 #include "bench/run_plan.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -49,6 +50,8 @@ class Runner {
     std::vector<CellSpec> specs = plan_.cells;
     // Simulations first, in the order asked for; the others are fed by them.
     std::stable_partition(specs.begin(), specs.end(), [](const CellSpec& s) { return offers(*s.row, "dynamics"); });
+    for (const CellSpec& spec : specs)
+      if (!offers(*spec.row, "dynamics") && !records_a_driver()) return needs_full(*spec.row);
     for (const CellSpec& spec : specs) {
       if (is_interrupted()) {
         done_.push_back(absent_cell(plan_, spec, "interrupted before it started"));
@@ -66,6 +69,18 @@ class Runner {
 
  private:
   static const core::EngineRow* driver_row() { return find_engine(kDriver).value(); }
+
+  // Engines that do not simulate are fed by every frame of a full trace.
+  [[nodiscard]] bool records_a_driver() const {
+    return plan_.level == core::RecordLevel::kFull && plan_.selection.every == 1;
+  }
+
+  static core::Error needs_full(const core::EngineRow& row) {
+    return {fmt::format(
+                "it does not simulate: it is fed by all frames of a full trace of {}, which this run would not record",
+                kDriver),
+            std::string(row.id), "--record full without --every, or only engines that simulate"};
+  }
 
   [[nodiscard]] core::Error no_driver() const {
     return {"it could not be recorded, and engines that do not simulate are fed by it: " + done_.back().reason,
@@ -98,8 +113,7 @@ class Runner {
 
   void note_driver(const CellSpec& spec) {
     const core::Cell& cell = done_.back();
-    const bool feeds = spec.row->id == kDriver && cell.state == core::CellState::kRecorded &&
-                       plan_.level == core::RecordLevel::kFull && plan_.selection.every == 1 &&
+    const bool feeds = spec.row->id == kDriver && cell.state == core::CellState::kRecorded && records_a_driver() &&
                        cell.stamp.settings_short.empty();
     if (driver_.empty() && feeds) driver_ = plan_.folder / cell.trace_file;
   }

@@ -15,6 +15,13 @@ herr_t take_innermost(unsigned /*n*/, const H5E_error2_t* entry, void* reason) {
   return 1;
 }
 
+// A damaged file may ask for absurd amounts, so it is not said to be whole either.
+herr_t notice_no_memory(unsigned /*n*/, const H5E_error2_t* entry, void* is_out_of_memory) {
+  if (entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_NOSPACE || entry->min_num == H5E_CANTALLOC)
+    *static_cast<bool*>(is_out_of_memory) = true;
+  return 0;
+}
+
 }  // namespace
 
 QuietHdf5::QuietHdf5() : alone_(hdf5_mutex()) {
@@ -36,7 +43,12 @@ std::string hdf5_reason() {
 }
 
 Error hdf5_error(const std::string& what, const std::string& where, const std::string& advice) {
+  bool is_out_of_memory = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, notice_no_memory, &is_out_of_memory);
   const std::string reason = hdf5_reason();
+  if (is_out_of_memory)
+    return {what + " (out of memory: " + reason + ")", where, "more memory; where there is enough: " + advice,
+            Exit::kBadInput};
   return {reason.empty() ? what : what + " (" + reason + ")", where, advice, Exit::kBadInput};
 }
 

@@ -159,6 +159,7 @@ TEST(References, PairsAndTimesComeFromProcessesWithLimits) {
   const Ended large = run_program({"pairs", "boxes:uniform:200000", "--engine", "fcl-tree", "--memory-limit", "64"});
   EXPECT_EQ(large.exit_code, 3) << large.out << large.err;
   EXPECT_NE(large.out.find("out of memory: "), std::string::npos) << large.out;
+  EXPECT_NE(large.out.find("--memory-limit 64"), std::string::npos) << "what repeats it has its limit" << large.out;
 
   const ScratchFolder folder;
   const std::string out = (folder / "out").string();
@@ -181,6 +182,26 @@ TEST(References, PairsAndTimesComeFromProcessesWithLimits) {
                                         "--time-limit", "0.001", "--out", out + "/samples.json"});
   EXPECT_EQ(timed_late.exit_code, 3) << timed_late.out;
   EXPECT_NE(timed_late.err.find("no end after"), std::string::npos) << timed_late.err;
+}
+
+// The limit is what the engine's process takes for its work, whatever the harness has in use: 50,000 bodies do not fit
+// 16 MiB.
+TEST(References, AMemoryLimitOfARunIsItsEnginesOwn) {
+  const ScratchFolder folder;
+  const auto run = [&](const char* limit) {
+    return run_program({"run", "freefall:cube:50000", "--frames", "2", "--engine", "bullet-dbvt", "--memory-limit",
+                        limit, "--out", (folder / limit).string()});
+  };
+  const Ended small = run("16");
+  EXPECT_EQ(small.exit_code, 3) << small.out << small.err;
+  const auto rows = core::read_rows(folder / "16");
+  ASSERT_TRUE(rows.ok());
+  bool is_named = false;
+  for (const core::Cell& cell : rows.value().cells)
+    if (cell.stamp.engine == "bullet-dbvt") is_named = cell.notes.at("verdict on its process") == "out of memory";
+  EXPECT_TRUE(is_named) << small.out;
+  const Ended large = run("4000");
+  EXPECT_EQ(large.exit_code, 0) << large.out << large.err;
 }
 
 }  // namespace
