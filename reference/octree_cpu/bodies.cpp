@@ -11,7 +11,8 @@ Bodies make_bodies(const core::Scene& scene) {
   core::ShapeTable table = core::build_shapes(scene);
   for (core::Shape& shape : table.shapes) {
     const core::NodeBoxes boxes = core::node_boxes(shape.octree);
-    bodies.shapes.push_back({std::move(shape), boxes});
+    VertexBlocks blocks = make_vertex_blocks(shape.octree);
+    bodies.shapes.push_back({std::move(shape), boxes, std::move(blocks)});
   }
   bodies.shape = std::move(table.shape_of_body);
   for (const core::Body& body : scene.bodies) {

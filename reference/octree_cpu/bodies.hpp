@@ -11,12 +11,14 @@
 #include "core/method/levels.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shapes.hpp"
+#include "reference/octree_cpu/vertex_blocks.hpp"
 
 namespace broadside::reference {
 
 struct ShapeData {
   core::Shape shape;
   core::NodeBoxes boxes;
+  VertexBlocks blocks;
 };
 
 struct Bodies {

@@ -33,6 +33,8 @@ void LevelStage::confirm(const Bodies& bodies, core::Levels levels, std::span<co
 void LevelStage::confirm_all(const Bodies& bodies, core::Levels levels, std::vector<Pair>& confirmed) {
   const std::uint32_t n = bodies.count();
   rows_.resize(n);
+  const bool tests_leaves = levels == core::Levels::kA;
+  if (tests_leaves) leaf_boxes_.place(bodies);
   // One row per body: rows are joined in order, so the result is sorted whatever thread made which row.
   tbb::parallel_for(std::uint32_t{0}, n, [&](std::uint32_t i) {
     std::vector<Pair>& row = rows_[i];
@@ -43,9 +45,11 @@ void LevelStage::confirm_all(const Bodies& bodies, core::Levels levels, std::vec
     for (std::uint32_t j = i + 1; j < n; ++j) {
       if (bodies.is_static[i] != 0 && bodies.is_static[j] != 0) continue;
       ++tried;
-      if (core::is_confirmed(levels, boxes, bodies.state[i].x, bodies.shapes[bodies.shape[j]].boxes, bodies.state[j].x,
-                             tests))
-        row.push_back({i, j});
+      const bool is_kept = tests_leaves
+                               ? leaf_boxes_.overlap(i, j, tests)
+                               : core::is_confirmed(levels, boxes, bodies.state[i].x,
+                                                    bodies.shapes[bodies.shape[j]].boxes, bodies.state[j].x, tests);
+      if (is_kept) row.push_back({i, j});
     }
     box_tests_.fetch_add(tests, std::memory_order_relaxed);
     pairs_tested_.fetch_add(tried, std::memory_order_relaxed);

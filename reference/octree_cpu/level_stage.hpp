@@ -9,6 +9,7 @@
 #include "core/method/levels.hpp"
 #include "core/pair.hpp"
 #include "reference/octree_cpu/bodies.hpp"
+#include "reference/octree_cpu/leaf_boxes.hpp"
 
 namespace broadside::reference {
 
@@ -27,6 +28,7 @@ class LevelStage {
   void reset_counts() { pairs_tested_ = box_tests_ = 0; }
 
  private:
+  LeafBoxes leaf_boxes_;  // of the published start with level A
   std::vector<std::uint8_t> keep_;
   std::vector<std::vector<core::Pair>> rows_;
   std::atomic<std::uint64_t> pairs_tested_{0};

@@ -23,8 +23,9 @@ float axis_gap(const Box& a, const Box& b) {
   return gap;
 }
 
-// Finds the nearest pair by branch and bound over leaves. Everything skipped is at least as far as what is kept, in the
-// rounded arithmetic too (see apart_by), so the result is that of trying every pair of vertices.
+// Finds the nearest pair by branch and bound over the octree's leaves and the boxes within them. Everything skipped is
+// at least as far as what is kept, in the rounded arithmetic too (see apart_by), so the result is that of trying every
+// pair of vertices.
 class NearestVertices {
  public:
   NearestVertices(const ShapeData& a, Vec3 xa, const ShapeData& b, Vec3 xb, float theta_m)
@@ -65,37 +66,43 @@ class NearestVertices {
       for (int s = 8 * q; s < 8 * q + 8; ++s) {
         Box box_s;
         if (!world_box(b_, xb_, core::kLevelOffset[2] + s, box_s) || is_skipped(box_r, box_s)) continue;
-        leaves(r, box_r, s, box_s);
+        blocks(a_.blocks.root[static_cast<std::size_t>(r)], box_r, b_.blocks.root[static_cast<std::size_t>(s)], box_s);
       }
     }
   }
 
-  void leaves(int leaf_a, const Box& box_a, int leaf_b, const Box& box_b) {
-    const core::BodyOctree& ta = a_.shape.octree;
-    const core::BodyOctree& tb = b_.shape.octree;
-    // Vertices of B that are near A's leaf, once; then each near vertex of A against them.
-    near_.clear();
-    for (std::uint32_t k = tb.leaf_begin[leaf_b]; k < tb.leaf_begin[leaf_b + 1]; ++k) {
-      const Vec3 v = tb.sorted_vertices[k] + xb_;
-      if (!is_skipped(box_a, {v, v})) near_.push_back({v, tb.sorted_indices[k]});
+  // Two nodes within leaves. The larger is opened, so both shrink together.
+  void blocks(std::uint32_t node_a, const Box& box_a, std::uint32_t node_b, const Box& box_b) {
+    const VertexBlocks::Node& a = a_.blocks.nodes[node_a];
+    const VertexBlocks::Node& b = b_.blocks.nodes[node_b];
+    if (a.child == 0 && b.child == 0) {
+      vertices(a, b, box_b);
+      return;
     }
-    if (near_.empty()) return;
-    for (std::uint32_t k = ta.leaf_begin[leaf_a]; k < ta.leaf_begin[leaf_a + 1]; ++k) {
-      const Vec3 v = ta.sorted_vertices[k] + xa_;
+    const bool opens_a = b.child == 0 || (a.child != 0 && a.last - a.first >= b.last - b.first);
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      if (opens_a) {
+        const Box child = core::translated(a_.blocks.nodes[a.child + k].box, xa_);
+        if (!is_skipped(child, box_b)) blocks(a.child + k, child, node_b, box_b);
+      } else {
+        const Box child = core::translated(b_.blocks.nodes[b.child + k].box, xb_);
+        if (!is_skipped(box_a, child)) blocks(node_a, box_a, b.child + k, child);
+      }
+    }
+  }
+
+  void vertices(const VertexBlocks::Node& a, const VertexBlocks::Node& b, const Box& box_b) {
+    for (std::uint32_t p = a.first; p < a.last; ++p) {
+      const Vec3 v = a_.blocks.vertices[p] + xa_;
       if (is_skipped({v, v}, box_b)) continue;
-      for (const Near& other : near_) {
-        const float d2 = core::squared_distance(v, other.position);
+      for (std::uint32_t q = b.first; q < b.last; ++q) {
+        const float d2 = core::squared_distance(v, b_.blocks.vertices[q] + xb_);
         if (!(d2 < theta2_) || d2 > best_.squared_distance_m2) continue;
-        const Proximity found{d2, ta.sorted_indices[k], other.index};
+        const Proximity found{d2, a_.blocks.indices[p], b_.blocks.indices[q]};
         if (core::is_nearer(found, best_)) best_ = found;
       }
     }
   }
-
-  struct Near {
-    Vec3 position;
-    std::uint32_t index;
-  };
 
   const ShapeData& a_;
   const ShapeData& b_;
@@ -104,7 +111,6 @@ class NearestVertices {
   float theta_m_;
   float theta2_;
   Proximity best_;
-  std::vector<Near> near_;
 };
 
 }  // namespace

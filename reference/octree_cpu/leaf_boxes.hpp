@@ -1,0 +1,31 @@
+// The level-2 boxes of every body's octree in the world, as columns: what level A tests, all pairs of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "reference/octree_cpu/bodies.hpp"
+
+namespace broadside::reference {
+
+class LeafBoxes {
+ public:
+  // Where the bodies are now, each bound rounded once, as core::overlaps_at does for each pair anew.
+  void place(const Bodies& bodies);
+
+  // core::level2_overlaps of two bodies: the same answer and the same count, several tests an instruction.
+  [[nodiscard]] bool overlap(std::uint32_t i, std::uint32_t j, std::uint64_t& tests) const;
+
+  static constexpr std::uint32_t kMost = 64;
+  // min x, y, z, max x, y, z of each box. Behind the last box are some that overlap none.
+  struct Columns {
+    alignas(32) std::array<std::array<float, kMost>, 6> bounds;
+    std::uint32_t count = 0;
+  };
+
+ private:
+  std::vector<Columns> of_body_;
+};
+
+}  // namespace broadside::reference
