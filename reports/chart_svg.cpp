@@ -15,6 +15,13 @@ std::string label_of(const Axis& axis) {
   return axis.unit.empty() ? axis.name : axis.name + ", " + axis.unit;
 }
 
+// A bar's value stands on y, however the chart lies; marks between categories have no place.
+std::vector<plots::CrossLine> lines_of(const Chart& chart, bool values_on_x) {
+  std::vector<plots::CrossLine> lines;
+  for (const ChartMark& mark : chart.marks) lines.push_back({mark.text, mark.at, mark.is_on_y != values_on_x});
+  return lines;
+}
+
 // Categories become groups; a series without a value in a group has none there.
 std::string bars(const Chart& chart, bool is_down, plots::Placement placement) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -35,6 +42,7 @@ std::string bars(const Chart& chart, bool is_down, plots::Placement placement) {
     }
     plot.series.push_back(std::move(bars));
   }
+  plot.lines = lines_of(chart, is_down);
   return plots::svg(plot, placement);
 }
 
@@ -64,6 +72,7 @@ std::string chart_svg(const Chart& chart, plots::Placement placement) {
   plot.y_scale = chart.y.is_log ? plots::Scale::kLog : plots::Scale::kLinear;
   plot.y_from_zero = chart.y.from_zero;
   for (const Series& s : chart.series) plot.curves.push_back({s.name, s.x, s.y, s.low, s.high});
+  plot.lines = lines_of(chart, false);
   return plots::svg(plot, placement);
 }
 

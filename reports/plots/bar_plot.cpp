@@ -26,6 +26,8 @@ std::vector<double> extent(const BarPlot& plot) {
   for (const BarSeries& series : plot.series)
     for (std::size_t g = 0; g < plot.groups.size(); ++g)
       for (const double sign : {-1.0, 0.0, 1.0}) values.push_back(value_of(series, g) + sign * error_of(series, g));
+  for (const CrossLine& line : plot.lines)
+    if (line.is_on_y) values.push_back(line.at);
   return values;
 }
 
@@ -73,6 +75,7 @@ std::string svg(const BarPlot& plot, Placement placement) {
       for (const double end : {up, down}) drawing.line("whisker", {middle - 2.5, end}, {middle + 2.5, end});
     }
   }
+  draw_cross_lines(drawing, area, plot.lines, nullptr, y);
   if (is_empty) draw_absence(drawing, area);
   return drawing.finish(placement);
 }

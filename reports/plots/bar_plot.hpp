@@ -20,6 +20,7 @@ struct BarPlot {
   Scale y_scale = Scale::kLinear;
   std::vector<std::string> groups;
   std::vector<BarSeries> series;
+  std::vector<CrossLine> lines = {};  // of these, those on y
 };
 
 std::string svg(const BarPlot& plot, Placement placement = Placement::kFile);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reports/escape.hpp"
 
@@ -76,6 +77,35 @@ void draw_x_names(Drawing& drawing, const Area& area, const std::vector<std::str
   for (std::size_t k = 0; k < names.size(); ++k)
     drawing.text("tick", {area.x((static_cast<double>(k) + 0.5) * part), area.bottom + 15.0}, Anchor::kMiddle,
                  clipped(printable(names[k]), columns));
+}
+
+void draw_cross_lines(Drawing& drawing, const Area& area, const std::vector<CrossLine>& lines, const Axis* x,
+                      const Axis& y) {
+  constexpr double kLine = 13.0;
+  constexpr double kGap = 4.0;
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> free_from;  // of each line of words, from the top
+  for (const CrossLine& line : lines) {
+    const double share = line.is_on_y ? y.share(line.at) : x != nullptr ? x->share(line.at) : kNowhere;
+    if (!(share >= 0.0 && share <= 1.0)) continue;
+    if (line.is_on_y) {
+      const double at = area.y(share);
+      drawing.line("across", {area.left, at}, {area.right, at});
+      drawing.text("across-name", {area.right - kGap, at - kGap}, Anchor::kEnd, line.text);
+      continue;
+    }
+    const double at = area.x(share);
+    drawing.line("across", {at, area.top}, {at, area.bottom});
+    const double width = text_width(line.text);
+    const bool is_left = at + kGap + width > area.right && at - kGap - width > area.left;
+    const double start = is_left ? at - kGap - width : at + kGap;
+    std::size_t row = 0;
+    while (row < free_from.size() && start < free_from[row]) ++row;
+    if (row == free_from.size()) free_from.push_back(start);
+    free_from[row] = start + width + kGap;
+    drawing.text("across-name", {is_left ? at - kGap : start, area.top + 11.0 + kLine * static_cast<double>(row)},
+                 is_left ? Anchor::kEnd : Anchor::kStart, line.text);
+  }
 }
 
 void draw_absence(Drawing& drawing, const Area& area) {

@@ -29,6 +29,13 @@ struct LegendEntry {
   static constexpr int kLineOnly = -2;
 };
 
+// A line across the data with a word beside it: a limit, a change point.
+struct CrossLine {
+  std::string text;
+  double at = 0.0;
+  bool is_on_y = false;  // at a value of y, so it runs from left to right
+};
+
 // The rectangle of the data; the rest of the picture is for words.
 struct Area {
   double left = 0.0;
@@ -50,6 +57,11 @@ void draw_y_axis(Drawing& drawing, const Area& area, const Axis& y, std::string_
 void draw_x_axis(Drawing& drawing, const Area& area, const Axis& x, std::string_view label);
 // A frame alone, with these names under equal parts of it.
 void draw_x_names(Drawing& drawing, const Area& area, const std::vector<std::string>& names, std::string_view label);
+
+// Lines with no place on their axis are left out; without an x axis all that stand on it. Words that would run into
+// each other go below each other.
+void draw_cross_lines(Drawing& drawing, const Area& area, const std::vector<CrossLine>& lines, const Axis* x,
+                      const Axis& y);
 
 // "no data": absence is a word, never an empty frame.
 void draw_absence(Drawing& drawing, const Area& area);

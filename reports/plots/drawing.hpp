@@ -19,8 +19,8 @@ struct Point {
 };
 
 // Coordinates in pixels, y downward. Looks come from classes (plot_style.hpp): "s0" to "s7" fill, "l0" to "l7" stroke,
-// "b0" to "b7" fill faintly, "grid", "frame", "whisker", "tick", "name", "heading", "value", "on-full", "model-box".
-// Texts are escaped here; whatever is drawn outside the picture is cut off by the viewer.
+// "b0" to "b7" fill faintly, "grid", "frame", "whisker", "across", "across-name", "tick", "name", "heading", "value",
+// "on-full", "model-box". Texts are escaped here; whatever is drawn outside the picture is cut off by the viewer.
 class Drawing {
  public:
   // title and description are what a screen reader says; neither is drawn.

@@ -108,8 +108,10 @@ std::vector<int> colors_of(const LinePlot& plot) {
 }  // namespace
 
 std::string svg(const LinePlot& plot, Placement placement) {
-  const std::vector<double> xs = all_x(plot);
-  const std::vector<double> ys = all_y(plot);
+  std::vector<double> xs = all_x(plot);
+  std::vector<double> ys = all_y(plot);
+  const std::size_t points = ys.size();
+  for (const CrossLine& line : plot.lines) (line.is_on_y ? ys : xs).push_back(line.at);
   const Axis x(plot.x_scale, xs, false);
   const Axis y(plot.y_scale, ys, plot.y_from_zero);
   const std::vector<int> colors = colors_of(plot);
@@ -136,7 +138,9 @@ std::string svg(const LinePlot& plot, Placement placement) {
     curves.line(curve, (curve.is_fitted ? "fitted l" : "curve l") + number);
     if (!curve.is_fitted) curves.marks(curve, "s" + number, colors[k] % 4, plot.text);
   }
-  const bool is_empty = std::none_of(ys.begin(), ys.end(), [&](double v) { return std::isfinite(y.share(v)); });
+  draw_cross_lines(drawing, area, plot.lines, &x, y);
+  const bool is_empty = std::none_of(ys.begin(), ys.begin() + static_cast<std::ptrdiff_t>(points),
+                                     [&](double v) { return std::isfinite(y.share(v)); });
   if (is_empty) draw_absence(drawing, area);
   return drawing.finish(placement);
 }

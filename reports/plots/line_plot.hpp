@@ -25,6 +25,7 @@ struct LinePlot {
   Scale y_scale = Scale::kLinear;
   bool y_from_zero = true;  // on a linear scale
   std::vector<Curve> curves = {};
+  std::vector<CrossLine> lines = {};
 };
 
 // Curves of unequal lengths are cut to the shortest of their columns.

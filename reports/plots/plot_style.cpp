@@ -50,8 +50,9 @@ std::string colored(Shade shade) {
            rule("b" + n, "fill", "s" + n, shade);
   }
   css += rule("grid", "stroke", "line", shade) + rule("frame", "stroke", "soft", shade) +
-         rule("whisker", "stroke", "ink", shade) + rule("model-box", "stroke", "fail", shade) +
-         rule("paper", "fill", "paper", shade);
+         rule("whisker", "stroke", "ink", shade) + rule("across", "stroke", "ink", shade) +
+         rule("across-name", "fill", "ink", shade) + rule("across-name", "stroke", "paper", shade) +
+         rule("model-box", "stroke", "fail", shade) + rule("paper", "fill", "paper", shade);
   for (const std::string_view text : {"tick", "name"}) css += rule(text, "fill", "soft", shade);
   for (const std::string_view text : {"heading", "value"}) css += rule(text, "fill", "ink", shade);
   return css + rule("on-full", "fill", "paper", shade);
@@ -65,6 +66,8 @@ constexpr std::string_view kShapes =
     ".plot .curve{fill:none;stroke-width:1.75;stroke-linejoin:round}\n"
     ".plot .fitted{fill:none;stroke-width:1.25;stroke-dasharray:5 4}\n"
     ".plot .band{opacity:.2}\n"
+    ".plot .across{stroke-width:1;stroke-dasharray:4 3;fill:none}\n"
+    ".plot .across-name{stroke-width:3;paint-order:stroke;stroke-linejoin:round}\n"
     ".plot .model-box{fill:none;stroke-width:.9;stroke-linejoin:round}\n"
     ".plot .model-box.behind{stroke-width:.6;opacity:.45}\n";
 

@@ -79,5 +79,27 @@ TEST(Chart, PicturesOfBothKinds) {
   EXPECT_EQ(svg.find("<script"), std::string::npos);
 }
 
+TEST(Chart, PicturesShowTheLinesThatThePageShows) {
+  Chart history{.title = "t", .x = {.name = "run"}, .y = {.name = "median frame", .unit = "ms"}};
+  history.series.push_back({.name = "median frame", .x = {1, 2, 3, 4, 5}, .y = {10, 10, 13, 13, 13}});
+  history.marks = {{kHostile, 3.0, false}, {"limit", 20.0, true}};
+  const std::string svg = chart_svg(history, plots::Placement::kFile);
+  const auto lines = [](const std::string& text) {
+    std::size_t count = 0;
+    for (auto at = text.find("<line class=\"across\""); at != std::string::npos;
+         at = text.find("<line class=\"across\"", at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(lines(svg), 2U) << "one at the change, one at a limit that lies above all values";
+  EXPECT_NE(svg.find(">limit</text>"), std::string::npos);
+  EXPECT_EQ(svg.find("<script"), std::string::npos);
+
+  Chart ratio{.title = "t", .x = {.name = "ratio"}, .y = {.name = "engine", .categories = {"one"}}};
+  ratio.series.push_back({.name = "r", .kind = SeriesKind::kPoints, .x = {1.2}, .y = {0}, .low = {1.1}, .high = {1.3}});
+  ratio.marks = {{"equal", 1.0, false}};
+  EXPECT_EQ(lines(chart_svg(ratio, plots::Placement::kInline)), 1U) << "bars stand upright: their values are on y";
+}
+
 }  // namespace
 }  // namespace broadside::reports
