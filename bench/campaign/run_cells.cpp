@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <numeric>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "bench/campaign/cell_lock.hpp"
 #include "bench/child.hpp"
 #include "bench/interrupt.hpp"
+#include "bench/paper/cell_cost.hpp"
 #include "bench/paper/measure_group.hpp"
 #include "core/rows.hpp"
 
@@ -167,10 +169,24 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
   };
   Tally tally;
   const auto groups = groups_of(manifest);
-  for (std::size_t place = 0; place < groups.size() && !is_interrupted(); ++place) {
+  const auto first_of = [&](std::size_t place) {
+    return static_cast<std::size_t>(groups[place].data() - manifest.cells.data());
+  };
+  std::vector<std::size_t> order(groups.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (manifest.paper) {
+    // Many results early: who interrupts it has most of the report.
+    std::vector<double> seconds(groups.size());
+    for (std::size_t place = 0; place < groups.size(); ++place)
+      for (const paper::PaperCell& cell : std::span(of_paper).subspan(first_of(place), groups[place].size()))
+        seconds[place] += paper::expected_seconds(cell, manifest.paper->plan.runs);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds[a] < seconds[b]; });
+  }
+  for (const std::size_t place : order) {
+    if (is_interrupted()) break;
     const std::span<const ManifestCell> group = groups[place];
     if (!selection.includes(place, group)) continue;
-    const auto first = static_cast<std::size_t>(group.data() - manifest.cells.data());
+    const std::size_t first = first_of(place);
     const auto lock = CellLock::take(folder / "cells" / (group.front().turns + ".lock"));
     // Counted when the lock is ours: what another process finished while we came here is there.
     const std::uint32_t before = finished(group);
@@ -180,7 +196,7 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
     const auto start = Clock::now();
     if (!lock) {
       tally.busy += missing;
-      tell({group, "busy", 0.0, first + group.size()});
+      tell({group, "busy", 0.0, first});
       continue;
     }
     if (manifest.paper) {
@@ -195,7 +211,7 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
     tally.done += done;
     tally.unfinished += missing - done;
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    tell({group, done == missing ? "done" : "unfinished", seconds, first + group.size()});
+    tell({group, done == missing ? "done" : "unfinished", seconds, first});
   }
   return tally;
 }

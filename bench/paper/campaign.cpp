@@ -2,29 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <numeric>
+#include <utility>
 
 #include "bench/campaign/run_cells.hpp"
 #include "bench/interrupt.hpp"
+#include "bench/paper/cell_cost.hpp"
 #include "bench/paper/cell_files.hpp"
 
 namespace broadside::bench::paper {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Rough work of a cell's frame, relative to 50 bunnies that fall: for the estimate of the time left, never for a
-// result.
-double weight_of(const PaperCell& cell) {
-  const double pairs = 0.5 * cell.count * (cell.count - 1.0);
-  const double tests = cell.method == "A" || cell.method == "level 2"   ? 4096.0
-                       : cell.method == "B" || cell.method == "level 1" ? 64.0
-                                                                        : 1.0;
-  const double vertices = cell.model == "asian_dragon" ? 30.0 : cell.model == "bunny" ? 1.0 : 4.0;
-  const double loading = cell.model == "asian_dragon" ? 1000.0 : cell.model == "bunny" ? 10.0 : 100.0;
-  return loading + static_cast<double>(cell.frames) * (1.0 + 0.02 * cell.count * vertices / 4.0 + pairs * tests * 2e-7);
-}
 
 std::string minutes(double seconds) {
   return seconds < 90.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
@@ -39,17 +31,31 @@ core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, co
   if (!cells) return cells.error();
   if (core::Status s = campaign::write_manifest(folder, manifest.value()); !s) return s.error();
 
-  std::vector<double> weight_before{0.0};
-  for (const PaperCell& cell : cells.value()) weight_before.push_back(weight_before.back() + weight_of(cell));
-  double measured = 0.0;  // groups that were finished before say nothing about the pace
+  // What is expected of each cell that is not finished, and how far that was right until now.
+  std::vector<double> expected_s;
+  for (std::size_t k = 0; k < cells.value().size(); ++k) {
+    std::error_code ignored;
+    const bool is_done = std::filesystem::exists(campaign::cell_folder(folder, manifest.value().cells[k].id), ignored);
+    expected_s.push_back(is_done ? 0.0 : expected_seconds(cells.value()[k], request.plan.runs));
+  }
+  const double whole_s = std::accumulate(expected_s.begin(), expected_s.end(), 0.0);
+  std::size_t done = static_cast<std::size_t>(std::count(expected_s.begin(), expected_s.end(), 0.0));
+  double done_s = 0.0;
+  if (whole_s > 0.0)
+    fmt::print(stderr, "paper: {} of {} cells, about {} left on a machine like the one that this was learned on\n",
+               done, cells.value().size(), minutes(whole_s));
   const auto start = Clock::now();
   const auto tell = [&](const campaign::GroupEnd& end) {
-    const std::size_t next = end.next_place;
-    measured += weight_before[next] - weight_before[next - end.cells.size()];
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
-    const double left = elapsed / measured * (weight_before.back() - weight_before[next]);
-    fmt::print(stderr, "paper: {} of {} cells, {} so far{}\n", next, cells.value().size(), minutes(elapsed),
-               left > 0.0 ? fmt::format(", about {} left", minutes(left)) : "");
+    for (std::size_t k = end.first; k < end.first + end.cells.size(); ++k) {
+      if (expected_s[k] > 0.0) ++done;
+      done_s += std::exchange(expected_s[k], 0.0);
+    }
+    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
+    // The machine's own pace weighs more the longer it is known.
+    constexpr double kKnown_s = 10.0;
+    const double left_s = (whole_s - done_s) * (elapsed_s + kKnown_s) / (done_s + kKnown_s);
+    fmt::print(stderr, "paper: {} of {} cells, {} so far{}\n", done, cells.value().size(), minutes(elapsed_s),
+               done < cells.value().size() ? fmt::format(", about {} left", minutes(left_s)) : "");
   };
   auto tally = campaign::run_cells(folder, {}, tell);
   if (!tally) return tally.error();

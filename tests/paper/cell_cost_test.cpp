@@ -1,0 +1,78 @@
+// What cells are expected to take: no result rests on it, but the order of a campaign and the time that is told do.
+#include "bench/paper/cell_cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "bench/campaign/manifest.hpp"
+#include "bench/campaign/run_cells.hpp"
+#include "bench/paper/paper_plan.hpp"
+#include "tests/datasets/temporary_folder.hpp"
+
+namespace broadside::bench::paper {
+namespace {
+
+const Device kCpu{"octree-cpu", "hash-cpu", "octree-cpu", ""};
+
+TEST(CellCost, ThePapersTablesFitIntoHalfAnHourOnTwoCores) {
+  PlanOptions options;
+  options.frames = 300;
+  options.runs = 2;
+  const auto cells = plan_cells({"all"}, options, kCpu);
+  ASSERT_TRUE(cells.ok());
+  double seconds = 0.0;
+  for (const PaperCell& cell : cells.value()) seconds += expected_seconds(cell, options.runs);
+  EXPECT_GT(seconds, 120.0);
+  EXPECT_LT(seconds, 1200.0) << "a third of the half hour is for machines that are slower";
+}
+
+TEST(CellCost, GrowsWithWhatIsDone) {
+  PlanOptions options;
+  const auto cells = plan_cells({"table5"}, options, kCpu);
+  ASSERT_TRUE(cells.ok());
+  PaperCell cell = cells.value().front();
+  ASSERT_EQ(cell.method, "A");
+  const double seconds = expected_seconds(cell, 5);
+  EXPECT_GT(expected_seconds(cell, 6), seconds);
+  PaperCell more = cell;
+  more.frames *= 2;
+  EXPECT_GT(expected_seconds(more, 5), 1.5 * seconds);
+  for (const char* method : {"B", "C"}) {
+    PaperCell other = cell;
+    other.method = method;
+    EXPECT_LT(expected_seconds(other, 5), seconds) << method;
+  }
+  PaperCell gpu = cell;
+  gpu.engine = "octree-gpu[broad=brute,levels=A]";
+  EXPECT_LT(expected_seconds(gpu, 5), 0.1 * seconds);
+  cell.left_out = "left out";
+  EXPECT_EQ(expected_seconds(cell, 5), 0.0);
+}
+
+TEST(CellCost, TheCheapestSceneComesFirst) {
+  const tests::TemporaryFolder folder;
+  PaperRequest request;
+  request.experiments = {"table5"};
+  request.plan.models = {"bunny"};
+  request.plan.counts = {24, 6, 12};
+  request.plan.frames = 20;
+  request.plan.runs = 1;
+  request.device = kCpu;
+  request.allow_stand_in = true;
+  const auto manifest = campaign::make_manifest({"paper", {}, request});
+  ASSERT_TRUE(manifest.ok()) << manifest.error().line();
+  ASSERT_TRUE(campaign::write_manifest(folder.path(), manifest.value()).ok());
+  std::vector<std::string> order;
+  const auto tally = campaign::run_cells(folder.path(), {}, [&](const campaign::GroupEnd& end) {
+    EXPECT_EQ(manifest.value().cells[end.first].id, end.cells.front().id);
+    order.push_back(end.cells.front().work.scene);
+  });
+  ASSERT_TRUE(tally.ok()) << tally.error().line();
+  EXPECT_EQ(tally.value().done, 9U);
+  EXPECT_EQ(order, (std::vector<std::string>{"randommove:bunny:6", "randommove:bunny:12", "randommove:bunny:24"}));
+}
+
+}  // namespace
+}  // namespace broadside::bench::paper
