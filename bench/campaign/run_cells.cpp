@@ -176,11 +176,11 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (manifest.paper) {
     // Many results early: who interrupts it has most of the report.
-    std::vector<double> seconds(groups.size());
+    std::vector<double> ranks(groups.size());
     for (std::size_t place = 0; place < groups.size(); ++place)
-      for (const paper::PaperCell& cell : std::span(of_paper).subspan(first_of(place), groups[place].size()))
-        seconds[place] += paper::expected_seconds(cell, manifest.paper->plan.runs);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds[a] < seconds[b]; });
+      ranks[place] =
+          paper::rank_of(std::span(of_paper).subspan(first_of(place), groups[place].size()), manifest.paper->plan.runs);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
   }
   for (const std::size_t place : order) {
     if (is_interrupted()) break;
@@ -200,9 +200,14 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
       continue;
     }
     if (manifest.paper) {
-      auto rows = paper::measure_group(
-          std::span(of_paper).subspan(first, group.size()),
-          {folder, manifest.paper->plan.runs, manifest.paper->allow_stand_in, manifest.paper->keeps_traces, {}});
+      auto rows = paper::measure_group(std::span(of_paper).subspan(first, group.size()),
+                                       {.folder = folder,
+                                        .runs = manifest.paper->plan.runs,
+                                        .allow_stand_in = manifest.paper->allow_stand_in,
+                                        .keeps_traces = manifest.paper->keeps_traces,
+                                        .progress = {},
+                                        .campaign = of_paper,
+                                        .limit_s = manifest.paper->plan.limit_s});
       if (!rows && !is_interrupted()) return rows.error();
     } else if (core::Status s = run_cell(folder, group.front()); !s) {
       return s.error();

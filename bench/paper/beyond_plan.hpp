@@ -7,11 +7,11 @@
 
 namespace broadside::bench::paper {
 
-// Random move at the paper's smallest count of each model times 1, 3, 10, 30 and 100, or at the given counts. Frames
-// fall as counts rise, so that every count has about the same number of body-frames, and are at least 20. Whole frames:
-// flat, A, B, C from the published start, tree, hash; on the CPU also P-Alg 1's complete octree. Broad phases alone,
-// fed with the boxes that octree-cpu recorded: Bullet's, FCL's, all-pairs. A cell that would take longer than the limit
-// is left out and says so.
+// Random move at the paper's smallest count of each model times 1, 3, 10, 30 and 100, or at the given counts; the same
+// first frames, at most 20, at every count. Whole frames: flat, A, B, C from the published start, tree, hash; on the
+// CPU also P-Alg 1's complete octree. Broad phases alone, fed with the boxes that octree-cpu recorded: Bullet's, FCL's,
+// all-pairs. A cell that would take longer than the limit is left out and says so: by its number of box tests here, and
+// by its own cost at smaller counts when its turn comes (beyond_forecast.hpp).
 void add_beyond(const PlanOptions& options, const Device& device, std::vector<PaperCell>& cells);
 
 // What of a frame is compared: broad-phase engines with the broad stage of the pipelines.

@@ -74,4 +74,15 @@ double expected_seconds(const PaperCell& cell, std::uint32_t runs) {
          (frames + timed_frames) * frame_seconds(cell);
 }
 
+double rank_of(std::span<const PaperCell> group, std::uint32_t runs) {
+  constexpr double kBeyond = 1e9;
+  double seconds = 0.0;
+  for (const PaperCell& cell : group) {
+    if (std::find(cell.experiments.begin(), cell.experiments.end(), "beyond") != cell.experiments.end())
+      return kBeyond + cell.count;
+    seconds += expected_seconds(cell, runs);
+  }
+  return seconds;
+}
+
 }  // namespace broadside::bench::paper

@@ -7,6 +7,7 @@
 #include "bench/cell_request.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/judging.hpp"
+#include "bench/paper/beyond_forecast.hpp"
 #include "bench/paper/cell_files.hpp"
 #include "bench/paper/measure_memory.hpp"
 #include "bench/paper/paper_scene.hpp"
@@ -133,6 +134,8 @@ class Group {
     work.row.mesh = scene.meshes.empty() ? "" : scene.meshes[0]->source;
     work.row.is_stand_in = !scene.meshes.empty() && scene.meshes[0]->is_stand_in;
     if (!work.cell->left_out.empty()) return give_up(work, work.cell->left_out);
+    const std::string forecast = why_too_long(*work.cell, options_.campaign, files_, options_.runs, options_.limit_s);
+    if (!forecast.empty()) return give_up(work, forecast);
     const std::string reason = work.spec.row->absent != nullptr ? work.spec.row->absent() : "";
     return reason.empty() ? core::Status(core::Done{}) : give_up(work, "not measured: " + reason);
   }

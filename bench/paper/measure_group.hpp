@@ -21,6 +21,10 @@ struct MeasureOptions {
   bool keeps_traces = false;
   // Told after every recording and every run how much of a group's work is done, 0 to 1.
   std::function<void(double)> progress;
+  // All cells of the campaign: what one of 'beyond' cost at smaller counts predicts what it will take, which may be at
+  // most limit_s.
+  std::span<const PaperCell> campaign = {};
+  double limit_s = 0.0;
 };
 
 // One row per cell, in order; all have one `turns`. A cell whose folder is in cells/ is taken over; the others are

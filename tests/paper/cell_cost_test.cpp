@@ -3,12 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/campaign/manifest.hpp"
 #include "bench/campaign/run_cells.hpp"
+#include "bench/paper/beyond_forecast.hpp"
+#include "bench/paper/cell_files.hpp"
 #include "bench/paper/paper_plan.hpp"
+#include "bench/paper/paper_row.hpp"
 #include "tests/datasets/temporary_folder.hpp"
 
 namespace broadside::bench::paper {
@@ -49,6 +54,56 @@ TEST(CellCost, GrowsWithWhatIsDone) {
   EXPECT_LT(expected_seconds(gpu, 5), 0.1 * seconds);
   cell.left_out = "left out";
   EXPECT_EQ(expected_seconds(cell, 5), 0.0);
+}
+
+TEST(CellCost, CountsBeyondThePaperRise) {
+  const auto cells = plan_cells({"beyond"}, {}, kCpu);
+  ASSERT_TRUE(cells.ok());
+  const std::span<const PaperCell> all(cells.value());
+  const auto few = std::find_if(all.begin(), all.end(), [](const PaperCell& c) { return c.count == 40; });
+  const auto many = std::find_if(all.begin(), all.end(), [](const PaperCell& c) { return c.count == 30000; });
+  ASSERT_NE(few, all.end());
+  ASSERT_NE(many, all.end());
+  const auto rank = [&](auto cell) { return rank_of(all.subspan(static_cast<std::size_t>(cell - all.begin()), 1), 5); };
+  EXPECT_LT(rank(few), rank(many));
+  PlanOptions options;
+  options.frames = 1000000;
+  const auto dearest = plan_cells({"table5"}, options, kCpu);
+  EXPECT_LT(rank_of(dearest.value(), 5), rank(few)) << "the paper comes before what is beyond it";
+}
+
+// What a method cost at three counts predicts a fourth: 1 us of each pair is 0.5 s a frame at 1000 bodies.
+TEST(Forecast, ACellThatIsTooLongByItsOwnCostIsLeftOutAndSaysWhy) {
+  const tests::TemporaryFolder folder;
+  const CellFiles files(folder.path());
+  std::vector<PaperCell> cells;
+  for (const std::uint32_t count : {10U, 30U, 100U, 1000U}) {
+    PaperCell cell;
+    cell.experiments = {"beyond"};
+    cell.model = "bunny";
+    cell.method = "A";
+    cell.count = count;
+    cell.frames = 20;
+    cell.id = std::to_string(count);
+    cells.push_back(cell);
+    PaperRow row;
+    row.frames = cell.frames;
+    PaperRun run;
+    run.stage_s["frame"] = 0.5e-6 * count * count;
+    run.window_s = {run.stage_s["frame"]};
+    row.runs = {run, run};
+    if (count < 1000) {
+      ASSERT_TRUE(files.finish(cell.id, row, {}).ok());
+    }
+  }
+  // 20 frames recorded, 5 times 20 timed and 20 to warm up: 70 s.
+  const std::string reason = why_too_long(cells.back(), cells, files, 5, 60.0);
+  EXPECT_NE(reason.find("from 10 to 100 bodies its cost predicts 0.5 s a frame, 70 s in all"), std::string::npos)
+      << reason;
+  EXPECT_EQ(why_too_long(cells.back(), cells, files, 5, 80.0), "");
+  EXPECT_EQ(why_too_long(cells[2], cells, files, 5, 0.0), "") << "two counts say nothing";
+  cells.back().experiments = {"table5"};
+  EXPECT_EQ(why_too_long(cells.back(), cells, files, 5, 60.0), "");
 }
 
 TEST(CellCost, TheCheapestSceneComesFirst) {

@@ -47,7 +47,8 @@ std::size_t finished_in(const std::filesystem::path& folder) {
 TEST(MeasureGroup, CellsAreJudgedTimedAndKept) {
   const TemporaryFolder folder;
   int steps = 0;
-  MeasureOptions options{folder.path(), 2, false, false, [&](double) { ++steps; }};
+  MeasureOptions options{.folder = folder.path(), .runs = 2};
+  options.progress = [&](double) { ++steps; };
   std::vector<PaperCell> cells{cube_cell("A", "octree-cpu[broad=brute,levels=A]"), cube_cell("hash", "hash-cpu")};
   cells[1].wants_memory = true;
   const auto first = measure_group(cells, options);
