@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,12 @@ core::Result<InterleavedRows> stored(const CompareArguments& a) {
   return InterleavedRows{std::move(base).value(), std::move(head).value()};
 }
 
+reports::ComparisonOptions options_of(const CompareArguments& a) {
+  reports::ComparisonOptions options = a.options;
+  if (a.is_interleaved) options.looks = looks_of(a.plan);
+  return options;
+}
+
 core::Result<InterleavedRows> in_turns(const CompareArguments& a) {
   if (a.what.size() < 3)
     return core::Error{"two programs and at least one scene are needed", "compare --interleave",
@@ -59,13 +66,19 @@ core::Result<InterleavedRows> in_turns(const CompareArguments& a) {
     if (access(program.c_str(), X_OK) != 0 || std::filesystem::is_directory(program))
       return core::Error{"is no program that can be run", program, "name the file that the build made"};
   if (plan.engines.empty()) plan.engines = {"octree-cpu"};
-  return run_interleaved(plan);
+  const auto untold = [&](const InterleavedRows& rows) {
+    std::set<std::string> names;
+    for (const reports::TimeRatio& time : reports::compare(rows.base, rows.head, options_of(a)).times)
+      if (time.speed == reports::Speed::kInconclusive) names.insert(time.scene);
+    return names;
+  };
+  return run_interleaved(plan, untold);
 }
 
 core::Exit compare(const CompareArguments& a) {
   auto rows = a.is_interleaved ? in_turns(a) : stored(a);
   if (!rows) return complain(rows.error());
-  const reports::Comparison comparison = reports::compare(rows.value().base, rows.value().head, a.options);
+  const reports::Comparison comparison = reports::compare(rows.value().base, rows.value().head, options_of(a));
   fmt::print("{}", a.as_json ? reports::comparison_json(comparison) : reports::comparison_text(comparison));
   return comparison.exit();
 }
@@ -92,6 +105,12 @@ void add_compare(CLI::App& program, core::Exit& exit) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--processes", a->plan.processes, "With --interleave: timed processes of each build")
+      ->check(CLI::Range(6, 100'000))
+      ->capture_default_str();
+  command
+      ->add_option("--most-processes", a->plan.most,
+                   "With --interleave: of scenes whose times are inconclusive so many, twice as many at a time; the "
+                   "intervals allow for looking more than once")
       ->check(CLI::Range(6, 100'000))
       ->capture_default_str();
   command->add_option("--repetitions", a->plan.repetitions, "With --interleave: timed runs of each process")

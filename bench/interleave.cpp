@@ -42,7 +42,7 @@ class Side {
     return call(check, at / "check.log", {0, 1, 3});
   }
 
-  core::Status time(std::size_t scene, std::uint32_t pair) {
+  core::Status time(std::size_t scene, std::uint64_t pair) {
     const std::filesystem::path at = scene_folder(scene);
     const std::filesystem::path file = at / "pair.json";
     Arguments arguments{"time",  plan_.scenes[scene], "--repetitions", std::to_string(plan_.repetitions),
@@ -82,6 +82,11 @@ class Side {
 
   void begin() { samples_.resize(plan_.scenes.size()); }
 
+  // As its samples name it; empty where it has none.
+  [[nodiscard]] std::string scene_name(std::size_t scene) const {
+    return samples_[scene].empty() ? std::string() : samples_[scene].front().stamp.scene_name;
+  }
+
  private:
   [[nodiscard]] std::filesystem::path scene_folder(std::size_t scene) const {
     return folder_ / ("scene-" + std::to_string(scene + 1));
@@ -110,31 +115,46 @@ class Side {
 
 }  // namespace
 
-core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan) {
+std::uint32_t looks_of(const InterleavePlan& plan) {
+  std::uint32_t looks = 1;
+  for (std::uint64_t pairs = plan.processes; pairs < plan.most; pairs *= 2) ++looks;
+  return looks;
+}
+
+core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const Untold& untold) {
   if (core::Status s = prepare_folder(plan.folder); !s) return s.error();
   std::array<Side, 2> sides{Side(plan, plan.base, plan.folder / "base"), Side(plan, plan.head, plan.folder / "head")};
   for (Side& side : sides) side.begin();
-  Progress progress("comparing", 2 * plan.scenes.size() * (1 + std::uint64_t{plan.processes}));
-  std::uint64_t done = 0;
+  Progress proof("proving", 2 * plan.scenes.size());
+  std::vector<std::size_t> scenes;  // that are timed in this round
   for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
-    for (Side& side : sides) {
+    for (Side& side : sides)
       if (core::Status s = side.prove(scene); !s) return s.error();
-      progress.at(++done);
-    }
+    scenes.push_back(scene);
+    proof.at(2 * scenes.size());
   }
-  for (std::uint32_t pair = 1; pair <= plan.processes; ++pair) {
-    for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
-      for (const std::size_t turn : {0U, 1U}) {
-        if (core::Status s = sides[pair % 2 == 1 ? turn : 1 - turn].time(scene, pair); !s) return s.error();
-        progress.at(++done);
-      }
+  std::uint64_t pairs = 0;
+  for (std::uint64_t until = plan.processes;; until = std::min<std::uint64_t>(2 * until, plan.most)) {
+    Progress progress("comparing", 2 * scenes.size() * (until - pairs));
+    std::uint64_t done = 0;
+    while (pairs < until) {
+      ++pairs;
+      for (const std::size_t scene : scenes)
+        for (const std::size_t turn : {0U, 1U}) {
+          if (core::Status s = sides[pairs % 2 == 1 ? turn : 1 - turn].time(scene, pairs); !s) return s.error();
+          progress.at(++done);
+        }
     }
+    auto base = sides[0].rows();
+    if (!base) return base.error();
+    auto head = sides[1].rows();
+    if (!head) return head.error();
+    InterleavedRows rows{std::move(base).value(), std::move(head).value()};
+    if (until >= plan.most) return rows;
+    const std::set<std::string> names = untold(rows);
+    std::erase_if(scenes, [&](std::size_t scene) { return !names.contains(sides[0].scene_name(scene)); });
+    if (scenes.empty()) return rows;
   }
-  auto base = sides[0].rows();
-  if (!base) return base.error();
-  auto head = sides[1].rows();
-  if (!head) return head.error();
-  return InterleavedRows{std::move(base).value(), std::move(head).value()};
 }
 
 core::Result<std::vector<core::Sample>> time_in_processes(const Arguments& arguments, std::uint32_t processes,

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct InterleavePlan {
   bool allow_stand_in = false;
   std::uint64_t frames = 0;       // 0 = each scene's own
   std::uint32_t processes = 15;   // of each build; as many pairs
+  std::uint32_t most = 60;        // of each build, where the first ones do not tell; at least `processes`
   std::uint32_t repetitions = 1;  // runs of one process
   std::filesystem::path folder;   // base/ and head/ in it get the rows of both
 };
@@ -26,9 +29,17 @@ struct InterleavedRows {
   core::RunRows base, head;
 };
 
+// At how many moments run_interleaved asks whether it is told: after `processes` pairs, and after every doubling up to
+// `most`.
+std::uint32_t looks_of(const InterleavePlan& plan);
+
+// The names of the scenes of which more pairs are wanted.
+using Untold = std::function<std::set<std::string>(const InterleavedRows&)>;
+
 // Each build records and judges every scene; then pairs of timed processes, one of each build, ABBA, so that neither
 // build always comes second. The process of a sample is the number of its pair: reports::time_ratios compares pairs.
-core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan);
+// Goes on with the scenes that `untold` names, up to `most` pairs: a noisy machine costs time, not an answer.
+core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const Untold& untold);
 
 // `processes` timed runs of one program, one after the other, gathered into one list: what one process cannot see, the
 // spread between processes, is in it. The arguments are those of 'time' without --out.

@@ -231,7 +231,8 @@ Comparison compare(const core::RunRows& base, const core::RunRows& head, const C
         comparer.add({.scene = key.first, .label = key.second}, ChangeKind::kSeriesVanished, "times of stage " + stage,
                      "measured", "gone", Exit::kMissing);
   }
-  result.times = time_ratios(base, head, options.delta);
+  result.times = time_ratios(base, head, options.delta, options.looks);
+  result.looks = options.looks;
   for (const TimeRatio& time : result.times) {
     const bool is_lost = time.reason.starts_with("the head has no time") || time.reason.starts_with("the head's time");
     if (is_lost)

@@ -42,6 +42,8 @@ struct ComparisonOptions {
   // and Sweeney, ASPLOS 2009), so less than that says more about the linker than about the edit. Smaller finds smaller
   // changes and blames layouts; 0 asks only whether there is any difference.
   double delta = 0.05;
+  // At how many moments the times may be looked at, measuring on in between (ratio_interval).
+  std::uint32_t looks = 1;
 };
 
 struct Comparison {
@@ -51,6 +53,7 @@ struct Comparison {
   std::uint64_t still_failing = 0;  // of those: fail in both
   std::uint64_t same_counters = 0;
   double delta = 0.0;                // that times were held against
+  std::uint32_t looks = 1;           // that the intervals allow for
   std::vector<std::string> remarks;  // what a reader must know before the rest: other machines
 
   // kFailed when a verdict fails that did not, a counter went up, or a time is slower; otherwise kMissing when

@@ -118,6 +118,7 @@ std::string comparison_json(const Comparison& comparison) {
                       {"exit", static_cast<int>(comparison.exit())},
                       {"sentence", sentence(comparison)},
                       {"delta", comparison.delta},
+                      {"looks", comparison.looks},
                       {"remarks", comparison.remarks},
                       {"same_verdicts", comparison.same_verdicts},
                       {"same_counters", comparison.same_counters},

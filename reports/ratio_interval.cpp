@@ -11,7 +11,7 @@ namespace broadside::reports {
 namespace {
 
 constexpr std::size_t kResamples = 10'000;  // enough that the 2.5 % tail rests on 250 of them
-constexpr double kTail = 0.025;
+constexpr double kTail = 0.025;             // of all looks together
 
 // Deterministic draws: the state walks, splitmix64 scrambles it.
 class Draws {
@@ -90,14 +90,15 @@ double smallest_p(std::uint64_t base, std::uint64_t head, bool is_paired) {
 }
 
 RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, bool is_paired,
-                             double delta) {
+                             double delta, std::uint32_t looks) {
+  const double tail = kTail / looks;
   Resampler resampler(base, head, is_paired);
   RatioInterval result{.estimate = resampler.estimate()};
   std::vector<double> ratios(kResamples);
   for (double& ratio : ratios) ratio = resampler.draw();
   std::sort(ratios.begin(), ratios.end());
-  result.low = quantile(ratios, kTail);
-  result.high = quantile(ratios, 1.0 - kTail);
+  result.low = quantile(ratios, tail);
+  result.high = quantile(ratios, 1.0 - tail);
   // Of the resamples, those that do not speak for a difference; one more, so that no p is zero.
   const auto share = [&](std::ptrdiff_t against) {
     return std::max((1.0 + static_cast<double>(against)) / (1.0 + static_cast<double>(kResamples)),

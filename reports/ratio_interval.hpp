@@ -12,7 +12,7 @@ using ProcessRuns = std::vector<double>;
 
 struct RatioInterval {
   double estimate = 0.0;         // head / base
-  double low = 0.0, high = 0.0;  // 95 %: 2.5 % of the resamples lie beyond each
+  double low = 0.0, high = 0.0;  // 95 % for one look: 2.5 % of the resamples lie beyond each
   // Chance of so large (or small) a ratio if the true one were 1 + delta (or 1 / (1 + delta)); one-sided, and never
   // below what the number of processes can show at all.
   double p_slower = 1.0, p_faster = 1.0;
@@ -23,8 +23,10 @@ struct RatioInterval {
 // percentile interval). paired: process k of the base ran beside process k of the head, so pairs are drawn, and the
 // median is that of the pairs' ratios: what drifts slower than a pair lasts cancels. Deterministic: the same figures
 // give the same interval. Neither side may be empty, no process without runs; paired sides have equally many processes.
+// looks, at least 1: at how many moments the figures may be looked at, measuring on in between; each has its share of
+// the 5 % (Bonferroni), so that looking more often does not find more by chance.
 RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, bool is_paired,
-                             double delta);
+                             double delta, std::uint32_t looks = 1);
 
 // The smallest p that so many processes can give. If the builds were equal, every process of one would be slower than
 // every process of the other by mere chance once in C(base + head, base) orders; of pairs, all n have one sign once in

@@ -75,9 +75,9 @@ bool is_paired(const Runs& base, const Runs& head) {
 }
 
 // The ratio with its p-values; the speed is decided over all cells together.
-RatioInterval measure(const Runs& base, const Runs& head, double delta, TimeRatio& r) {
+RatioInterval measure(const Runs& base, const Runs& head, double delta, std::uint32_t looks, TimeRatio& r) {
   r.is_paired = is_paired(base, head);
-  const RatioInterval interval = ratio_interval(base.processes(), head.processes(), r.is_paired, delta);
+  const RatioInterval interval = ratio_interval(base.processes(), head.processes(), r.is_paired, delta, looks);
   r.ratio = interval.estimate;
   r.low = interval.low;
   r.high = interval.high;
@@ -110,7 +110,8 @@ bool enough_processes(std::uint64_t base, std::uint64_t head, bool is_paired) {
   return smallest_p(base, head, is_paired) < kFalseDiscoveries;
 }
 
-std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double delta) {
+std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double delta,
+                                   std::uint32_t looks) {
   const std::map<Key, Runs> base_runs = runs_of(base);
   const std::map<Key, Runs> head_runs = runs_of(head);
   std::map<Key, std::pair<const Runs*, const Runs*>> both;
@@ -131,15 +132,15 @@ std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRow
     if (new_runs != nullptr) r.head_runs = new_runs->count, r.head_processes = new_runs->by_process.size();
     r.reason = why_not(old_runs, new_runs);
     if (r.reason.empty()) {
-      const RatioInterval interval = measure(*old_runs, *new_runs, delta, r);
+      const RatioInterval interval = measure(*old_runs, *new_runs, delta, looks, r);
       measured.push_back(ratios.size());
       p_slower.push_back(interval.p_slower);
       p_faster.push_back(interval.p_faster);
     }
     ratios.push_back(std::move(r));
   }
-  const std::vector<bool> slower = benjamini_hochberg(p_slower, kFalseDiscoveries);
-  const std::vector<bool> faster = benjamini_hochberg(p_faster, kFalseDiscoveries);
+  const std::vector<bool> slower = benjamini_hochberg(p_slower, kFalseDiscoveries / looks);
+  const std::vector<bool> faster = benjamini_hochberg(p_faster, kFalseDiscoveries / looks);
   for (std::size_t k = 0; k < measured.size(); ++k) decide(ratios[measured[k]], slower[k], faster[k], delta);
   return ratios;
 }

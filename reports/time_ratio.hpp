@@ -17,7 +17,7 @@ struct TimeRatio {
   std::string label;
   Speed speed = Speed::kNotComparable;
   double ratio = 0.0;            // time per frame of the head over that of the base: 1.1 = a tenth slower
-  double low = 0.0, high = 0.0;  // 95 % interval of the ratio
+  double low = 0.0, high = 0.0;  // 95 % interval of the ratio, for all looks together
   std::uint64_t base_runs = 0, head_runs = 0;
   std::uint64_t base_processes = 0, head_processes = 0;
   bool is_paired = false;  // the builds ran in turns, process beside process
@@ -27,8 +27,10 @@ struct TimeRatio {
 // One entry per (scene, label) that has an admitted time in the base or in the head. A run counts by its median frame.
 // Where both sides name the same processes they ran in turns (core::Sample::process), and pairs are compared. Slower
 // when the whole interval lies above 1 + delta, faster when it lies below 1 / (1 + delta), and in both cases only if
-// that survives Benjamini and Hochberg at 2.5 % over all entries: of many cells some look slower by chance.
-std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double delta);
+// that survives Benjamini and Hochberg at 2.5 % over all entries: of many cells some look slower by chance. looks: as
+// ratio_interval takes it.
+std::vector<TimeRatio> time_ratios(const core::RunRows& base, const core::RunRows& head, double delta,
+                                   std::uint32_t looks = 1);
 
 // Is the process that ran these samples known, and are there enough of them on both sides to show a difference?
 bool enough_processes(std::uint64_t base, std::uint64_t head, bool is_paired);

@@ -37,6 +37,27 @@ TEST(Compare, TwoBuildsInTurnsLeaveRowsOfBothAndAVerdict) {
   EXPECT_NE(again.out.find("7 and 7 processes in turns"), std::string::npos) << again.out;
 }
 
+// With a delta of nothing equal builds can hardly be told to be the same: what the first pairs do not tell is tried
+// again.
+TEST(Compare, WhatIsNotToldGetsMoreProcesses) {
+  const ScratchFolder folder;
+  const Ended ended = run_program({"compare", "--interleave", program_path(), program_path(), "errata:E4", "--frames",
+                                   "20", "--processes", "6", "--most-processes", "15", "--delta", "0", "--out",
+                                   (folder / "out").string(), "--json"});
+  const auto json = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(json["looks"], 3);
+  ASSERT_EQ(json["times"].size(), 1U);
+  const std::string speed = json["times"][0]["speed"];
+  const int processes = json["times"][0]["head_processes"];
+  EXPECT_EQ(json["times"][0]["base_processes"], processes);
+  if (speed == "INCONCLUSIVE") {
+    EXPECT_EQ(processes, 15);
+    EXPECT_EQ(ended.exit_code, 3);
+  } else {
+    EXPECT_TRUE(processes == 6 || processes == 12 || processes == 15) << processes;
+  }
+}
+
 TEST(Compare, BadInputIsOneLine) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"compare", "only-one"},

@@ -1,8 +1,9 @@
 """How often the gate is wrong on this machine:  gate_trial.py PROGRAM [COMPARISONS]
 
 Compares the program with itself, in turns, COMPARISONS times (20), and as often with itself made a tenth slower by
-slower.c. Of equal builds at most 5 % may alarm. No slowdown may pass, and of those that the machine was quiet enough to
-tell at least 95 % must be called slower; the rest is inconclusive, which is no pass. Exits 77 where there is no C compiler.
+slower.c. Of equal builds at most 5 % may alarm. No slowdown may pass, and at least 95 % must be called slower; the rest is
+inconclusive, which is no pass. A busy machine makes it longer, up to sixty processes of each build a comparison. Exits 77
+where there is no C compiler.
 """
 
 import json
@@ -14,7 +15,7 @@ from collections import Counter
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-WORK = ["freefall:sphere:100", "--engine", "octree-cpu[threads=1]", "--frames", "150", "--processes", "15", "--json"]
+WORK = ["freefall:sphere:100", "--engine", "octree-cpu[threads=1]", "--frames", "150", "--json"]
 
 
 def verdicts(program, head, folder, count):
@@ -27,7 +28,8 @@ def verdicts(program, head, folder, count):
         times = json.loads(answer.stdout)["times"]
         assert len(times) == 1, times
         said[times[0]["speed"].lower()] += 1
-        print(f"{times[0]['speed']}: {times[0]['ratio']:.4f} [{times[0]['low']:.4f}, {times[0]['high']:.4f}]", flush=True)
+        print(f"{times[0]['speed']}: {times[0]['ratio']:.4f} [{times[0]['low']:.4f}, {times[0]['high']:.4f}] of {times[0]['head_processes']}",
+              flush=True)
     return said
 
 
@@ -48,8 +50,7 @@ def main(program, count):
         tenth = verdicts(program, slower, folder, count)
         print(f"a tenth slower: {dict(tenth)}", flush=True)
     assert equal["slower"] + equal["faster"] <= 0.05 * count, equal
-    told = count - tenth["inconclusive"]
-    assert told > 0 and tenth["slower"] >= 0.95 * told, tenth
+    assert tenth["slower"] >= 0.95 * count, tenth
     assert tenth["same"] == 0 and tenth["faster"] == 0, tenth
     return 0
 
