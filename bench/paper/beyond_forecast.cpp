@@ -6,7 +6,6 @@
 #include <map>
 
 #include "bench/paper/cost_model.hpp"
-#include "bench/timing.hpp"
 
 namespace broadside::bench::paper {
 namespace {
@@ -18,29 +17,26 @@ bool is_beyond(const PaperCell& cell) {
 }  // namespace
 
 std::string why_too_long(const PaperCell& cell, std::span<const PaperCell> campaign, const CellFiles& files,
-                         std::uint32_t runs, double limit_s) {
+                         double limit_s) {
   if (!is_beyond(cell)) return "";
-  std::map<std::uint32_t, std::vector<double>> seconds;  // a frame, by count
+  std::map<std::uint32_t, double> spent_s;  // by count
   for (const PaperCell& other : campaign) {
     if (!is_beyond(other) || other.model != cell.model || other.method != cell.method || other.count >= cell.count)
       continue;
     const auto row = files.finished(other.id);
-    if (row && row->has_times()) seconds[other.count] = row->stage_seconds("frame");
+    if (row && row->has_times() && row->spent_s > 0.0) spent_s[other.count] = row->spent_s;
   }
   CostCurve curve{cell.method, {}, {}};
-  for (auto& [count, runs_of_count] : seconds) {
+  for (const auto& [count, seconds] : spent_s) {
     curve.counts.push_back(count);
-    curve.seconds.push_back(std::move(runs_of_count));
+    curve.seconds.push_back({seconds});
   }
   const auto fit = fit_cost(curve);
-  if (!fit) return "";
-  const double frame_s = fit->at(cell.count);
-  const double frames = static_cast<double>(cell.frames) * (1.0 + runs) + static_cast<double>(kWarmUpFrames);
-  if (frame_s * frames <= limit_s) return "";
+  if (!fit || fit->at(cell.count) <= limit_s) return "";
   return fmt::format(
-      "left out: from {:.0f} to {:.0f} bodies its cost predicts {:.2g} s a frame, {:.0f} s in all, more than the limit "
-      "of {:.0f} s",
-      curve.counts.front(), curve.counts.back(), frame_s, frame_s * frames, limit_s);
+      "left out: recording and timing it would take {:.0f} s by what {:.0f} to {:.0f} bodies took, more than "
+      "the limit of {:.0f} s",
+      fit->at(cell.count), curve.counts.front(), curve.counts.back(), limit_s);
 }
 
 }  // namespace broadside::bench::paper

@@ -1,6 +1,7 @@
 #include "bench/paper/measure_group.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -30,6 +31,20 @@ core::Error interrupted() {
   return {"interrupted: finished cells and runs are kept", "paper", "the same command goes on from there",
           core::Exit::kMissing};
 }
+
+// Adds the wall time of its life to a cell's.
+class Spent {
+ public:
+  explicit Spent(double& seconds) : seconds_(seconds) {}
+  Spent(const Spent&) = delete;
+  Spent& operator=(const Spent&) = delete;
+  ~Spent() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
 
 // A cell on its way from asked for to measured.
 struct Work {
@@ -134,7 +149,7 @@ class Group {
     work.row.mesh = scene.meshes.empty() ? "" : scene.meshes[0]->source;
     work.row.is_stand_in = !scene.meshes.empty() && scene.meshes[0]->is_stand_in;
     if (!work.cell->left_out.empty()) return give_up(work, work.cell->left_out);
-    const std::string forecast = why_too_long(*work.cell, options_.campaign, files_, options_.runs, options_.limit_s);
+    const std::string forecast = why_too_long(*work.cell, options_.campaign, files_, options_.limit_s);
     if (!forecast.empty()) return give_up(work, forecast);
     const std::string reason = work.spec.row->absent != nullptr ? work.spec.row->absent() : "";
     return reason.empty() ? core::Status(core::Done{}) : give_up(work, "not measured: " + reason);
@@ -161,6 +176,7 @@ class Group {
     // One by one: an engine that cannot load the scene (too little memory, say) must not take the others with it.
     for (Work& work : works_) {
       if (work.is_done) continue;
+      const Spent spent(work.row.spent_s);
       RunPlan alone = plan_;
       alone.cells = {work.spec};
       auto outcome = run_plan(alone);
@@ -232,6 +248,7 @@ class Group {
   }
 
   core::Status time_once(Work& work, std::uint32_t repetition) {
+    const Spent spent(work.row.spent_s);
     if (std::find(warm_.begin(), warm_.end(), &work) == warm_.end()) {
       warm_.push_back(&work);
       if (auto warm = time_run(plan_, work.spec, kWarmUpFrames); !warm) return failed(work, warm.error());

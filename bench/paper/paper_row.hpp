@@ -48,6 +48,7 @@ struct PaperRow {
   std::map<std::string, double> pairs;                   // mean per judged frame: "candidates", "confirmed", "contacts"
   std::vector<double> memory_bytes;                      // of each run: the mean over its windows
   std::string memory_kind;                               // what was counted
+  double spent_s = 0.0;  // wall time for recording and timing it, loading included; 0 = not known
 
   [[nodiscard]] bool has_times() const { return absence.empty() && !runs.empty(); }
   // One value per run, in frames per second: of all frames, of one window, of a part of the run.

@@ -98,7 +98,8 @@ Json to_json(const PaperRow& row, std::size_t facts) {
             {"penetration", Json::array()},
             {"pairs", row.pairs},
             {"memory_bytes", row.memory_bytes},
-            {"memory_kind", row.memory_kind}};
+            {"memory_kind", row.memory_kind},
+            {"spent_s", row.spent_s}};
   if (row.beta > 0.0) json["beta"] = row.beta, json["delta_m"] = row.delta_m;
   for (const PaperRun& run : row.runs) json["runs"].push_back(to_json(run));
   for (const auto& window : row.penetration) json["penetration"].push_back(to_json(window));
@@ -138,6 +139,7 @@ PaperRow row_of(const Json& json, const Json& facts) {
   json.at("pairs").get_to(row.pairs);
   json.at("memory_bytes").get_to(row.memory_bytes);
   json.at("memory_kind").get_to(row.memory_kind);
+  row.spent_s = json.value("spent_s", 0.0);  // earlier files lack it
   if (json.contains("beta")) {
     json.at("beta").get_to(row.beta);
     json.at("delta_m").get_to(row.delta_m);

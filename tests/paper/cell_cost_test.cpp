@@ -72,8 +72,8 @@ TEST(CellCost, CountsBeyondThePaperRise) {
   EXPECT_LT(rank_of(dearest.value(), 5), rank(few)) << "the paper comes before what is beyond it";
 }
 
-// What a method cost at three counts predicts a fourth: 1 us of each pair is 0.5 s a frame at 1000 bodies.
-TEST(Forecast, ACellThatIsTooLongByItsOwnCostIsLeftOutAndSaysWhy) {
+// What a method took at three counts predicts a fourth: 70 us of each pair of numbers are 70 s at 1000 bodies.
+TEST(Forecast, ACellThatIsTooLongByWhatSmallerOnesTookIsLeftOutAndSaysWhy) {
   const tests::TemporaryFolder folder;
   const CellFiles files(folder.path());
   std::vector<PaperCell> cells;
@@ -88,22 +88,20 @@ TEST(Forecast, ACellThatIsTooLongByItsOwnCostIsLeftOutAndSaysWhy) {
     cells.push_back(cell);
     PaperRow row;
     row.frames = cell.frames;
-    PaperRun run;
-    run.stage_s["frame"] = 0.5e-6 * count * count;
-    run.window_s = {run.stage_s["frame"]};
-    row.runs = {run, run};
+    row.runs = {{.window_s = {1.0}, .stage_s = {{"frame", 1.0}}}};
+    row.spent_s = 70e-6 * count * count;
     if (count < 1000) {
       ASSERT_TRUE(files.finish(cell.id, row, {}).ok());
     }
   }
-  // 20 frames recorded, 5 times 20 timed and 20 to warm up: 70 s.
-  const std::string reason = why_too_long(cells.back(), cells, files, 5, 60.0);
-  EXPECT_NE(reason.find("from 10 to 100 bodies its cost predicts 0.5 s a frame, 70 s in all"), std::string::npos)
+  const std::string reason = why_too_long(cells.back(), cells, files, 60.0);
+  EXPECT_NE(reason.find("would take 70 s by what 10 to 100 bodies took, more than the limit of 60 s"),
+            std::string::npos)
       << reason;
-  EXPECT_EQ(why_too_long(cells.back(), cells, files, 5, 80.0), "");
-  EXPECT_EQ(why_too_long(cells[2], cells, files, 5, 0.0), "") << "two counts say nothing";
+  EXPECT_EQ(why_too_long(cells.back(), cells, files, 80.0), "");
+  EXPECT_EQ(why_too_long(cells[2], cells, files, 0.0), "") << "two counts say nothing";
   cells.back().experiments = {"table5"};
-  EXPECT_EQ(why_too_long(cells.back(), cells, files, 5, 60.0), "");
+  EXPECT_EQ(why_too_long(cells.back(), cells, files, 60.0), "");
 }
 
 TEST(CellCost, TheCheapestSceneComesFirst) {

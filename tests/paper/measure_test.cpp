@@ -59,6 +59,8 @@ TEST(MeasureGroup, CellsAreJudgedTimedAndKept) {
     EXPECT_TRUE(row.is_admitted) << row.refusal;
     EXPECT_EQ(row.failed, 0U);
     EXPECT_GT(row.passed, 0U);
+    EXPECT_GT(row.spent_s, 0.0);
+    EXPECT_LT(row.spent_s, 300.0);
     EXPECT_EQ(row.judged, 6U) << "every tenth of 60 frames";
     ASSERT_EQ(row.runs.size(), 2U);
     EXPECT_EQ(row.runs[0].window_s.size(), row.window_count());
