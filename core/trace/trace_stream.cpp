@@ -14,8 +14,12 @@
 namespace broadside::core {
 namespace {
 
-// How often a writer with nothing to do asks whether a flush is due.
-constexpr std::chrono::milliseconds kIdle{250};
+// How often the writer looks by itself for frames that wait, and whether a flush is due. Much shorter than what passes
+// between two flushes, which is what a kill may lose.
+constexpr std::chrono::milliseconds kIdle{25};
+// It is woken for so much: waking a thread takes longer than to queue a frame of a digest alone, and the run would pay
+// that in every frame.
+constexpr std::size_t kWorthWaking = 256U << 10U;
 
 std::size_t bytes_of(const FrameRecord& frame) {
   std::size_t sum = sizeof frame;
@@ -41,31 +45,49 @@ struct TraceStream::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  // The writer's thread. The frame at the front stays in the queue while it is written, so its bytes count.
+  // The writer's thread.
   void write_frames() {
     std::unique_lock lock(mutex);
     for (;;) {
-      const bool has_work = changed.wait_for(lock, kIdle, [this] { return !queue.empty() || is_ending; });
-      if (!has_work) {
+      changed.wait_for(lock, kIdle, [this] { return is_awake(); });
+      if (queue.empty()) {
+        if (is_ending) return;
         is_busy = true;
         lock.unlock();
         const Status s = writer.flush_if_due();
         lock.lock();
         is_busy = false;
         note(s);
-        continue;
       }
-      if (queue.empty()) return;
-      writer.hurry(waiting_bytes > queue_bytes / 2);
-      const FrameRecord& frame = queue.front().frame;  // stays where it is while others are queued behind it
-      lock.unlock();
-      const Status s = error ? Status(*error) : writer.append(frame);
-      lock.lock();
-      note(s);
-      waiting_bytes -= queue.front().bytes;
-      queue.pop_front();
-      changed.notify_all();
+      while (!queue.empty()) write_front(lock);
     }
+  }
+
+  // The frame stays in the queue while it is written, so its bytes count.
+  void write_front(std::unique_lock<std::mutex>& lock) {
+    writer.hurry(waiting_bytes > queue_bytes / 2);
+    const FrameRecord& frame = queue.front().frame;  // stays where it is while others are queued behind it
+    lock.unlock();
+    const Status s = error ? Status(*error) : writer.append(frame);
+    lock.lock();
+    note(s);
+    waiting_bytes -= queue.front().bytes;
+    queue.pop_front();
+    changed.notify_all();
+  }
+
+  // Whether the writer should work off its queue now.
+  [[nodiscard]] bool is_awake() const {
+    return is_ending || (!queue.empty() && (is_awaited || waiting_bytes >= kWorthWaking));
+  }
+
+  // For those who wait for the writer.
+  template <typename Condition>
+  void await(std::unique_lock<std::mutex>& lock, const Condition& condition) {
+    is_awaited = true;
+    changed.notify_all();
+    changed.wait(lock, condition);
+    is_awaited = false;
   }
 
   void note(const Status& s) {
@@ -79,18 +101,18 @@ struct TraceStream::Impl {
     const auto has_room = [&] { return error || queue.empty() || waiting_bytes + bytes <= queue_bytes; };
     if (!has_room()) {
       ++waits;
-      changed.wait(lock, has_room);
+      await(lock, has_room);
     }
     if (error) return *error;
     waiting_bytes += bytes;
     queue.push_back({std::move(frame), bytes});
-    changed.notify_all();
+    if (is_awake()) changed.notify_all();
     return Done{};
   }
 
   // Until the thread holds nothing; then the writer is this thread's.
   Status drain(std::unique_lock<std::mutex>& lock) {
-    changed.wait(lock, [this] { return queue.empty() && !is_busy; });
+    await(lock, [this] { return queue.empty() && !is_busy; });
     if (error) return *error;
     return Done{};
   }
@@ -113,6 +135,7 @@ struct TraceStream::Impl {
   std::size_t waiting_bytes = 0;
   bool is_busy = false;
   bool is_ending = false;
+  bool is_awaited = false;
   std::optional<Error> error;
   std::uint64_t waits = 0;
   std::thread thread;
