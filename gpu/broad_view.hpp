@@ -35,10 +35,12 @@ struct Counters {
   unsigned long long entry_cursor = 0;  // entries given out to buckets
   unsigned long long listed = 0;        // places given out in the lists of bodies
   unsigned long long measured = 0;      // confirmed pairs given out to warps that measure their proximity
+  unsigned long long digest = 0;        // of what the frame left, where somebody asked for it
   std::uint32_t oversized = 0;          // bodies in too many cells of the spatial hash
   std::uint32_t arrived = 0;            // of PartialGridTeam
   std::uint32_t colors = 0;
   std::uint32_t is_aborted = 0;
+  std::uint32_t digested = 0;  // blocks of the digest's kernel that have entered their share
 };
 
 // Buckets are in chunks of kBucketChunk, each with one more word in `begin`: bucket b has the entries begin[place(b)]

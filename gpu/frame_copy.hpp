@@ -35,20 +35,20 @@ class PinnedBytes {
 // computes; from there a second stream carries them to the host. So the next frame may overwrite its buffers at once.
 class FrameCopy {
  public:
-  // Returns at once. digest_sum: what the digest's kernel, asked of `work` before, adds up. Without buffers only the
-  // digest is copied. A copy that was started must be finished before the next one starts here.
-  core::Status start(const unsigned long long* digest_sum, const FrameBuffers* buffers, const FrameCounts& counts,
-                     bool is_confirmed_by_level0, StreamHandle work, StreamHandle copies);
-  // Waits for it. Fills the digest and what fill_record fills.
+  // Returns at once. A copy that was started must be finished before the next one starts here.
+  core::Status start(const FrameBuffers& buffers, const FrameCounts& counts, bool is_confirmed_by_level0,
+                     StreamHandle work, StreamHandle copies);
+  // Waits for it. Fills what fill_record fills.
   core::Status finish(core::FrameRecord& frame);
 
-  // What the host knows of the frame already: step, time, counts.
+  // What the host knows of the frame already: step, time, digest, counts; of a frame that is not full that is all, and
+  // nothing is copied.
   core::FrameRecord begun;
   bool is_full = false;
 
  private:
-  static constexpr std::size_t kSections = 11;
-  core::Status add(std::size_t section, const void* from, std::size_t bytes, StreamHandle work);
+  static constexpr std::size_t kSections = 10;
+  core::Status add(std::size_t section, const void* from, StreamHandle work);
   template <typename T>
   [[nodiscard]] std::span<const T> section(std::size_t k) const {
     return {reinterpret_cast<const T*>(host_.data() + begin_[k]), bytes_[k] / sizeof(T)};

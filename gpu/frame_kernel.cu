@@ -2,6 +2,7 @@
 
 #include "gpu/cuda_check.hpp"
 #include "gpu/frame_kernel.hpp"
+#include "gpu/stages/digest.cuh"
 #include "gpu/stages/frame.cuh"
 
 namespace broadside::gpu {
@@ -12,7 +13,8 @@ constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 constexpr std::uint32_t kFewBlocksPerMultiprocessor = 1;  // few bodies get no more, so that registers suffice
 constexpr std::uint32_t kPairsThreads = 512;
 constexpr std::uint32_t kPairsBlocksPerMultiprocessor = 2;
-constexpr std::uint32_t kDigestThreads = 256;
+constexpr std::uint32_t kDigestThreads = 512;
+constexpr std::uint32_t kDigestBlocksPerMultiprocessor = 2;
 
 template <bool kIsFew>
 __global__ void __launch_bounds__(kThreads, kIsFew ? kFewBlocksPerMultiprocessor : kBlocksPerMultiprocessor)
@@ -28,8 +30,10 @@ __global__ void __launch_bounds__(kPairsThreads, kPairsBlocksPerMultiprocessor)
   run_pairs(view, shared);
 }
 
-__global__ void digest_kernel(const DigestView view) {
-  run_digest(view);
+__global__ void __launch_bounds__(kDigestThreads, kDigestBlocksPerMultiprocessor)
+    digest_kernel(const __grid_constant__ DigestView view) {
+  __shared__ unsigned long long block_sum;
+  run_digest(view, &block_sum);
 }
 
 core::Result<std::uint32_t> attribute(cudaDeviceAttr which) {
@@ -102,12 +106,10 @@ core::Status launch_pairs(const PairsView& view, const LaunchShape& shape, Strea
   return launch(pairs_kernel, view, shape, stream);
 }
 
-core::Status launch_digest(const DigestView& view, StreamHandle stream) {
-  BROADSIDE_CUDA_TRY(cudaMemsetAsync(view.sum, 0, sizeof *view.sum, stream));
-  const std::uint64_t most = std::max({std::uint64_t{view.body_count}, view.confirmed_count, view.contact_count,
-                                       view.face_contact_count, std::uint64_t{1}});
-  const auto blocks =
-      static_cast<unsigned>(std::min<std::uint64_t>((most + kDigestThreads - 1) / kDigestThreads, 1024));
+core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {
+  // Of contacts nobody knows yet how many there are; a heap has some seven a body.
+  const std::uint32_t blocks =
+      std::clamp(view.body_count / (kDigestThreads / 8), 1U, kDigestBlocksPerMultiprocessor * multiprocessors);
   digest_kernel<<<blocks, kDigestThreads, 0, stream>>>(view);
   return cuda_status(cudaGetLastError(), "launching the digest");
 }

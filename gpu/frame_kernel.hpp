@@ -38,19 +38,19 @@ struct PairsView {
 core::Result<LaunchShape> pairs_launch_shape();
 core::Status launch_pairs(const PairsView& view, const LaunchShape& shape, StreamHandle stream);
 
-// The digest's sum over everything that the last frame left. `confirmed` and `touching` are counts. Asynchronous.
+// The sum of the digests of everything that the last frame left. Counts are read on the device, so that it can be
+// launched right behind the frame; a frame that was aborted has none. Asynchronous.
 struct DigestView {
   std::uint32_t body_count = 0;
   StateView state;
   const core::Quat* orientation = nullptr;
   const core::Pair* confirmed = nullptr;
-  std::uint64_t confirmed_count = 0;
+  bool is_confirmed_by_level0 = false;
   const core::Contact* contacts = nullptr;
-  std::uint64_t contact_count = 0;
   const core::Contact* face_contacts = nullptr;
-  std::uint64_t face_contact_count = 0;
-  unsigned long long* sum = nullptr;
+  Counters* counters = nullptr;
+  Outcome* outcome = nullptr;  // its counters' digest is what this is about
 };
-core::Status launch_digest(const DigestView& view, StreamHandle stream);
+core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream);
 
 }  // namespace broadside::gpu

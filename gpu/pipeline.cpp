@@ -29,7 +29,6 @@ struct Pipeline::Impl {
   DeviceScene device_scene;
   FrameBuffers buffers;
   BroadBuffers broad;
-  DeviceBuffer<unsigned long long> digest_sum;
   LaunchShape launch;
   FrameView view;
   Counters last;
@@ -38,6 +37,10 @@ struct Pipeline::Impl {
   std::uint64_t repeats = 0;
   std::uint64_t pairs_tested = 0;
   std::uint64_t all_pairs = 0;  // of the scene, without those of two static bodies
+  // The step whose digest was asked for last, and how long after the one before. 0 before the first.
+  std::uint64_t asked_step = 0;
+  std::uint64_t asked_stride = 0;
+  bool has_digest = false;  // of the last step, in `last`
   // Frames on their way to the host: two, by turns.
   std::array<FrameCopy, 2> copies;
   std::uint64_t copies_started = 0;
@@ -50,8 +53,11 @@ struct Pipeline::Impl {
   [[nodiscard]] std::uint64_t confirmed_count() const { return is_confirmed_by_level0() ? last.pairs : last.confirmed; }
   [[nodiscard]] Start chosen_start() const;
   [[nodiscard]] bool starts_at_level0() const { return chosen_start() != Start::kNone; }
+  // Whether somebody will ask for the digest of the next frame, to judge by when they asked before.
+  [[nodiscard]] bool expects_digest() const { return steps > 0 && steps + 1 == asked_step + asked_stride; }
   core::Status run_frame();
-  core::Status ask_digest();
+  core::Status start_digest(const StateView& state);
+  core::Result<std::uint64_t> digest();
 };
 
 Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -85,12 +91,13 @@ core::Status Pipeline::load(const core::Scene& scene) {
   Impl& d = *impl_;
   BROADSIDE_TRY(core::check_spring_step(scene, d.options.variant));
   d.scene = &scene;
-  d.steps = d.repeats = d.pairs_tested = d.copies_started = d.copies_finished = 0;
+  d.steps = d.repeats = d.pairs_tested = d.copies_started = d.copies_finished = d.asked_step = d.asked_stride = 0;
   const auto pairs_of = [](std::uint64_t bodies) { return bodies < 2 ? 0 : bodies * (bodies - 1) / 2; };
   const auto fixed = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                    [](const core::Body& body) { return body.inverse_mass == 0.0F; });
   d.all_pairs = pairs_of(scene.bodies.size()) - pairs_of(static_cast<std::uint64_t>(fixed));
   d.last = {};
+  d.has_digest = false;
   d.times = {};
   d.view = {};
   const float hash_cell_m = d.options.hash_cell_m > 0.0F ? d.options.hash_cell_m : scene.parameters.hash_cell_m;
@@ -100,7 +107,6 @@ core::Status Pipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.device_scene.load(scene, hash_cell_m));
   BROADSIDE_TRY(d.broad.load(d.chosen_start(), d.device_scene.box_facts(), hash_cell_m, d.options.variant));
   BROADSIDE_TRY(d.buffers.load(scene));
-  BROADSIDE_TRY(d.digest_sum.reserve(1, "digest"));
   auto launch = frame_launch_shape(d.device_scene.tree_levels());
   if (!launch.ok()) return launch.error();
   d.launch = launch.value();
@@ -121,6 +127,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.device_scene.fill(d.view);
   // Uploads ran on the default stream, which this one does not wait for.
   d.broad.fill(d.view.broad);
+  d.buffers.fill(d.view);
   return wait_for_device("loading the scene");
 }
 
@@ -132,12 +139,15 @@ core::Status Pipeline::Impl::run_frame() {
   LaunchShape shape = launch;
   if (view.body_count < kLeastBodiesForGrid) shape.blocks = std::min(shape.blocks, shape.multiprocessors);
   BROADSIDE_TRY(launch_frame(view, shape, stream.get()));
+  // One wait for both.
+  if (has_digest) BROADSIDE_TRY(start_digest(view.next));
   return stream.wait("a frame");
 }
 
 core::Status Pipeline::step(float dt_s) {
   Impl& d = *impl_;
   d.view.dt_s = dt_s;
+  d.has_digest = d.expects_digest();
   for (;;) {
     BROADSIDE_TRY(d.run_frame());
     d.last = (*d.outcome).counters;
@@ -155,19 +165,31 @@ core::Status Pipeline::step(float dt_s) {
   return core::Done{};
 }
 
-core::Status Pipeline::Impl::ask_digest() {
+core::Status Pipeline::Impl::start_digest(const StateView& state) {
   DigestView digest;
   digest.body_count = scene->body_count();
-  digest.state = buffers.state().view();
+  digest.state = state;
   digest.orientation = device_scene.orientation();
-  digest.confirmed = is_confirmed_by_level0() ? buffers.pairs().data() : buffers.confirmed().data();
-  digest.confirmed_count = confirmed_count();
+  digest.is_confirmed_by_level0 = is_confirmed_by_level0();
+  digest.confirmed = digest.is_confirmed_by_level0 ? buffers.pairs().data() : buffers.confirmed().data();
   digest.contacts = buffers.contacts().data();
-  digest.contact_count = last.touching;
   digest.face_contacts = buffers.face_contacts().data();
-  digest.face_contact_count = last.faces;
-  digest.sum = digest_sum.data();
-  return launch_digest(digest, stream.get());
+  digest.counters = view.counters;
+  digest.outcome = outcome.device();
+  return launch_digest(digest, launch.multiprocessors, stream.get());
+}
+
+// Of the last frame, behind which it was computed already if it was foreseen that somebody would ask.
+core::Result<std::uint64_t> Pipeline::Impl::digest() {
+  if (asked_step != steps) asked_stride = steps - asked_step;
+  asked_step = steps;
+  if (!has_digest) {
+    BROADSIDE_TRY(start_digest(buffers.state().view()));
+    BROADSIDE_TRY(stream.wait("the digest of a frame"));
+    last.digest = (*outcome).counters.digest;
+    has_digest = true;
+  }
+  return std::uint64_t{last.digest};
 }
 
 std::uint32_t Pipeline::groups() const {
@@ -199,9 +221,12 @@ core::Status Pipeline::start_copy(core::RecordLevel level) {
   counts.proximity = d.options.has_vertex_stage ? counts.confirmed : 0;
   counts.contacts = d.last.touching;
   counts.face_contacts = d.last.faces;
-  BROADSIDE_TRY(d.ask_digest());
-  BROADSIDE_TRY(copy.start(d.digest_sum.data(), level == core::RecordLevel::kFull ? &d.buffers : nullptr, counts,
-                           d.is_confirmed_by_level0(), d.stream.get(), d.copy_stream.get()));
+  auto digest = d.digest();
+  if (!digest.ok()) return digest.error();
+  copy.begun.digest = digest.value();
+  copy.is_full = level == core::RecordLevel::kFull;
+  if (copy.is_full)
+    BROADSIDE_TRY(copy.start(d.buffers, counts, d.is_confirmed_by_level0(), d.stream.get(), d.copy_stream.get()));
   ++d.copies_started;
   return core::Done{};
 }
@@ -213,8 +238,8 @@ core::Status Pipeline::finish_copy(core::FrameRecord& frame) {
   FrameCopy& copy = d.copies[d.copies_finished % d.copies.size()];
   ++d.copies_finished;
   frame = copy.begun;
-  BROADSIDE_TRY(copy.finish(frame));
   if (!copy.is_full) return core::Done{};
+  BROADSIDE_TRY(copy.finish(frame));
   for (const core::Body& body : d.scene->bodies) {
     frame.orientation.push_back(body.orientation);
     frame.angular_velocity.push_back(body.angular_velocity);

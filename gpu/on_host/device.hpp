@@ -139,6 +139,9 @@ inline unsigned __float_as_uint(float v) {
   return std::bit_cast<unsigned>(v);
 }
 
+inline std::uint32_t arrive(std::uint32_t* arrived) {
+  return (*arrived)++;
+}
 inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
   ++*arrived;
   while (*static_cast<volatile std::uint32_t*>(arrived) < awaited) on_host::yield();

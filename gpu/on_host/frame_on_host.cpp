@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "gpu/frame_kernel.hpp"
+#include "gpu/stages/digest.cuh"
 #include "gpu/stages/frame.cuh"
 
 namespace broadside::gpu {
@@ -49,9 +50,9 @@ core::Status launch_pairs(const PairsView& view, const LaunchShape& shape, Strea
   return core::Done{};
 }
 
-core::Status launch_digest(const DigestView& view, StreamHandle /*stream*/) {
-  *view.sum = 0;
-  on_host::run({{1}, {32}, seed()}, 0, [&](unsigned char*) { run_digest(view); });
+core::Status launch_digest(const DigestView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
+  std::vector<unsigned long long> sums(kBlocks);
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_digest(view, &sums[blockIdx.x]); });
   return core::Done{};
 }
 

@@ -27,6 +27,13 @@ __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awa
   } while (seen < awaited);
 }
 
+// One more arrival at *arrived; orders memory over the grid. Returns how many there were before.
+__device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
+  std::uint32_t before = 0;
+  asm volatile("atom.acq_rel.gpu.global.add.u32 %0, [%1], 1;" : "=r"(before) : "l"(arrived) : "memory");
+  return before;
+}
+
 // 16 bytes of global memory in one access that is never torn, and never served from this multiprocessor's own cache.
 __device__ inline uint4 load_whole(const uint4* from) {
   unsigned long long low;

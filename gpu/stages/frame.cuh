@@ -1,7 +1,6 @@
 // A whole frame, as the threads of one launch run it. Counts are read after barriers, so all threads decide alike.
 #pragma once
 
-#include "core/method/frame_digest.hpp"
 #include "gpu/frame_kernel.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
@@ -130,23 +129,6 @@ __device__ inline void run_pairs(const PairsView& view, unsigned char* shared) {
   marked(4);
   view.counters->is_aborted = !has_room || view.counters->pairs > view.pairs.capacity ? 1 : 0;
   view.outcome->counters = *view.counters;
-}
-
-// The sum of the digests of everything that the last frame left; `sum` starts at zero.
-__device__ inline void run_digest(const DigestView& view) {
-  const GridTeam grid;
-  unsigned long long sum = 0;
-  for (std::uint64_t i = grid.rank(); i < view.body_count; i += grid.size())
-    sum += core::body_digest(static_cast<std::uint32_t>(i), view.state.position[i].v, view.orientation[i],
-                             view.state.velocity[i].v, core::Vec3{});
-  for (std::uint64_t k = grid.rank(); k < view.confirmed_count; k += grid.size())
-    sum += core::confirmed_digest(view.confirmed[k]);
-  for (std::uint64_t k = grid.rank(); k < view.contact_count; k += grid.size())
-    if (view.contacts[k].depth_m > 0.0F) sum += core::contact_digest(view.contacts[k]);
-  for (std::uint64_t k = grid.rank(); k < view.face_contact_count; k += grid.size())
-    sum += core::contact_digest(view.face_contacts[k]);
-  for (unsigned step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(kFullWarp, sum, step);
-  if (lane() == 0 && sum != 0) atomicAdd(view.sum, sum);
 }
 
 }  // namespace broadside::gpu

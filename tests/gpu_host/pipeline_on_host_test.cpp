@@ -142,6 +142,31 @@ TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {
   EXPECT_FALSE(subject.start_copy(core::RecordLevel::kFull).ok());
 }
 
+// Digests come with the frames when they are asked for in a rhythm, and are made when somebody asks out of it, or
+// twice, or before the first step: they are the same.
+TEST(PipelineOnHost, DigestsInAnyRhythm) {
+  const core::Scene scene = spheres(40, 2.5F);
+  Pipeline subject(PipelineOptions{});
+  const std::unique_ptr<core::Dynamics> twin = twin_of({});
+  ASSERT_TRUE(subject.load(scene).ok());
+  ASSERT_TRUE(twin->load(scene).ok());
+  const auto digest_of = [](core::Dynamics& engine) {
+    core::FrameRecord frame;
+    EXPECT_TRUE(engine.read_back(frame, core::RecordLevel::kDigest).ok());
+    return frame.digest;
+  };
+  EXPECT_EQ(digest_of(subject), digest_of(*twin));
+  for (const int steps : {1, 1, 1, 3, 3, 3, 1, 2, 1, 1}) {
+    for (int k = 0; k < steps; ++k) {
+      ASSERT_TRUE(subject.step(scene.dt_s).ok());
+      ASSERT_TRUE(twin->step(scene.dt_s).ok());
+    }
+    const std::uint64_t expected = digest_of(*twin);
+    EXPECT_EQ(digest_of(subject), expected);
+    EXPECT_EQ(digest_of(subject), expected);
+  }
+}
+
 // More bodies than the grid has threads, more than a block's memory holds, and from the hashed octree.
 TEST(PipelineOnHost, ManyBoxesOfManySizes) {
   SceneShape shape;

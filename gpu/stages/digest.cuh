@@ -1,0 +1,52 @@
+// The digest of a frame, by a kernel of its own behind the frame's. The frame's kernel has no registers to spare for
+// it.
+#pragma once
+
+#include <cstring>
+
+#include "core/method/frame_digest.hpp"
+#include "gpu/frame_kernel.hpp"
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+// 144 bytes in nine wide loads.
+__device__ inline core::Contact load_contact(const core::Contact* from) {
+  uint4 words[sizeof(core::Contact) / sizeof(uint4)];
+#pragma unroll
+  for (std::size_t w = 0; w < sizeof(core::Contact) / sizeof(uint4); ++w)
+    words[w] = reinterpret_cast<const uint4*>(from)[w];
+  core::Contact contact;
+  memcpy(&contact, words, sizeof contact);
+  return contact;
+}
+
+// `block_sum`: of the block's shared memory. The last block that enters its share tells the host.
+__device__ inline void run_digest(const DigestView& view, unsigned long long* block_sum) {
+  Counters& counters = *view.counters;
+  if (counters.is_aborted != 0) return;
+  if (threadIdx.x == 0) *block_sum = 0;
+  __syncthreads();
+  const GridTeam grid;
+  unsigned long long sum = 0;
+  for (std::uint64_t i = grid.rank(); i < view.body_count; i += grid.size())
+    sum += core::body_digest(static_cast<std::uint32_t>(i), view.state.position[i].v, view.orientation[i],
+                             view.state.velocity[i].v, core::Vec3{});
+  const std::uint64_t confirmed = view.is_confirmed_by_level0 ? counters.pairs : counters.confirmed;
+  for (std::uint64_t k = grid.rank(); k < confirmed; k += grid.size()) sum += core::confirmed_digest(view.confirmed[k]);
+  for (std::uint64_t k = grid.rank(); k < counters.touching; k += grid.size()) {
+    const core::Contact contact = load_contact(view.contacts + k);
+    if (contact.depth_m > 0.0F) sum += core::contact_digest(contact);
+  }
+  for (std::uint64_t k = grid.rank(); k < counters.faces; k += grid.size())
+    sum += core::contact_digest(load_contact(view.face_contacts + k));
+
+  for (unsigned step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(kFullWarp, sum, step);
+  if (lane() == 0 && sum != 0) atomicAdd(block_sum, sum);
+  __syncthreads();
+  if (threadIdx.x != 0) return;
+  atomicAdd(&counters.digest, *block_sum);
+  if (arrive(&counters.digested) + 1 == gridDim.x) view.outcome->counters.digest = atomicAdd(&counters.digest, 0ULL);
+}
+
+}  // namespace broadside::gpu
