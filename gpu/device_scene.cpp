@@ -24,15 +24,35 @@ BoxFacts facts_of(const core::Scene& scene) {
   return facts;
 }
 
+// What cells of near vertices must allow for, but for theta.
+NearNeeds needs_of(const core::ShapeTable& table, const BoxFacts& facts) {
+  NearNeeds needs;
+  for (const core::Shape& shape : table.shapes)
+    for (const core::Vec3& v : shape.octree.sorted_vertices)
+      for (int axis = 0; axis < 3; ++axis) needs.extent_m = std::max(needs.extent_m, std::abs(v[axis]));
+  // A body may leave the domain; where it is this far out, trees are descended.
+  needs.range_m = 2.0F * facts.coordinate_range_m + needs.extent_m;
+  return needs;
+}
+
+std::vector<std::uint32_t> bodies_of_shapes(const core::ShapeTable& table) {
+  std::vector<std::uint32_t> count(table.shapes.size(), 0);
+  for (const std::uint32_t shape : table.shape_of_body) ++count[shape];
+  return count;
+}
+
 }  // namespace
 
-core::Status DeviceScene::load(const core::Scene& scene, float hash_cell_m) {
+core::Status DeviceScene::load(const core::Scene& scene, const SceneNeeds& needs) {
   const core::ShapeTable table = core::build_shapes(scene);
   std::vector<PackedBox> octree;
   std::vector<PackedBox> level2;
   std::vector<std::uint32_t> level2_count;
   ShapeTrees trees;
+  ShapeCells cells;
   box_facts_ = facts_of(scene);
+  NearNeeds near = needs_of(table, box_facts_);
+  const std::vector<std::uint32_t> bodies = bodies_of_shapes(table);
   std::vector<std::uint64_t> hash_cells;
   tree_levels_ = 1;
   for (const core::Shape& shape : table.shapes) {
@@ -42,9 +62,17 @@ core::Status DeviceScene::load(const core::Scene& scene, float hash_cell_m) {
     level2_count.push_back(nodes.level2_count);
     append_tree(trees, shape.octree.sorted_vertices, shape.octree.sorted_indices, shape.mean_edge_m);
     tree_levels_ = std::max(tree_levels_, trees.headers.back().top + 1);
+    if (bodies[trees.headers.size() - 1] >= needs.least_for_cells) {
+      near.theta_m = 0.0F;
+      for (const core::Shape& other : table.shapes)
+        near.theta_m = std::max(near.theta_m, core::pair_theta_m(scene.parameters, shape, other));
+      append_cells(cells, trees, near);
+    } else {
+      append_no_cells(cells);
+    }
     const core::Vec3 side = nodes.root.max - nodes.root.min;
     box_facts_.largest_side_m = std::max({box_facts_.largest_side_m, side.x, side.y, side.z});
-    hash_cells.push_back(hash_cells_of(side, hash_cell_m));
+    hash_cells.push_back(hash_cells_of(side, needs.hash_cell_m));
   }
   for (const std::uint32_t shape : table.shape_of_body) box_facts_.hash_entries += hash_cells[shape];
   std::vector<core::Material> material;
@@ -59,6 +87,11 @@ core::Status DeviceScene::load(const core::Scene& scene, float hash_cell_m) {
   BROADSIDE_TRY(trees_.upload(trees.headers, "vertex trees"));
   BROADSIDE_TRY(tree_nodes_.upload(trees.nodes, "vertex trees"));
   BROADSIDE_TRY(tree_vertices_.upload(trees.vertices, "vertices"));
+  BROADSIDE_TRY(near_cells_.upload(cells.headers, "cells of near vertices"));
+  BROADSIDE_TRY(near_lower_.upload(cells.lower, "cells of near vertices"));
+  BROADSIDE_TRY(near_begin_.upload(cells.begin, "cells of near vertices"));
+  BROADSIDE_TRY(near_entries_.upload(cells.entries, "cells of near vertices"));
+  extent_m_ = near.extent_m;
   BROADSIDE_TRY(shape_of_body_.upload(table.shape_of_body, "bodies"));
   BROADSIDE_TRY(material_.upload(material, "materials"));
   BROADSIDE_TRY(orientation_.upload(orientation, "orientations"));
@@ -74,8 +107,10 @@ core::Status DeviceScene::load_springs(const core::Scene& scene) {
 }
 
 void DeviceScene::fill(FrameView& view) const {
-  view.shapes = {octree_.data(), level2_.data(),     level2_count_.data(),
-                 trees_.data(),  tree_nodes_.data(), tree_vertices_.data()};
+  view.shapes = {octree_.data(),       level2_.data(),     level2_count_.data(),
+                 trees_.data(),        tree_nodes_.data(), tree_vertices_.data(),
+                 near_cells_.data(),   near_lower_.data(), near_begin_.data(),
+                 near_entries_.data(), extent_m_};
   view.shape_of_body = shape_of_body_.data();
   view.material = material_.data();
   view.springs = has_springs_ ? springs_.data() : nullptr;
@@ -84,7 +119,8 @@ void DeviceScene::fill(FrameView& view) const {
 
 std::uint64_t DeviceScene::shape_bytes() const {
   return octree_.bytes() + level2_.bytes() + level2_count_.bytes() + trees_.bytes() + tree_nodes_.bytes() +
-         tree_vertices_.bytes();
+         tree_vertices_.bytes() + near_cells_.bytes() + near_lower_.bytes() + near_begin_.bytes() +
+         near_entries_.bytes();
 }
 
 std::uint64_t DeviceScene::body_bytes() const {

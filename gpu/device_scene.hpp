@@ -12,10 +12,14 @@
 
 namespace broadside::gpu {
 
+struct SceneNeeds {
+  float hash_cell_m = 0.0F;           // of the spatial hash, if that is the broad phase
+  std::uint32_t least_for_cells = 0;  // a shape of fewer bodies gets no cells of near vertices
+};
+
 class DeviceScene {
  public:
-  // hash_cell_m: of the spatial hash, if that is the broad phase.
-  core::Status load(const core::Scene& scene, float hash_cell_m);
+  core::Status load(const core::Scene& scene, const SceneNeeds& needs);
   // Fills what of the view is fixed by the scene.
   void fill(FrameView& view) const;
 
@@ -36,6 +40,11 @@ class DeviceScene {
   DeviceBuffer<TreeHeader> trees_;
   DeviceBuffer<PackedBox> tree_nodes_;
   DeviceBuffer<PackedVec3> tree_vertices_;
+  DeviceBuffer<NearCells> near_cells_;
+  DeviceBuffer<std::uint8_t> near_lower_;
+  DeviceBuffer<std::uint32_t> near_begin_;
+  DeviceBuffer<std::uint32_t> near_entries_;
+  float extent_m_ = 0.0F;
   DeviceBuffer<std::uint32_t> shape_of_body_;
   DeviceBuffer<core::Material> material_;
   DeviceBuffer<core::Quat> orientation_;

@@ -14,6 +14,7 @@
 #include "core/scene/spring.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad_view.hpp"
+#include "gpu/near_cells.hpp"
 #include "gpu/packed_box.hpp"
 #include "gpu/shape_tree.hpp"
 
@@ -29,6 +30,11 @@ struct ShapesView {
   const TreeHeader* trees = nullptr;            // [shapes]
   const PackedBox* tree_nodes = nullptr;
   const PackedVec3* tree_vertices = nullptr;
+  const NearCells* near_cells = nullptr;  // [shapes]
+  const std::uint8_t* near_lower = nullptr;
+  const std::uint32_t* near_begin = nullptr;
+  const std::uint32_t* near_entries = nullptr;
+  float extent_m = 0.0F;  // the largest coordinate of any shape's vertices
 };
 
 // Position (w = inverse mass) and velocity of every body, at one moment.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 #include "core/scene/springs_of_bodies.hpp"
@@ -104,7 +105,9 @@ core::Status Pipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.stream.create());
   BROADSIDE_TRY(d.copy_stream.create());
   BROADSIDE_TRY(d.outcome.allocate());
-  BROADSIDE_TRY(d.device_scene.load(scene, hash_cell_m));
+  SceneNeeds needs{hash_cell_m, d.options.least_for_cells};
+  if (!d.options.has_vertex_stage) needs.least_for_cells = std::numeric_limits<std::uint32_t>::max();
+  BROADSIDE_TRY(d.device_scene.load(scene, needs));
   BROADSIDE_TRY(d.broad.load(d.chosen_start(), d.device_scene.box_facts(), hash_cell_m, d.options.variant));
   BROADSIDE_TRY(d.buffers.load(scene));
   auto launch = frame_launch_shape(d.device_scene.tree_levels());

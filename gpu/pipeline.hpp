@@ -20,6 +20,8 @@ struct PipelineOptions {
   Broad broad = Broad::kTree;
   float hash_cell_m = 0.0F;                            // of kHash; 0 = the scene's
   std::uint32_t least_for_grid = kLeastBodiesForGrid;  // kTree tests all pairs of fewer bodies
+  // Shapes of fewer bodies get no cells of near vertices, which cost memory and time at load.
+  std::uint32_t least_for_cells = 16;
   core::Levels levels = core::Levels::kC;
   Solver solver = Solver::kColored;
   core::Variant variant = core::Variant::kSound;

@@ -77,6 +77,25 @@ TEST(PipelineOnHost, StaticBodiesAndTheJacobiSolver) {
   EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {{"solver", "jacobi"}}, 12), 0U);
 }
 
+// Nearest vertices are looked up in cells, or found by descending two trees: with cells for both shapes, for one, for
+// none. A warp a pair where the grid has no more warps than pairs, several warps a pair where it has.
+TEST(PipelineOnHost, NearestVerticesByCellsAndByTrees) {
+  SceneShape shape;
+  shape.bodies = 21;  // of two meshes, some turned: shapes of 7, 7, 4 and 3 bodies
+  shape.cube_m = 1.9F;
+  const core::Scene many = thrown({bumpy_sphere(8, 0.5F), bumpy_sphere(9, 0.6F)}, shape);
+  shape.bodies = 2;
+  shape.cube_m = 0.8F;
+  const core::Scene few = thrown({bumpy_sphere(9, 0.6F)}, shape);
+  for (const std::uint32_t least : {1U, 5U, 100U}) {
+    SCOPED_TRACE(least);
+    PipelineOptions options;
+    options.least_for_cells = least;
+    EXPECT_GT(compare(many, options, {}, 3), 0U);
+    EXPECT_GT(compare(few, options, {}, 2), 0U);
+  }
+}
+
 // Springs act on some bodies, several on one; a step that is too long for one of them is refused, as by the twin.
 TEST(PipelineOnHost, Springs) {
   core::Scene scene = spheres(40, 2.5F);

@@ -1,0 +1,192 @@
+// Nearest vertices of one pair of bodies where one of them has cells of near vertices: the other's vertices that come
+// into question are looked up there. P(7) and P(8).
+#pragma once
+
+#include "core/method/proximity.hpp"
+#include "gpu/frame_view.hpp"
+#include "gpu/stages/search_stack.cuh"
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+// Which of a pair's bodies asks and which answers by its cells; neither where no lists are right.
+struct CellRoles {
+  bool has_cells = false;
+  bool is_asked_by_j = false;
+};
+
+__device__ inline CellRoles cell_roles(const FrameView& f, core::Pair pair) {
+  const std::uint32_t shape_i = f.shape_of_body[pair.i];
+  const std::uint32_t shape_j = f.shape_of_body[pair.j];
+  const NearCells& of_i = f.shapes.near_cells[shape_i];
+  const NearCells& of_j = f.shapes.near_cells[shape_j];
+  const core::Vec3 xi = f.detected.position[pair.i].v;
+  const core::Vec3 xj = f.detected.position[pair.j].v;
+  const float far = f.shapes.extent_m + fmaxf(fmaxf(fmaxf(fabsf(xi.x), fabsf(xi.y)), fabsf(xi.z)),
+                                              fmaxf(fmaxf(fabsf(xj.x), fabsf(xj.y)), fabsf(xj.z)));
+  const bool i_answers = of_i.count_x != 0 && far <= of_i.range_m;
+  const bool j_answers = of_j.count_x != 0 && far <= of_j.range_m;
+  // The body of fewer vertices asks.
+  const bool is_asked_by_j =
+      i_answers && (!j_answers || f.shapes.trees[shape_j].node_count[0] < f.shapes.trees[shape_i].node_count[0]);
+  return {i_answers || j_answers, is_asked_by_j};
+}
+
+// The tree's nodes of so many vertices are looked at one by one, each lane with two of their vertices: shapes with
+// cells have at most 128 of them.
+constexpr std::uint32_t kRunLevel = 1;
+constexpr std::uint32_t kRunVertices = kLeafVertices * kFanOut;
+static_assert(kRunVertices == 64, "two a lane");
+
+// As NearestVertices, with another way to them: the asking body's vertices whose box is near the answering body's are
+// looked up in its cells; those that find something near enough wait until a lane each has one.
+class NearestByCells {
+ public:
+  __device__ NearestByCells(const FrameView& f, core::Pair pair, bool is_asked_by_j, SearchStack stack,
+                            std::uint32_t* bound, std::uint32_t member, std::uint32_t members)
+      : f_(f),
+        tree_(f.shapes.trees[f.shape_of_body[is_asked_by_j ? pair.j : pair.i]]),
+        other_tree_(f.shapes.trees[f.shape_of_body[is_asked_by_j ? pair.i : pair.j]]),
+        cells_(f.shapes.near_cells[f.shape_of_body[is_asked_by_j ? pair.i : pair.j]]),
+        vertices_(f.shapes.tree_vertices + tree_.vertex_begin),
+        x_(f.detected.position[is_asked_by_j ? pair.j : pair.i].v),
+        other_x_(f.detected.position[is_asked_by_j ? pair.i : pair.j].v),
+        cells_per_m_(cells_.cells_per_m),
+        origin_(cells_per_m_ * ((x_ - other_x_) - cells_.low)),
+        is_asked_by_j_(is_asked_by_j),
+        queue_(stack),
+        bound_(bound),
+        member_(member),
+        members_(members) {
+    const float theta_m = core::pair_theta_m(f.parameters, tree_.mean_edge_m, other_tree_.mean_edge_m);
+    theta2_ = theta_m * theta_m;
+  }
+
+  __device__ core::Proximity find() {
+    // A tree without runs is one: its root's box is the body's, which is near the other's.
+    const std::uint32_t level = min(kRunLevel, tree_.top);
+    const std::uint32_t runs = tree_.node_count[level];
+    const core::Box other_box =
+        core::translated(unpack(f_.shapes.tree_nodes[other_tree_.node_begin[other_tree_.top]]), other_x_);
+    for (std::uint32_t first = 0; first < runs; first += 32) {
+      const std::uint32_t run = first + lane();
+      bool is_near = run < runs && run % members_ == member_;  // dealt out to the pair's warps
+      if (is_near) {
+        const core::Box box = core::translated(unpack(f_.shapes.tree_nodes[tree_.node_begin[level] + run]), x_);
+        const float gap2 = squared_gap(box, other_box);
+        is_near = gap2 < theta2_ && gap2 <= limit();
+      }
+      for (unsigned left = __ballot_sync(kFullWarp, is_near); left != 0; left &= left - 1) {
+        look_up(first + static_cast<std::uint32_t>(__ffs(left)) - 1);
+        while (waiting_ >= 32) meet(32);
+      }
+    }
+    if (waiting_ > 0) meet(waiting_);
+    return warp_nearest(best_);
+  }
+
+ private:
+  __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
+
+  // The cell that has this vertex. Those at the rim are empty, so what lies outside may count as there.
+  __device__ std::uint32_t cell_of(core::Vec3 v) const {
+    const core::Vec3 at = cells_per_m_ * v + origin_;
+    const auto within = [](float place, std::uint32_t count) {
+      return static_cast<std::uint32_t>(min(max(floor_to_int(place), 0), static_cast<int>(count) - 1));
+    };
+    return (within(at.z, cells_.count_z) * cells_.count_y + within(at.y, cells_.count_y)) * cells_.count_x +
+           within(at.x, cells_.count_x);
+  }
+
+  // Two of a run's vertices a lane.
+  __device__ void look_up(std::uint32_t run) {
+    const std::uint32_t last = tree_.node_count[0] * kLeafVertices - 1;
+    const float now = limit();
+    if (now != limit_) {
+      limit_ = now;
+      // In whole steps, rounded up and one more: what the lists allow for roundings is less than a step.
+      const float steps = sqrtf(now) / cells_.lower_step_m;
+      most_ = steps < 253.0F ? static_cast<std::uint32_t>(floor_to_int(steps)) + 1U : 254U;
+    }
+    const std::uint8_t* lower = f_.shapes.near_lower + cells_.first_lower;
+    std::uint32_t vertex[2];
+    std::uint32_t cell[2];
+    bool keeps[2];
+#pragma unroll
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      // The last run may be short: its last vertex is then looked at again.
+      vertex[half] = min(run * kRunVertices + half * 32 + lane(), last);
+      cell[half] = cell_of(vertices_[vertex[half]].v);
+    }
+#pragma unroll
+    for (std::uint32_t half = 0; half < 2; ++half) keeps[half] = lower[cell[half]] <= most_;
+#pragma unroll
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      const unsigned kept = __ballot_sync(kFullWarp, keeps[half]);
+      if (keeps[half]) {
+        const std::uint32_t place = waiting_ + __popc(kept & ((1U << lane()) - 1U));
+        queue_.a[place] = vertex[half];
+        queue_.b[place] = cell[half];
+      }
+      waiting_ += __popc(kept);
+    }
+    __syncwarp();
+  }
+
+  __device__ void take(float d2, float own_id, float other_id) {
+    const core::Proximity found{d2, __float_as_uint(is_asked_by_j_ ? other_id : own_id),
+                                __float_as_uint(is_asked_by_j_ ? own_id : other_id)};
+    if (d2 < theta2_ && core::is_nearer(found, best_)) best_ = found;
+  }
+
+  // The last `count` of the waiting vertices, a lane each, with the lists of their cells.
+  __device__ void meet(std::uint32_t count) {
+    waiting_ -= count;
+    if (lane() < count) {
+      const std::uint32_t cell = queue_.b[waiting_ + lane()];
+      const PackedVec3 mine = vertices_[queue_.a[waiting_ + lane()]];
+      const core::Vec3 v = mine.v + x_;
+      const std::uint32_t* begin = f_.shapes.near_begin + cells_.first_begin + cell;
+      const std::uint32_t* entry = f_.shapes.near_entries + cells_.first_entry + begin[0];
+      const std::uint32_t* end = f_.shapes.near_entries + cells_.first_entry + begin[1];
+      const PackedVec3* others = f_.shapes.tree_vertices + other_tree_.vertex_begin;
+      for (; entry != end; ++entry) {
+        // Both are asked for before either is looked at: what takes the time is waiting for them.
+        const std::uint32_t both = *entry;
+        const PackedVec3 first = others[both & 0xFFFFU];
+        const PackedVec3 second = others[both >> 16U];
+        const float first_d2 = core::squared_distance(v, first.v + other_x_);
+        const float second_d2 = core::squared_distance(v, second.v + other_x_);
+        const float least_d2 = fminf(first_d2, second_d2);
+        if (!(least_d2 < theta2_) || least_d2 > best_.squared_distance_m2) continue;
+        take(first_d2, mine.w, first.w);
+        take(second_d2, mine.w, second.w);
+      }
+    }
+    const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
+    if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);
+    __syncwarp();
+  }
+
+  const FrameView& f_;
+  const TreeHeader& tree_;
+  const TreeHeader& other_tree_;
+  const NearCells& cells_;
+  const PackedVec3* vertices_;
+  core::Vec3 x_;
+  core::Vec3 other_x_;
+  float cells_per_m_;
+  core::Vec3 origin_;  // of the asking body's coordinates, in cells
+  bool is_asked_by_j_;
+  SearchStack queue_;
+  std::uint32_t waiting_ = 0;  // vertices in the queue: below 32, and 64 more
+  std::uint32_t* bound_;
+  std::uint32_t member_;
+  std::uint32_t members_;
+  float theta2_ = 0.0F;
+  float limit_ = INFINITY;
+  std::uint32_t most_ = 254;  // of `lower`, for limit_
+  core::Proximity best_;
+};
+
+}  // namespace broadside::gpu
