@@ -77,7 +77,7 @@ function marks(spec) {
   return {
     symbol: "none", silent: true,
     lineStyle: { color: css_color("--ink"), type: "dashed", width: 1 },
-    label: { formatter: (p) => p.name, color: css_color("--soft"), position: "insideEndTop" },
+    label: { formatter: (p) => p.name, color: css_color("--soft"), position: "insideEndTop", backgroundColor: css_color("--paper"), padding: [1, 3] },
     data: spec.marks.map((m) => (m.y !== undefined ? { name: m.text, yAxis: m.y } : { name: m.text, xAxis: m.x })),
   };
 }

@@ -79,6 +79,19 @@ TEST(Chart, PicturesOfBothKinds) {
   EXPECT_EQ(svg.find("<script"), std::string::npos);
 }
 
+TEST(Chart, ALongTitleGoesOnBelow) {
+  Chart chart{.title = "Time per frame relative to octree-cpu: integrate, broad, levels, vertices, response, faces",
+              .x = {.name = "frame"},
+              .y = {.name = "ratio"}};
+  chart.series.push_back({.name = "s", .x = {1, 2}, .y = {1, 2}});
+  const std::string svg = chart_svg(chart, plots::Placement::kFile);
+  EXPECT_NE(svg.find("y=\"22\">Time per frame"), std::string::npos);
+  EXPECT_NE(svg.find("y=\"39\">"), std::string::npos) << "the second line";
+  EXPECT_NE(svg.find("faces</text>"), std::string::npos);
+  chart.title = "short";
+  EXPECT_EQ(chart_svg(chart, plots::Placement::kFile).find("y=\"39\">"), std::string::npos);
+}
+
 TEST(Chart, PicturesShowTheLinesThatThePageShows) {
   Chart history{.title = "t", .x = {.name = "run"}, .y = {.name = "median frame", .unit = "ms"}};
   history.series.push_back({.name = "median frame", .x = {1, 2, 3, 4, 5}, .y = {10, 10, 13, 13, 13}});
