@@ -93,5 +93,34 @@ TEST(PairsOnHost, ClustersInAWideWorld) {
   }));
 }
 
+// More partners than a lane has room to note at once.
+TEST(PairsOnHost, Crowd) {
+  expect_exact(boxes_of(200, [](Dice& dice, std::uint32_t) { return dice.cube(1.5F); }));
+  expect_exact(std::vector<Box>(100, Box{{1.0F, 2.0F, 3.0F}, {2.0F, 3.0F, 4.0F}}));
+}
+
+// Rows of cells are cut into runs, also between two boxes that only touch.
+TEST(PairsOnHost, TouchingAlongEachAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Box> boxes;
+    for (int i = 0; i < 400; ++i) {
+      Box box{{0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}};
+      box.min[axis] = static_cast<float>(i) - 200.0F;
+      box.max[axis] = static_cast<float>(i) - 199.0F;
+      boxes.push_back(box);
+    }
+    expect_exact(boxes);
+  }
+}
+
+// Cells that share an entry's tag and its rounded coordinates, hundreds of cells apart, in a table that is smaller than
+// the world: only the boxes themselves tell them apart.
+TEST(PairsOnHost, CellsThatLookAlike) {
+  expect_exact(boxes_of(480, [](Dice& dice, std::uint32_t i) {
+    const auto block = [i](std::uint32_t k) { return 512.0F * 1.5F * static_cast<float>((i >> k) & 3U); };
+    return core::Vec3{block(0), block(2), block(4)} + dice.cube(2.0F);
+  }));
+}
+
 }  // namespace
 }  // namespace broadside::gpu
