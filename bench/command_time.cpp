@@ -30,6 +30,7 @@ struct TimeArguments {
   std::uint32_t narrow_every = 0;
   std::string out = "out/samples.json";
   std::string in_process;  // folder for the samples of one cell
+  std::string turns;
   ChildLimits limits;
 };
 
@@ -55,6 +56,9 @@ std::vector<std::string> own_arguments(const TimeArguments& a) {
 
 core::Exit time(const TimeArguments& a) {
   if (!a.in_process.empty()) limit_this_process(a.limits.memory_mib);
+  Turns turns;
+  if (!a.turns.empty())
+    if (core::Status s = turns.join(a.turns); !s) return complain(s.error());
   RunPlan plan;
   auto scene = a.scene.make();
   if (!scene) return complain(scene.error());
@@ -75,8 +79,8 @@ core::Exit time(const TimeArguments& a) {
     const std::string reason = why_absent(*spec.row);
     if (!reason.empty()) fmt::print("{}: not measured: {}\n", spec.row->id, reason);
   }
-  auto samples =
-      a.processes > 1 ? time_in_processes(own_arguments(a), a.processes, plan.folder) : time_plan(plan, a.repetitions);
+  auto samples = a.processes > 1 ? time_in_processes(own_arguments(a), a.processes, plan.folder)
+                                 : time_plan(plan, a.repetitions, turns);
   if (!samples) return complain(samples.error());
   if (!a.in_process.empty()) {
     if (core::Status s = core::write_samples(std::filesystem::path(a.in_process) / "samples.json", samples.value()); !s)
@@ -113,6 +117,9 @@ void add_time(CLI::App& program, core::Exit& exit) {
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
   command->add_option("--out", a->out, "File for the samples; traces and verdicts beside it are the proof")
       ->capture_default_str();
+  command->add_option("--turns", a->turns,
+                      "Take turns with another process, frame by frame: what compare --interleave says to the two that "
+                      "it starts");
   add_limits(*command, a->limits);
   command->add_option("--in-process", a->in_process, "Time one cell here and leave its samples in this folder")
       ->group("");

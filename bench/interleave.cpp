@@ -1,7 +1,17 @@
 #include "bench/interleave.hpp"
 
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "bench/interrupt.hpp"
@@ -42,13 +52,31 @@ class Side {
     return call(check, at / "check.log", {0, 1, 3});
   }
 
-  core::Status time(std::size_t scene, std::uint64_t pair) {
+  // Does `time` of this program know --turns? One built before turns does not.
+  core::Result<bool> takes_turns() {
+    const std::filesystem::path log = folder_ / "help.log";
+    if (core::Status s = prepare_folder(folder_); !s) return s.error();
+    if (core::Status s = call({"time", "--help"}, log, {0}); !s) return s.error();
+    std::ifstream in(log);
+    const std::string help{std::istreambuf_iterator<char>(in), {}};
+    return help.find("--turns") != std::string::npos;
+  }
+
+  // A timed process, alone or with its part in `turns` over the descriptor.
+  core::Result<RunningProgram> start_timing(std::size_t scene, const std::string& turns = {}, int descriptor = -1) {
     const std::filesystem::path at = scene_folder(scene);
-    const std::filesystem::path file = at / "pair.json";
-    Arguments arguments{"time",  plan_.scenes[scene], "--repetitions", std::to_string(plan_.repetitions),
-                        "--out", file.string()};
+    Arguments arguments{"time",  plan_.scenes[scene],      "--repetitions", std::to_string(plan_.repetitions),
+                        "--out", (at / kPairFile).string()};
     add_common(arguments);
-    if (core::Status s = call(arguments, at / "time.log", {0, 3}); !s) return s;
+    if (!turns.empty()) arguments.insert(arguments.end(), {"--turns", turns});
+    return RunningProgram::start(program_, arguments, at / "time.log", descriptor);
+  }
+
+  // Waits for it and keeps its samples as those of the pair.
+  core::Status keep_timing(RunningProgram& timing, std::size_t scene, std::uint64_t pair) {
+    const std::filesystem::path at = scene_folder(scene);
+    const std::filesystem::path file = at / kPairFile;
+    if (core::Status s = judge_ending("time", timing.wait(), at / "time.log", {0, 3}); !s) return s;
     auto samples = core::read_samples(file);
     if (!samples) return samples.error();
     for (core::Sample& sample : samples.value()) {
@@ -99,19 +127,69 @@ class Side {
   }
 
   core::Status call(const Arguments& arguments, const std::filesystem::path& log, const std::vector<int>& good) const {
-    auto code = run_program(program_, arguments, log);
+    return judge_ending(arguments[0], run_program(program_, arguments, log), log, good);
+  }
+
+  core::Status judge_ending(const std::string& command, const core::Result<int>& code, const std::filesystem::path& log,
+                            const std::vector<int>& good) const {
     if (!code) return code.error();
     if (is_interrupted()) return interrupted();
     if (std::find(good.begin(), good.end(), code.value()) != good.end()) return core::Done{};
-    return core::Error{"'" + arguments[0] + "' exits " + std::to_string(code.value()) + ": " + last_line(log), program_,
+    return core::Error{"'" + command + "' exits " + std::to_string(code.value()) + ": " + last_line(log), program_,
                        "see " + log.string(), code.value() == 2 ? core::Exit::kBadInput : core::Exit::kMissing};
   }
+
+  static constexpr const char* kPairFile = "pair.json";  // of the process that runs, in its scene's folder
 
   const InterleavePlan& plan_;
   std::string program_;
   std::filesystem::path folder_;
   std::vector<std::vector<core::Sample>> samples_;
 };
+
+using Sides = std::array<Side, 2>;
+
+// The cores that this process may use.
+std::vector<int> own_cores() {
+  std::vector<int> cores;
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return {-1};
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(static_cast<std::size_t>(core), &set)) cores.push_back(core);
+  return cores;
+}
+
+// One process after the other.
+core::Status time_one_by_one(std::array<Side*, 2> order, std::size_t scene, std::uint64_t pair) {
+  for (Side* side : order) {
+    auto timing = side->start_timing(scene);
+    if (!timing) return timing.error();
+    if (core::Status s = side->keep_timing(timing.value(), scene, pair); !s) return s;
+  }
+  return core::Done{};
+}
+
+// Both at once, each working while the other waits.
+core::Status time_in_turns(std::array<Side*, 2> order, std::size_t scene, std::uint64_t pair, int core) {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    return core::Error{"two processes cannot be connected: " + std::string(std::strerror(errno)), "compare", "",
+                       core::Exit::kInternal};
+  constexpr std::array kRoles{"first", "second"};
+  std::vector<core::Result<RunningProgram>> timings;
+  for (const std::size_t k : {0U, 1U}) {
+    const std::string turns = std::string(kRoles[k]) + ":" + std::to_string(ends[k]) + ":" + std::to_string(core);
+    timings.push_back(order[k]->start_timing(scene, turns, ends[k]));
+  }
+  // Whoever is left alone sees the end of the connection, once this process holds no end of it.
+  for (const int end : ends) close(end);
+  core::Status status = core::Done{};
+  for (const std::size_t k : {0U, 1U}) {
+    core::Status own = timings[k] ? order[k]->keep_timing(timings[k].value(), scene, pair) : timings[k].error();
+    if (status && !own) status = std::move(own);
+  }
+  return status;
+}
 
 }  // namespace
 
@@ -123,8 +201,17 @@ std::uint32_t looks_of(const InterleavePlan& plan) {
 
 core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const Untold& untold) {
   if (core::Status s = prepare_folder(plan.folder); !s) return s.error();
-  std::array<Side, 2> sides{Side(plan, plan.base, plan.folder / "base"), Side(plan, plan.head, plan.folder / "head")};
+  Sides sides{Side(plan, plan.base, plan.folder / "base"), Side(plan, plan.head, plan.folder / "head")};
   for (Side& side : sides) side.begin();
+  bool takes_turns = true;
+  for (Side& side : sides) {
+    const auto takes = side.takes_turns();
+    if (!takes) return takes.error();
+    takes_turns = takes_turns && takes.value();
+  }
+  if (!takes_turns)
+    fmt::print(stderr, "broadside: compare: one of the programs knows no turns: whole processes run one by one\n");
+  const std::vector<int> cores = own_cores();
   Progress proof("proving", 2 * plan.scenes.size());
   std::vector<std::size_t> scenes;  // that are timed in this round
   for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
@@ -139,11 +226,15 @@ core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const 
     std::uint64_t done = 0;
     while (pairs < until) {
       ++pairs;
-      for (const std::size_t scene : scenes)
-        for (const std::size_t turn : {0U, 1U}) {
-          if (core::Status s = sides[pairs % 2 == 1 ? turn : 1 - turn].time(scene, pairs); !s) return s.error();
-          progress.at(++done);
-        }
+      const bool is_base_first = pairs % 2 == 1;
+      const std::array<Side*, 2> order{&sides[is_base_first ? 0 : 1], &sides[is_base_first ? 1 : 0]};
+      for (const std::size_t scene : scenes) {
+        // Two pairs, one of each order, before the next core.
+        const core::Status s = takes_turns ? time_in_turns(order, scene, pairs, cores[(pairs - 1) / 2 % cores.size()])
+                                           : time_one_by_one(order, scene, pairs);
+        if (!s) return s.error();
+        progress.at(done += 2);
+      }
     }
     auto base = sides[0].rows();
     if (!base) return base.error();

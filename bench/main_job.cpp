@@ -103,7 +103,8 @@ core::Status time_all(const MainJob& job, const RunPlan& plan, core::RunRows& ro
   for (std::size_t k = 0; k < std::size(kJob); ++k)
     if (recorded(rows.cells, kJob[k].cell) != nullptr) cells.push_back(plan.cells[k]);
   timed.cells = std::move(cells);
-  auto samples = time_plan(timed, job.repetitions);
+  Turns alone;
+  auto samples = time_plan(timed, job.repetitions, alone);
   if (!samples) return samples.error();
   rows.samples = std::move(samples).value();
   return core::write_samples(job.folder / "samples.json", rows.samples);

@@ -15,6 +15,7 @@
 #include "bench/interrupt.hpp"
 #include "bench/near_pairs.hpp"
 #include "bench/progress.hpp"
+#include "bench/turns.hpp"
 #include "core/pair.hpp"
 #include "core/trace/trace_reader.hpp"
 
@@ -61,7 +62,8 @@ core::Result<BakedFrames> bake(const std::filesystem::path& trace, const core::S
   return baked;
 }
 
-core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint64_t frames, core::Sample& sample) {
+core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint64_t frames, Turns& turns,
+                           core::Sample& sample) {
   core::Dynamics& dynamics = *engine.dynamics;
   if (core::Status s = dynamics.load(plan.scene); !s) return s;
   for (std::uint64_t step = 1; step <= frames && !is_interrupted(); ++step) {
@@ -70,6 +72,7 @@ core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint6
     const double whole = seconds_since(start);
     for (const core::StageTime& stage : dynamics.stage_times()) add_time(sample, stage.stage, stage.seconds);
     add_time(sample, "frame", whole);
+    turns.frame_done();
   }
   core::FrameRecord last;
   if (core::Status s = dynamics.read_back(last, core::RecordLevel::kDigest); !s) return s;
@@ -79,7 +82,7 @@ core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint6
 }
 
 core::Status time_broad(const RunPlan& plan, core::Engine& engine, const BakedFrames& baked, std::uint64_t frames,
-                        core::Sample& sample) {
+                        Turns& turns, core::Sample& sample) {
   std::vector<std::uint8_t> is_static;
   for (const core::Body& body : plan.scene.bodies) is_static.push_back(body.inverse_mass > 0.0F ? 0 : 1);
   core::BroadPhase& broad = *engine.broad_phase;
@@ -101,13 +104,14 @@ core::Status time_broad(const RunPlan& plan, core::Engine& engine, const BakedFr
     add_time(sample, "filter", found.filter_s);
     add_time(sample, "frame", both + found.filter_s);
     sample.final_step = baked.steps[k];
+    turns.frame_done();
   }
   sample.final_digest = core::pair_digest(found.pairs);
   return core::Done{};
 }
 
 core::Status time_narrow(const RunPlan& plan, core::Engine& engine, const BakedFrames& baked, std::uint64_t frames,
-                         core::Sample& sample) {
+                         Turns& turns, core::Sample& sample) {
   core::NarrowPhase& narrow = *engine.narrow_phase;
   if (core::Status s = narrow.load(plan.scene); !s) return s;
   const NearPairs near(plan.scene);
@@ -127,6 +131,7 @@ core::Status time_narrow(const RunPlan& plan, core::Engine& engine, const BakedF
     auto separations = narrow.read_back();
     if (!separations) return separations.error();
     last.separations = std::move(separations).value();
+    turns.frame_done();
   }
   sample.final_digest = separation_digest(last);
   return core::Done{};
@@ -144,7 +149,7 @@ bool goes_to_a_child(const RunPlan& plan, const CellSpec& spec) {
 
 class Timer {
  public:
-  explicit Timer(const RunPlan& plan) : plan_(plan) {}
+  Timer(const RunPlan& plan, Turns& turns) : plan_(plan), turns_(turns) {}
 
   core::Status prepare() {
     const auto needs = [&](auto test) {
@@ -176,17 +181,20 @@ class Timer {
     sample.stamp = stamp_of(plan_.scene, engine);
     core::Status status = core::Done{};
     if (engine.dynamics)
-      status = time_dynamics(plan_, engine, std::min(most_frames, plan_.frames), sample);
+      status = time_dynamics(plan_, engine, std::min(most_frames, plan_.frames), turns_, sample);
     else if (engine.broad_phase)
-      status = time_broad(plan_, engine, boxes_, std::min<std::uint64_t>(most_frames, boxes_.frames.size()), sample);
+      status =
+          time_broad(plan_, engine, boxes_, std::min<std::uint64_t>(most_frames, boxes_.frames.size()), turns_, sample);
     else
-      status = time_narrow(plan_, engine, poses_, std::min<std::uint64_t>(most_frames, poses_.frames.size()), sample);
+      status = time_narrow(plan_, engine, poses_, std::min<std::uint64_t>(most_frames, poses_.frames.size()), turns_,
+                           sample);
     if (!status) return status.error();
     return sample;
   }
 
  private:
   const RunPlan& plan_;
+  Turns& turns_;
   BakedFrames boxes_;
   BakedFrames poses_;
 };
@@ -220,7 +228,8 @@ core::Result<core::Sample> time_run(const RunPlan& plan, const CellSpec& spec, s
   RunPlan alone = plan;
   alone.cells = {spec};
   alone.times_here = true;  // the caller decides in which process it times
-  Timer timer(alone);
+  Turns none;
+  Timer timer(alone, none);
   if (core::Status s = timer.prepare(); !s) return s.error();
   auto sample = timer.time(spec, most_frames);
   if (!sample) return sample.error();
@@ -229,19 +238,21 @@ core::Result<core::Sample> time_run(const RunPlan& plan, const CellSpec& spec, s
   return sample;
 }
 
-core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions) {
-  Timer timer(plan);
+core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions, Turns& turns) {
+  Timer timer(plan, turns);
   if (core::Status s = timer.prepare(); !s) return s.error();
   std::vector<core::Sample> samples;
   const std::uint64_t process = process_name();
   std::vector<bool> has_failed(plan.cells.size());
   Progress progress("timing", std::uint64_t{repetitions} * plan.cells.size());
+  turns.begin();
   for (std::uint32_t r = 0; r < repetitions; ++r) {
     for (std::size_t c = 0; c < plan.cells.size(); ++c) {
       const CellSpec& spec = plan.cells[c];
       if (!why_absent(*spec.row).empty() || has_failed[c]) continue;
       const bool is_apart = goes_to_a_child(plan, spec);
       auto sample = is_apart ? time_in_child(plan, spec) : time_here(plan, timer, spec, r == 0);
+      if (is_apart) turns.frame_done();
       if (!sample && is_apart && !is_interrupted()) {
         fmt::print(stderr, "broadside: {}\n", sample.error().line());
         has_failed[c] = true;
@@ -257,6 +268,7 @@ core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint
       progress.at(samples.size());
     }
   }
+  turns.end();
   return samples;
 }
 

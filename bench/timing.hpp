@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/run_plan.hpp"
+#include "bench/turns.hpp"
 #include "core/result.hpp"
 #include "core/sample.hpp"
 
@@ -19,7 +20,8 @@ namespace broadside::bench {
 // The final digest is read after the clock stopped.
 // A reference is timed in a child process, each repetition in a new one that warms up first; where that dies or fails,
 // its last words go to stderr and the cell has no samples.
-core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions);
+// turns: with whom it takes turns, frame by frame; a run in a child process counts as one frame.
+core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint32_t repetitions, Turns& turns);
 
 // One run of one cell of the plan, without warm-up: for callers that keep each run as it ends. At most this many
 // frames.

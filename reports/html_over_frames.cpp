@@ -97,8 +97,7 @@ std::string side_by_side_section(const SceneView& scene, PageParts& page) {
     for (const Timing* timing : group.timings) {
       const std::vector<ProcessRuns> own = units_of(page.rows, timing->stamp);
       if (own.empty()) continue;
-      const RatioInterval ratio =
-          timing == &first ? RatioInterval{1.0, 1.0, 1.0} : ratio_interval(base, own, false, 0.0);
+      const RatioInterval ratio = timing == &first ? RatioInterval{1.0, 1.0, 1.0} : ratio_interval(base, own, 0.0);
       series.x.push_back(ratio.estimate);
       series.y.push_back(static_cast<double>(chart.y.categories.size()));
       series.low.push_back(ratio.low);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/pair.hpp"
 #include "reports/statistics.hpp"
@@ -30,54 +31,53 @@ double median_of(std::vector<double>& values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-class Resampler {
+// The median of processes, as they are or drawn with replacement.
+class Side {
  public:
-  Resampler(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, bool is_paired)
-      : base_(base), head_(head), is_paired_(is_paired) {}
+  explicit Side(const std::vector<ProcessRuns>& processes) : processes_(processes) {}
 
   double estimate() {
-    return combined([](const ProcessRuns& runs, std::vector<double>& into) { into = runs; },
-                    [](std::size_t, std::size_t k) { return k; });
+    figures_.clear();
+    for (const ProcessRuns& runs : processes_) {
+      scratch_ = runs;
+      figures_.push_back(median_of(scratch_));
+    }
+    return median_of(figures_);
   }
 
-  double draw() {
-    const auto runs_of = [&](const ProcessRuns& runs, std::vector<double>& into) {
-      into.resize(runs.size());
-      for (double& value : into) value = runs[draws_.below(runs.size())];
-    };
-    return combined(runs_of, [&](std::size_t n, std::size_t) { return draws_.below(n); });
+  double draw(Draws& draws) {
+    figures_.clear();
+    for (std::size_t k = 0; k < processes_.size(); ++k) {
+      const ProcessRuns& runs = processes_[draws.below(processes_.size())];
+      scratch_.resize(runs.size());
+      for (double& value : scratch_) value = runs[draws.below(runs.size())];
+      figures_.push_back(median_of(scratch_));
+    }
+    return median_of(figures_);
   }
 
  private:
-  template <typename Runs, typename Process>
-  double combined(Runs&& runs_of, Process&& process) {
-    const auto figure = [&](const ProcessRuns& runs) {
-      runs_of(runs, scratch_);
-      return median_of(scratch_);
-    };
-    figures_.clear();
-    if (is_paired_) {
-      for (std::size_t k = 0; k < base_.size(); ++k) {
-        const std::size_t pair = process(base_.size(), k);
-        const double of_head = figure(head_[pair]);
-        figures_.push_back(of_head / figure(base_[pair]));
-      }
-      return median_of(figures_);
-    }
-    for (std::size_t k = 0; k < head_.size(); ++k) figures_.push_back(figure(head_[process(head_.size(), k)]));
-    const double of_head = median_of(figures_);
-    figures_.clear();
-    for (std::size_t k = 0; k < base_.size(); ++k) figures_.push_back(figure(base_[process(base_.size(), k)]));
-    return of_head / median_of(figures_);
-  }
-
-  const std::vector<ProcessRuns>& base_;
-  const std::vector<ProcessRuns>& head_;
-  bool is_paired_;
-  Draws draws_;
+  const std::vector<ProcessRuns>& processes_;
   std::vector<double> scratch_;
   std::vector<double> figures_;
 };
+
+// least_p: the smallest that so many processes can give.
+RatioInterval interval_of(double estimate, std::vector<double> resamples, double delta, std::uint32_t looks,
+                          double least_p) {
+  const double tail = kTail / looks;
+  RatioInterval result{.estimate = estimate};
+  std::sort(resamples.begin(), resamples.end());
+  result.low = quantile(resamples, tail);
+  result.high = quantile(resamples, 1.0 - tail);
+  // Of the resamples, those that do not speak for a difference; one more, so that no p is zero.
+  const auto share = [&](std::ptrdiff_t against) {
+    return std::max((1.0 + static_cast<double>(against)) / (1.0 + static_cast<double>(kResamples)), least_p);
+  };
+  result.p_slower = share(std::upper_bound(resamples.begin(), resamples.end(), 1.0 + delta) - resamples.begin());
+  result.p_faster = share(resamples.end() - std::lower_bound(resamples.begin(), resamples.end(), 1.0 / (1.0 + delta)));
+  return result;
+}
 
 }  // namespace
 
@@ -89,24 +89,26 @@ double smallest_p(std::uint64_t base, std::uint64_t head, bool is_paired) {
   return 1.0 / orders;
 }
 
-RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, bool is_paired,
-                             double delta, std::uint32_t looks) {
-  const double tail = kTail / looks;
-  Resampler resampler(base, head, is_paired);
-  RatioInterval result{.estimate = resampler.estimate()};
+RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, double delta,
+                             std::uint32_t looks) {
+  Side base_side(base);
+  Side head_side(head);
+  Draws draws;
   std::vector<double> ratios(kResamples);
-  for (double& ratio : ratios) ratio = resampler.draw();
-  std::sort(ratios.begin(), ratios.end());
-  result.low = quantile(ratios, tail);
-  result.high = quantile(ratios, 1.0 - tail);
-  // Of the resamples, those that do not speak for a difference; one more, so that no p is zero.
-  const auto share = [&](std::ptrdiff_t against) {
-    return std::max((1.0 + static_cast<double>(against)) / (1.0 + static_cast<double>(kResamples)),
-                    smallest_p(base.size(), head.size(), is_paired));
-  };
-  result.p_slower = share(std::upper_bound(ratios.begin(), ratios.end(), 1.0 + delta) - ratios.begin());
-  result.p_faster = share(ratios.end() - std::lower_bound(ratios.begin(), ratios.end(), 1.0 / (1.0 + delta)));
-  return result;
+  for (double& ratio : ratios) {
+    const double of_head = head_side.draw(draws);
+    ratio = of_head / base_side.draw(draws);
+  }
+  return interval_of(head_side.estimate() / base_side.estimate(), std::move(ratios), delta, looks,
+                     smallest_p(base.size(), head.size(), false));
+}
+
+RatioInterval paired_interval(const std::vector<ProcessRuns>& pairs, double delta, std::uint32_t looks) {
+  Side side(pairs);
+  Draws draws;
+  std::vector<double> ratios(kResamples);
+  for (double& ratio : ratios) ratio = side.draw(draws);
+  return interval_of(side.estimate(), std::move(ratios), delta, looks, smallest_p(pairs.size(), pairs.size(), true));
 }
 
 std::vector<bool> benjamini_hochberg(const std::vector<double>& p_values, double q) {

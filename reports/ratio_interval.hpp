@@ -20,13 +20,17 @@ struct RatioInterval {
 
 // Draws processes with replacement, and of each drawn process its runs with replacement; a process counts by the median
 // of its runs, a side by the median of its processes (Davison and Hinkley 1997, section 3.8; Efron 1979 for the
-// percentile interval). paired: process k of the base ran beside process k of the head, so pairs are drawn, and the
-// median is that of the pairs' ratios: what drifts slower than a pair lasts cancels. Deterministic: the same figures
-// give the same interval. Neither side may be empty, no process without runs; paired sides have equally many processes.
+// percentile interval). Deterministic: the same figures give the same interval. Neither side may be empty, no process
+// without runs.
 // looks, at least 1: at how many moments the figures may be looked at, measuring on in between; each has its share of
 // the 5 % (Bonferroni), so that looking more often does not find more by chance.
-RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, bool is_paired,
-                             double delta, std::uint32_t looks = 1);
+RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, double delta,
+                             std::uint32_t looks = 1);
+
+// The same of processes that ran beside each other, one of the base and one of the head: of each pair, run by run, head
+// over base (frame_ratio). Pairs are drawn, and of each its runs; the median of the pairs counts. What drifts slower
+// than a pair of frames apart cancels in each ratio.
+RatioInterval paired_interval(const std::vector<ProcessRuns>& pairs, double delta, std::uint32_t looks = 1);
 
 // The smallest p that so many processes can give. If the builds were equal, every process of one would be slower than
 // every process of the other by mere chance once in C(base + head, base) orders; of pairs, all n have one sign once in

@@ -6,6 +6,7 @@
 
 #include "reports/admission.hpp"
 #include "reports/figures.hpp"
+#include "reports/frame_ratio.hpp"
 #include "reports/ratio_interval.hpp"
 #include "reports/sample_figures.hpp"
 #include "reports/statistics.hpp"
@@ -15,17 +16,21 @@ namespace {
 
 constexpr double kFalseDiscoveries = 0.025;  // one-sided, as the tail of a 95 % interval
 
-// The median frame of each run of one (scene, label), and what decides whether two such sets may be compared.
+// The runs of one (scene, label), and what decides whether two such sets may be compared.
 struct Runs {
-  std::map<std::uint64_t, ProcessRuns> by_process;
+  std::map<std::uint64_t, std::vector<std::vector<double>>> by_process;  // run by run the seconds of its frames
   std::uint64_t count = 0;
   core::Stamp stamp;
   std::size_t frames = 0;
   std::string refusal;  // of the first sample that was not admitted
 
+  // The median frame of each run.
   [[nodiscard]] std::vector<ProcessRuns> processes() const {
     std::vector<ProcessRuns> all;
-    for (const auto& [process, runs] : by_process) all.push_back(runs);
+    for (const auto& [process, runs] : by_process) {
+      all.emplace_back();
+      for (const std::vector<double>& seconds : runs) all.back().push_back(summarize(seconds).median);
+    }
     return all;
   }
 };
@@ -37,7 +42,7 @@ std::map<Key, Runs> runs_of(const core::RunRows& rows) {
   for (const core::Sample& sample : rows.samples) {
     Runs& runs = all[{sample.stamp.scene_name, sample.stamp.label()}];
     const Admission admission = admit(sample, rows);
-    const std::vector<double> seconds = frame_seconds(sample);
+    std::vector<double> seconds = frame_seconds(sample);
     const Summary frame = summarize(seconds);
     if (runs.refusal.empty() && !admission.is_admitted) runs.refusal = admission.reason;
     if (runs.refusal.empty() && (frame.count == 0 || frame.not_finite > 0 || !(frame.median > 0.0)))
@@ -46,7 +51,7 @@ std::map<Key, Runs> runs_of(const core::RunRows& rows) {
       runs.refusal = "its runs differ in their number of frames";
     runs.stamp = sample.stamp;
     runs.frames = seconds.size();
-    runs.by_process[sample.process].push_back(frame.median);
+    runs.by_process[sample.process].push_back(std::move(seconds));
     ++runs.count;
   }
   return all;
@@ -65,19 +70,32 @@ std::string why_not(const Runs* base, const Runs* head) {
   return "";
 }
 
-// The same names on both sides: only names that were told make a pair. Too few pairs to show anything are taken as
-// processes, which need fewer.
+// The same names on both sides, and as many runs: only names that were told make a pair. Too few pairs to show anything
+// are taken as processes, which need fewer.
 bool is_paired(const Runs& base, const Runs& head) {
   return enough_processes(base.by_process.size(), head.by_process.size(), true) &&
          base.by_process.size() == head.by_process.size() && !base.by_process.contains(0) &&
-         std::equal(base.by_process.begin(), base.by_process.end(), head.by_process.begin(),
-                    [](const auto& a, const auto& b) { return a.first == b.first; });
+         std::equal(
+             base.by_process.begin(), base.by_process.end(), head.by_process.begin(),
+             [](const auto& a, const auto& b) { return a.first == b.first && a.second.size() == b.second.size(); });
+}
+
+// Of each pair of processes, run by run, head over base.
+std::vector<ProcessRuns> pairs_of(const Runs& base, const Runs& head) {
+  std::vector<ProcessRuns> pairs;
+  for (const auto& [process, runs] : base.by_process) {
+    const std::vector<std::vector<double>>& of_head = head.by_process.at(process);
+    pairs.emplace_back();
+    for (std::size_t k = 0; k < runs.size(); ++k) pairs.back().push_back(frame_ratio(runs[k], of_head[k]));
+  }
+  return pairs;
 }
 
 // The ratio with its p-values; the speed is decided over all cells together.
 RatioInterval measure(const Runs& base, const Runs& head, double delta, std::uint32_t looks, TimeRatio& r) {
   r.is_paired = is_paired(base, head);
-  const RatioInterval interval = ratio_interval(base.processes(), head.processes(), r.is_paired, delta, looks);
+  const RatioInterval interval = r.is_paired ? paired_interval(pairs_of(base, head), delta, looks)
+                                             : ratio_interval(base.processes(), head.processes(), delta, looks);
   r.ratio = interval.estimate;
   r.low = interval.low;
   r.high = interval.high;

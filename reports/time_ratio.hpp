@@ -25,7 +25,8 @@ struct TimeRatio {
 };
 
 // One entry per (scene, label) that has an admitted time in the base or in the head. A run counts by its median frame.
-// Where both sides name the same processes they ran in turns (core::Sample::process), and pairs are compared. Slower
+// Where both sides name the same processes they ran in turns (core::Sample::process), and pairs are compared, frame by
+// frame (frame_ratio). Slower
 // when the whole interval lies above 1 + delta, faster when it lies below 1 / (1 + delta), and in both cases only if
 // that survives Benjamini and Hochberg at 2.5 % over all entries: of many cells some look slower by chance. looks: as
 // ratio_interval takes it.

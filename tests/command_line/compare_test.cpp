@@ -58,6 +58,18 @@ TEST(Compare, WhatIsNotToldGetsMoreProcesses) {
   }
 }
 
+// A build from before turns: its processes run whole, one after the other, and the comparison says so.
+TEST(Compare, AProgramThatKnowsNoTurnsIsComparedAllTheSame) {
+  const ScratchFolder folder;
+  const std::filesystem::path old = folder / "old";
+  std::ofstream(old) << "#!/bin/sh\n[ \"$2\" = --help ] && exit 0\nexec \"" << program_path() << "\" \"$@\"\n";
+  std::filesystem::permissions(old, std::filesystem::perms::owner_all);
+  const Ended ended = run_program({"compare", "--interleave", old.string(), program_path(), "errata:E4", "--frames",
+                                   "20", "--processes", "7", "--delta", "5", "--out", (folder / "out").string()});
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  EXPECT_NE(ended.err.find("knows no turns"), std::string::npos) << ended.err;
+}
+
 TEST(Compare, BadInputIsOneLine) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"compare", "only-one"},
@@ -65,6 +77,7 @@ TEST(Compare, BadInputIsOneLine) {
            {"compare", "--interleave", "/no/such/program", program_path(), "errata:E4"},
            {"compare", "no-base", "no-head"},
            {"history", "no/such/file"},
+           {"time", "errata:E4", "--turns", "first:99:0"},
            {"report", "absent", "--csv", "x"}}) {
     const Ended ended = run_program(arguments);
     EXPECT_EQ(ended.exit_code, 2) << arguments[1] << ended.err;
