@@ -35,7 +35,7 @@ struct Counters {
   unsigned long long entry_cursor = 0;  // entries given out to buckets
   unsigned long long listed = 0;        // places given out in the lists of bodies
   unsigned long long measured = 0;      // confirmed pairs given out to warps that measure their proximity
-  unsigned long long digest = 0;        // of what the frame left, where somebody asked for it
+  unsigned long long digest = 0;        // its blocks' shares until now
   std::uint32_t oversized = 0;          // bodies in too many cells of the spatial hash
   std::uint32_t arrived = 0;            // of PartialGridTeam
   std::uint32_t colors = 0;

@@ -44,6 +44,7 @@ class FrameCopy {
   // What the host knows of the frame already: step, time, digest, counts; of a frame that is not full that is all, and
   // nothing is copied.
   core::FrameRecord begun;
+  bool has_digest = false;  // it may come later than the rest
   bool is_full = false;
 
  private:

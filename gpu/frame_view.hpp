@@ -80,6 +80,7 @@ constexpr int kStageCount = 6;
 struct Outcome {
   Counters counters;
   unsigned long long stage_end_ns[kStageCount + 1] = {};  // [0] is the start of the frame
+  unsigned long long digest[2] = {};                      // of frames whose step is even, and odd
 };
 
 // Fixed during a run, but for `previous` and `next`, which change places after every frame.

@@ -30,6 +30,7 @@ struct Pipeline::Impl {
   DeviceScene device_scene;
   FrameBuffers buffers;
   BroadBuffers broad;
+  StreamMark frame_end;
   LaunchShape launch;
   FrameView view;
   Counters last;
@@ -41,7 +42,7 @@ struct Pipeline::Impl {
   // The step whose digest was asked for last, and how long after the one before. 0 before the first.
   std::uint64_t asked_step = 0;
   std::uint64_t asked_stride = 0;
-  bool has_digest = false;  // of the last step, in `last`
+  bool has_digest = false;  // that of the last step is on its way: its kernel is in the stream
   // Frames on their way to the host: two, by turns.
   std::array<FrameCopy, 2> copies;
   std::uint64_t copies_started = 0;
@@ -57,8 +58,8 @@ struct Pipeline::Impl {
   // Whether somebody will ask for the digest of the next frame, to judge by when they asked before.
   [[nodiscard]] bool expects_digest() const { return steps > 0 && steps + 1 == asked_step + asked_stride; }
   core::Status run_frame();
-  core::Status start_digest(const StateView& state);
-  core::Result<std::uint64_t> digest();
+  core::Status start_digest(const StateView& state, std::uint64_t step);
+  void take_digests();
 };
 
 Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -104,6 +105,8 @@ core::Status Pipeline::load(const core::Scene& scene) {
   const float hash_cell_m = d.options.hash_cell_m > 0.0F ? d.options.hash_cell_m : scene.parameters.hash_cell_m;
   BROADSIDE_TRY(d.stream.create());
   BROADSIDE_TRY(d.copy_stream.create());
+  // A digest of the scene before may be under way.
+  BROADSIDE_TRY(d.stream.wait("the end of the scene before"));
   BROADSIDE_TRY(d.outcome.allocate());
   SceneNeeds needs{hash_cell_m, d.options.least_for_cells};
   if (!d.options.has_vertex_stage) needs.least_for_cells = std::numeric_limits<std::uint32_t>::max();
@@ -142,9 +145,11 @@ core::Status Pipeline::Impl::run_frame() {
   LaunchShape shape = launch;
   if (view.body_count < kLeastBodiesForGrid) shape.blocks = std::min(shape.blocks, shape.multiprocessors);
   BROADSIDE_TRY(launch_frame(view, shape, stream.get()));
-  // One wait for both.
-  if (has_digest) BROADSIDE_TRY(start_digest(view.next));
-  return stream.wait("a frame");
+  if (!has_digest) return stream.wait("a frame");
+  // The digest is added up while the host sees to its next launch: only the frame is waited for.
+  BROADSIDE_TRY(frame_end.set(stream.get()));
+  BROADSIDE_TRY(start_digest(view.next, steps + 1));
+  return frame_end.wait("a frame");
 }
 
 core::Status Pipeline::step(float dt_s) {
@@ -159,6 +164,8 @@ core::Status Pipeline::step(float dt_s) {
     BROADSIDE_TRY(d.buffers.grow(d.last, d.is_confirmed_by_level0()));
     ++d.repeats;
   }
+  // What was in the stream before this frame is done.
+  d.take_digests();
   d.buffers.advance();
   ++d.steps;
   d.pairs_tested += d.starts_at_level0() ? d.last.pairs : d.all_pairs;
@@ -168,7 +175,7 @@ core::Status Pipeline::step(float dt_s) {
   return core::Done{};
 }
 
-core::Status Pipeline::Impl::start_digest(const StateView& state) {
+core::Status Pipeline::Impl::start_digest(const StateView& state, std::uint64_t step) {
   DigestView digest;
   digest.body_count = scene->body_count();
   digest.state = state;
@@ -178,21 +185,17 @@ core::Status Pipeline::Impl::start_digest(const StateView& state) {
   digest.contacts = buffers.contacts().data();
   digest.face_contacts = buffers.face_contacts().data();
   digest.counters = view.counters;
-  digest.outcome = outcome.device();
+  digest.digest = &outcome.device()->digest[step % 2];
   return launch_digest(digest, launch.multiprocessors, stream.get());
 }
 
-// Of the last frame, behind which it was computed already if it was foreseen that somebody would ask.
-core::Result<std::uint64_t> Pipeline::Impl::digest() {
-  if (asked_step != steps) asked_stride = steps - asked_step;
-  asked_step = steps;
-  if (!has_digest) {
-    BROADSIDE_TRY(start_digest(buffers.state().view()));
-    BROADSIDE_TRY(stream.wait("the digest of a frame"));
-    last.digest = (*outcome).counters.digest;
-    has_digest = true;
+// For copies under way whose digests are done.
+void Pipeline::Impl::take_digests() {
+  for (std::uint64_t k = copies_finished; k < copies_started; ++k) {
+    FrameCopy& copy = copies[k % copies.size()];
+    if (!copy.has_digest) copy.begun.digest = (*outcome).digest[copy.begun.step % 2];
+    copy.has_digest = true;
   }
-  return std::uint64_t{last.digest};
 }
 
 std::uint32_t Pipeline::groups() const {
@@ -224,9 +227,11 @@ core::Status Pipeline::start_copy(core::RecordLevel level) {
   counts.proximity = d.options.has_vertex_stage ? counts.confirmed : 0;
   counts.contacts = d.last.touching;
   counts.face_contacts = d.last.faces;
-  auto digest = d.digest();
-  if (!digest.ok()) return digest.error();
-  copy.begun.digest = digest.value();
+  if (d.asked_step != d.steps) d.asked_stride = d.steps - d.asked_step;
+  d.asked_step = d.steps;
+  if (!d.has_digest) BROADSIDE_TRY(d.start_digest(d.buffers.state().view(), d.steps));
+  d.has_digest = true;
+  copy.has_digest = false;
   copy.is_full = level == core::RecordLevel::kFull;
   if (copy.is_full)
     BROADSIDE_TRY(copy.start(d.buffers, counts, d.is_confirmed_by_level0(), d.stream.get(), d.copy_stream.get()));
@@ -239,6 +244,10 @@ core::Status Pipeline::finish_copy(core::FrameRecord& frame) {
   if (d.copies_finished == d.copies_started)
     return core::Error{"no copy of a frame is under way", "octree-gpu", "start one first", core::Exit::kInternal};
   FrameCopy& copy = d.copies[d.copies_finished % d.copies.size()];
+  if (!copy.has_digest) {
+    BROADSIDE_TRY(d.stream.wait("the digest of a frame"));
+    d.take_digests();
+  }
   ++d.copies_finished;
   frame = copy.begun;
   if (!copy.is_full) return core::Done{};

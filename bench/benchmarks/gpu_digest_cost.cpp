@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,7 +67,11 @@ class Race {
         if (k < 2) continue;
         frame_us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
         double gpu_s = 0.0;
-        for (const core::StageTime& stage : pipeline_.stage_times()) gpu_s += stage.seconds;
+        for (const core::StageTime& stage : pipeline_.stage_times()) {
+          gpu_s += stage.seconds;
+          StageTimes& times = stage_us_[std::string(stage.stage)];
+          (records ? times.recorded : times.plain).push_back(stage.seconds * 1e6);
+        }
         (records ? recorded_gpu_us_ : plain_gpu_us_).push_back(gpu_s * 1e6);
       }
     }
@@ -86,20 +91,33 @@ class Race {
     std::printf(
         "{\"scene\": \"%s\", \"frames\": %zu, \"plain_us\": %.2f, \"recorded_us\": %.2f, \"plain_gpu_us\": %.2f, "
         "\"recorded_gpu_us\": %.2f, \"extra_percent\": %.2f, "
-        "\"extra_percent_quartiles\": [%.2f, %.2f], \"confirmed\": %llu, \"touching\": %llu, \"faces\": %llu}\n",
+        "\"extra_percent_quartiles\": [%.2f, %.2f], \"confirmed\": %llu, \"touching\": %llu, \"faces\": %llu, "
+        "\"stages_us\": {",
         name.c_str(), recorded_us_.size(), median(plain_us_), median(recorded_us_), median(plain_gpu_us_),
         median(recorded_gpu_us_), 100.0 * median(extra), 100.0 * at_share(extra, 0.25), 100.0 * at_share(extra, 0.75),
         pipeline_.frame_counts().confirmed, pipeline_.frame_counts().touching, pipeline_.frame_counts().faces);
+    const char* before = "";
+    for (const auto& [stage, times] : stage_us_) {
+      std::printf("%s\"%s\": [%.2f, %.2f]", before, stage.c_str(), median(times.plain), median(times.recorded));
+      before = ", ";
+    }
+    std::printf("}}\n");
     std::fflush(stdout);
   }
 
  private:
+  struct StageTimes {
+    std::vector<double> plain;
+    std::vector<double> recorded;
+  };
+
   const core::Scene& scene_;
   gpu::Pipeline pipeline_;
   std::vector<double> plain_us_;
   std::vector<double> recorded_us_;
   std::vector<double> plain_gpu_us_;  // of the GPU's clock
   std::vector<double> recorded_gpu_us_;
+  std::map<std::string, StageTimes> stage_us_;
 };
 
 core::Status measure(const std::string& folder, std::string name, int warm_up, int blocks) {

@@ -46,7 +46,7 @@ __device__ inline void run_digest(const DigestView& view, unsigned long long* bl
   __syncthreads();
   if (threadIdx.x != 0) return;
   atomicAdd(&counters.digest, *block_sum);
-  if (arrive(&counters.digested) + 1 == gridDim.x) view.outcome->counters.digest = atomicAdd(&counters.digest, 0ULL);
+  if (arrive(&counters.digested) + 1 == gridDim.x) *view.digest = atomicAdd(&counters.digest, 0ULL);
 }
 
 }  // namespace broadside::gpu
