@@ -13,6 +13,7 @@
 #include "bench/near_pairs.hpp"
 #include "bench/recording.hpp"
 #include "bench/resume.hpp"
+#include "core/engine/work_counting.hpp"
 #include "core/scene/shapes.hpp"
 #include "core/trace/trace_reader.hpp"
 
@@ -74,6 +75,13 @@ core::Cell complete_cell(const ResumePoint& point) {
   return cell;
 }
 
+// Of engines whose counting takes time. Digests alone are recorded to be cheap.
+template <typename Capability>
+void ask_for_counts(const CellRequest& request, Capability& capability) {
+  auto* counts = dynamic_cast<core::CountsWork*>(&capability);
+  if (counts != nullptr && request.level == core::RecordLevel::kFull) counts->count_work();
+}
+
 core::Status copy_frames(const core::TraceReader& trace, Recording& recording) {
   for (std::uint64_t k = 0; k < trace.frame_count(); ++k) {
     auto frame = trace.read(k, trace.header().groups);
@@ -97,6 +105,7 @@ core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engin
     if (point) note_resume(header, *point);
   }
   const std::uint64_t steps_before = point ? point->step : 0;
+  if (!point) ask_for_counts(request, dynamics);
   if (core::Status s = dynamics.load(point ? point->scene : *request.scene); !s) return s.error();
   const core::Stamp stamp = header.stamp;
   auto started = Recording::start(request, std::move(header), request.frames);
@@ -159,6 +168,7 @@ core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& 
   const core::TraceReader& driver = opened.value();
   core::BroadPhase& broad = *engine.broad_phase;
   core::TraceHeader header = header_for(request, engine);
+  ask_for_counts(request, broad);
   header.groups = request.level == core::RecordLevel::kFull ? bit(Group::kDetection) | bit(Group::kPairs) : 0;
   header.driver = driver.header().stamp.label();
   header.broad_is_exact = broad.traits().exact;

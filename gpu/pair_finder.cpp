@@ -8,6 +8,7 @@
 #include "gpu/device_buffer.hpp"
 #include "gpu/frame_kernel.hpp"
 #include "gpu/host_side.hpp"
+#include "gpu/work_counter.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -34,6 +35,7 @@ struct PairFinder::Impl {
   std::uint64_t bytes_to_device = 0;
   DeviceBuffer<PackedBox> boxes;
   BroadBuffers broad;
+  WorkCounter work;
   DeviceBuffer<core::Pair> pairs;
   DeviceBuffer<Counters> counters;
 
@@ -67,6 +69,7 @@ core::Status PairFinder::Impl::reserve() {
   BROADSIDE_TRY(outcome.allocate());
   BROADSIDE_TRY(boxes.reserve(count, "boxes"));
   BROADSIDE_TRY(counters.reserve(1, "counters"));
+  BROADSIDE_TRY(work.reset());
   BROADSIDE_TRY(pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBox * count), "pairs"));
   BROADSIDE_TRY(broad.load(start(), facts, options.hash_cell_m, options.variant));
   auto shape = pairs_launch_shape();
@@ -141,7 +144,9 @@ core::Status PairFinder::find() {
     BROADSIDE_TRY(d.timer.stop(d.stream.get()));
     BROADSIDE_TRY(d.stream.wait("finding pairs"));
     d.counts = (*d.outcome).counters;
-    if (d.counts.is_aborted == 0) return core::Done{};
+    if (d.counts.is_aborted == 0)
+      return d.work.count_broad({d.view.broad, d.view.boxes, d.view.box_count, d.view.counters},
+                                d.launch.multiprocessors, d.stream.get());
     BROADSIDE_TRY(d.broad.grow(d.counts));
     BROADSIDE_TRY(d.pairs.reserve(d.counts.pairs, "pairs"));
   }
@@ -157,9 +162,15 @@ core::Result<core::PairSet> PairFinder::read_back() {
 
 std::vector<core::Counter> PairFinder::counters() const {
   const Impl& d = *impl_;
-  return {{"launches", d.launches},
-          {"bytes to the device", d.bytes_to_device},
-          {"device bytes", d.boxes.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+  std::vector<core::Counter> counters{{"launches", d.launches},
+                                      {"bytes to the device", d.bytes_to_device},
+                                      {"device bytes", d.boxes.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+  d.work.tell(counters);
+  return counters;
+}
+
+void PairFinder::count_work() {
+  impl_->work.ask();
 }
 
 FindTime PairFinder::find_time() const {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/engine/broad_phase.hpp"
+#include "core/engine/work_counting.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad_buffers.hpp"
 
@@ -28,7 +29,7 @@ struct FindTime {
 
 // update() copies the boxes to the device and is charged for it; find() leaves the pairs on the device, in no order;
 // read_back() copies and sorts them. Boxes that are not finite, or have min > max, are refused.
-class PairFinder final : public core::BroadPhase {
+class PairFinder final : public core::BroadPhase, public core::CountsWork {
  public:
   explicit PairFinder(const PairFinderOptions& options);
   ~PairFinder() override;
@@ -38,8 +39,10 @@ class PairFinder final : public core::BroadPhase {
   core::Status update(std::span<const core::Box> boxes) override;
   core::Status find() override;
   core::Result<core::PairSet> read_back() override;
-  // Launches, bytes that load and update copied to the device, and bytes of device memory: the same on every GPU.
+  // Launches, bytes that load and update copied to the device, and bytes of device memory; where it was asked to count
+  // work, box tests and nodes visited. The same on every GPU.
   [[nodiscard]] std::vector<core::Counter> counters() const override;
+  void count_work() override;
 
   [[nodiscard]] FindTime find_time() const;
 

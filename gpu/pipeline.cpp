@@ -12,6 +12,7 @@
 #include "gpu/frame_copy.hpp"
 #include "gpu/frame_kernel.hpp"
 #include "gpu/host_side.hpp"
+#include "gpu/work_counter.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -32,6 +33,7 @@ struct Pipeline::Impl {
   BroadBuffers broad;
   StreamMark frame_end;
   LaunchShape launch;
+  WorkCounter work;
   FrameView view;
   Counters last;
   std::array<core::StageTime, kStageCount> times{};
@@ -58,6 +60,7 @@ struct Pipeline::Impl {
   // Whether somebody will ask for the digest of the next frame, to judge by when they asked before.
   [[nodiscard]] bool expects_digest() const { return steps > 0 && steps + 1 == asked_step + asked_stride; }
   core::Status run_frame();
+  core::Status count_work();
   core::Status start_digest(const StateView& state, std::uint64_t step);
   void take_digests();
 };
@@ -113,6 +116,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.device_scene.load(scene, needs));
   BROADSIDE_TRY(d.broad.load(d.chosen_start(), d.device_scene.box_facts(), hash_cell_m, d.options.variant));
   BROADSIDE_TRY(d.buffers.load(scene));
+  BROADSIDE_TRY(d.work.reset());
   auto launch = frame_launch_shape(d.device_scene.tree_levels());
   if (!launch.ok()) return launch.error();
   d.launch = launch.value();
@@ -164,6 +168,7 @@ core::Status Pipeline::step(float dt_s) {
     BROADSIDE_TRY(d.buffers.grow(d.last, d.is_confirmed_by_level0()));
     ++d.repeats;
   }
+  BROADSIDE_TRY(d.count_work());
   // What was in the stream before this frame is done.
   d.take_digests();
   d.buffers.advance();
@@ -173,6 +178,14 @@ core::Status Pipeline::step(float dt_s) {
   const auto& end = (*d.outcome).stage_end_ns;
   for (int k = 0; k < kStageCount; ++k) d.times[k] = {kStageNames[k], static_cast<double>(end[k + 1] - end[k]) * 1e-9};
   return core::Done{};
+}
+
+// Of the frame that was just computed; nothing where nobody asked.
+core::Status Pipeline::Impl::count_work() {
+  const BroadWorkView of_broad{view.broad, view.boxes, view.body_count, view.counters};
+  BROADSIDE_TRY(work.count_broad(of_broad, launch.multiprocessors, stream.get()));
+  if (is_confirmed_by_level0()) return core::Done{};
+  return work.count_levels(view, launch.multiprocessors, stream.get());
 }
 
 core::Status Pipeline::Impl::start_digest(const StateView& state, std::uint64_t step) {
@@ -266,9 +279,15 @@ std::span<const core::StageTime> Pipeline::stage_times() const {
 
 std::vector<core::Counter> Pipeline::counters() const {
   const MemoryUse memory = memory_use();
-  return {{"launches", impl_->steps + impl_->repeats},
-          {"level stage: pairs tested", impl_->pairs_tested},
-          {"device bytes", memory.shapes + memory.bodies + memory.appended}};
+  std::vector<core::Counter> counters{{"launches", impl_->steps + impl_->repeats},
+                                      {"level stage: pairs tested", impl_->pairs_tested},
+                                      {"device bytes", memory.shapes + memory.bodies + memory.appended}};
+  impl_->work.tell(counters);
+  return counters;
+}
+
+void Pipeline::count_work() {
+  impl_->work.ask();
 }
 
 const Counters& Pipeline::frame_counts() const {

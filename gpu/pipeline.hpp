@@ -8,6 +8,7 @@
 
 #include "core/engine/dynamics.hpp"
 #include "core/engine/frame_copies.hpp"
+#include "core/engine/work_counting.hpp"
 #include "core/method/levels.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad_buffers.hpp"
@@ -36,7 +37,7 @@ struct MemoryUse {
 };
 
 // The result is bit-identical to octree-cpu's. Uses the current CUDA device; not thread-safe.
-class Pipeline final : public core::Dynamics, public core::FrameCopies {
+class Pipeline final : public core::Dynamics, public core::FrameCopies, public core::CountsWork {
  public:
   explicit Pipeline(const PipelineOptions& options);
   ~Pipeline() override;
@@ -50,9 +51,12 @@ class Pipeline final : public core::Dynamics, public core::FrameCopies {
   [[nodiscard]] std::uint32_t groups() const override;
   // Read off the GPU's clock within the one kernel: integrate, broad, levels, vertices, response, faces.
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override;
-  // Launches of the frame kernel, pairs that the level stage was given, and bytes of device memory; nothing that
-  // depends on what is recorded, on the GPU or on the order of its threads.
+  // Launches of the frame kernel, pairs that the level stage was given, and bytes of device memory; where it was asked
+  // to count work, box tests of broad phase and levels and nodes visited. Nothing that depends on the GPU or on the
+  // order of its threads.
   [[nodiscard]] std::vector<core::Counter> counters() const override;
+
+  void count_work() override;
 
   // Counts of the last step.
   [[nodiscard]] const Counters& frame_counts() const;

@@ -27,10 +27,11 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
     if (stage_end_ns != nullptr && team.rank() == 0) stage_end_ns[stage] = now_ns();
   };
   WarpQueue queue(room, out, &counters->pairs);
+  Uncounted work;
   switch (b.start) {
     case Start::kTiles:
       mark(2), mark(3);
-      find_pairs_by_tiles(team, boxes, count, nullptr, out, &counters->pairs);
+      find_pairs_by_tiles(team, boxes, count, nullptr, out, &counters->pairs, work);
       break;
     case Start::kGrid:
       place_buckets(team, b.grid.bucket_mask, b.grid.count, b.grid.begin, &counters->entry_cursor);
@@ -39,7 +40,7 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
       grid_scatter(team, b.grid, boxes, count);
       team.sync();
       mark(3);
-      grid_find(team, b.grid, count, queue);
+      grid_find(team, b.grid, count, queue, work);
       break;
     case Start::kOctree:
       octree_place_nodes(team, b.octree);
@@ -48,7 +49,7 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
       octree_scatter(team, b.octree, boxes, count);
       team.sync();
       mark(3);
-      find_pairs_by_tiles(team, b.octree.sorted, count, b.octree.range_end, out, &counters->pairs);
+      find_pairs_by_tiles(team, b.octree.sorted, count, b.octree.range_end, out, &counters->pairs, work);
       break;
     case Start::kHash:
       hash_count(team, b.hash, boxes, count, counters);
@@ -63,7 +64,7 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
       hash_scatter(team, b.hash, boxes, count);
       team.sync();
       mark(3);
-      hash_find(team, b.hash, boxes, count, counters, queue);
+      hash_find(team, b.hash, boxes, count, counters, queue, work);
       hash_clear(team, b.hash);
       break;
     case Start::kNone:

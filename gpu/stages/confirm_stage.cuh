@@ -4,6 +4,7 @@
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/team.cuh"
+#include "gpu/stages/work_count.cuh"
 
 namespace broadside::gpu {
 
@@ -20,6 +21,8 @@ __device__ inline PlacedShape placed_shape(const FrameView& f, std::uint32_t bod
 
 // Eight boxes of each body, as the lanes of a warp hold them: one of B, two of A.
 struct EightByEight {
+  static constexpr std::uint32_t kTestsOfLane = 2;
+
   core::Box b;
   core::Box low;
   core::Box high;
@@ -50,12 +53,14 @@ __device__ inline EightByEight second_level(const PlacedShape& a, const PlacedSh
 // core::descent_overlaps by a warp: empty boxes overlap nothing, so they need no care. So many of the first level's
 // hits at a time: two where what takes the time is waiting for boxes, one where warps are many and hide each other's
 // waits.
-template <unsigned kAtOnce>
-__device__ bool descends(const PlacedShape& a, const PlacedShape& b) {
+template <unsigned kAtOnce, typename Work>
+__device__ bool descends(const PlacedShape& a, const PlacedShape& b, Work& work) {
   static_assert(kAtOnce == 1 || kAtOnce == 2);
+  work.tests(EightByEight::kTestsOfLane);
   for (std::uint64_t hits = first_level(a, b).hits(); hits != 0;) {
     const int one = __ffsll(static_cast<long long>(hits)) - 1;
     hits &= hits - 1;
+    work.tests(EightByEight::kTestsOfLane * kAtOnce);
     const EightByEight below_one = second_level(a, b, one);
     std::uint64_t below = 0;
     if constexpr (kAtOnce == 2) {
@@ -69,7 +74,8 @@ __device__ bool descends(const PlacedShape& a, const PlacedShape& b) {
 }
 
 // core::level2_overlaps by a warp: all pairs, two boxes of A a lane against each box of B.
-__device__ inline bool level2_meets(const FrameView& f, const PlacedShape& a, const PlacedShape& b) {
+template <typename Work>
+__device__ bool level2_meets(const FrameView& f, const PlacedShape& a, const PlacedShape& b, Work& work) {
   const PackedBox* boxes_a = f.shapes.level2 + std::uint64_t{a.shape} * core::kLevelSize[2];
   const PackedBox* boxes_b = f.shapes.level2 + std::uint64_t{b.shape} * core::kLevelSize[2];
   const std::uint32_t count_a = f.shapes.level2_count[a.shape];
@@ -77,6 +83,7 @@ __device__ inline bool level2_meets(const FrameView& f, const PlacedShape& a, co
   const core::Box none = core::empty_box();
   const core::Box low = lane() < count_a ? core::translated(unpack(boxes_a[lane()]), a.x) : none;
   const core::Box high = lane() + 32 < count_a ? core::translated(unpack(boxes_a[lane() + 32]), a.x) : none;
+  work.tests(count_b * ((lane() < count_a ? 1U : 0U) + (lane() + 32 < count_a ? 1U : 0U)));
   bool hit = false;
 #pragma unroll 4
   for (std::uint32_t q = 0; q < count_b; ++q) {
@@ -87,26 +94,27 @@ __device__ inline bool level2_meets(const FrameView& f, const PlacedShape& a, co
 }
 
 // core::is_confirmed by a warp, for the levels that have a first level below 0 or passed it already.
-template <unsigned kAtOnce = 1>
-__device__ bool are_levels_overlapping(const FrameView& f, const PlacedShape& a, const PlacedShape& b) {
+template <unsigned kAtOnce = 1, typename Work>
+__device__ bool are_levels_overlapping(const FrameView& f, const PlacedShape& a, const PlacedShape& b, Work& work) {
   switch (f.levels) {
     case core::Levels::kFlat:
       return true;
     case core::Levels::kLevel1:
+      work.tests(EightByEight::kTestsOfLane);
       return first_level(a, b).hits() != 0;
     case core::Levels::kA:
-      return level2_meets(f, a, b);
+      return level2_meets(f, a, b, work);
     case core::Levels::kB:
     case core::Levels::kC:
-      return descends<kAtOnce>(a, b);
+      return descends<kAtOnce>(a, b, work);
   }
   return false;
 }
 
 // From pairs to confirmed. Each warp takes a run of pairs and appends what it confirms with one atomic; runs are short
 // while there are more warps than pairs, so that few pairs are done at once.
-template <typename Team>
-__device__ void confirm_pairs(const Team& team, const FrameView& f) {
+template <typename Team, typename Work>
+__device__ void confirm_pairs(const Team& team, const FrameView& f, Work& work) {
   const std::uint64_t count = f.counters->pairs;
   const std::uint64_t warps = warp_count(team);
   const std::uint64_t run = min(std::uint64_t{32}, (count + warps - 1) / warps);
@@ -115,7 +123,7 @@ __device__ void confirm_pairs(const Team& team, const FrameView& f) {
     unsigned hits = 0;
     for (std::uint64_t k = first; k < last; ++k) {
       const core::Pair p = f.pairs.items[k];
-      if (are_levels_overlapping(f, placed_shape(f, p.i), placed_shape(f, p.j))) hits |= 1U << (k - first);
+      if (are_levels_overlapping(f, placed_shape(f, p.i), placed_shape(f, p.j), work)) hits |= 1U << (k - first);
     }
     const bool mine = ((hits >> lane()) & 1U) != 0;
     const unsigned long long place = warp_append(mine ? 1U : 0U, &f.counters->confirmed);

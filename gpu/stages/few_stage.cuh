@@ -21,6 +21,7 @@ inline bool has_few_bodies(const FrameView& f, std::uint64_t threads) {
 // triangle. A warp takes some places on from one body, a lane each: as few as the warps there are allow, so that
 // seldom two of its pairs go down the levels one after the other.
 __device__ inline void find_and_confirm_few(const GridTeam& team, const FrameView& f) {
+  Uncounted work;
   const std::uint32_t count = f.body_count;
   const std::uint32_t half = count / 2;
   const std::uint64_t warps = warp_count(team);
@@ -53,7 +54,7 @@ __device__ inline void find_and_confirm_few(const GridTeam& team, const FrameVie
         other.octree = f.shapes.octree + std::uint64_t{other.shape} * core::kBodyOctreeNodes;
         other.x = {__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
                    __shfl_sync(kFullWarp, placed_j.x.z, source)};
-        if (are_levels_overlapping<2>(f, placed_i, other)) confirmed |= 1U << source;
+        if (are_levels_overlapping<2>(f, placed_i, other, work)) confirmed |= 1U << source;
       }
     }
     // Lane 0 takes room for the pairs, lane 1 for what is confirmed: one wait.

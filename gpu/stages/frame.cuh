@@ -73,7 +73,8 @@ __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& 
     if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
       return report(grid, f, true);
   } else {
-    confirm_by_brute_force(grid, f);
+    Uncounted work;
+    confirm_by_brute_force(grid, f, work);
   }
   grid.sync();
   mark(grid, f, 2);
@@ -82,7 +83,8 @@ __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& 
   // From level 0 alone, what was found is what is confirmed.
   const bool is_confirmed_by_level0 = starts_at_level0 && f.levels == core::Levels::kFlat;
   if (!kIsFew && starts_at_level0 && !is_confirmed_by_level0) {
-    confirm_pairs(grid, f);
+    Uncounted work;
+    confirm_pairs(grid, f, work);
     grid.sync();
   }
   const std::uint64_t confirmed = is_confirmed_by_level0 ? f.counters->pairs : f.counters->confirmed;

@@ -8,6 +8,7 @@
 #include "gpu/stages/bucket_stage.cuh"
 #include "gpu/stages/pair_queue.cuh"
 #include "gpu/stages/team.cuh"
+#include "gpu/stages/work_count.cuh"
 
 namespace broadside::gpu {
 
@@ -230,8 +231,8 @@ class RunsOfGroup {
 };
 
 // One box of each group against the runs that its lanes hold, an entry a lane at a time.
-template <std::uint32_t kGroup>
-__device__ void meet_runs(const GridView& g, const PackedBox& q, const EntryRun& run, WarpQueue& queue) {
+template <std::uint32_t kGroup, typename Work>
+__device__ void meet_runs(const GridView& g, const PackedBox& q, const EntryRun& run, WarpQueue& queue, Work& work) {
   if (!__any_sync(kFullWarp, run.end > run.begin)) return;
   const RunsOfGroup<kGroup> runs(run);
   for (std::uint32_t t = lane() % kGroup; __any_sync(kFullWarp, t < runs.total()); t += kGroup) {
@@ -242,6 +243,7 @@ __device__ void meet_runs(const GridView& g, const PackedBox& q, const EntryRun&
       std::uint32_t tag = 0;
       runs.locate(t, k, tag);
       const PackedBox other = g.entries[k];
+      work.tests(1);
       other_id = other.low_tag;
       // Buckets are shared: an entry of another run that happens to be here is found from its own. Of one cell the
       // lower id finds.
@@ -256,8 +258,8 @@ __device__ void meet_runs(const GridView& g, const PackedBox& q, const EntryRun&
 // Every pair is found from its smaller box: a box looks at its own level and at those of larger cells, so that a
 // giant's many overlaps are spread over its many partners. A group of lanes a box: each lane looks up a row of cells,
 // so that a box waits for all its rows at once, then all lanes test what the rows hold.
-template <std::uint32_t kGroup, typename Team>
-__device__ void grid_find_by(const Team& team, const GridView& g, std::uint32_t count, WarpQueue& queue) {
+template <std::uint32_t kGroup, typename Team, typename Work>
+__device__ void grid_find_by(const Team& team, const GridView& g, std::uint32_t count, WarpQueue& queue, Work& work) {
   const std::uint32_t occupied = *static_cast<volatile std::uint32_t*>(g.levels);
   const std::uint64_t groups = team.size() / kGroup;
   const std::uint64_t rounds = (count + groups - 1) / groups;
@@ -280,8 +282,11 @@ __device__ void grid_find_by(const Team& team, const GridView& g, std::uint32_t 
         bool has_run = row < rows;
         do {
           EntryRun run;
-          if (has_run) has_run = search.next_run(g, row, x, run);
-          meet_runs<kGroup>(g, q, run, queue);
+          if (has_run) {
+            has_run = search.next_run(g, row, x, run);
+            work.node();
+          }
+          meet_runs<kGroup>(g, q, run, queue, work);
         } while (__any_sync(kFullWarp, has_run));
       }
     }
@@ -289,12 +294,12 @@ __device__ void grid_find_by(const Team& team, const GridView& g, std::uint32_t 
 }
 
 // Few boxes wait less when more lanes share one; many are done sooner when fewer lanes idle behind short runs.
-template <typename Team>
-__device__ void grid_find(const Team& team, const GridView& g, std::uint32_t count, WarpQueue& queue) {
+template <typename Team, typename Work>
+__device__ void grid_find(const Team& team, const GridView& g, std::uint32_t count, WarpQueue& queue, Work& work) {
   if (std::uint64_t{count} * 8 <= team.size())
-    grid_find_by<8>(team, g, count, queue);
+    grid_find_by<8>(team, g, count, queue, work);
   else
-    grid_find_by<4>(team, g, count, queue);
+    grid_find_by<4>(team, g, count, queue, work);
 }
 
 }  // namespace broadside::gpu

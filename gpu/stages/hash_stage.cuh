@@ -81,9 +81,9 @@ __device__ inline bool is_pair_of_boxes(const PackedBox& a, const PackedBox& b) 
 }
 
 // A thread per entry, against the entries of its cell; then the oversized bodies against all.
-template <typename Team>
+template <typename Team, typename Work>
 __device__ void hash_find(const Team& team, const HashView& h, const PackedBox* boxes, std::uint32_t body_count,
-                          const Counters* counters, WarpQueue& queue) {
+                          const Counters* counters, WarpQueue& queue, Work& work) {
   const std::uint64_t entries = counters->entries;
   for (std::uint64_t round = 0; round < (entries + team.size() - 1) / team.size(); ++round) {
     const std::uint64_t place = round * team.size() + team.rank();
@@ -97,6 +97,7 @@ __device__ void hash_find(const Team& team, const HashView& h, const PackedBox* 
       const std::uint32_t at = bucket_place(hash_bucket(h, {own.x, own.y, own.z}));
       k = h.begin[at];
       end = h.begin[at + 1];
+      work.node();
     }
     const CellCorner cell{own.x, own.y, own.z};
     const CellCorner low = cell_of(box.min, h.cells_per_m);
@@ -108,6 +109,7 @@ __device__ void hash_find(const Team& team, const HashView& h, const PackedBox* 
         const PackedBox other_box = boxes[other.body];
         const CellCorner other_low = cell_of(other_box.min, h.cells_per_m);
         const CellCorner lowest{max(low.x, other_low.x), max(low.y, other_low.y), max(low.z, other_low.z)};
+        work.tests(lowest == cell ? 1U : 0U);
         hit = lowest == cell && is_pair_of_boxes(box, other_box);
       }
       queue.push(hit, {own.body, other.body});
@@ -123,6 +125,7 @@ __device__ void hash_find(const Team& team, const HashView& h, const PackedBox* 
       const auto other = static_cast<std::uint32_t>(test % body_count);
       const PackedBox other_box = boxes[other];
       const bool other_finds = other < body && hash_range(h, other_box).cells > kMostHashCells;
+      work.tests(other != body && !other_finds ? 1U : 0U);
       hit = other != body && !other_finds && is_pair_of_boxes(boxes[body], other_box);
       pair = core::make_pair_of(body, other);
     }

@@ -4,6 +4,7 @@
 
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/confirm_stage.cuh"
 #include "gpu/stages/team.cuh"
 
@@ -27,10 +28,10 @@ __device__ inline Tile tile_at(std::uint64_t t, std::uint32_t side) {
 
 // A warp per tile of 32 x 32 bodies of `boxes`, whose low tags name them: each lane holds one column's box and meets
 // the 32 rows. `range_end`: a row meets the columns before its own end only; null: all.
-template <typename Team>
+template <typename Team, typename Work>
 __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, std::uint32_t count,
                                     const std::uint32_t* range_end, AppendView<core::Pair> out,
-                                    unsigned long long* demanded) {
+                                    unsigned long long* demanded, Work& work) {
   const std::uint32_t side = (count + 31) / 32;
   const std::uint64_t tiles = std::uint64_t{side} * (side + 1) / 2;
   for (std::uint64_t t = warp_rank(team); t < tiles; t += warp_count(team)) {
@@ -48,6 +49,7 @@ __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, st
 #pragma unroll 4
     for (std::uint32_t i = first; i < last; ++i) {
       const PackedBox other = boxes[i];
+      work.tests(i < j && j < count ? 1U : 0U);
       const bool hit = i < j && core::overlaps(unpack(other), unpack(mine)) && (other.high_tag & mine.high_tag) == 0 &&
                        (range_end == nullptr || j < range_end[i]);
       hits |= (hit ? 1U : 0U) << (i - first);
@@ -61,8 +63,8 @@ __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, st
 }
 
 // Levels level1, A and B: a warp meets all boxes of the level of body i with those of four bodies j.
-template <typename Team>
-__device__ void confirm_by_brute_force(const Team& team, const FrameView& f) {
+template <typename Team, typename Work>
+__device__ void confirm_by_brute_force(const Team& team, const FrameView& f, Work& work) {
   constexpr std::uint32_t kChunk = 4;
   const std::uint64_t chunks_a_row = (f.body_count + kChunk - 1) / kChunk;
   const std::uint64_t items = chunks_a_row * f.body_count;
@@ -74,7 +76,7 @@ __device__ void confirm_by_brute_force(const Team& team, const FrameView& f) {
     unsigned hits = 0;
     for (std::uint32_t j = max(first, i + 1); j < last; ++j) {
       if (is_static(f, i) && is_static(f, j)) continue;
-      if (are_levels_overlapping(f, placed_shape(f, i), placed_shape(f, j))) hits |= 1U << (j - first);
+      if (are_levels_overlapping(f, placed_shape(f, i), placed_shape(f, j), work)) hits |= 1U << (j - first);
     }
     if (hits == 0) continue;
     const unsigned long long place = warp_append(lane() < kChunk ? (hits >> lane()) & 1U : 0U, &f.counters->confirmed);

@@ -1,0 +1,26 @@
+// The counts of work on fibers of the host.
+#include <vector>
+
+#include "gpu/stages/work.cuh"
+
+namespace broadside::gpu {
+namespace {
+
+// Other threads than a frame's: counts must not depend on them.
+constexpr on_host::Launch kLaunch{{3}, {64}, 7};
+
+}  // namespace
+
+core::Status launch_broad_work(const BroadWorkView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
+  on_host::run(kLaunch, sizeof(PairQueue) * 2, [&](unsigned char* shared) {
+    count_broad_work(view, reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32]);
+  });
+  return core::Done{};
+}
+
+core::Status launch_level_work(const LevelWorkView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
+  on_host::run(kLaunch, 0, [&](unsigned char*) { count_level_work(view); });
+  return core::Done{};
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,94 @@
+// What the GPU's engines count of their work, for tests on the host and on a GPU: the same figures on both.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/engine/broad_phase.hpp"
+#include "core/engine/dynamics.hpp"
+#include "core/engine/work_counting.hpp"
+#include "tests/gpu/small_scenes.hpp"
+
+namespace broadside::gpu {
+
+using Counts = std::map<std::string, std::uint64_t, std::less<>>;
+
+inline Counts counts_in(const std::vector<core::Counter>& counters) {
+  Counts counts;
+  for (const core::Counter& counter : counters) counts[std::string(counter.name)] = counter.count;
+  return counts;
+}
+
+// Of so many frames. The subject has to offer that.
+inline Counts counts_of(core::Dynamics& subject, const core::Scene& scene, int frames) {
+  dynamic_cast<core::CountsWork&>(subject).count_work();
+  EXPECT_TRUE(subject.load(scene).ok());
+  for (int k = 0; k < frames; ++k) EXPECT_TRUE(subject.step(scene.dt_s).ok());
+  return counts_in(subject.counters());
+}
+
+inline Counts counts_of(core::BroadPhase& subject, const std::vector<core::Box>& boxes) {
+  dynamic_cast<core::CountsWork&>(subject).count_work();
+  EXPECT_TRUE(subject.load(boxes, std::vector<std::uint8_t>(boxes.size())).ok());
+  EXPECT_TRUE(subject.find().ok());
+  return counts_in(subject.counters());
+}
+
+// Work of three frames of 40 thrown spheres, and of 2500 boxes. Each was counted on the host, where what it stands for
+// has closed forms in other tests; a GPU has to count the same.
+struct WorkRow {
+  std::string_view broad;   // as the setting; "hash" = hash-gpu
+  std::string_view levels;  // of dynamics; empty: of the broad phase alone
+  std::uint64_t broad_tests, broad_nodes, level_tests;
+};
+
+inline core::Scene counted_scene() {
+  SceneShape shape;
+  shape.bodies = 40;
+  shape.cube_m = 2.5F;
+  return thrown({bumpy_sphere(4, 0.5F), bumpy_sphere(3, 0.6F)}, shape);
+}
+
+inline std::vector<core::Box> counted_boxes() {
+  std::vector<core::Box> boxes;
+  Dice dice(11);
+  for (int i = 0; i < 2500; ++i) {
+    const core::Vec3 center = dice.cube(12.0F);
+    const core::Vec3 half{0.05F + 0.2F * dice.next(), 0.05F + 0.2F * dice.next(), 0.05F + 0.2F * dice.next()};
+    boxes.push_back({center - half, center + half});
+  }
+  return boxes;
+}
+
+constexpr std::uint64_t kNotCounted = ~std::uint64_t{0};
+
+inline void expect_row(const WorkRow& row, const Counts& counts) {
+  const auto expect = [&](std::string_view name, std::uint64_t expected) {
+    const auto found = counts.find(name);
+    EXPECT_EQ(found == counts.end() ? kNotCounted : found->second, expected)
+        << name << ", broad " << row.broad << ", levels " << row.levels;
+  };
+  expect("broad: box tests", row.broad_tests);
+  expect("broad: nodes visited", row.broad_nodes);
+  expect("level stage: box tests", row.level_tests);
+}
+
+inline constexpr std::array<WorkRow, 10> kWorkRows{{
+    {"tree", "C", 2340, kNotCounted, 171584},
+    {"octree", "C", 2340, kNotCounted, 171584},
+    {"hash", "C", 1144, 17622, 171584},
+    {"tree", "flat", 2340, kNotCounted, kNotCounted},
+    {"brute", "A", kNotCounted, kNotCounted, 1083102},
+    {"brute", "B", kNotCounted, kNotCounted, 264192},
+    {"brute", "level1", kNotCounted, kNotCounted, 149760},
+    {"tree", "", 23753, 8770, kNotCounted},
+    {"octree", "", 711590, kNotCounted, kNotCounted},
+    {"hash", "", 1018, 26282, kNotCounted},
+}};
+
+}  // namespace broadside::gpu
