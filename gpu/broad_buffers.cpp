@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "core/method/scene_octree.hpp"
@@ -38,6 +39,10 @@ std::uint32_t axis_bits(std::uint64_t buckets) {
 
 }  // namespace
 
+std::uint64_t grid_buckets(std::uint64_t bodies) {
+  return std::bit_ceil(std::max(kBucketsPerFiveBodies * bodies / 5, kLeastBuckets));
+}
+
 std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m) {
   double cells = 1.0;
   for (int axis = 0; axis < 3; ++axis) cells *= std::floor(static_cast<double>(side_m[axis] / cell_m)) + 2.0;
@@ -50,12 +55,38 @@ core::Status BroadBuffers::reserve_buckets(std::uint64_t buckets, const char* wh
   return bucket_count_.fill_bytes(0);
 }
 
-core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant) {
+core::Status BroadBuffers::load_many(std::size_t n, std::uint32_t bins, std::uint32_t blocks) {
+  ManyView& many = many_;
+  const std::uint64_t buckets = grid_buckets(n);
+  BROADSIDE_TRY(many_entries_.reserve(n + 4, "boxes"));
+  BROADSIDE_TRY(levels_.reserve(3, "boxes"));
+  BROADSIDE_TRY(levels_.fill_bytes(0));
+  many.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
+  many.axis_bits = axis_bits(buckets);
+  many.x_bits = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U - 2 * many.axis_bits;
+  many.row_bits = std::min(many.x_bits, static_cast<std::uint32_t>(std::bit_width(kBucketChunk)) - 1U);
+  many.bins.bins = bins;
+  if (bins == 0) {
+    BROADSIDE_TRY(rank_.reserve(n, "boxes"));
+    return reserve_buckets(buckets, "boxes");
+  }
+  BROADSIDE_TRY(bucket_begin_.reserve(bucket_words(buckets), "boxes"));
+  BROADSIDE_TRY(binned_entries_.reserve(n, "boxes"));
+  BROADSIDE_TRY(binned_buckets_.reserve(n, "boxes"));
+  BROADSIDE_TRY(chunk_count_.reserve(buckets / kBucketChunk, "boxes"));
+  BROADSIDE_TRY(chunk_begin_.reserve(buckets / kBucketChunk + 1, "boxes"));
+  BROADSIDE_TRY(bins_.reserve(3 * std::size_t{bins} + blocks, "boxes"));
+  return chunk_count_.fill_bytes(0);
+}
+
+core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
+                                std::uint32_t bins, std::uint32_t blocks) {
   const std::size_t n = facts.count;
   view_ = {};
+  many_ = {};
   view_.start = start;
   if (start == Start::kGrid) {
-    const std::uint64_t buckets = std::bit_ceil(std::max<std::uint64_t>(kBucketsPerFiveBodies * n / 5, kLeastBuckets));
+    const std::uint64_t buckets = grid_buckets(n);
     BROADSIDE_TRY(reserve_buckets(buckets, "grid"));
     BROADSIDE_TRY(rank_.reserve(n, "grid"));
     BROADSIDE_TRY(entries_.reserve(n, "grid"));
@@ -63,6 +94,9 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
     BROADSIDE_TRY(levels_.fill_bytes(0));
     view_.grid.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
     view_.grid.axis_bits = axis_bits(buckets);
+    refit(facts);
+  } else if (start == Start::kMany) {
+    BROADSIDE_TRY(load_many(n, bins, blocks));
     refit(facts);
   } else if (start == Start::kHash) {
     view_.hash.cells_per_m = 1.0F / hash_cell_m;
@@ -94,6 +128,9 @@ void BroadBuffers::refit(const BoxFacts& facts) {
   for (int axis = 0; axis < 3; ++axis)
     grid.first_cell[axis] = static_cast<std::int32_t>(
         std::clamp(std::floor(facts.low_corner[axis] / grid.cell_m) - 1.0F, -1048576.0F, 1048576.0F));
+  many_.cell_m = grid.cell_m;
+  many_.cells_per_m = grid.cells_per_m;
+  std::copy(std::begin(grid.first_cell), std::end(grid.first_cell), std::begin(many_.first_cell));
 }
 
 core::Status BroadBuffers::grow(const Counters& demanded) {
@@ -132,10 +169,29 @@ void BroadBuffers::fill(BroadView& view) const {
   octree.range_end = range_end_.data();
 }
 
+void BroadBuffers::fill(ManyView& many) const {
+  many = many_;
+  many.count = bucket_count_.data();
+  many.begin = bucket_begin_.data();
+  many.rank = rank_.data();
+  many.entries = many_entries_.data();
+  many.levels = levels_.data();
+  many.turns = many.levels + 2;
+  many.bins.chunk_count = chunk_count_.data();
+  many.bins.chunk_begin = chunk_begin_.data();
+  many.bins.first_chunk = bins_.data();
+  many.bins.last_chunk = many.bins.first_chunk + many.bins.bins;
+  many.bins.cursor = many.bins.last_chunk + many.bins.bins;
+  many.bins.block_sum = many.bins.cursor + many.bins.bins;
+  many.bins.entries = binned_entries_.data();
+  many.bins.bucket = binned_buckets_.data();
+}
+
 std::uint64_t BroadBuffers::bytes() const {
   return bucket_count_.bytes() + bucket_begin_.bytes() + bucket_cursor_.bytes() + rank_.bytes() + levels_.bytes() +
-         entries_.bytes() + hash_entries_.bytes() + oversized_.bytes() + node_count_.bytes() + node_begin_.bytes() +
-         range_end_.bytes();
+         entries_.bytes() + many_entries_.bytes() + binned_entries_.bytes() + binned_buckets_.bytes() +
+         chunk_count_.bytes() + chunk_begin_.bytes() + bins_.bytes() + hash_entries_.bytes() + oversized_.bytes() +
+         node_count_.bytes() + node_begin_.bytes() + range_end_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -9,6 +9,7 @@
 #include "core/variant.hpp"
 #include "gpu/broad_view.hpp"
 #include "gpu/device_buffer.hpp"
+#include "gpu/many_view.hpp"
 
 namespace broadside::gpu {
 
@@ -18,6 +19,11 @@ enum class Broad { kTree, kOctree, kHash, kBrute };
 // Below this many bodies the tree start tests all pairs of body boxes: 2,080 tiles of 32 x 32 are one tile a warp on a
 // large GPU, and take less than the grid's three passes.
 constexpr std::uint32_t kLeastBodiesForGrid = 2048;
+
+// From here on a broad phase alone searches by many_search.cuh, a lane a box.
+constexpr std::uint32_t kLeastBoxesForMany = 50000;
+// From here on the entries of many boxes are more than a cache holds, and go to bins first.
+constexpr std::uint32_t kLeastBoxesForBins = 1000000;
 
 // What is known of the boxes before the first frame.
 struct BoxFacts {
@@ -32,26 +38,41 @@ struct BoxFacts {
 // Cells that a closed interval of this length can touch, wherever it is; and so of a box with these sides.
 std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m);
 
+// Of a grid.
+std::uint64_t grid_buckets(std::uint64_t bodies);
+
 class BroadBuffers {
  public:
-  core::Status load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant);
+  // `bins`: of BinsView, in a launch of so many blocks.
+  core::Status load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
+                    std::uint32_t bins = 0, std::uint32_t blocks = 0);
   // The facts that a new set of boxes may change.
   void refit(const BoxFacts& facts);
   // Makes room for what the aborted frame demanded.
   core::Status grow(const Counters& demanded);
   void fill(BroadView& view) const;
+  // Of Start::kMany.
+  void fill(ManyView& view) const;
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
   core::Status reserve_buckets(std::uint64_t buckets, const char* what);
+  core::Status load_many(std::size_t n, std::uint32_t bins, std::uint32_t blocks);
 
   BroadView view_;
+  ManyView many_;
   DeviceBuffer<std::uint32_t> bucket_count_;
   DeviceBuffer<std::uint32_t> bucket_begin_;
   DeviceBuffer<std::uint32_t> bucket_cursor_;
   DeviceBuffer<std::uint32_t> rank_;
   DeviceBuffer<std::uint32_t> levels_;
   DeviceBuffer<PackedBox> entries_;
+  DeviceBuffer<ManyEntry> many_entries_;
+  DeviceBuffer<ManyEntry> binned_entries_;
+  DeviceBuffer<std::uint16_t> binned_buckets_;
+  DeviceBuffer<std::uint32_t> chunk_count_;
+  DeviceBuffer<std::uint32_t> chunk_begin_;
+  DeviceBuffer<std::uint32_t> bins_;  // what BinsView has of each bin, and block_sum
   DeviceBuffer<HashEntry> hash_entries_;
   DeviceBuffer<std::uint32_t> oversized_;
   DeviceBuffer<std::uint32_t> node_count_;

@@ -16,6 +16,7 @@ enum class Start : std::uint32_t {
   kOctree,  // level 0 from the published scene octree: octree_stage.cuh
   kHash,    // level 0 from the paper's comparison, a spatial hash: hash_stage.cuh
   kNone,    // levels level1, A and B as published: their first level by brute force over all pairs of bodies
+  kMany,    // as kGrid for many boxes of which nothing but their pairs is asked for: many_search.cuh
 };
 
 // An append buffer. `stored` never passes its capacity; `demanded` counts on, so nothing is lost unseen.

@@ -2,6 +2,7 @@
 
 #include "gpu/cuda_check.hpp"
 #include "gpu/frame_kernel.hpp"
+#include "gpu/kernel_launch.cuh"
 #include "gpu/stages/digest.cuh"
 #include "gpu/stages/frame.cuh"
 
@@ -11,8 +12,6 @@ namespace {
 constexpr std::uint32_t kThreads = 512;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 constexpr std::uint32_t kFewBlocksPerMultiprocessor = 1;  // few bodies get no more, so that registers suffice
-constexpr std::uint32_t kPairsThreads = 512;
-constexpr std::uint32_t kPairsBlocksPerMultiprocessor = 2;
 constexpr std::uint32_t kDigestThreads = 512;
 constexpr std::uint32_t kDigestBlocksPerMultiprocessor = 2;
 
@@ -24,46 +23,10 @@ __global__ void __launch_bounds__(kThreads, kIsFew ? kFewBlocksPerMultiprocessor
   run_frame<kIsFew>(frame, scratch, shared);
 }
 
-__global__ void __launch_bounds__(kPairsThreads, kPairsBlocksPerMultiprocessor)
-    pairs_kernel(const __grid_constant__ PairsView view) {
-  extern __shared__ __align__(16) unsigned char shared[];
-  run_pairs(view, shared);
-}
-
 __global__ void __launch_bounds__(kDigestThreads, kDigestBlocksPerMultiprocessor)
     digest_kernel(const __grid_constant__ DigestView view) {
   __shared__ unsigned long long block_sum;
   run_digest(view, &block_sum);
-}
-
-core::Result<std::uint32_t> attribute(cudaDeviceAttr which) {
-  int device = 0;
-  int value = 0;
-  BROADSIDE_CUDA_TRY(cudaGetDevice(&device));
-  BROADSIDE_CUDA_TRY(cudaDeviceGetAttribute(&value, which, device));
-  return static_cast<std::uint32_t>(value);
-}
-
-// How many of a kernel's blocks are resident at once; `shape` has threads and shared memory.
-core::Status fit(const void* kernel, LaunchShape& shape) {
-  auto multiprocessors = attribute(cudaDevAttrMultiProcessorCount);
-  if (!multiprocessors.ok()) return multiprocessors.error();
-  shape.multiprocessors = multiprocessors.value();
-  BROADSIDE_CUDA_TRY(
-      cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shape.shared_bytes)));
-  int each = 0;
-  BROADSIDE_CUDA_TRY(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&each, kernel, static_cast<int>(shape.threads),
-                                                                   shape.shared_bytes));
-  shape.blocks = static_cast<std::uint32_t>(each) * shape.multiprocessors;
-  return core::Done{};
-}
-
-template <typename View>
-core::Status launch(void (*kernel)(View), const View& view, const LaunchShape& shape, StreamHandle stream) {
-  void* arguments[] = {const_cast<View*>(&view)};
-  return cuda_status(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(kernel), dim3(shape.blocks),
-                                                 dim3(shape.threads), arguments, shape.shared_bytes, stream),
-                     "launching a kernel");
 }
 
 }  // namespace
@@ -94,16 +57,6 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream) {
   const bool are_few = has_few_bodies(frame, std::uint64_t{shape.blocks} * shape.threads);
   return launch(are_few ? frame_kernel<true> : frame_kernel<false>, frame, shape, stream);
-}
-
-core::Result<LaunchShape> pairs_launch_shape() {
-  LaunchShape shape{kPairsThreads, 0, kPairsThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), 0};
-  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(pairs_kernel), shape));
-  return shape;
-}
-
-core::Status launch_pairs(const PairsView& view, const LaunchShape& shape, StreamHandle stream) {
-  return launch(pairs_kernel, view, shape, stream);
 }
 
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {

@@ -1,5 +1,5 @@
 // Launches of the device code, as plain functions: the rest of gpu/ is compiled by the host compiler. frame_kernel.cu
-// implements them on CUDA, on_host/frame_on_host.cpp with fibers.
+// and pairs_kernel.cu implement them on CUDA, on_host/frame_on_host.cpp with fibers.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "core/result.hpp"
 #include "gpu/device_runtime.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/many_view.hpp"
 
 namespace broadside::gpu {
 
@@ -26,17 +27,24 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
 // One whole frame is this one launch, whatever its counts: every stage reads them on the device. Asynchronous.
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream);
 
-// The broad phase alone; the same rules.
+// The broad phase alone; the same rules, but for great many boxes, which are sorted by a launch before.
 struct PairsView {
   std::uint32_t box_count = 0;
   const PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
   BroadView broad;
+  ManyView many;  // where the start is Start::kMany
   AppendView<core::Pair> pairs;
   Counters* counters = nullptr;
   Outcome* outcome = nullptr;
 };
-core::Result<LaunchShape> pairs_launch_shape();
-core::Status launch_pairs(const PairsView& view, const LaunchShape& shape, StreamHandle stream);
+struct PairsShape {
+  LaunchShape search;
+  LaunchShape sort;        // where there are bins
+  std::uint32_t bins = 0;  // of BinsView; 0 also where the GPU has too little shared memory for them
+};
+core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
+                                            std::uint32_t least_for_bins);
+core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream);
 
 // The sum of the digests of everything that the last frame left. Counts are read on the device, so that it can be
 // launched right behind the frame; a frame that was aborted has none. Asynchronous.

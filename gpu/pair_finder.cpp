@@ -25,7 +25,7 @@ struct PairFinder::Impl {
   Stream stream;
   StreamTimer timer;
   OutcomeMemory outcome;
-  LaunchShape launch;
+  PairsShape launch;
   PairsView view;
   BoxFacts facts;
   std::vector<std::uint8_t> is_static;
@@ -60,7 +60,8 @@ Start PairFinder::Impl::start() const {
   if (options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7) return Start::kOctree;
   if (options.broad == Broad::kOctree) return Start::kOctree;
   if (options.broad == Broad::kHash) return Start::kHash;
-  return options.broad == Broad::kTree && is_static.size() >= options.least_for_grid ? Start::kGrid : Start::kTiles;
+  if (options.broad != Broad::kTree || is_static.size() < options.least_for_grid) return Start::kTiles;
+  return is_static.size() < options.least_for_many ? Start::kGrid : Start::kMany;
 }
 
 core::Status PairFinder::Impl::reserve() {
@@ -71,10 +72,11 @@ core::Status PairFinder::Impl::reserve() {
   BROADSIDE_TRY(counters.reserve(1, "counters"));
   BROADSIDE_TRY(work.reset());
   BROADSIDE_TRY(pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBox * count), "pairs"));
-  BROADSIDE_TRY(broad.load(start(), facts, options.hash_cell_m, options.variant));
-  auto shape = pairs_launch_shape();
+  auto shape =
+      pairs_launch_shape(start(), facts.count, static_cast<std::uint32_t>(grid_buckets(count)), options.least_for_bins);
   if (!shape.ok()) return shape.error();
   launch = shape.value();
+  BROADSIDE_TRY(broad.load(start(), facts, options.hash_cell_m, options.variant, launch.bins, launch.sort.blocks));
   view.box_count = static_cast<std::uint32_t>(count);
   view.boxes = boxes.data();
   view.counters = counters.data();
@@ -137,16 +139,17 @@ core::Status PairFinder::find() {
   Impl& d = *impl_;
   for (;;) {
     d.broad.fill(d.view.broad);
+    d.broad.fill(d.view.many);
     d.view.pairs = {d.pairs.data(), d.pairs.capacity()};
     BROADSIDE_TRY(d.timer.start(d.stream.get()));
-    ++d.launches;
+    d.launches += d.launch.bins != 0 ? 2 : 1;
     BROADSIDE_TRY(launch_pairs(d.view, d.launch, d.stream.get()));
     BROADSIDE_TRY(d.timer.stop(d.stream.get()));
     BROADSIDE_TRY(d.stream.wait("finding pairs"));
     d.counts = (*d.outcome).counters;
     if (d.counts.is_aborted == 0)
       return d.work.count_broad({d.view.broad, d.view.boxes, d.view.box_count, d.view.counters},
-                                d.launch.multiprocessors, d.stream.get());
+                                d.launch.search.multiprocessors, d.stream.get());
     BROADSIDE_TRY(d.broad.grow(d.counts));
     BROADSIDE_TRY(d.pairs.reserve(d.counts.pairs, "pairs"));
   }

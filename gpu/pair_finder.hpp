@@ -15,9 +15,11 @@ struct PairFinderOptions {
   core::Variant variant = core::Variant::kSound;
   float hash_cell_m = 0.25F;
   std::uint32_t least_for_grid = kLeastBodiesForGrid;
+  std::uint32_t least_for_many = kLeastBoxesForMany;
+  std::uint32_t least_for_bins = kLeastBoxesForBins;
 };
 
-// Where the time of the last find() went. `whole_s` is the time between two events around the launch; the stages are
+// Where the time of the last find() went. `whole_s` is the time between two events around the launches; the stages are
 // read off the GPU's clock within it.
 struct FindTime {
   double whole_s = 0.0;

@@ -5,6 +5,7 @@
 #include "gpu/frame_kernel.hpp"
 #include "gpu/stages/digest.cuh"
 #include "gpu/stages/frame.cuh"
+#include "gpu/stages/pairs.cuh"
 
 namespace broadside::gpu {
 namespace {
@@ -41,12 +42,28 @@ core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, Stre
   return core::Done{};
 }
 
-core::Result<LaunchShape> pairs_launch_shape() {
-  return LaunchShape{kThreads, kBlocks, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), kBlocks};
+core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
+                                            std::uint32_t least_for_bins) {
+  const bool are_many = start == Start::kMany;
+  const std::size_t each = are_many ? sizeof(PairsScratch<true>) : sizeof(PairsScratch<false>);
+  PairsShape shape;
+  shape.search = {kThreads, kBlocks, kThreads / 32 * static_cast<std::uint32_t>(each), kBlocks};
+  if (!are_many || boxes < least_for_bins) return shape;
+  shape.bins = bins_of(kThreads, boxes, buckets);
+  shape.sort = {kThreads, kBlocks, std::max(tile_bytes(kThreads, shape.bins), bin_bytes(kThreads)), kBlocks};
+  return shape;
 }
 
-core::Status launch_pairs(const PairsView& view, const LaunchShape& shape, StreamHandle /*stream*/) {
-  on_host::run(launch_of(shape), shape.shared_bytes, [&](unsigned char* shared) { run_pairs(view, shared); });
+core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle /*stream*/) {
+  if (shape.bins != 0)
+    on_host::run(launch_of(shape.sort), shape.sort.shared_bytes,
+                 [&](unsigned char* shared) { run_sort(view, shared); });
+  on_host::run(launch_of(shape.search), shape.search.shared_bytes, [&](unsigned char* shared) {
+    if (view.broad.start == Start::kMany)
+      run_pairs<true>(view, shared);
+    else
+      run_pairs<false>(view, shared);
+  });
   return core::Done{};
 }
 

@@ -111,26 +111,4 @@ __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& 
                   GridLive{f.live});
 }
 
-// The broad phase alone: boxes in, pairs out.
-__device__ inline void run_pairs(const PairsView& view, unsigned char* shared) {
-  const GridTeam grid;
-  const auto marked = [&](int stage) {
-    if (grid.rank() == 0) view.outcome->stage_end_ns[stage] = now_ns();
-  };
-  marked(0);
-  if (grid.rank() == 0) *view.counters = Counters{};
-  for (std::uint64_t i = grid.rank(); i < view.box_count; i += grid.size())
-    count_box(view.broad, i, unpack(view.boxes[i]));
-  grid.sync();
-  marked(1);
-  const bool has_room =
-      find_candidates(grid, view.broad, view.boxes, view.box_count, view.pairs, view.counters,
-                      reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32], view.outcome->stage_end_ns);
-  grid.sync();
-  if (grid.rank() != 0) return;
-  marked(4);
-  view.counters->is_aborted = !has_room || view.counters->pairs > view.pairs.capacity ? 1 : 0;
-  view.outcome->counters = *view.counters;
-}
-
 }  // namespace broadside::gpu

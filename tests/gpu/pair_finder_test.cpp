@@ -1,9 +1,12 @@
 // The GPU's broad phase returns exactly the overlapping pairs, whatever the boxes.
+#include "gpu/pair_finder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/engine/engine.hpp"
@@ -24,6 +27,21 @@ std::vector<Pair> all_pairs(const std::vector<Box>& boxes, const std::vector<std
     for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
       if (core::overlaps(boxes[i], boxes[j]) && (is_static[i] == 0 || is_static[j] == 0)) pairs.push_back({i, j});
   return pairs;
+}
+
+// The search among many boxes, without and with bins, for however few.
+constexpr std::uint32_t kNever = 1U << 30;
+PairFinderOptions among_many(std::uint32_t least_for_bins) {
+  return {Broad::kTree, core::Variant::kSound, 0.25F, 50, 50, least_for_bins};
+}
+
+std::vector<Pair> pairs_of(core::BroadPhase& subject, const std::vector<Box>& boxes,
+                           const std::vector<std::uint8_t>& is_static) {
+  EXPECT_TRUE(subject.load(boxes, is_static).ok());
+  EXPECT_TRUE(subject.find().ok());
+  auto found = subject.read_back();
+  EXPECT_TRUE(found.ok());
+  return found.ok() ? std::move(found.value().pairs) : std::vector<Pair>{};
 }
 
 class PairFinderTest : public testing::Test {
@@ -47,12 +65,12 @@ class PairFinderTest : public testing::Test {
     const std::vector<Pair> expected = all_pairs(boxes, is_static);
     for (const std::string broad : {"tree", "octree", "brute", "hash"}) {
       core::Engine subject = engine(broad);
-      ASSERT_TRUE(subject.broad_phase->load(boxes, is_static).ok());
-      ASSERT_TRUE(subject.broad_phase->find().ok());
-      auto found = subject.broad_phase->read_back();
-      ASSERT_TRUE(found.ok());
-      EXPECT_EQ(found.value().pairs.size(), expected.size()) << broad;
-      EXPECT_TRUE(found.value().pairs == expected) << broad;
+      EXPECT_TRUE(pairs_of(*subject.broad_phase, boxes, is_static) == expected) << broad;
+    }
+    for (const std::uint32_t least_for_bins : {kNever, 50U}) {
+      PairFinder subject(among_many(least_for_bins));
+      EXPECT_TRUE(pairs_of(subject, boxes, is_static) == expected)
+          << "many, bins from " << least_for_bins << " boxes on";
     }
   }
 };
@@ -78,6 +96,25 @@ TEST_F(PairFinderTest, Uniform) {
       return Place{dice.cube(std::cbrt(static_cast<float>(count))),
                    {0.25F + 0.5F * dice.next(), 0.25F + 0.5F * dice.next(), 0.25F + 0.5F * dice.next()}};
     }));
+}
+
+// Enough boxes for each search to be at home, and for several bins; two dense heaps in a wide world.
+TEST_F(PairFinderTest, SearchesAgreeOnManyBoxes) {
+  const std::vector<Box> boxes = boxes_of(150000, [](Dice& dice, std::uint32_t i) {
+    const float half = i % 100 == 0 ? 4.0F * dice.next() : 0.4F;
+    const core::Vec3 heap{i % 2 == 0 ? 5000.0F : -3000.0F, 0.0F, 0.0F};
+    return Place{(i % 50 == 0 ? dice.cube(20000.0F) : heap + dice.cube(40.0F)), {half, half, half}};
+  });
+  const std::vector<std::uint8_t> is_static(boxes.size());
+  PairFinderOptions grid_options;
+  grid_options.least_for_many = kNever;
+  PairFinder grid(grid_options);
+  const std::vector<Pair> expected = pairs_of(grid, boxes, is_static);
+  EXPECT_GT(expected.size(), boxes.size());
+  for (const std::uint32_t least_for_bins : {kNever, 50U}) {
+    PairFinder subject(among_many(least_for_bins));
+    EXPECT_TRUE(pairs_of(subject, boxes, is_static) == expected) << "many, bins from " << least_for_bins << " boxes on";
+  }
 }
 
 TEST_F(PairFinderTest, SizesOverSixOrders) {

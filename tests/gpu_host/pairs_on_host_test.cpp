@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gpu/pair_finder.hpp"
@@ -15,6 +16,12 @@ namespace {
 using core::Box;
 using core::Pair;
 
+// Boxes from which on a search begins; the last two are of a broad phase alone.
+PairFinderOptions starting_at(Broad broad, std::uint32_t grid, std::uint32_t many, std::uint32_t bins) {
+  return {broad, core::Variant::kSound, 0.5F, grid, many, bins};
+}
+constexpr std::uint32_t kNever = 1U << 30;
+
 void expect_exact(const std::vector<Box>& boxes) {
   std::vector<std::uint8_t> is_static(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) is_static[i] = i % 7 == 0 ? 1 : 0;
@@ -22,15 +29,20 @@ void expect_exact(const std::vector<Box>& boxes) {
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
     for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
       if (core::overlaps(boxes[i], boxes[j]) && (is_static[i] == 0 || is_static[j] == 0)) expected.push_back({i, j});
-  for (const Broad broad : {Broad::kTree, Broad::kOctree, Broad::kHash}) {
-    PairFinder subject({broad, core::Variant::kSound, 0.5F, 50});
+  const std::pair<const char*, PairFinderOptions> subjects[] = {
+      {"grid", starting_at(Broad::kTree, 50, kNever, kNever)}, {"many", starting_at(Broad::kTree, 50, 50, kNever)},
+      {"bins", starting_at(Broad::kTree, 50, 50, 50)},         {"octree", starting_at(Broad::kOctree, 50, 50, 50)},
+      {"hash", starting_at(Broad::kHash, 50, 50, 50)},
+  };
+  for (const auto& [name, options] : subjects) {
+    PairFinder subject(options);
     ASSERT_TRUE(subject.load(boxes, is_static).ok());
     for (int turn = 0; turn < 2; ++turn) {  // the second finds what the first left behind in the tables
       ASSERT_TRUE(subject.find().ok());
       auto found = subject.read_back();
       ASSERT_TRUE(found.ok());
       EXPECT_TRUE(found.value().pairs == expected)
-          << static_cast<int>(broad) << ": " << found.value().pairs.size() << " against " << expected.size();
+          << name << ": " << found.value().pairs.size() << " against " << expected.size();
     }
   }
 }
@@ -61,6 +73,18 @@ TEST(PairsOnHost, CountsLaunchesAndBytes) {
   EXPECT_EQ(counts["launches"], 3U);
   EXPECT_EQ(counts["bytes to the device"], 4U * boxes.size() * sizeof(PackedBox));
   EXPECT_GT(counts["device bytes"], boxes.size() * sizeof(PackedBox));
+}
+
+// Two where a launch puts the boxes in order first.
+TEST(PairsOnHost, CountsBothLaunches) {
+  const std::vector<Box> boxes = boxes_of(300, [](Dice& dice, std::uint32_t) { return dice.cube(30.0F); });
+  const std::vector<std::uint8_t> is_static(boxes.size());
+  PairFinder subject(starting_at(Broad::kTree, 50, 50, 50));
+  ASSERT_TRUE(subject.load(boxes, is_static).ok());
+  ASSERT_TRUE(subject.find().ok());
+  std::map<std::string_view, std::uint64_t> counts;
+  for (const core::Counter& counter : subject.counters()) counts[counter.name] = counter.count;
+  EXPECT_EQ(counts["launches"], 2U);
 }
 
 TEST(PairsOnHost, Uniform) {
@@ -111,6 +135,36 @@ TEST(PairsOnHost, TouchingAlongEachAxis) {
     }
     expect_exact(boxes);
   }
+}
+
+// A row of cells with more entries than a bin is given shared memory for, and strays in other bins.
+TEST(PairsOnHost, RowThatOverfillsItsBin) {
+  std::vector<Box> boxes;
+  Dice dice(5);
+  for (std::uint32_t i = 0; i < 900; ++i) {
+    const core::Vec3 low = i % 10 == 0 ? dice.cube(60.0F) : core::Vec3{60.0F * dice.next(), 0.1F, 0.1F};
+    boxes.push_back({low, low + core::Vec3{1.0F, 1.0F, 1.0F}});
+  }
+  expect_exact(boxes);
+}
+
+// Large boxes at one place, small ones a multiple of 512 blocks of the large ones' cells away, which a tag takes for
+// the same block: that the small ones' own level is wide tells that they are not.
+TEST(PairsOnHost, FineBlocksThatLookLikeCoarseOnes) {
+  // In a table of 1024 buckets a block has 64 x 4 x 4 cells, of 1 + 1/1024.
+  constexpr float kSameX = 512.0F * 64.0F * (1.0F + 0x1p-10F);
+  constexpr float kSameY = 512.0F * 4.0F * (1.0F + 0x1p-10F);
+  std::vector<Box> boxes;
+  Dice dice(5);
+  for (std::uint32_t i = 0; i < 480; ++i) {
+    const bool is_large = i % 8 == 0;
+    const float half = is_large ? 0.5F : 0.1F;
+    const core::Vec3 away{i % 16 < 8 ? kSameX : 0.0F, kSameY * static_cast<float>(i / 8 % 8),
+                          kSameY * static_cast<float>(i / 64)};
+    const core::Vec3 center = dice.cube(2.0F) + (is_large ? core::Vec3{} : away);
+    boxes.push_back({center - core::Vec3{half, half, half}, center + core::Vec3{half, half, half}});
+  }
+  expect_exact(boxes);
 }
 
 // Cells that share an entry's tag and its rounded coordinates, hundreds of cells apart, in a table that is smaller than
