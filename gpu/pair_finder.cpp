@@ -148,7 +148,7 @@ core::Status PairFinder::find() {
     BROADSIDE_TRY(d.stream.wait("finding pairs"));
     d.counts = (*d.outcome).counters;
     if (d.counts.is_aborted == 0)
-      return d.work.count_broad({d.view.broad, d.view.boxes, d.view.box_count, d.view.counters},
+      return d.work.count_broad({d.view.broad, d.view.many, d.view.boxes, d.view.box_count, d.view.counters},
                                 d.launch.search.multiprocessors, d.stream.get());
     BROADSIDE_TRY(d.broad.grow(d.counts));
     BROADSIDE_TRY(d.pairs.reserve(d.counts.pairs, "pairs"));

@@ -182,7 +182,7 @@ core::Status Pipeline::step(float dt_s) {
 
 // Of the frame that was just computed; nothing where nobody asked.
 core::Status Pipeline::Impl::count_work() {
-  const BroadWorkView of_broad{view.broad, view.boxes, view.body_count, view.counters};
+  const BroadWorkView of_broad{view.broad, {}, view.boxes, view.body_count, view.counters};
   BROADSIDE_TRY(work.count_broad(of_broad, launch.multiprocessors, stream.get()));
   if (is_confirmed_by_level0()) return core::Done{};
   return work.count_levels(view, launch.multiprocessors, stream.get());

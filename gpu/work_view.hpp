@@ -8,7 +8,7 @@ namespace broadside::gpu {
 
 // Sums of integers over pairs of boxes and visited cells: neither the order of threads nor how many there are shows.
 struct Work {
-  unsigned long long broad_tests = 0;  // pairs of body boxes
+  unsigned long long broad_tests = 0;  // pairs of body boxes, rounded ones where those are tested first
   unsigned long long broad_nodes = 0;  // runs of cells that a box looked into
   unsigned long long level_tests = 0;  // pairs of boxes of body octrees, empty ones included
   unsigned long long pairs = 0;        // that the broad phase found again
@@ -16,12 +16,13 @@ struct Work {
 
 // Whether the work of this start can be counted.
 inline bool is_counted(Start start) {
-  return start == Start::kTiles || start == Start::kGrid || start == Start::kOctree || start == Start::kHash;
+  return start != Start::kNone;
 }
 
 // Runs the search of the broad phase again over what a frame left on the device, finding into nothing. Asynchronous.
 struct BroadWorkView {
   BroadView broad;
+  ManyView many;  // where the start is Start::kMany
   const PackedBox* boxes = nullptr;
   std::uint32_t box_count = 0;
   const Counters* counters = nullptr;  // of the frame

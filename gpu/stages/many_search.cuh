@@ -16,6 +16,7 @@
 #include "gpu/stages/many_cells.cuh"
 #include "gpu/stages/pair_queue.cuh"
 #include "gpu/stages/team.cuh"
+#include "gpu/stages/work_count.cuh"
 
 namespace broadside::gpu {
 
@@ -28,6 +29,7 @@ struct ManyNotes {
 };
 
 // A lane's search for the partners of one box after the other. Every call is by the whole warp.
+template <typename Work>
 class ManySearch {
  public:
   __device__ ManySearch(const ManyView& g, const PackedBox* boxes, ManyNotes& notes, AppendView<core::Pair> out,
@@ -62,6 +64,7 @@ class ManySearch {
   }
 
   __device__ void flush() { queue_.flush(); }
+  __device__ const Work& work() const { return work_; }
 
  private:
   // Runs are read by fours, also past their ends.
@@ -126,6 +129,7 @@ class ManySearch {
             const std::uint32_t* at = g_.begin + bucket_place(bucket);
             runs.k[j] = is_own_row && on >= 0 ? place_ + 1 : at[0];
             runs.end[j] = at[more + 1];
+            work_.node();
           }
           walk(runs, cell, level);
           if (!has_more_x) break;
@@ -149,6 +153,7 @@ class ManySearch {
         // Buckets are shared: an entry of another row that happens to be here is found from its own.
         const std::uint32_t row_tag = block_tag(g_, {cell.x, cell.y + j, cell.z}, level);
         while (runs.k[j] < runs.end[j] && hits_ <= ManyNotes::kHits - kEntriesAtOnce) {
+          work_.tests(min(kEntriesAtOnce, runs.end[j] - runs.k[j]));
           ManyEntry other[kEntriesAtOnce];
 #pragma unroll
           for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) other[k] = g_.entries[runs.k[j] + k];
@@ -210,6 +215,7 @@ class ManySearch {
   const PackedBox* boxes_;
   ManyNotes& notes_;
   WarpQueue queue_;
+  Work work_;
   CellCorner fine_min_;
   CellCorner fine_max_;
   CoarseBox coarse_;  // on the level that is looked at
@@ -229,7 +235,7 @@ __device__ void many_find(const Team& team, const ManyView& g, const PackedBox* 
                           ManyNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded) {
   const volatile std::uint32_t* known = g.levels;
   const LevelMarks marks{known[0], known[1]};
-  ManySearch search(g, boxes, notes, out, demanded);
+  ManySearch<Uncounted> search(g, boxes, notes, out, demanded);
   // Of few boxes a warp takes fewer than it has lanes: it is done when the slowest of them is.
   const std::uint64_t warps = warp_count(team);
   std::uint32_t width = 32;

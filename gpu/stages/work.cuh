@@ -3,6 +3,7 @@
 
 #include "gpu/stages/broad_stage.cuh"
 #include "gpu/stages/confirm_stage.cuh"
+#include "gpu/stages/many_search.cuh"
 #include "gpu/stages/tile_stage.cuh"
 #include "gpu/stages/work_count.cuh"
 #include "gpu/work_view.hpp"
@@ -14,13 +15,26 @@ __device__ inline void add_of_warp(unsigned long long* sum, unsigned long long o
   if (lane() == 0 && own != 0) atomicAdd(sum, own);
 }
 
+// Boxes in the order of their entries, whichever warp took which: of the turns of many_find nothing shows.
+__device__ inline Counted count_many_work(const GridTeam& grid, const BroadWorkView& view, ManyNotes& notes) {
+  const volatile std::uint32_t* known = view.many.levels;
+  const LevelMarks marks{known[0], known[1]};
+  ManySearch<Counted> search(view.many, view.boxes, notes, {}, &view.work->pairs);
+  for (std::uint64_t first = warp_rank(grid) * 32; first < view.box_count; first += warp_count(grid) * 32) {
+    const std::uint64_t place = first + lane();
+    search.find_partners(static_cast<std::uint32_t>(place), place < view.box_count, marks);
+  }
+  search.flush();
+  return search.work();
+}
+
 // Few bodies' pairs are all tested, as tiles do.
-__device__ inline void count_broad_work(const BroadWorkView& view, PairQueue& room) {
+__device__ inline void count_broad_work(const BroadWorkView& view, ManyNotes& room) {
   const GridTeam grid;
   const BroadView& b = view.broad;
   const AppendView<core::Pair> nowhere;
   Counted work;
-  WarpQueue queue(room, nowhere, &view.work->pairs);
+  WarpQueue queue(room.queue, nowhere, &view.work->pairs);
   switch (b.start) {
     case Start::kTiles:
       find_pairs_by_tiles(grid, view.boxes, view.box_count, nullptr, nowhere, &view.work->pairs, work);
@@ -34,7 +48,10 @@ __device__ inline void count_broad_work(const BroadWorkView& view, PairQueue& ro
     case Start::kHash:
       hash_find(grid, b.hash, view.boxes, view.box_count, view.counters, queue, work);
       break;
-    default:
+    case Start::kMany:
+      work = count_many_work(grid, view, room);
+      break;
+    case Start::kNone:
       break;
   }
   queue.flush();

@@ -54,16 +54,25 @@ inline core::Scene counted_scene() {
   return thrown({bumpy_sphere(4, 0.5F), bumpy_sphere(3, 0.6F)}, shape);
 }
 
-inline std::vector<core::Box> counted_boxes() {
+inline std::vector<core::Box> counted_boxes(int count = 2500, float cube_m = 12.0F) {
   std::vector<core::Box> boxes;
   Dice dice(11);
-  for (int i = 0; i < 2500; ++i) {
-    const core::Vec3 center = dice.cube(12.0F);
+  for (int i = 0; i < count; ++i) {
+    const core::Vec3 center = dice.cube(cube_m);
     const core::Vec3 half{0.05F + 0.2F * dice.next(), 0.05F + 0.2F * dice.next(), 0.05F + 0.2F * dice.next()};
     boxes.push_back({center - half, center + half});
   }
   return boxes;
 }
+
+// Of 2500 boxes by the search among many, which engines choose where there are more; and of so many.
+constexpr std::uint64_t kManyTests = 26873;
+constexpr std::uint64_t kManyNodes = 7871;
+inline std::vector<core::Box> many_counted_boxes() {
+  return counted_boxes(60'000, 34.0F);
+}
+constexpr std::uint64_t kTestsOfMore = 354680;
+constexpr std::uint64_t kNodesOfMore = 189714;
 
 constexpr std::uint64_t kNotCounted = ~std::uint64_t{0};
 

@@ -53,6 +53,27 @@ TEST(WorkOnHost, OfBodiesInOnePlaceIsThatOfAllPairs) {
   EXPECT_EQ(counts_of(hash, boxes).at("broad: nodes visited"), kBodies) << "an entry of one cell each";
 }
 
+// The search among many meets each pair of a cell from one side, its bins in use or not.
+TEST(WorkOnHost, OfManyBoxesInOnePlaceIsThatOfAllPairs) {
+  constexpr std::uint64_t kBodies = 60;
+  const std::vector<core::Box> boxes(kBodies, core::Box{{0.1F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F}});
+  for (const std::uint32_t least_for_bins : {1U, 1000U}) {
+    PairFinder subject({.least_for_grid = 10, .least_for_many = 10, .least_for_bins = least_for_bins});
+    EXPECT_EQ(counts_of(subject, boxes).at("broad: box tests"), kBodies * (kBodies - 1) / 2);
+    PairFinder of_many({.least_for_grid = 10, .least_for_many = 10, .least_for_bins = least_for_bins});
+    const Counts counts = counts_of(of_many, counted_boxes());
+    EXPECT_EQ(counts.at("broad: box tests"), kManyTests);
+    EXPECT_EQ(counts.at("broad: nodes visited"), kManyNodes);
+  }
+}
+
+TEST(WorkOnHost, OfSixtyThousandBoxes) {
+  PairFinder subject({});
+  const Counts counts = counts_of(subject, many_counted_boxes());
+  EXPECT_EQ(counts.at("broad: box tests"), kTestsOfMore);
+  EXPECT_EQ(counts.at("broad: nodes visited"), kNodesOfMore);
+}
+
 // Boxes far apart: the grid looks into cells and finds each box alone in its own.
 TEST(WorkOnHost, OfLonelyBodiesIsAVisitAndNoPartner) {
   constexpr std::uint64_t kBodies = 60;
