@@ -146,6 +146,9 @@ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
   ++*arrived;
   while (*static_cast<volatile std::uint32_t*>(arrived) < awaited) on_host::yield();
 }
+inline uint4 load_once(const uint4* from) {
+  return *from;
+}
 inline uint4 load_whole(const uint4* from) {
   return *from;
 }
