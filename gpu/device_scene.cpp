@@ -35,6 +35,16 @@ NearNeeds needs_of(const core::ShapeTable& table, const BoxFacts& facts) {
   return needs;
 }
 
+// For each shape the largest theta under which its vertices touch any other's: the rounded mean of two edges grows with
+// either.
+std::vector<float> thetas_of(const core::ShapeTable& table, const core::Parameters& parameters) {
+  std::vector<float> thetas;
+  if (table.shapes.empty()) return thetas;
+  const core::Shape& coarsest = *std::ranges::max_element(table.shapes, {}, &core::Shape::mean_edge_m);
+  for (const core::Shape& shape : table.shapes) thetas.push_back(core::pair_theta_m(parameters, shape, coarsest));
+  return thetas;
+}
+
 std::vector<std::uint32_t> bodies_of_shapes(const core::ShapeTable& table) {
   std::vector<std::uint32_t> count(table.shapes.size(), 0);
   for (const std::uint32_t shape : table.shape_of_body) ++count[shape];
@@ -52,6 +62,8 @@ core::Status DeviceScene::load(const core::Scene& scene, const SceneNeeds& needs
   ShapeCells cells;
   box_facts_ = facts_of(scene);
   NearNeeds near = needs_of(table, box_facts_);
+  const std::vector<float> thetas = thetas_of(table, scene.parameters);
+  if (!thetas.empty()) near.least_theta_m = *std::ranges::min_element(thetas);
   const std::vector<std::uint32_t> bodies = bodies_of_shapes(table);
   std::vector<std::uint64_t> hash_cells;
   tree_levels_ = 1;
@@ -63,9 +75,7 @@ core::Status DeviceScene::load(const core::Scene& scene, const SceneNeeds& needs
     append_tree(trees, shape.octree.sorted_vertices, shape.octree.sorted_indices, shape.mean_edge_m);
     tree_levels_ = std::max(tree_levels_, trees.headers.back().top + 1);
     if (bodies[trees.headers.size() - 1] >= needs.least_for_cells) {
-      near.theta_m = 0.0F;
-      for (const core::Shape& other : table.shapes)
-        near.theta_m = std::max(near.theta_m, core::pair_theta_m(scene.parameters, shape, other));
+      near.theta_m = thetas[trees.headers.size() - 1];
       append_cells(cells, trees, near);
     } else {
       append_no_cells(cells);
@@ -75,6 +85,7 @@ core::Status DeviceScene::load(const core::Scene& scene, const SceneNeeds& needs
     hash_cells.push_back(hash_cells_of(side, needs.hash_cell_m));
   }
   for (const std::uint32_t shape : table.shape_of_body) box_facts_.hash_entries += hash_cells[shape];
+  quantize_vertices(cells, trees);
   std::vector<core::Material> material;
   std::vector<core::Quat> orientation;
   for (const core::Body& body : scene.bodies) {
@@ -89,8 +100,10 @@ core::Status DeviceScene::load(const core::Scene& scene, const SceneNeeds& needs
   BROADSIDE_TRY(tree_vertices_.upload(trees.vertices, "vertices"));
   BROADSIDE_TRY(near_cells_.upload(cells.headers, "cells of near vertices"));
   BROADSIDE_TRY(near_lower_.upload(cells.lower, "cells of near vertices"));
-  BROADSIDE_TRY(near_begin_.upload(cells.begin, "cells of near vertices"));
+  BROADSIDE_TRY(near_lists_.upload(cells.lists, "cells of near vertices"));
   BROADSIDE_TRY(near_entries_.upload(cells.entries, "cells of near vertices"));
+  BROADSIDE_TRY(quantized_.upload(cells.quantized, "cells of near vertices"));
+  shape_count_ = static_cast<std::uint32_t>(table.shapes.size());
   extent_m_ = near.extent_m;
   BROADSIDE_TRY(shape_of_body_.upload(table.shape_of_body, "bodies"));
   BROADSIDE_TRY(material_.upload(material, "materials"));
@@ -107,10 +120,10 @@ core::Status DeviceScene::load_springs(const core::Scene& scene) {
 }
 
 void DeviceScene::fill(FrameView& view) const {
-  view.shapes = {octree_.data(),       level2_.data(),     level2_count_.data(),
-                 trees_.data(),        tree_nodes_.data(), tree_vertices_.data(),
-                 near_cells_.data(),   near_lower_.data(), near_begin_.data(),
-                 near_entries_.data(), extent_m_};
+  view.shapes = {shape_count_,       octree_.data(),     level2_.data(),        level2_count_.data(),
+                 trees_.data(),      tree_nodes_.data(), tree_vertices_.data(), near_cells_.data(),
+                 near_lower_.data(), near_lists_.data(), near_entries_.data(),  quantized_.data(),
+                 extent_m_};
   view.shape_of_body = shape_of_body_.data();
   view.material = material_.data();
   view.springs = has_springs_ ? springs_.data() : nullptr;
@@ -119,8 +132,8 @@ void DeviceScene::fill(FrameView& view) const {
 
 std::uint64_t DeviceScene::shape_bytes() const {
   return octree_.bytes() + level2_.bytes() + level2_count_.bytes() + trees_.bytes() + tree_nodes_.bytes() +
-         tree_vertices_.bytes() + near_cells_.bytes() + near_lower_.bytes() + near_begin_.bytes() +
-         near_entries_.bytes();
+         tree_vertices_.bytes() + near_cells_.bytes() + near_lower_.bytes() + near_lists_.bytes() +
+         near_entries_.bytes() + quantized_.bytes();
 }
 
 std::uint64_t DeviceScene::body_bytes() const {

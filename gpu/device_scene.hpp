@@ -42,8 +42,10 @@ class DeviceScene {
   DeviceBuffer<PackedVec3> tree_vertices_;
   DeviceBuffer<NearCells> near_cells_;
   DeviceBuffer<std::uint8_t> near_lower_;
-  DeviceBuffer<std::uint32_t> near_begin_;
-  DeviceBuffer<std::uint32_t> near_entries_;
+  DeviceBuffer<std::uint32_t> near_lists_;
+  DeviceBuffer<NearEntry> near_entries_;
+  DeviceBuffer<QuantizedVertex> quantized_;
+  std::uint32_t shape_count_ = 0;
   float extent_m_ = 0.0F;
   DeviceBuffer<std::uint32_t> shape_of_body_;
   DeviceBuffer<core::Material> material_;

@@ -9,7 +9,6 @@ namespace {
 // Room at the start: a packed pile of boxes has some six pairs a body, a body in a corner three faces; what is wrong
 // with it costs one repeated frame.
 constexpr std::uint64_t kPairsPerBody = 4;
-constexpr std::uint64_t kLeastPairs = 1024;
 
 std::uint64_t with_slack(std::uint64_t demanded) {
   return demanded + demanded / 4;
@@ -38,7 +37,6 @@ core::Status FrameBuffers::load(const core::Scene& scene) {
   BROADSIDE_TRY(boxes_.reserve(n, "boxes"));
   BROADSIDE_TRY(degree_.reserve(n, "order of contacts"));
   BROADSIDE_TRY(list_begin_.reserve(n, "order of contacts"));
-  BROADSIDE_TRY(listed_.reserve(n, "order of contacts"));
   BROADSIDE_TRY(live_.reserve(n, "order of contacts"));
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(counters_.fill_bytes(0));
@@ -82,13 +80,12 @@ void FrameBuffers::fill(FrameView& view) const {
   view.face_contacts = {face_contacts_.data(), face_contacts_.capacity()};
   view.degree = degree_.data();
   view.list_begin = list_begin_.data();
-  view.listed = listed_.data();
   view.live = live_.data();
   view.counters = counters_.data();
 }
 
 std::uint64_t FrameBuffers::body_bytes() const {
-  return 6 * previous_.position.bytes() + boxes_.bytes() + 3 * degree_.bytes() + live_.bytes();
+  return 6 * previous_.position.bytes() + boxes_.bytes() + 2 * degree_.bytes() + live_.bytes();
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {

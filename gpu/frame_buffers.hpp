@@ -53,7 +53,6 @@ class FrameBuffers {
   DeviceBuffer<PackedBox> boxes_;
   DeviceBuffer<std::uint32_t> degree_;
   DeviceBuffer<std::uint32_t> list_begin_;
-  DeviceBuffer<std::uint32_t> listed_;
   DeviceBuffer<LiveBody> live_;
   DeviceBuffer<Counters> counters_;
 

@@ -10,17 +10,19 @@ namespace broadside::gpu {
 namespace {
 
 constexpr std::uint32_t kThreads = 512;
+static_assert(kThreads <= kMaxBlockWarps * 32);
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 constexpr std::uint32_t kFewBlocksPerMultiprocessor = 1;  // few bodies get no more, so that registers suffice
 constexpr std::uint32_t kDigestThreads = 512;
 constexpr std::uint32_t kDigestBlocksPerMultiprocessor = 2;
 
-template <bool kIsFew>
-__global__ void __launch_bounds__(kThreads, kIsFew ? kFewBlocksPerMultiprocessor : kBlocksPerMultiprocessor)
+template <FrameKind kKind>
+__global__ void __launch_bounds__(kThreads,
+                                  kKind == FrameKind::kFew ? kFewBlocksPerMultiprocessor : kBlocksPerMultiprocessor)
     frame_kernel(const __grid_constant__ FrameView frame) {
   extern __shared__ __align__(16) unsigned char shared[];
   __shared__ ProximityScratch scratch;
-  run_frame<kIsFew>(frame, scratch, shared);
+  run_frame<kKind>(frame, scratch, shared);
 }
 
 __global__ void __launch_bounds__(kDigestThreads, kDigestBlocksPerMultiprocessor)
@@ -45,9 +47,12 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
     LaunchShape shape{threads, 0, threads / 32 * bytes_per_warp, 0};
     if (shape.shared_bytes + sizeof(ProximityScratch) > block_limit.value()) continue;
     LaunchShape few = shape;
-    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<false>), shape));
-    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<true>), few));
-    // run_frame gives few bodies one block a multiprocessor.
+    LaunchShape many = shape;
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kSome>), shape));
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kMany>), many));
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kFew>), few));
+    shape.blocks = std::min(shape.blocks, many.blocks);
+    // Few bodies get one block a multiprocessor.
     if (shape.blocks != 0 && few.blocks >= few.multiprocessors) return shape;
   }
   return core::Error{"this GPU has too little shared memory for the vertex trees' stack", "octree-gpu",
@@ -55,8 +60,10 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 }
 
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream) {
-  const bool are_few = has_few_bodies(frame, std::uint64_t{shape.blocks} * shape.threads);
-  return launch(are_few ? frame_kernel<true> : frame_kernel<false>, frame, shape, stream);
+  void (*const kernels[])(FrameView) = {frame_kernel<FrameKind::kFew>, frame_kernel<FrameKind::kSome>,
+                                        frame_kernel<FrameKind::kMany>};
+  const FrameKind kind = kind_of(frame, std::uint64_t{shape.blocks} * shape.threads);
+  return launch(kernels[static_cast<std::size_t>(kind)], frame, shape, stream);
 }
 
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {

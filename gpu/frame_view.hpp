@@ -20,10 +20,14 @@
 
 namespace broadside::gpu {
 
+// Of pairs, confirmed or not, there is room for so many at least.
+constexpr std::uint64_t kLeastPairs = 1024;
+
 enum class Solver : std::uint32_t { kColored, kJacobi, kRacing };
 
 // Per shape, in body coordinates. All instances of a mesh share one shape.
 struct ShapesView {
+  std::uint32_t count = 0;
   const PackedBox* octree = nullptr;  // [shapes * 73] boxes of the body octree, in its order; empty nodes stay empty
   const PackedBox* level2 = nullptr;  // [shapes * 64] its level-2 boxes without the empty ones
   const std::uint32_t* level2_count = nullptr;  // [shapes]
@@ -32,9 +36,10 @@ struct ShapesView {
   const PackedVec3* tree_vertices = nullptr;
   const NearCells* near_cells = nullptr;  // [shapes]
   const std::uint8_t* near_lower = nullptr;
-  const std::uint32_t* near_begin = nullptr;
-  const std::uint32_t* near_entries = nullptr;
-  float extent_m = 0.0F;  // the largest coordinate of any shape's vertices
+  const std::uint32_t* near_lists = nullptr;
+  const NearEntry* near_entries = nullptr;
+  const QuantizedVertex* quantized = nullptr;  // as tree_vertices
+  float extent_m = 0.0F;                       // the largest coordinate of any shape's vertices
 };
 
 // Position (w = inverse mass) and velocity of every body, at one moment.
@@ -122,7 +127,6 @@ struct FrameView {
 
   std::uint32_t* degree = nullptr;      // [bodies] contacts of a written body
   std::uint32_t* list_begin = nullptr;  // [bodies]
-  std::uint32_t* listed = nullptr;      // [bodies] how far the body's thread has come in its list
   LiveBody* live = nullptr;             // [bodies]
 
   Counters* counters = nullptr;

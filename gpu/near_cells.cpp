@@ -17,7 +17,7 @@ using core::Vec3;
 
 // In a heap of bunnies a search takes 4100, 2500, 2200 and 2000 instructions with cells of 1, 1/2, 1/3 and 1/4 theta
 // (13 300 with two trees); cells are 22, 166, 478 and 1309 thousand.
-constexpr float kCellsPerTheta = 2.0F;
+constexpr double kCellsPerTheta = 2.0;
 constexpr std::size_t kMostCells = 1U << 19U;
 constexpr std::size_t kMostCellsOfAll = 1U << 26U;
 // Above it more vertices lie in the overlap of two boxes than a descent of two trees looks at.
@@ -60,11 +60,13 @@ struct Grid {
   // a unit in the last place, 2^-24 of range_m, which makes 2 sqrt(3) 2^-24 range_m = 2.1e-7 range_m; the rest is
   // relative, a few 2^-24 of a distance up to theta.
   double distance_error_m = 0.0;
-  // Of the place at which a cell is looked up. 2^-24 of some coordinates of bodies, and of the number of cells in a row
-  // (below 1000).
+  // Of the place at which a cell is looked up: up to one quantum, and 2^-24 of some coordinates of bodies.
   double place_error_m = 0.0;
 
-  [[nodiscard]] std::size_t cells() const { return std::size_t{header.count_x} * header.count_y * header.count_z; }
+  // With what fills up the last bricks.
+  [[nodiscard]] std::size_t cells() const {
+    return (std::size_t{header.stride_z} + 128) * ((std::size_t{header.count_z} + 3) / 4);
+  }
   [[nodiscard]] std::array<std::uint32_t, 3> counts() const { return {header.count_x, header.count_y, header.count_z}; }
 
   // Calls visit(cell's index, cell, place in `vertices`) for every cell that a vertex is nearer to than theta, and some
@@ -86,7 +88,7 @@ struct Grid {
       for (std::uint32_t z = first[2]; z <= last[2]; ++z)
         for (std::uint32_t y = first[1]; y <= last[1]; ++y)
           for (std::uint32_t x = first[0]; x <= last[0]; ++x)
-            visit((std::size_t{z} * header.count_y + y) * header.count_x + x, cell_at({x, y, z}), v);
+            visit(cell_index(x, y, z, header.stride_y, header.stride_z), cell_at({x, y, z}), v);
     }
   }
 
@@ -100,13 +102,25 @@ struct Grid {
   }
 };
 
+// Quanta of the finest cell, as a power of two: as many as sums of a vertex' and an origin's, within 2^15, allow for.
+std::uint32_t quanta_bits(const NearNeeds& needs) {
+  std::uint32_t bits = 7;
+  // Cells and bodies on both sides of them reach over some six extents.
+  while (bits > 4 && 6.0 * needs.extent_m / needs.least_theta_m * kCellsPerTheta * (1U << bits) > 30000.0) --bits;
+  return bits;
+}
+
 Grid grid_around(const Box& box, const NearNeeds& needs) {
   Grid grid;
   grid.theta_m = needs.theta_m;
-  grid.side_m = grid.theta_m / kCellsPerTheta;
+  grid.header.shift = quanta_bits(needs);
+  grid.header.quanta_per_m = static_cast<float>((1U << grid.header.shift) * kCellsPerTheta / needs.least_theta_m);
+  const double quantum_m = 1.0 / static_cast<double>(grid.header.quanta_per_m);
+  while (quantum_m * (2U << grid.header.shift) <= grid.theta_m / kCellsPerTheta) ++grid.header.shift;
+  grid.side_m = quantum_m * (1U << grid.header.shift);
+  grid.header.reach = static_cast<std::int32_t>(std::min(needs.extent_m / quantum_m, 1e6)) + 2;
   grid.distance_error_m = 3e-7 * needs.range_m + 1e-6 * needs.theta_m;
-  grid.place_error_m = 1e-3 * grid.side_m + 1e-6 * needs.extent_m;
-  grid.header.cells_per_m = static_cast<float>(1.0 / grid.side_m);
+  grid.place_error_m = 1.05 * quantum_m + 1e-6 * needs.extent_m;
   grid.header.range_m = needs.range_m;
   // Rounded down, so that all steps together are no more than theta.
   grid.header.lower_step_m = std::nextafter(static_cast<float>(grid.theta_m / 254.0), 0.0F);
@@ -123,7 +137,16 @@ Grid grid_around(const Box& box, const NearNeeds& needs) {
   grid.header.count_x = count[0];
   grid.header.count_y = count[1];
   grid.header.count_z = count[2];
+  const std::uint32_t row = (count[0] + 7) / 8 * 128;
+  grid.header.stride_y = row - 32;
+  grid.header.stride_z = row * ((count[1] + 3) / 4) - 128;
   return grid;
+}
+
+// Sums of a vertex' and an origin's quanta, wherever the bodies are, are below 2^15: see stages/cell_search.cuh.
+bool are_quanta_few(const Grid& grid) {
+  const std::uint64_t cells = std::ranges::max(grid.counts());
+  return (cells << grid.header.shift) + 2 * static_cast<std::uint64_t>(grid.header.reach) < (1U << 15U) - 2;
 }
 
 bool are_worth_it(const TreeHeader& tree, const NearNeeds& needs) {
@@ -141,10 +164,7 @@ void append_cells(ShapeCells& cells, const ShapeTrees& trees, const NearNeeds& n
   const TreeHeader& tree = trees.headers.back();
   if (!are_worth_it(tree, needs)) return append_no_cells(cells);
   Grid grid = grid_around(unpack(trees.nodes[tree.node_begin[tree.top]]), needs);
-  const auto counts = grid.counts();
-  // A row of a thousand cells is what place_error_m allows for.
-  if (grid.cells() > kMostCells || std::ranges::max(counts) > 1000 ||
-      cells.lower.size() + grid.cells() > kMostCellsOfAll)
+  if (grid.cells() > kMostCells || !are_quanta_few(grid) || cells.lower.size() + grid.cells() > kMostCellsOfAll)
     return append_no_cells(cells);
   const std::span vertices =
       std::span(trees.vertices).subspan(tree.vertex_begin, std::size_t{tree.node_count[0]} * kLeafVertices);
@@ -168,27 +188,45 @@ void append_cells(ShapeCells& cells, const ShapeTrees& trees, const NearNeeds& n
   });
 
   NearCells& header = grid.header;
+  std::vector<std::uint32_t> begin(grid.cells(), 0);
+  std::uint64_t total = 0;
+  for (std::size_t k = 0; k < grid.cells(); ++k) {
+    begin[k] = static_cast<std::uint32_t>(total);
+    total += (length[k] + 3) / 4;
+  }
+  constexpr std::uint32_t kMostLength = (1U << NearList::kLengthBits) - 1;
+  constexpr std::uint64_t kMostEntries = 1ULL << (32U - NearList::kLengthBits);
+  if (total >= kMostEntries || std::ranges::max(length) / 4 >= kMostLength) return append_no_cells(cells);
   header.first_lower = static_cast<std::uint32_t>(cells.lower.size());
-  header.first_begin = static_cast<std::uint32_t>(cells.begin.size());
+  header.first_list = static_cast<std::uint32_t>(cells.lists.size());
   header.first_entry = static_cast<std::uint32_t>(cells.entries.size());
-  std::uint32_t total = 0;
   for (std::size_t k = 0; k < grid.cells(); ++k) {
     const double lower = std::max(0.0, nearest[k] - grid.distance_error_m) / header.lower_step_m;
     cells.lower.push_back(length[k] == 0 ? kNothingNear
                                          : static_cast<std::uint8_t>(std::min(std::floor(lower), 254.0)));
-    cells.begin.push_back(total);
-    total += (length[k] + 1) / 2;
+    cells.lists.push_back(begin[k] << NearList::kLengthBits | (length[k] + 3) / 4);
   }
-  cells.begin.push_back(total);
-  cells.entries.resize(std::size_t{header.first_entry} + total);
+  cells.entries.resize(header.first_entry + total);
   std::vector<std::uint32_t> filled(grid.cells(), 0);
   each_entry([&](std::size_t k, std::size_t v, double) {
     const std::uint32_t place = filled[k]++;
-    std::uint32_t& word = cells.entries[header.first_entry + cells.begin[header.first_begin + k] + place / 2];
-    const auto vertex = static_cast<std::uint32_t>(v);
-    word = place % 2 == 0 ? vertex | vertex << 16U : (word & 0xFFFFU) | vertex << 16U;
+    NearEntry& entry = cells.entries[header.first_entry + begin[k] + place / 4];
+    // The rest, until others come.
+    for (std::uint32_t rest = place % 4; rest < 4; ++rest) entry.vertex[rest] = static_cast<std::uint16_t>(v);
   });
   cells.headers.push_back(header);
+}
+
+void quantize_vertices(ShapeCells& cells, const ShapeTrees& trees) {
+  const auto with_cells = std::ranges::find_if(cells.headers, [](const NearCells& c) { return c.count_x != 0; });
+  if (with_cells == cells.headers.end()) return;
+  const auto quanta = [&](float v) {
+    return static_cast<std::int16_t>(std::floor(static_cast<double>(v) * with_cells->quanta_per_m));
+  };
+  for (const PackedVec3& vertex : trees.vertices)
+    cells.quantized.push_back(std::isfinite(vertex.v.x)
+                                  ? QuantizedVertex{quanta(vertex.v.x), quanta(vertex.v.y), quanta(vertex.v.z)}
+                                  : cells.quantized.back());
 }
 
 }  // namespace broadside::gpu

@@ -22,6 +22,11 @@ struct alignas(16) uint4 {
   unsigned w;
 };
 
+struct alignas(8) uint2 {
+  unsigned x;
+  unsigned y;
+};
+
 namespace broadside::gpu {
 
 using std::max;
@@ -40,6 +45,10 @@ inline void sync_grid() {
   on_host::meet_grid();
 }
 inline void __syncthreads() {
+  on_host::meet_block(false);
+}
+// Blocks have two warps: a team of more than one is the block.
+inline void sync_warps(std::uint32_t /*team*/, std::uint32_t /*warps*/) {
   on_host::meet_block(false);
 }
 inline int __syncthreads_or(int value) {
@@ -132,6 +141,14 @@ inline int __clz(unsigned v) {
 inline int floor_to_int(float v) {
   return static_cast<int>(std::clamp(std::floor(static_cast<double>(v)), -2147483648.0, 2147483647.0));
 }
+inline std::uint32_t clamped_sums(std::uint32_t a, std::uint32_t b, std::uint32_t most) {
+  const auto half = [](std::uint32_t word, unsigned by) { return static_cast<std::int16_t>(word >> by); };
+  const auto clamped = [&](unsigned by) {
+    const auto sum = static_cast<std::int16_t>(half(a, by) + half(b, by));
+    return static_cast<std::uint32_t>(max<std::int16_t>(0, min(sum, half(most, by))));
+  };
+  return clamped(0) | clamped(16) << 16U;
+}
 inline float __uint_as_float(unsigned v) {
   return std::bit_cast<float>(v);
 }
@@ -149,12 +166,17 @@ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
 inline uint4 load_once(const uint4* from) {
   return *from;
 }
-inline uint4 load_whole(const uint4* from) {
-  return *from;
+inline void load_two_whole(const uint4* from, uint4 (&words)[2]) {
+  words[0] = from[0];
+  words[1] = from[1];
 }
 inline void store_whole(uint4* to, uint4 v) {
   *to = v;
 }
+inline void start_copy(uint4* to, const uint4* from) {
+  *to = *from;
+}
+inline void wait_for_copies() {}
 inline unsigned long long now_ns() {
   return on_host::now_ns();
 }

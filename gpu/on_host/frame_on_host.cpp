@@ -34,10 +34,14 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle /*stream*/) {
   std::vector<ProximityScratch> scratch(shape.blocks);
   on_host::run(launch_of(shape), shape.shared_bytes, [&](unsigned char* shared) {
-    if (has_few_bodies(frame, std::uint64_t{shape.blocks} * shape.threads))
-      run_frame<true>(frame, scratch[blockIdx.x], shared);
-    else
-      run_frame<false>(frame, scratch[blockIdx.x], shared);
+    switch (kind_of(frame, std::uint64_t{shape.blocks} * shape.threads)) {
+      case FrameKind::kFew:
+        return run_frame<FrameKind::kFew>(frame, scratch[blockIdx.x], shared);
+      case FrameKind::kSome:
+        return run_frame<FrameKind::kSome>(frame, scratch[blockIdx.x], shared);
+      case FrameKind::kMany:
+        return run_frame<FrameKind::kMany>(frame, scratch[blockIdx.x], shared);
+    }
   });
   return core::Done{};
 }

@@ -32,13 +32,13 @@ __device__ inline CellRoles cell_roles(const FrameView& f, core::Pair pair) {
   return {i_answers || j_answers, is_asked_by_j};
 }
 
-// The tree's nodes of so many vertices are looked at one by one, each lane with two of their vertices: shapes with
+// The tree's nodes of so many vertices are looked at two by two, each lane with two vertices of either: shapes with
 // cells have at most 128 of them.
 constexpr std::uint32_t kRunLevel = 1;
 constexpr std::uint32_t kRunVertices = kLeafVertices * kFanOut;
 static_assert(kRunVertices == 64, "two a lane");
 
-// As NearestVertices, with another way to them: the asking body's vertices whose box is near the answering body's are
+// As TreePair, with another way to the nearest: the asking body's vertices whose box is near the answering body's are
 // looked up in its cells; those that find something near enough wait until a lane each has one.
 class NearestByCells {
  public:
@@ -49,10 +49,9 @@ class NearestByCells {
         other_tree_(f.shapes.trees[f.shape_of_body[is_asked_by_j ? pair.i : pair.j]]),
         cells_(f.shapes.near_cells[f.shape_of_body[is_asked_by_j ? pair.i : pair.j]]),
         vertices_(f.shapes.tree_vertices + tree_.vertex_begin),
+        quantized_(f.shapes.quantized + tree_.vertex_begin),
         x_(f.detected.position[is_asked_by_j ? pair.j : pair.i].v),
         other_x_(f.detected.position[is_asked_by_j ? pair.i : pair.j].v),
-        cells_per_m_(cells_.cells_per_m),
-        origin_(cells_per_m_ * ((x_ - other_x_) - cells_.low)),
         is_asked_by_j_(is_asked_by_j),
         queue_(stack),
         bound_(bound),
@@ -60,6 +59,22 @@ class NearestByCells {
         members_(members) {
     const float theta_m = core::pair_theta_m(f.parameters, tree_.mean_edge_m, other_tree_.mean_edge_m);
     theta2_ = theta_m * theta_m;
+    const core::Vec3 at = cells_.quanta_per_m * ((x_ - other_x_) - cells_.low);
+    // Rounded to the middle, as vertices are rounded down. What is clamped leaves all vertices outside.
+    const auto origin = [&](float place, std::uint32_t count) {
+      const auto most = static_cast<int>(count << cells_.shift);
+      return static_cast<std::uint32_t>(min(max(floor_to_int(place) + 1, -cells_.reach), most + cells_.reach)) &
+             0xFFFFU;
+    };
+    origin_xy_ = origin(at.x, cells_.count_x) | origin(at.y, cells_.count_y) << 16U;
+    origin_z_ = origin(at.z, cells_.count_z);
+    most_xy_ = ((cells_.count_x << cells_.shift) - 1U) | ((cells_.count_y << cells_.shift) - 1U) << 16U;
+    most_z_ = (cells_.count_z << cells_.shift) - 1U;
+    shift_ = cells_.shift;
+    stride_y_ = cells_.stride_y;
+    stride_z_ = cells_.stride_z;
+    lower_ = f.shapes.near_lower + cells_.first_lower;
+    last_ = tree_.node_count[0] * kLeafVertices - 1;
   }
 
   __device__ core::Proximity find() {
@@ -67,17 +82,24 @@ class NearestByCells {
     const std::uint32_t level = min(kRunLevel, tree_.top);
     const std::uint32_t runs = tree_.node_count[level];
     const core::Box other_box =
-        core::translated(unpack(f_.shapes.tree_nodes[other_tree_.node_begin[other_tree_.top]]), other_x_);
+        core::translated(fetched(f_.shapes.tree_nodes + other_tree_.node_begin[other_tree_.top]), other_x_);
     for (std::uint32_t first = 0; first < runs; first += 32) {
       const std::uint32_t run = first + lane();
       bool is_near = run < runs && run % members_ == member_;  // dealt out to the pair's warps
       if (is_near) {
-        const core::Box box = core::translated(unpack(f_.shapes.tree_nodes[tree_.node_begin[level] + run]), x_);
+        const core::Box box = core::translated(fetched(f_.shapes.tree_nodes + tree_.node_begin[level] + run), x_);
         const float gap2 = squared_gap(box, other_box);
         is_near = gap2 < theta2_ && gap2 <= limit();
       }
-      for (unsigned left = __ballot_sync(kFullWarp, is_near); left != 0; left &= left - 1) {
-        look_up(first + static_cast<std::uint32_t>(__ffs(left)) - 1);
+      for (unsigned left = __ballot_sync(kFullWarp, is_near); left != 0;) {
+        const auto take = [&] {
+          const auto taken = static_cast<std::uint32_t>(__ffs(static_cast<int>(left)) - 1);
+          left &= left - 1;
+          return first + taken;
+        };
+        const std::uint32_t one = take();
+        const bool are_two = left != 0;
+        look_up(one, are_two, are_two ? take() : one);
         while (waiting_ >= 32) meet(32);
       }
     }
@@ -88,19 +110,16 @@ class NearestByCells {
  private:
   __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
 
-  // The cell that has this vertex. Those at the rim are empty, so what lies outside may count as there.
-  __device__ std::uint32_t cell_of(core::Vec3 v) const {
-    const core::Vec3 at = cells_per_m_ * v + origin_;
-    const auto within = [](float place, std::uint32_t count) {
-      return static_cast<std::uint32_t>(min(max(floor_to_int(place), 0), static_cast<int>(count) - 1));
-    };
-    return (within(at.z, cells_.count_z) * cells_.count_y + within(at.y, cells_.count_y)) * cells_.count_x +
-           within(at.x, cells_.count_x);
+  // The cell that has a vertex of this place in quanta. Those at the rim are empty, so what lies outside may count as
+  // there.
+  __device__ std::uint32_t cell_of(std::uint32_t xy, std::uint32_t z) const {
+    const std::uint32_t at_xy = clamped_sums(xy, origin_xy_, most_xy_);
+    const std::uint32_t at_z = clamped_sums(z, origin_z_, most_z_);
+    return cell_index((at_xy & 0xFFFFU) >> shift_, at_xy >> 16U >> shift_, at_z >> shift_, stride_y_, stride_z_);
   }
 
-  // Two of a run's vertices a lane.
-  __device__ void look_up(std::uint32_t run) {
-    const std::uint32_t last = tree_.node_count[0] * kLeafVertices - 1;
+  // Two vertices a lane of one run, or of two. Lanes side by side have vertices side by side.
+  __device__ void look_up(std::uint32_t one, bool are_two, std::uint32_t other) {
     const float now = limit();
     if (now != limit_) {
       limit_ = now;
@@ -108,25 +127,27 @@ class NearestByCells {
       const float steps = sqrtf(now) / cells_.lower_step_m;
       most_ = steps < 253.0F ? static_cast<std::uint32_t>(floor_to_int(steps)) + 1U : 254U;
     }
-    const std::uint8_t* lower = f_.shapes.near_lower + cells_.first_lower;
-    std::uint32_t vertex[2];
-    std::uint32_t cell[2];
-    bool keeps[2];
+    std::uint32_t vertex[4];
+    std::uint32_t cell[4];
+    bool keeps[4];
+    uint2 place[4];
 #pragma unroll
-    for (std::uint32_t half = 0; half < 2; ++half) {
+    for (std::uint32_t k = 0; k < 4; ++k) {
       // The last run may be short: its last vertex is then looked at again.
-      vertex[half] = min(run * kRunVertices + half * 32 + lane(), last);
-      cell[half] = cell_of(vertices_[vertex[half]].v);
+      vertex[k] = min((k < 2 ? one : other) * kRunVertices + k % 2 * 32 + lane(), last_);
+      place[k] = *reinterpret_cast<const uint2*>(quantized_ + vertex[k]);
     }
 #pragma unroll
-    for (std::uint32_t half = 0; half < 2; ++half) keeps[half] = lower[cell[half]] <= most_;
+    for (std::uint32_t k = 0; k < 4; ++k) cell[k] = cell_of(place[k].x, place[k].y);
 #pragma unroll
-    for (std::uint32_t half = 0; half < 2; ++half) {
-      const unsigned kept = __ballot_sync(kFullWarp, keeps[half]);
-      if (keeps[half]) {
-        const std::uint32_t place = waiting_ + __popc(kept & ((1U << lane()) - 1U));
-        queue_.a[place] = vertex[half];
-        queue_.b[place] = cell[half];
+    for (std::uint32_t k = 0; k < 4; ++k) keeps[k] = (k < 2 || are_two) && lower_[cell[k]] <= most_;
+#pragma unroll
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const unsigned kept = __ballot_sync(kFullWarp, keeps[k]);
+      if (keeps[k]) {
+        const std::uint32_t at = waiting_ + __popc(kept & ((1U << lane()) - 1U));
+        queue_.a()[at] = vertex[k];
+        queue_.b()[at] = cell[k];
       }
       waiting_ += __popc(kept);
     }
@@ -139,28 +160,30 @@ class NearestByCells {
     if (d2 < theta2_ && core::is_nearer(found, best_)) best_ = found;
   }
 
+  // Both are asked for before either is looked at: what takes the time is waiting for them.
+  __device__ void meet_two(core::Vec3 v, float own_id, const PackedVec3& first, const PackedVec3& second) {
+    const float first_d2 = core::squared_distance(v, first.v + other_x_);
+    const float second_d2 = core::squared_distance(v, second.v + other_x_);
+    const float least_d2 = fminf(first_d2, second_d2);
+    if (!(least_d2 < theta2_) || least_d2 > best_.squared_distance_m2) return;
+    take(first_d2, own_id, first.w);
+    take(second_d2, own_id, second.w);
+  }
+
   // The last `count` of the waiting vertices, a lane each, with the lists of their cells.
   __device__ void meet(std::uint32_t count) {
     waiting_ -= count;
     if (lane() < count) {
-      const std::uint32_t cell = queue_.b[waiting_ + lane()];
-      const PackedVec3 mine = vertices_[queue_.a[waiting_ + lane()]];
+      const std::uint32_t cell = queue_.b()[waiting_ + lane()];
+      const PackedVec3 mine = fetched(vertices_ + queue_.a()[waiting_ + lane()]);
       const core::Vec3 v = mine.v + x_;
-      const std::uint32_t* begin = f_.shapes.near_begin + cells_.first_begin + cell;
-      const std::uint32_t* entry = f_.shapes.near_entries + cells_.first_entry + begin[0];
-      const std::uint32_t* end = f_.shapes.near_entries + cells_.first_entry + begin[1];
+      const NearList list = unpacked_list(f_.shapes.near_lists[cells_.first_list + cell]);
+      const NearEntry* entry = f_.shapes.near_entries + cells_.first_entry + list.begin;
       const PackedVec3* others = f_.shapes.tree_vertices + other_tree_.vertex_begin;
-      for (; entry != end; ++entry) {
-        // Both are asked for before either is looked at: what takes the time is waiting for them.
-        const std::uint32_t both = *entry;
-        const PackedVec3 first = others[both & 0xFFFFU];
-        const PackedVec3 second = others[both >> 16U];
-        const float first_d2 = core::squared_distance(v, first.v + other_x_);
-        const float second_d2 = core::squared_distance(v, second.v + other_x_);
-        const float least_d2 = fminf(first_d2, second_d2);
-        if (!(least_d2 < theta2_) || least_d2 > best_.squared_distance_m2) continue;
-        take(first_d2, mine.w, first.w);
-        take(second_d2, mine.w, second.w);
+      for (const NearEntry* end = entry + list.length; entry != end; ++entry) {
+        const uint2 four = *reinterpret_cast<const uint2*>(entry);
+        meet_two(v, mine.w, fetched(others + (four.x & 0xFFFFU)), fetched(others + (four.x >> 16U)));
+        meet_two(v, mine.w, fetched(others + (four.y & 0xFFFFU)), fetched(others + (four.y >> 16U)));
       }
     }
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
@@ -173,13 +196,23 @@ class NearestByCells {
   const TreeHeader& other_tree_;
   const NearCells& cells_;
   const PackedVec3* vertices_;
+  const QuantizedVertex* quantized_;
   core::Vec3 x_;
   core::Vec3 other_x_;
-  float cells_per_m_;
-  core::Vec3 origin_;  // of the asking body's coordinates, in cells
+  // Of the asking body's coordinates, and the last place, in quanta.
+  std::uint32_t origin_xy_ = 0;
+  std::uint32_t origin_z_ = 0;
+  std::uint32_t most_xy_ = 0;
+  std::uint32_t most_z_ = 0;
+  // Of the cells, as they are looked up again and again.
+  std::uint32_t shift_ = 0;
+  std::uint32_t stride_y_ = 0;
+  std::uint32_t stride_z_ = 0;
+  const std::uint8_t* lower_ = nullptr;
+  std::uint32_t last_ = 0;  // of the vertices
   bool is_asked_by_j_;
   SearchStack queue_;
-  std::uint32_t waiting_ = 0;  // vertices in the queue: below 32, and 64 more
+  std::uint32_t waiting_ = 0;  // vertices in the queue: below 32, and 128 more
   std::uint32_t* bound_;
   std::uint32_t member_;
   std::uint32_t members_;

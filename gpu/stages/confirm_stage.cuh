@@ -14,9 +14,13 @@ struct PlacedShape {
   core::Vec3 x;
 };
 
-__device__ inline PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
+// `octrees`: of all shapes, wherever they are at hand.
+__device__ inline PlacedShape placed_shape(const FrameView& f, const PackedBox* octrees, std::uint32_t body) {
   const std::uint32_t shape = f.shape_of_body[body];
-  return {shape, f.shapes.octree + std::uint64_t{shape} * core::kBodyOctreeNodes, f.detected.position[body].v};
+  return {shape, octrees + std::uint64_t{shape} * core::kBodyOctreeNodes, f.detected.position[body].v};
+}
+__device__ inline PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
+  return placed_shape(f, f.shapes.octree, body);
 }
 
 // Eight boxes of each body, as the lanes of a warp hold them: one of B, two of A.

@@ -48,11 +48,16 @@ __device__ inline void store_contact(const FrameView& f, std::uint64_t k, const 
 struct GridLive {
   LiveBody* bodies;
 
-  __device__ bool read(std::uint32_t body, std::uint32_t rank, LiveBody& out) const {
-    const auto* words = reinterpret_cast<const uint4*>(bodies + body);
-    uint4 both[2] = {load_whole(words), load_whole(words + 1)};
+  __device__ LiveBody fetch(std::uint32_t body) const {
+    uint4 both[2];
+    load_two_whole(reinterpret_cast<const uint4*>(bodies + body), both);
+    LiveBody out;
     memcpy(&out, both, sizeof out);
-    return rank == kNoRank || (out.done == rank && ((out.tag ^ rank) & 1U) == 0);
+    return out;
+  }
+  // Whether what was fetched is the state after `rank` contacts; of a body that is never written, it always is.
+  __device__ static bool is_at(const LiveBody& b, std::uint32_t rank) {
+    return rank == kNoRank || (b.done == rank && ((b.tag ^ rank) & 1U) == 0);
   }
   __device__ void write(std::uint32_t body, const LiveBody& value) const {
     uint4 both[2];
@@ -67,15 +72,17 @@ struct GridLive {
 struct BlockLive {
   LiveBody* bodies;
 
-  __device__ bool read(std::uint32_t body, std::uint32_t rank, LiveBody& out) const {
+  __device__ LiveBody fetch(std::uint32_t body) const {
     const volatile LiveBody& from = bodies[body];
+    LiveBody out;
     out.done = from.done;
     __threadfence_block();
     out.x = {from.x.x, from.x.y, from.x.z};
     out.v = {from.v.x, from.v.y, from.v.z};
     out.tag = from.tag;
-    return rank == kNoRank || out.done == rank;
+    return out;
   }
+  __device__ static bool is_at(const LiveBody& b, std::uint32_t rank) { return rank == kNoRank || b.done == rank; }
   __device__ void write(std::uint32_t body, const LiveBody& value) const {
     volatile LiveBody& to = bodies[body];
     to.x.x = value.x.x;
@@ -90,11 +97,15 @@ struct BlockLive {
   }
 };
 
+// What a contact of this rank and color leaves of a body.
+__device__ inline LiveBody live_after(std::uint32_t rank, const core::Kinematics& s, std::uint32_t color) {
+  return {s.x, rank + 1, s.v, (color + 1) << 1 | ((rank + 1) & 1U)};
+}
+
 template <typename Team, typename Live>
 __device__ void start_live(const Team& team, const FrameView& f, const Live& live) {
   for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
     live.write(static_cast<std::uint32_t>(i), {f.detected.position[i].v, 0, f.detected.velocity[i].v, 0});
-    f.listed[i] = 0;
   }
 }
 
@@ -124,26 +135,27 @@ class BodyTurn {
           f_.previous.position[entry_.other].w};
       both_ = core::combine(f_.material[min(body_, entry_.other)], f_.material[max(body_, entry_.other)]);
       has_own_ = has_own_ && own_.done == rank_;
-      has_other_ = false;
       return;
     }
   }
 
-  // Resolves the contact if its turn has come. A body whose turn it is stays as it is until then: it is read once.
+  // Resolves the contact if its turn has come. The body itself stays as it is from then on, and is read once; both are
+  // asked for before either is looked at, and the other is not kept: it would have no registers.
   __device__ bool try_resolve() {
-    if (!has_own_) has_own_ = live_.read(body_, rank_, own_);
-    if (!has_other_) has_other_ = live_.read(entry_.other, entry_.rank_other, other_);
-    if (!has_own_ || !has_other_) return false;
+    if (!has_own_) own_ = live_.fetch(body_);
+    const LiveBody other = live_.fetch(entry_.other);
+    has_own_ = has_own_ || live_.is_at(own_, rank_);
+    if (!has_own_ || !live_.is_at(other, entry_.rank_other)) return false;
     const bool other_is_written = entry_.rank_other != kNoRank;
-    const std::uint32_t color = max(own_.tag >> 1, other_is_written ? other_.tag >> 1 : 0U);
+    const std::uint32_t color = max(own_.tag >> 1, other_is_written ? other.tag >> 1 : 0U);
     const bool is_a = body_ < entry_.other;
     core::Contact contact;
     fill_contact(f_, core::make_pair_of(body_, entry_.other), color, both_, chosen(is_a, own_side_, other_side_),
-                 chosen(is_a, other_side_, own_side_), chosen(is_a, own_, other_), chosen(is_a, other_, own_), contact);
-    own_ = after(rank_, chosen(is_a, contact.post_a, contact.post_b), color);
+                 chosen(is_a, other_side_, own_side_), chosen(is_a, own_, other), chosen(is_a, other, own_), contact);
+    own_ = live_after(rank_, chosen(is_a, contact.post_a, contact.post_b), color);
     live_.write(body_, own_);
     if (other_is_written)
-      live_.write(entry_.other, after(entry_.rank_other, chosen(is_a, contact.post_b, contact.post_a), color));
+      live_.write(entry_.other, live_after(entry_.rank_other, chosen(is_a, contact.post_b, contact.post_a), color));
     store_contact(f_, entry_.contact, contact);
     return true;
   }
@@ -163,9 +175,6 @@ class BodyTurn {
     return {{chosen(first, p.local_box.min, q.local_box.min), chosen(first, p.local_box.max, q.local_box.max)},
             first ? p.inverse_mass : q.inverse_mass};
   }
-  __device__ static LiveBody after(std::uint32_t rank, const core::Kinematics& s, std::uint32_t color) {
-    return {s.x, rank + 1, s.v, (color + 1) << 1 | ((rank + 1) & 1U)};
-  }
 
   const FrameView& f_;
   const Live& live_;
@@ -178,42 +187,24 @@ class BodyTurn {
   ContactSide other_side_;
   core::Material both_;
   LiveBody own_;
-  LiveBody other_;
   bool has_own_ = false;
-  bool has_other_ = false;
 };
 
 // All contacts in the order of their keys, without a barrier: a contact waits for the earlier ones of its own bodies
-// and for nothing else. Every thread of the team is resident and looks at its bodies in turn, so the first contact left
-// always has somebody who comes to it. kIsFew: no more bodies than threads.
-template <bool kIsFew, typename Team, typename Live>
-__device__ void resolve_in_order(const Team& team, const FrameView& f, const Live& live) {
-  if (kIsFew || f.body_count <= team.size()) {
-    // Lonely threads where there are many warps for them; otherwise neighbors, whose words lie side by side.
-    const std::uint64_t body = std::uint64_t{f.body_count} * 2 <= team.size() ? team.lonely_rank() : team.spread_rank();
-    if (body < f.body_count) {
-      BodyTurn<Live> turn(f, live, static_cast<std::uint32_t>(body));
-      turn.seek(0);
-      while (!turn.is_over()) {
-        if (turn.try_resolve())
-          turn.seek(turn.rank() + 1);
-        else
-          relax();
-      }
-    }
-  } else {
-    for (bool has_left = true; has_left;) {
-      has_left = false;
-      for (std::uint64_t i = team.spread_rank(); i < f.body_count; i += team.size()) {
-        if (f.listed[i] == f.degree[i]) continue;
-        BodyTurn<Live> turn(f, live, static_cast<std::uint32_t>(i));
-        turn.seek(f.listed[i]);
-        while (!turn.is_over() && turn.try_resolve()) turn.seek(turn.rank() + 1);
-        f.listed[i] = turn.rank();
-        has_left = has_left || !turn.is_over();
-      }
+// and for nothing else. No more bodies than threads, one each; every thread of the team is resident, so the first
+// contact left always has somebody who comes to it.
+template <typename Team, typename Live>
+__device__ void resolve_by_looking(const Team& team, const FrameView& f, const Live& live) {
+  // Lonely threads where there are many warps for them; otherwise neighbors, whose words lie side by side.
+  const std::uint64_t body = std::uint64_t{f.body_count} * 2 <= team.size() ? team.lonely_rank() : team.spread_rank();
+  if (body >= f.body_count) return;
+  BodyTurn<Live> turn(f, live, static_cast<std::uint32_t>(body));
+  turn.seek(0);
+  while (!turn.is_over()) {
+    if (turn.try_resolve())
+      turn.seek(turn.rank() + 1);
+    else
       relax();
-    }
   }
 }
 
@@ -225,8 +216,7 @@ __device__ void finish_live(const Team& team, const FrameView& f, const Live& li
     const std::uint64_t i = round * team.size() + team.rank();
     std::uint32_t colors = 0;
     if (i < f.body_count && f.degree[i] > 0) {
-      LiveBody last;
-      live.read(static_cast<std::uint32_t>(i), kNoRank, last);
+      const LiveBody last = live.fetch(static_cast<std::uint32_t>(i));
       f.next.position[i].v = last.x;
       f.next.velocity[i].v = last.v;
       colors = last.tag >> 1;

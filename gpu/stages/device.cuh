@@ -18,6 +18,11 @@ __device__ inline void sync_grid() {
   cooperative_groups::this_grid().sync();
 }
 
+// The barrier of one team of warps of a block, at most 15 teams a block. By whole warps.
+__device__ inline void sync_warps(std::uint32_t team, std::uint32_t warps) {
+  asm volatile("bar.sync %0, %1;" ::"r"(team + 1), "r"(warps * 32) : "memory");
+}
+
 // One more arrival at *arrived, and waiting until there were `awaited`; orders memory over the grid. By one thread.
 __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
   asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived) : "memory");
@@ -34,16 +39,20 @@ __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
   return before;
 }
 
-// 16 bytes of global memory in one access that is never torn, and never served from this multiprocessor's own cache.
-__device__ inline uint4 load_whole(const uint4* from) {
-  unsigned long long low;
-  unsigned long long high;
-  asm volatile("{ .reg .b128 t; ld.relaxed.gpu.global.b128 t, [%2]; mov.b128 {%0, %1}, t; }"
-               : "=l"(low), "=l"(high)
-               : "l"(from)
-               : "memory");
-  return {static_cast<unsigned>(low), static_cast<unsigned>(low >> 32), static_cast<unsigned>(high),
-          static_cast<unsigned>(high >> 32)};
+// Words of 16 bytes of global memory, each in one access that is never torn, and never served from this
+// multiprocessor's own cache.
+// Two side by side, asked for at once: each is of one moment, both together need not be.
+__device__ inline void load_two_whole(const uint4* from, uint4 (&words)[2]) {
+  unsigned long long part[4];
+  asm volatile(
+      "{ .reg .b128 s; .reg .b128 t; ld.relaxed.gpu.global.b128 s, [%4]; ld.relaxed.gpu.global.b128 t, [%4+16]; "
+      "mov.b128 {%0, %1}, s; mov.b128 {%2, %3}, t; }"
+      : "=l"(part[0]), "=l"(part[1]), "=l"(part[2]), "=l"(part[3])
+      : "l"(from)
+      : "memory");
+  for (int k = 0; k < 2; ++k)
+    words[k] = {static_cast<unsigned>(part[2 * k]), static_cast<unsigned>(part[2 * k] >> 32),
+                static_cast<unsigned>(part[2 * k + 1]), static_cast<unsigned>(part[2 * k + 1] >> 32)};
 }
 __device__ inline void store_whole(uint4* to, uint4 v) {
   const unsigned long long low = v.x | static_cast<unsigned long long>(v.y) << 32;
@@ -58,9 +67,31 @@ __device__ inline uint4 load_once(const uint4* from) {
   return __ldcs(from);
 }
 
+// 16 bytes from global to shared memory, while the thread goes on; it has them after wait_for_copies.
+__device__ inline void start_copy(uint4* to, const uint4* from) {
+#if __CUDA_ARCH__ >= 800
+  asm volatile(
+      "cp.async.cg.shared.global [%0], [%1], 16;" ::"r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(to))),
+      "l"(from)
+      : "memory");
+#else
+  *to = *from;
+#endif
+}
+__device__ inline void wait_for_copies() {
+#if __CUDA_ARCH__ >= 800
+  asm volatile("cp.async.wait_all;" ::: "memory");
+#endif
+}
+
 // The largest integer not above v; saturates.
 __device__ inline int floor_to_int(float v) {
   return __float2int_rd(v);
+}
+
+// Two signed halves at once: max(0, min(a + b, most)).
+__device__ inline std::uint32_t clamped_sums(std::uint32_t a, std::uint32_t b, std::uint32_t most) {
+  return __viaddmin_s16x2_relu(a, b, most);
 }
 
 __device__ inline unsigned long long now_ns() {

@@ -4,6 +4,7 @@
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/confirm_stage.cuh"
+#include "gpu/stages/pair_queue.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
@@ -17,10 +18,22 @@ inline bool has_few_bodies(const FrameView& f, std::uint64_t threads) {
          f.solver == Solver::kColored;
 }
 
+// The octrees of all shapes in the block's shared memory, if there is room: what is fetched while bodies are integrated
+// need not be waited for when pairs go down the levels. They are there after wait_for_copies and a barrier.
+__device__ inline const PackedBox* fetch_octrees(const FrameView& f, unsigned char* shared) {
+  const std::uint32_t words = f.shapes.count * core::kBodyOctreeNodes * (sizeof(PackedBox) / sizeof(uint4));
+  if (f.levels == core::Levels::kFlat || words * sizeof(uint4) > blockDim.x / 32 * sizeof(PairQueue))
+    return f.shapes.octree;
+  auto* to = reinterpret_cast<uint4*>(shared);
+  const auto* from = reinterpret_cast<const uint4*>(f.shapes.octree);
+  for (std::uint32_t w = threadIdx.x; w < words; w += blockDim.x) start_copy(to + w, from + w);
+  return reinterpret_cast<const PackedBox*>(shared);
+}
+
 // Bodies on a ring: body i meets those 1 to n / 2 places on, so that every pair is met once without a root or a
 // triangle. A warp takes some places on from one body, a lane each: as few as the warps there are allow, so that
 // seldom two of its pairs go down the levels one after the other.
-__device__ inline void find_and_confirm_few(const GridTeam& team, const FrameView& f) {
+__device__ inline void find_and_confirm_few(const GridTeam& team, const FrameView& f, const PackedBox* octrees) {
   Uncounted work;
   const std::uint32_t count = f.body_count;
   const std::uint32_t half = count / 2;
@@ -39,8 +52,8 @@ __device__ inline void find_and_confirm_few(const GridTeam& team, const FrameVie
     // Everything is asked for before any of it is looked at: one wait.
     const PackedBox box_i = f.boxes[i];
     const PackedBox box_j = f.boxes[j];
-    const PlacedShape placed_i = placed_shape(f, i);
-    const PlacedShape placed_j = placed_shape(f, j);
+    const PlacedShape placed_i = placed_shape(f, octrees, i);
+    const PlacedShape placed_j = placed_shape(f, octrees, j);
     const bool overlaps =
         has_pair && core::overlaps(unpack(box_i), unpack(box_j)) && (box_i.high_tag & box_j.high_tag) == 0;
     const unsigned found = __ballot_sync(kFullWarp, overlaps);
@@ -51,7 +64,7 @@ __device__ inline void find_and_confirm_few(const GridTeam& team, const FrameVie
         const int source = __ffs(left) - 1;
         PlacedShape other;
         other.shape = __shfl_sync(kFullWarp, placed_j.shape, source);
-        other.octree = f.shapes.octree + std::uint64_t{other.shape} * core::kBodyOctreeNodes;
+        other.octree = octrees + std::uint64_t{other.shape} * core::kBodyOctreeNodes;
         other.x = {__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
                    __shfl_sync(kFullWarp, placed_j.x.z, source)};
         if (are_levels_overlapping<2>(f, placed_i, other, work)) confirmed |= 1U << source;

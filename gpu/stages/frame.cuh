@@ -3,6 +3,7 @@
 
 #include "gpu/frame_kernel.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/stages/arrival_stage.cuh"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/broad_stage.cuh"
 #include "gpu/stages/confirm_stage.cuh"
@@ -18,6 +19,16 @@ namespace broadside::gpu {
 // other's writes in some 30 ns, those of the grid in some 700.
 constexpr std::uint64_t kOneBlockPairs = 8192;
 
+// Whether all contacts are resolved by a thread for each body; few: has_few_bodies, and nothing else that they do not
+// need.
+enum class FrameKind : std::uint8_t { kFew, kSome, kMany };
+
+// For so many threads of the grid.
+inline FrameKind kind_of(const FrameView& f, std::uint64_t threads) {
+  if (has_few_bodies(f, threads)) return FrameKind::kFew;
+  return f.body_count <= threads ? FrameKind::kSome : FrameKind::kMany;
+}
+
 template <typename Team>
 __device__ void mark(const Team& team, const FrameView& f, int stage) {
   if (team.rank() == 0) f.outcome->stage_end_ns[stage] = now_ns();
@@ -31,20 +42,24 @@ __device__ void report(const Team& team, const FrameView& f, bool is_aborted) {
 }
 
 // Contacts, faces and the report: what a single block does alone when it is little.
-template <bool kIsFew, typename Team, typename Live>
+template <FrameKind kKind, typename Team, typename Live>
 __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed, const Live& live) {
+  constexpr bool kIsFew = kKind == FrameKind::kFew;
   collect_touching(team, f, confirmed);
   team.sync();
   const std::uint64_t count = f.counters->touching;
   if (!kIsFew && count > 0 && f.solver == Solver::kRacing) {
     resolve_racing(team, f, count);
   } else if (!kIsFew && count > 0 && f.solver == Solver::kJacobi) {
-    list_contacts(team, f, count);
+    list_contacts<false>(team, f, count);
     resolve_jacobi(team, f, count);
   } else if (count > 0) {
     start_live(team, f, live);
-    list_contacts(team, f, count);
-    resolve_in_order<kIsFew>(team, f, live);
+    list_contacts<kKind == FrameKind::kMany>(team, f, count);
+    if constexpr (kKind == FrameKind::kMany)
+      resolve_by_arrival(team, f, count, live);
+    else
+      resolve_by_looking(team, f, live);
     team.sync();
     finish_live(team, f, live);
   }
@@ -55,19 +70,22 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
   report(team, f, f.counters->faces > f.face_contacts.capacity);
 }
 
-// `shared`: what LaunchShape says, a block's own. kIsFew: has_few_bodies. A kernel of its own, because what is left out
-// there leaves registers and instruction cache to the rest. Always inlined: a call would take the view through memory.
-template <bool kIsFew>
+// `shared`: what LaunchShape says, a block's own. Each kind is a kernel of its own, because what is left out there
+// leaves registers and instruction cache to the rest. Always inlined: a call would take the view through memory.
+template <FrameKind kKind>
 __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& scratch, unsigned char* shared) {
+  constexpr bool kIsFew = kKind == FrameKind::kFew;
   const GridTeam grid;
   mark(grid, f, 0);
+  const PackedBox* octrees = kIsFew ? fetch_octrees(f, shared) : f.shapes.octree;
   integrate(grid, f);
+  if constexpr (kIsFew) wait_for_copies();
   grid.sync();
   mark(grid, f, 1);
 
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
-    find_and_confirm_few(grid, f);
+    find_and_confirm_few(grid, f, octrees);
   } else if (starts_at_level0) {
     PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
     if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
@@ -97,9 +115,11 @@ __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& 
   }
   mark(grid, f, 4);
 
-  if (confirmed <= kOneBlockPairs && f.body_count <= f.block_bodies) {
-    if (blockIdx.x == 0) resolve<kIsFew>(BlockTeam{}, f, confirmed, BlockLive{reinterpret_cast<LiveBody*>(shared)});
-    return;
+  if constexpr (kKind != FrameKind::kMany) {
+    if (confirmed <= kOneBlockPairs && f.body_count <= f.block_bodies) {
+      if (blockIdx.x == 0) resolve<kKind>(BlockTeam{}, f, confirmed, BlockLive{reinterpret_cast<LiveBody*>(shared)});
+      return;
+    }
   }
   // No more blocks than there is work for: fewer meet sooner. Up to half of the grid, a body a warp is work enough: a
   // chain of contacts waits longer in warps where other threads resolve theirs.
@@ -107,8 +127,8 @@ __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& 
   const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
   const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
   if (blockIdx.x >= blocks) return;
-  resolve<kIsFew>(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed,
-                  GridLive{f.live});
+  resolve<kKind>(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed,
+                 GridLive{f.live});
 }
 
 }  // namespace broadside::gpu

@@ -48,8 +48,8 @@ __device__ inline std::uint32_t keys_before(const unsigned long long* keys, std:
 }
 
 // Each written body's list of its contacts, in their order: a contact's rank is the number of keys below its own, so
-// nothing is sorted, and whatever order the pairs came in is gone.
-template <typename Team>
+// nothing is sorted, and whatever order the pairs came in is gone. kKeepsRanks: links get these ranks.
+template <bool kKeepsRanks, typename Team>
 __device__ void list_contacts(const Team& team, const FrameView& f, std::uint64_t count) {
   const std::uint64_t turns = (f.body_count + team.size() - 1) / team.size();
   for (std::uint64_t turn = 0; turn < turns; ++turn) {
@@ -74,6 +74,7 @@ __device__ void list_contacts(const Team& team, const FrameView& f, std::uint64_
     };
     const std::uint32_t rank_i = rank_of(link.i, link.rank_i);
     const std::uint32_t rank_j = rank_of(link.j, link.rank_j);
+    if (kKeepsRanks) f.links[k] = {link.i, link.j, rank_i, rank_j};
     // Whoever is written alone resolves; of two, a hash of the ids chooses.
     const bool by_i =
         rank_j == kNoRank || (rank_i != kNoRank && ((link.i * 0x9E3779B1U ^ link.j * 0x85EBCA6BU) >> 31) != 0);

@@ -10,29 +10,20 @@
 
 namespace broadside::gpu {
 
-constexpr std::uint32_t kMaxBlockWarps = 32;
+constexpr std::uint32_t kMaxBlockWarps = 16;  // so that each of their teams has a barrier
 
 // Shared memory of a block: what the warps of one pair share.
 struct ProximityScratch {
   std::uint32_t bound[kMaxBlockWarps];
+  TeamCounts counts[kMaxBlockWarps][2];
   core::Proximity part[kMaxBlockWarps];
 };
 
-__device__ inline SearchStack stack_of_warp(const FrameView& f, void* stacks) {
-  const std::uint32_t entries = f.stack_entries;
-  SearchStack stack;
-  stack.a = static_cast<std::uint32_t*>(stacks) + std::uint64_t{threadIdx.x / 32} * entries * 3;
-  stack.b = stack.a + entries;
-  stack.c = stack.b + entries;
-  return stack;
-}
-
-// Of one pair, by the `members` warps of one block that share `bound`.
-__device__ inline core::Proximity nearest_vertices(const FrameView& f, core::Pair pair, const SearchStack& stack,
-                                                   std::uint32_t* bound, std::uint32_t member, std::uint32_t members) {
-  const CellRoles roles = cell_roles(f, pair);
-  if (roles.has_cells) return NearestByCells(f, pair, roles.is_asked_by_j, stack, bound, member, members).find();
-  return NearestVertices(f, pair, stack, bound, member, members).find();
+// Of so many warps side by side.
+__device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, std::uint32_t first,
+                                             std::uint32_t count) {
+  const std::uint32_t each = f.stack_entries;
+  return {static_cast<std::uint32_t*>(stacks) + std::uint64_t{first} * each * 3, count * each, count * each};
 }
 
 // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at once
@@ -42,7 +33,7 @@ __device__ inline void measure_by_warps(const FrameView& f, std::uint64_t count,
   const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
   const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, count / (warps * 32)));
   std::uint32_t* bound = &scratch.bound[threadIdx.x / 32];
-  const SearchStack stack = stack_of_warp(f, stacks);
+  const SearchStack stack = stack_of_warps(f, stacks, threadIdx.x / 32, 1);
   for (;;) {
     unsigned long long first = 0;
     if (lane() == 0) first = atomicAdd(&f.counters->measured, static_cast<unsigned long long>(share));
@@ -51,7 +42,11 @@ __device__ inline void measure_by_warps(const FrameView& f, std::uint64_t count,
     for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, count); ++k) {
       if (lane() == 0) *bound = __float_as_uint(INFINITY);
       __syncwarp();
-      const core::Proximity best = nearest_vertices(f, f.confirmed.items[k], stack, bound, 0, 1);
+      const core::Pair pair = f.confirmed.items[k];
+      const CellRoles roles = cell_roles(f, pair);
+      const core::Proximity best = roles.has_cells
+                                       ? NearestByCells(f, pair, roles.is_asked_by_j, stack, bound, 0, 1).find()
+                                       : nearest_by_trees(TreePair(f, pair, bound), stack);
       if (lane() == 0) f.proximity[k] = best;
       __syncwarp();
     }
@@ -69,15 +64,23 @@ __device__ inline void measure_proximity(const FrameView& f, std::uint64_t count
   const std::uint32_t teams = warps / members;
   const std::uint32_t team = warp / members;
   const std::uint32_t member = warp % members;
-  const SearchStack stack = stack_of_warp(f, stacks);
+  const SearchStack own_stack = stack_of_warps(f, stacks, warp, 1);
+  const SearchTeam search{member, members, team, stack_of_warps(f, stacks, team * members, members),
+                          scratch.counts[team]};
 
-  // The same number of turns for every warp of the block, because a pair's warps meet at its barrier.
+  // The same number of turns for every warp of the block, because they meet at its barrier.
   for (std::uint64_t base = 0; base < count; base += std::uint64_t{teams} * gridDim.x) {
     const std::uint64_t k = base + std::uint64_t{team} * gridDim.x + blockIdx.x;
-    if (member == 0 && lane() == 0) scratch.bound[team] = __float_as_uint(INFINITY);
+    std::uint32_t* bound = &scratch.bound[team];
+    if (member == 0 && lane() == 0) *bound = __float_as_uint(INFINITY);
     __syncthreads();
     core::Proximity best;
-    if (k < count) best = nearest_vertices(f, f.confirmed.items[k], stack, &scratch.bound[team], member, members);
+    if (k < count) {
+      const core::Pair pair = f.confirmed.items[k];
+      const CellRoles roles = cell_roles(f, pair);
+      best = roles.has_cells ? NearestByCells(f, pair, roles.is_asked_by_j, own_stack, bound, member, members).find()
+                             : nearest_by_trees(TreePair(f, pair, bound), search);
+    }
     if (lane() == 0) scratch.part[warp] = best;
     __syncthreads();
     for (std::uint32_t m = 1; member == 0 && m < members; ++m)

@@ -1,4 +1,4 @@
-// What the searches for a pair's nearest vertices share: a warp's stack, the bound by boxes, the warp's verdict.
+// What the searches for a pair's nearest vertices share: the stack, the bound by boxes, the warp's verdict.
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -7,11 +7,52 @@
 
 namespace broadside::gpu {
 
-// One warp's stack in shared memory: three words an entry. A node of a tree is level << 28 | index.
+// In one access of 16 bytes, two for a box: left to itself, the compiler fetches word by word what it needs first, and
+// lines of the cache that are looked up are what a search has fewest of.
+__device__ inline PackedVec3 fetched(const PackedVec3* from) {
+  const uint4 word = *reinterpret_cast<const uint4*>(from);
+  return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, __uint_as_float(word.w)};
+}
+__device__ inline core::Box fetched(const PackedBox* from) {
+  const uint4 low = reinterpret_cast<const uint4*>(from)[0];
+  const uint4 high = reinterpret_cast<const uint4*>(from)[1];
+  return {{__uint_as_float(low.x), __uint_as_float(low.y), __uint_as_float(low.z)},
+          {__uint_as_float(high.x), __uint_as_float(high.y), __uint_as_float(high.z)}};
+}
+
+// A node of each body's tree, level << 28 | index, and the squared gap of their boxes.
+struct NodePair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  float gap2 = 0.0F;
+
+  __device__ bool are_leaves() const { return (a | b) >> 28 == 0; }
+};
+
+// In shared memory, three words an entry, each kind of word side by side.
 struct SearchStack {
-  std::uint32_t* a = nullptr;
-  std::uint32_t* b = nullptr;
-  std::uint32_t* c = nullptr;
+  std::uint32_t* words = nullptr;
+  std::uint32_t entries = 0;
+  std::uint32_t stride = 0;  // from one kind of word to the next
+
+  __device__ std::uint32_t* a() const { return words; }
+  __device__ std::uint32_t* b() const { return words + stride; }
+  __device__ NodePair at(std::uint32_t k) const {
+    return {words[k], words[stride + k], __uint_as_float(words[2 * stride + k])};
+  }
+  __device__ void put(std::uint32_t k, const NodePair& p) const {
+    words[k] = p.a;
+    words[stride + k] = p.b;
+    words[2 * stride + k] = __float_as_uint(p.gap2);
+  }
+  // Its entries from this one on.
+  __device__ SearchStack from(std::uint32_t first) const { return {words + first, entries - first, stride}; }
+};
+
+// How many pairs of nodes and of leaves a team of warps has left to look at.
+struct TeamCounts {
+  std::uint32_t nodes = 0;
+  std::uint32_t leaves = 0;
 };
 
 constexpr std::uint32_t kBytesPerStackEntry = 12;

@@ -1,4 +1,5 @@
-// Nearest vertices of one pair of bodies, P(7) and P(8): branch and bound over two vertex trees at once.
+// Nearest vertices of one pair of bodies, P(7) and P(8): branch and bound over two vertex trees at once, by one warp or
+// by several that share what is left to open.
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -8,79 +9,41 @@
 
 namespace broadside::gpu {
 
-// The search of one pair of bodies by the `members` warps of one block that share `bound`: the bits of the smallest
-// squared distance found so far by any of them (of non-negative floats, bits order as values do).
-class NearestVertices {
+// The two trees of a pair, and the nearest vertices that this lane has met. `bound`, in shared memory, has the bits of
+// the smallest squared distance that anybody found (of non-negative floats, bits order as values do).
+class TreePair {
  public:
-  __device__ NearestVertices(const FrameView& f, core::Pair pair, SearchStack stack, std::uint32_t* bound,
-                             std::uint32_t member, std::uint32_t members)
+  __device__ TreePair(const FrameView& f, core::Pair pair, std::uint32_t* bound)
       : nodes_(f.shapes.tree_nodes),
         vertices_(f.shapes.tree_vertices),
         a_(f.shapes.trees[f.shape_of_body[pair.i]]),
         b_(f.shapes.trees[f.shape_of_body[pair.j]]),
         xa_(f.detected.position[pair.i].v),
         xb_(f.detected.position[pair.j].v),
-        stack_(stack),
-        bound_(bound),
-        member_(member),
-        members_(members) {
+        bound_(bound) {
     const float theta_m = core::pair_theta_m(f.parameters, a_.mean_edge_m, b_.mean_edge_m);
     theta2_ = theta_m * theta_m;
-    // Where the trees have some 8 to 64 nodes the pairs of nodes are dealt out to the warps; above it all do the same.
-    const std::uint32_t top = min(a_.top, b_.top);
-    split_ = top > 2 ? top - 2 : 0;
   }
 
-  __device__ core::Proximity find() {
-    if (a_.top != split_ || b_.top != split_ || is_mine(0, 0)) push_root();
-    while (size_ > 0) {
-      const float limit = __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_));
-      const std::uint32_t a = stack_.a[size_ - 1];
-      const std::uint32_t b = stack_.b[size_ - 1];
-      const float gap2 = __uint_as_float(stack_.c[size_ - 1]);
-      if ((a | b) >> 28 == 0) {
-        meet_leaves(limit);
-        continue;
-      }
-      --size_;
-      __syncwarp();
-      if (gap2 <= limit) meet_children(a, b, limit);
-    }
-    return warp_nearest(best_);
-  }
+  __device__ NodePair roots() const { return {a_.top << 28, b_.top << 28, 0.0F}; }
+  __device__ std::uint32_t top() const { return max(a_.top, b_.top); }
+  __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
+  __device__ core::Proximity best() const { return warp_nearest(best_); }
 
- private:
-  __device__ bool is_mine(std::uint32_t node_a, std::uint32_t node_b) const {
-    return ((node_a * 0x9E3779B1U + node_b * 0x85EBCA6BU) >> 16) % members_ == member_;
-  }
-
-  __device__ void push_root() {
-    if (lane() == 0) {
-      stack_.a[0] = a_.top << 28;
-      stack_.b[0] = b_.top << 28;
-      stack_.c[0] = __float_as_uint(0.0F);
-    }
-    size_ = 1;
-    __syncwarp();
-  }
-
-  __device__ core::Box box(const TreeHeader& tree, std::uint32_t level, std::uint32_t node, core::Vec3 x) const {
-    return core::translated(unpack(nodes_[tree.node_begin[level] + node]), x);
-  }
-
-  // The higher of the two nodes is opened, both when they are level.
-  __device__ void meet_children(std::uint32_t a, std::uint32_t b, float limit) {
-    const std::uint32_t level_a = a >> 28;
-    const std::uint32_t level_b = b >> 28;
+  // By the whole warp: the higher of the two nodes is opened, both when they are level. Calls keep(is_near, pair) twice
+  // for every lane, for the children that are near enough.
+  template <typename Keep>
+  __device__ void open(const NodePair& parents, float limit, const Keep& keep) {
+    const std::uint32_t level_a = parents.a >> 28;
+    const std::uint32_t level_b = parents.b >> 28;
     const bool opens_a = level_a >= level_b;
     const bool opens_b = level_b >= level_a;
     const std::uint32_t child_level_a = opens_a ? level_a - 1 : level_a;
     const std::uint32_t child_level_b = opens_b ? level_b - 1 : level_b;
-    const std::uint32_t first_a = (a & 0xFFFFFFFU) * (opens_a ? kFanOut : 1U);
-    const std::uint32_t first_b = (b & 0xFFFFFFFU) * (opens_b ? kFanOut : 1U);
+    const std::uint32_t first_a = (parents.a & 0xFFFFFFFU) * (opens_a ? kFanOut : 1U);
+    const std::uint32_t first_b = (parents.b & 0xFFFFFFFU) * (opens_b ? kFanOut : 1U);
     const std::uint32_t count_a = opens_a ? min(kFanOut, a_.node_count[child_level_a] - first_a) : 1U;
     const std::uint32_t count_b = opens_b ? min(kFanOut, b_.node_count[child_level_b] - first_b) : 1U;
-    const bool is_split = child_level_a == split_ && child_level_b == split_;
 
     const std::uint32_t q = lane() % 8;
     core::Box box_b;
@@ -92,39 +55,23 @@ class NearestVertices {
       bool keeps = p < count_a && q < count_b;
       if (keeps) {
         gap2 = squared_gap(box(a_, child_level_a, first_a + p, xa_), box_b);
-        keeps = gap2 < theta2_ && gap2 <= limit && (!is_split || is_mine(first_a + p, first_b + q));
+        keeps = gap2 < theta2_ && gap2 <= limit;
       }
-      const unsigned kept = __ballot_sync(kFullWarp, keeps);
-      if (keeps) {
-        const std::uint32_t place = size_ + __popc(kept & ((1U << lane()) - 1U));
-        stack_.a[place] = child_level_a << 28 | (first_a + p);
-        stack_.b[place] = child_level_b << 28 | (first_b + q);
-        stack_.c[place] = __float_as_uint(gap2);
-      }
-      size_ += __popc(kept);
+      keep(keeps, NodePair{child_level_a << 28 | (first_a + p), child_level_b << 28 | (first_b + q), gap2});
     }
     __syncwarp();
   }
 
-  // Up to four pairs of leaves from the top of the stack, eight lanes a pair: a lane has one vertex of A and meets
-  // eight of B. Four at once, because what takes the time is waiting for the vertices.
-  __device__ void meet_leaves(float limit) {
-    const std::uint32_t group = lane() / 8;
-    const std::uint32_t entry = size_ - 1 - min(group, size_ - 1);
-    const std::uint32_t a = stack_.a[entry];
-    const std::uint32_t b = stack_.b[entry];
-    const float gap2 = __uint_as_float(stack_.c[entry]);
-    const unsigned are_leaves = __ballot_sync(kFullWarp, group < size_ && (a | b) >> 28 == 0);
-    // Groups from the first on, as far as they all have leaves: each has eight lanes' bits.
-    const std::uint32_t taken = are_leaves == kFullWarp ? 4U : static_cast<std::uint32_t>(__ffs(~are_leaves) - 1) / 8U;
-    size_ -= taken;
-    if (group < taken && gap2 <= limit) {
-      const PackedVec3 mine = vertices_[a_.vertex_begin + a * kLeafVertices + lane() % 8];
-      const PackedVec3* of_b = vertices_ + b_.vertex_begin + b * kLeafVertices;
+  // By the whole warp: up to four pairs of leaves, eight lanes a pair: a lane has one vertex of A and meets eight of B.
+  // Four at once, because what takes the time is waiting for the vertices.
+  __device__ void meet(bool has_leaves, const NodePair& leaves, float limit) {
+    if (has_leaves && leaves.gap2 <= limit) {
+      const PackedVec3 mine = fetched(vertices_ + a_.vertex_begin + leaves.a * kLeafVertices + lane() % 8);
+      const PackedVec3* of_b = vertices_ + b_.vertex_begin + leaves.b * kLeafVertices;
       const core::Vec3 va = mine.v + xa_;
 #pragma unroll 4
       for (std::uint32_t t = 0; t < kLeafVertices; ++t) {
-        const PackedVec3 other = of_b[t];
+        const PackedVec3 other = fetched(of_b + t);
         const float d2 = core::squared_distance(va, other.v + xb_);
         if (!(d2 < theta2_) || d2 > best_.squared_distance_m2) continue;
         const core::Proximity found{d2, __float_as_uint(mine.w), __float_as_uint(other.w)};
@@ -136,20 +83,116 @@ class NearestVertices {
     __syncwarp();
   }
 
+ private:
+  __device__ core::Box box(const TreeHeader& tree, std::uint32_t level, std::uint32_t node, core::Vec3 x) const {
+    return core::translated(fetched(nodes_ + tree.node_begin[level] + node), x);
+  }
+
   const PackedBox* nodes_;
   const PackedVec3* vertices_;
   const TreeHeader& a_;
   const TreeHeader& b_;
   core::Vec3 xa_;
   core::Vec3 xb_;
-  SearchStack stack_;
-  std::uint32_t size_ = 0;
   std::uint32_t* bound_;
-  std::uint32_t member_;
-  std::uint32_t members_;
-  std::uint32_t split_ = 0;
   float theta2_ = 0.0F;
   core::Proximity best_;
 };
+
+// By one warp, with a stack of its own.
+__device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchStack& stack) {
+  if (lane() == 0) stack.put(0, trees.roots());
+  std::uint32_t size = 1;
+  __syncwarp();
+  while (size > 0) {
+    const float limit = trees.limit();
+    // Groups of eight lanes look at the upmost four; if those from the first on are leaves, they are met.
+    const std::uint32_t group = lane() / 8;
+    const NodePair one = stack.at(size - 1 - min(group, size - 1));
+    const unsigned are_leaves = __ballot_sync(kFullWarp, group < size && one.are_leaves());
+    if ((are_leaves & 1U) != 0) {
+      const std::uint32_t taken =
+          are_leaves == kFullWarp ? 4U : static_cast<std::uint32_t>(__ffs(~are_leaves) - 1) / 8U;
+      size -= taken;
+      trees.meet(group < taken, one, limit);
+      continue;
+    }
+    const NodePair parents = stack.at(size - 1);
+    --size;
+    __syncwarp();
+    if (parents.gap2 > limit) continue;
+    trees.open(parents, limit, [&](bool is_near, const NodePair& children) {
+      const unsigned kept = __ballot_sync(kFullWarp, is_near);
+      if (is_near) stack.put(size + __popc(kept & ((1U << lane()) - 1U)), children);
+      size += static_cast<std::uint32_t>(__popc(kept));
+    });
+  }
+  return trees.best();
+}
+
+// Several warps of a block that search one pair.
+struct SearchTeam {
+  std::uint32_t member = 0;
+  std::uint32_t members = 1;  // 2 or more share
+  std::uint32_t barrier = 0;  // the team's number in its block
+  SearchStack stack;          // of all members together
+  // By turns: how many pairs of nodes and of leaves are left. In shared memory.
+  TeamCounts* counts = nullptr;
+
+  __device__ void sync() const { sync_warps(barrier, members); }
+};
+
+// By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.
+// Where surfaces meet, nearly all the work is below one pair of upper nodes, so it cannot be dealt out beforehand.
+__device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team) {
+  const std::uint32_t room = team.stack.entries;
+  // Of the leaves: a round makes no more than 64 a warp.
+  const std::uint32_t leaf_room = 64 * team.members;
+  const std::uint32_t node_room = room - leaf_room;
+  const SearchStack nodes = team.stack;
+  const SearchStack leaves = team.stack.from(node_room);
+  // One warp alone, opening one pair after the other, never adds more than this.
+  const std::uint32_t reserve = 63 * trees.top();
+
+  TeamCounts left;
+  const NodePair roots = trees.roots();
+  (roots.are_leaves() ? left.leaves : left.nodes) = 1;
+  if (team.member == 0 && lane() == 0) (roots.are_leaves() ? leaves : nodes).put(0, roots);
+  team.sync();
+  for (std::uint32_t round = 0; left.nodes + left.leaves > 0; ++round) {
+    // What all members do follows from what is left, so that they agree without a word.
+    const std::uint32_t groups = min(team.members, left.nodes > 0 ? left.leaves / 4 : (left.leaves + 3) / 4);
+    const std::uint32_t met = min(4 * groups, left.leaves);
+    std::uint32_t opened = min(min(team.members - groups, left.nodes), (leaf_room - (left.leaves - met)) / 64);
+    const std::uint32_t spare = node_room > reserve + left.nodes ? (node_room - reserve - left.nodes) / 63 : 0U;
+    opened = min(opened, max(spare, 1U));
+    const bool meets = team.member < groups;
+    const bool opens = !meets && team.member - groups < opened;
+    const std::uint32_t leaf = 4 * team.member + lane() / 8;
+    NodePair own;
+    if (meets && leaf < met) own = leaves.at(left.leaves - 1 - leaf);
+    if (opens) own = nodes.at(left.nodes - 1 - (team.member - groups));
+    TeamCounts& next = team.counts[round % 2];
+    if (team.member == 0 && lane() == 0) next = {left.nodes - opened, left.leaves - met};
+    team.sync();
+    const float limit = trees.limit();
+    if (meets) trees.meet(leaf < met, own, limit);
+    if (opens && own.gap2 <= limit) {
+      trees.open(own, limit, [&](bool is_near, const NodePair& children) {
+        const unsigned kept = __ballot_sync(kFullWarp, is_near);
+        if (kept == 0) return;
+        const bool are_leaves = children.are_leaves();  // the same in all lanes
+        std::uint32_t first = 0;
+        if (lane() == 0)
+          first = atomicAdd(are_leaves ? &next.leaves : &next.nodes, static_cast<std::uint32_t>(__popc(kept)));
+        first = __shfl_sync(kFullWarp, first, 0);
+        if (is_near) (are_leaves ? leaves : nodes).put(first + __popc(kept & ((1U << lane()) - 1U)), children);
+      });
+    }
+    team.sync();
+    left = next;
+  }
+  return trees.best();
+}
 
 }  // namespace broadside::gpu

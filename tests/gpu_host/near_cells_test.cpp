@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/method/proximity.hpp"
@@ -20,32 +21,39 @@ struct Specimen {
   NearNeeds needs;
 };
 
-Specimen specimen(std::uint32_t rings, float edges_in_theta, float range_m) {
+// `finest`: how much larger its theta is than that of the scene's finest shape.
+Specimen specimen(std::uint32_t rings, float edges_in_theta, float range_m, float finest = 1.0F) {
   const std::vector<core::Vec3> vertices = bumpy_sphere(rings, 0.5F)->vertices;
   std::vector<std::uint32_t> indices(vertices.size());
   for (std::uint32_t k = 0; k < indices.size(); ++k) indices[k] = k;
   const float edge_m = 1.6F / static_cast<float>(rings);
   Specimen s;
   append_tree(s.trees, vertices, indices, edge_m);
-  s.needs = {edges_in_theta * edge_m, 0.6F, range_m};
+  const float theta_m = edges_in_theta * edge_m;
+  s.needs = {theta_m, theta_m / finest, 0.6F, range_m};
   append_cells(s.cells, s.trees, s.needs);
+  quantize_vertices(s.cells, s.trees);
   return s;
 }
 
-// The cell that a point in body coordinates lies in, as device code finds it; its index, or the number of cells.
-std::size_t cell_of(const NearCells& cells, core::Vec3 p) {
-  const core::Vec3 at = cells.cells_per_m * (p - cells.low);
+// The cell in which a vertex of another body lies, as device code finds it: the vertex and the other body's place are
+// rounded each for itself.
+std::size_t cell_of(const NearCells& cells, core::Vec3 vertex, core::Vec3 other_from_this) {
+  const core::Vec3 origin = cells.quanta_per_m * (other_from_this - cells.low);
   const std::uint32_t count[] = {cells.count_x, cells.count_y, cells.count_z};
-  for (int k = 0; k < 3; ++k)
-    if (!(at[k] >= 0.0F && at[k] < static_cast<float>(count[k]))) return std::size_t{count[0]} * count[1] * count[2];
-  return (static_cast<std::size_t>(at.z) * count[1] + static_cast<std::size_t>(at.y)) * count[0] +
-         static_cast<std::size_t>(at.x);
+  std::size_t at[3];
+  for (int k = 0; k < 3; ++k) {
+    const int sum = static_cast<int>(std::floor(static_cast<double>(vertex[k]) * cells.quanta_per_m)) +
+                    static_cast<int>(std::floor(origin[k])) + 1;
+    at[k] = static_cast<std::size_t>(std::clamp(sum, 0, static_cast<int>(count[k] << cells.shift) - 1)) >> cells.shift;
+  }
+  return cell_index(static_cast<std::uint32_t>(at[0]), static_cast<std::uint32_t>(at[1]),
+                    static_cast<std::uint32_t>(at[2]), cells.stride_y, cells.stride_z);
 }
 
 // A vertex of another body and a place of this one, both up to range_m from the origin: all vertices against the list.
 void compare_with_all(const Specimen& s, std::uint64_t seed, float range_m) {
   const NearCells& cells = s.cells.headers.front();
-  const std::size_t count = std::size_t{cells.count_x} * cells.count_y * cells.count_z;
   Dice dice(seed);
   int near = 0;
   for (int turn = 0; turn < 3000; ++turn) {
@@ -61,20 +69,18 @@ void compare_with_all(const Specimen& s, std::uint64_t seed, float range_m) {
       if (found.squared_distance_m2 < s.needs.theta_m * s.needs.theta_m && core::is_nearer(found, all)) all = found;
     }
     core::Proximity listed;
-    const std::size_t cell = cell_of(cells, vertex + (other_place - place));
-    if (cell < count) {
-      const std::uint8_t lower = s.cells.lower[cells.first_lower + cell];
-      const float lower_m = static_cast<float>(lower) * cells.lower_step_m;
-      const std::uint32_t* begin = &s.cells.begin[cells.first_begin + cell];
-      EXPECT_EQ(lower == kNothingNear, begin[0] == begin[1]);
-      for (std::uint32_t k = 2 * begin[0]; k < 2 * begin[1]; ++k) {
-        const std::uint32_t word = s.cells.entries[cells.first_entry + k / 2];
-        const PackedVec3& v = s.trees.vertices[k % 2 == 0 ? word & 0xFFFFU : word >> 16U];
-        const core::Proximity found{core::squared_distance(world, v.v + place), 0, std::bit_cast<std::uint32_t>(v.w)};
-        EXPECT_LE(lower_m * lower_m, found.squared_distance_m2);
-        if (found.squared_distance_m2 < s.needs.theta_m * s.needs.theta_m && core::is_nearer(found, listed))
-          listed = found;
-      }
+    const std::size_t cell = cell_of(cells, vertex, other_place - place);
+    const std::uint8_t lower = s.cells.lower[cells.first_lower + cell];
+    const float lower_m = static_cast<float>(lower) * cells.lower_step_m;
+    const NearList list = unpacked_list(s.cells.lists[cells.first_list + cell]);
+    EXPECT_EQ(lower == kNothingNear, list.length == 0);
+    for (std::uint32_t k = 0; k < 4 * list.length; ++k) {
+      const NearEntry& entry = s.cells.entries[cells.first_entry + list.begin + k / 4];
+      const PackedVec3& v = s.trees.vertices[entry.vertex[k % 4]];
+      const core::Proximity found{core::squared_distance(world, v.v + place), 0, std::bit_cast<std::uint32_t>(v.w)};
+      EXPECT_LE(lower_m * lower_m, found.squared_distance_m2);
+      if (found.squared_distance_m2 < s.needs.theta_m * s.needs.theta_m && core::is_nearer(found, listed))
+        listed = found;
     }
     ASSERT_EQ(listed, all) << "turn " << turn;
     near += all.is_touching() ? 1 : 0;
@@ -90,6 +96,48 @@ TEST(NearCells, HoldTheNearestVertexOfEveryPoint) {
     compare_with_all(s, 1, 1.0F);
     compare_with_all(s, 2, 19.0F);
   }
+}
+
+// Beside a finer shape: quanta are its, and a cell has as many as make it no larger than half of theta.
+TEST(NearCells, HaveTheQuantaOfTheFinestShape) {
+  for (const float finest : {1.2F, 2.0F, 3.0F}) {
+    SCOPED_TRACE(finest);
+    const Specimen s = specimen(16, 1.0F, 20.0F, finest);
+    const NearCells& cells = s.cells.headers.front();
+    ASSERT_GT(cells.count_x, 0U);
+    const std::uint32_t alone = specimen(16, 1.0F / finest, 20.0F).cells.headers.front().shift;
+    EXPECT_EQ(cells.shift, alone + (finest < 2.0F ? 0 : 1));
+    compare_with_all(s, 4, 5.0F);
+  }
+}
+
+// What fills up the last leaf is where a vertex is, so that nothing is looked up outside.
+TEST(NearCells, QuantizeEveryVertex) {
+  const Specimen s = specimen(9, 1.0F, 20.0F);
+  const NearCells& cells = s.cells.headers.front();
+  ASSERT_EQ(s.cells.quantized.size(), s.trees.vertices.size());
+  ASSERT_GT(cells.count_x, 0U);
+  for (std::size_t k = 0; k < s.cells.quantized.size(); ++k) {
+    const QuantizedVertex& q = s.cells.quantized[k];
+    const core::Vec3 v = cells.quanta_per_m * s.trees.vertices[k].v;
+    if (!std::isfinite(v.x)) continue;
+    for (const auto& [exact, rounded] : {std::pair{v.x, q.x}, std::pair{v.y, q.y}, std::pair{v.z, q.z}}) {
+      EXPECT_NEAR(exact, rounded + 0.5F, 0.51F);
+      EXPECT_LT(std::abs(rounded), cells.reach);
+    }
+  }
+}
+
+// Every cell has a place of its own.
+TEST(NearCells, BricksHoldEveryCellOnce) {
+  const Specimen s = specimen(16, 1.0F, 20.0F);
+  const NearCells& cells = s.cells.headers.front();
+  std::vector<std::uint8_t> met(s.cells.lower.size(), 0);
+  for (std::uint32_t z = 0; z < cells.count_z; ++z)
+    for (std::uint32_t y = 0; y < cells.count_y; ++y)
+      for (std::uint32_t x = 0; x < cells.count_x; ++x) ++met.at(cell_index(x, y, z, cells.stride_y, cells.stride_z));
+  EXPECT_EQ(std::ranges::max(met), 1);
+  EXPECT_EQ(std::ranges::count(met, 1), std::ptrdiff_t{cells.count_x} * cells.count_y * cells.count_z);
 }
 
 // Far from the origin vertices of one place round to others: lists that allow for it are longer.
@@ -116,8 +164,8 @@ TEST(NearCells, OfASecondShapeFollowTheFirstOnes) {
   EXPECT_EQ(s.cells.headers[1].count_x, 0U);
   EXPECT_EQ(s.cells.headers[2].first_entry, alone.cells.entries.size());
   EXPECT_EQ(s.cells.entries.size(), 2 * alone.cells.entries.size());
-  EXPECT_TRUE(std::equal(alone.cells.begin.begin(), alone.cells.begin.end(),
-                         s.cells.begin.begin() + s.cells.headers[2].first_begin));
+  EXPECT_TRUE(std::equal(alone.cells.lists.begin(), alone.cells.lists.end(),
+                         s.cells.lists.begin() + s.cells.headers[2].first_list));
 }
 
 }  // namespace

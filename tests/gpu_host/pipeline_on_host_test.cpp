@@ -78,7 +78,8 @@ TEST(PipelineOnHost, StaticBodiesAndTheJacobiSolver) {
 }
 
 // Nearest vertices are looked up in cells, or found by descending two trees: with cells for both shapes, for one, for
-// none. A warp a pair where the grid has no more warps than pairs, several warps a pair where it has.
+// none. A warp a pair where the grid has no more warps than pairs, several warps a pair where it has; these have less
+// room than they might fill, and then open one pair of nodes at a time.
 TEST(PipelineOnHost, NearestVerticesByCellsAndByTrees) {
   SceneShape shape;
   shape.bodies = 21;  // of two meshes, some turned: shapes of 7, 7, 4 and 3 bodies
