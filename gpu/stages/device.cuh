@@ -39,9 +39,8 @@ __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
   return before;
 }
 
-// Words of 16 bytes of global memory, each in one access that is never torn, and never served from this
-// multiprocessor's own cache.
-// Two side by side, asked for at once: each is of one moment, both together need not be.
+// Two words of 16 bytes of global memory, asked for at once, each in one access that is never torn, and never served
+// from this multiprocessor's own cache: each is of one moment, both together need not be.
 __device__ inline void load_two_whole(const uint4* from, uint4 (&words)[2]) {
   unsigned long long part[4];
   asm volatile(
@@ -54,6 +53,7 @@ __device__ inline void load_two_whole(const uint4* from, uint4 (&words)[2]) {
     words[k] = {static_cast<unsigned>(part[2 * k]), static_cast<unsigned>(part[2 * k] >> 32),
                 static_cast<unsigned>(part[2 * k + 1]), static_cast<unsigned>(part[2 * k + 1] >> 32)};
 }
+// One such word.
 __device__ inline void store_whole(uint4* to, uint4 v) {
   const unsigned long long low = v.x | static_cast<unsigned long long>(v.y) << 32;
   const unsigned long long high = v.z | static_cast<unsigned long long>(v.w) << 32;
