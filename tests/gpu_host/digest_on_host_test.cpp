@@ -70,7 +70,8 @@ core::Scene spheres(std::uint32_t bodies, float cube_m) {
   return thrown({bumpy_sphere(4, 0.5F), bumpy_sphere(3, 0.6F)}, shape);
 }
 
-// A block of the host's has 64 threads: 40 bodies are few, 80 are resolved by the grid.
+// The host's grid has two blocks of 64 threads: 40 bodies are resolved by one block, 80 by a thread each, 150 by
+// whoever comes to a contact last.
 TEST(DigestOnHost, OfEveryKindOfFrame) {
   struct Case {
     const char* name;
@@ -90,6 +91,10 @@ TEST(DigestOnHost, OfEveryKindOfFrame) {
     options.has_vertex_stage = false;
     cases.push_back({"grid, flat, no vertices", bodies, options, {{"levels", "flat"}, {"vertex_stage", "off"}}});
   }
+  PipelineOptions many;
+  many.levels = core::Levels::kFlat;
+  many.has_vertex_stage = false;
+  cases.push_back({"many, flat, no vertices", 150, many, {{"levels", "flat"}, {"vertex_stage", "off"}}});
   for (const Case& c : cases) {
     const core::Scene scene = spheres(c.bodies, c.bodies > 64 ? 2.8F : 2.2F);
     for (const int every : {1, 2}) {
