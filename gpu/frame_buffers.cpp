@@ -1,6 +1,7 @@
 #include "gpu/frame_buffers.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace broadside::gpu {
@@ -64,11 +65,12 @@ core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_l
   return core::Done{};
 }
 
-void FrameBuffers::fill(FrameView& view) const {
+void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
   view.body_count = body_count_;
   view.previous = previous_.view();
   view.detected = detected_.view();
   view.next = next_.view();
+  if (under_way % 2 != 0) std::swap(view.previous, view.next);
   view.boxes = boxes_.data();
   view.pairs = {pairs_.data(), pairs_.capacity()};
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};

@@ -25,7 +25,8 @@ class FrameBuffers {
  public:
   // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
   core::Status load(const core::Scene& scene);
-  void fill(FrameView& view) const;
+  // For the frame that has so many others under way before it, none of which advance() was called for.
+  void fill(FrameView& view, std::uint64_t under_way = 0) const;
   // Makes room for what the aborted frame demanded, and a quarter more. Contents are lost.
   core::Status grow(const Counters& demanded, bool is_confirmed_by_level0);
   // The frame is done: the next one starts from what it made.

@@ -57,7 +57,7 @@ struct DigestView {
   const core::Contact* contacts = nullptr;
   const core::Contact* face_contacts = nullptr;
   Counters* counters = nullptr;
-  unsigned long long* digest = nullptr;  // of the outcome: what this is about
+  unsigned long long* digest = nullptr;  // in host memory: what this is about
 };
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream);
 

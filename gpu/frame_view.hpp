@@ -85,10 +85,9 @@ constexpr int kStageCount = 6;
 struct Outcome {
   Counters counters;
   unsigned long long stage_end_ns[kStageCount + 1] = {};  // [0] is the start of the frame
-  unsigned long long digest[2] = {};                      // of frames whose step is even, and odd
 };
 
-// Fixed during a run, but for `previous` and `next`, which change places after every frame.
+// Fixed during a run, but for `previous` and `next`, which change places after every frame, and its outcome.
 struct FrameView {
   std::uint32_t body_count = 0;
   core::Levels levels = core::Levels::kC;
@@ -129,8 +128,10 @@ struct FrameView {
   std::uint32_t* list_begin = nullptr;  // [bodies]
   LiveBody* live = nullptr;             // [bodies]
 
-  Counters* counters = nullptr;
+  Counters* counters = nullptr;  // until this frame begins, those of the frame before it
   Outcome* outcome = nullptr;
+  // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
+  bool is_behind_unseen = false;
 };
 
 }  // namespace broadside::gpu

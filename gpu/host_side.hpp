@@ -1,32 +1,36 @@
 // What the host owns of a running GPU engine: its stream, and the words that the device writes into the host's memory.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "core/result.hpp"
 #include "gpu/device_runtime.hpp"
-#include "gpu/frame_view.hpp"
 
 namespace broadside::gpu {
 
-// Memory of the host that the device writes, with an owner.
-class OutcomeMemory {
+// So many T in memory of the host that the device writes, with an owner.
+template <typename T, std::size_t kCount>
+class Mapped {
  public:
-  OutcomeMemory() = default;
-  OutcomeMemory(const OutcomeMemory&) = delete;
-  OutcomeMemory& operator=(const OutcomeMemory&) = delete;
-  ~OutcomeMemory() {
+  Mapped() = default;
+  Mapped(const Mapped&) = delete;
+  Mapped& operator=(const Mapped&) = delete;
+  ~Mapped() {
     if (memory_.host != nullptr) release_mapped_bytes(memory_);
   }
+  // Or clears what was allocated before.
   core::Status allocate() {
     if (memory_.host == nullptr) {
-      auto memory = allocate_mapped_bytes(sizeof(Outcome));
+      auto memory = allocate_mapped_bytes(kCount * sizeof(T));
       if (!memory.ok()) return memory.error();
       memory_ = memory.value();
     }
-    *static_cast<Outcome*>(memory_.host) = Outcome{};
+    std::fill_n(static_cast<T*>(memory_.host), kCount, T{});
     return core::Done{};
   }
-  [[nodiscard]] Outcome* device() const { return static_cast<Outcome*>(memory_.device); }
-  [[nodiscard]] const Outcome& operator*() const { return *static_cast<const Outcome*>(memory_.host); }
+  [[nodiscard]] T* device(std::size_t k) const { return static_cast<T*>(memory_.device) + k; }
+  [[nodiscard]] T& operator[](std::size_t k) const { return static_cast<T*>(memory_.host)[k]; }
 
  private:
   MappedMemory memory_;

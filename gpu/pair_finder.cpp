@@ -24,7 +24,7 @@ struct PairFinder::Impl {
   PairFinderOptions options;
   Stream stream;
   StreamTimer timer;
-  OutcomeMemory outcome;
+  Mapped<Outcome, 1> outcome;
   PairsShape launch;
   PairsView view;
   BoxFacts facts;
@@ -80,7 +80,7 @@ core::Status PairFinder::Impl::reserve() {
   view.box_count = static_cast<std::uint32_t>(count);
   view.boxes = boxes.data();
   view.counters = counters.data();
-  view.outcome = outcome.device();
+  view.outcome = outcome.device(0);
   return wait_for_device("clearing the broad phase");
 }
 
@@ -146,7 +146,7 @@ core::Status PairFinder::find() {
     BROADSIDE_TRY(launch_pairs(d.view, d.launch, d.stream.get()));
     BROADSIDE_TRY(d.timer.stop(d.stream.get()));
     BROADSIDE_TRY(d.stream.wait("finding pairs"));
-    d.counts = (*d.outcome).counters;
+    d.counts = d.outcome[0].counters;
     if (d.counts.is_aborted == 0)
       return d.work.count_broad({d.view.broad, d.view.many, d.view.boxes, d.view.box_count, d.view.counters},
                                 d.launch.search.multiprocessors, d.stream.get());
@@ -177,7 +177,7 @@ void PairFinder::count_work() {
 }
 
 FindTime PairFinder::find_time() const {
-  const auto& end = (*impl_->outcome).stage_end_ns;
+  const auto& end = impl_->outcome[0].stage_end_ns;
   const auto seconds = [&end](int stage) { return static_cast<double>(end[stage] - end[stage - 1]) * 1e-9; };
   return {impl_->timer.elapsed_s(), seconds(1), seconds(2), seconds(3), seconds(4)};
 }

@@ -8,6 +8,7 @@
 
 #include "core/engine/dynamics.hpp"
 #include "core/engine/frame_copies.hpp"
+#include "core/engine/runs_ahead.hpp"
 #include "core/engine/work_counting.hpp"
 #include "core/method/levels.hpp"
 #include "core/variant.hpp"
@@ -37,7 +38,10 @@ struct MemoryUse {
 };
 
 // The result is bit-identical to octree-cpu's. Uses the current CUDA device; not thread-safe.
-class Pipeline final : public core::Dynamics, public core::FrameCopies, public core::CountsWork {
+class Pipeline final : public core::Dynamics,
+                       public core::RunsAhead,
+                       public core::FrameCopies,
+                       public core::CountsWork {
  public:
   explicit Pipeline(const PipelineOptions& options);
   ~Pipeline() override;
@@ -45,6 +49,9 @@ class Pipeline final : public core::Dynamics, public core::FrameCopies, public c
   core::Status load(const core::Scene& scene) override;
   // One kernel launch; again, from the same state, when a buffer turned out too small. Synchronizes.
   core::Status step(float dt_s) override;
+  // The same launches, each before the host has seen the frame before: the GPU never waits for it, but when a buffer
+  // turned out too small.
+  core::Status run(float dt_s, std::uint64_t steps, const StepDone& step_done) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   core::Status start_copy(core::RecordLevel level) override;
   core::Status finish_copy(core::FrameRecord& frame) override;

@@ -12,6 +12,7 @@ namespace broadside::gpu {
 class WorkCounter {
  public:
   void ask() { is_asked_ = true; }
+  [[nodiscard]] bool is_asked() const { return is_asked_; }
 
   // At load, before the device is waited for: nothing was done yet.
   core::Status reset();

@@ -156,6 +156,9 @@ inline unsigned __float_as_uint(float v) {
   return std::bit_cast<unsigned>(v);
 }
 
+inline std::uint32_t load_behind(const std::uint32_t* from) {
+  return *from;
+}
 inline std::uint32_t arrive(std::uint32_t* arrived) {
   return (*arrived)++;
 }

@@ -29,26 +29,39 @@ __device__ inline core::Vec3 acceleration(const FrameView& f, std::uint64_t body
   return sum;
 }
 
+// Whether the frame before was aborted and the host does not know yet. This one must leave everything as it is then:
+// what it would write is the state to repeat from.
+__device__ inline bool is_behind_aborted(const FrameView& f) {
+  return f.is_behind_unseen && load_behind(&f.counters->is_aborted) != 0;
+}
+
 // P(1) to P(3), P(5); and clean slates for the frame's later stages. The previous state stays as it is, so that a frame
-// whose buffers turn out too small can be repeated.
+// whose buffers turn out too small can be repeated. Returns false, and has done nothing, behind an aborted frame. All
+// threads see that alike: the counters are cleared only where there is nothing to see.
 template <typename Team>
-__device__ void integrate(const Team& team, const FrameView& f) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
+__device__ bool integrate(const Team& team, const FrameView& f) {
+  std::uint64_t i = team.rank();
+  if (i >= f.body_count && is_behind_aborted(f)) return false;
+  for (; i < f.body_count; i += team.size()) {
+    // Everything is asked for before any of it is looked at.
     const PackedVec3 x = f.previous.position[i];
     const PackedVec3 v = f.previous.velocity[i];
+    const core::Box local = local_box(f, static_cast<std::uint32_t>(i));
+    if (is_behind_aborted(f)) return false;
     const core::Kinematics before{x.v, v.v};
     const core::Kinematics s = core::semi_implicit_euler(before, x.w, acceleration(f, i, before, x.w), f.dt_s);
     const PackedVec3 new_x{s.x, x.w};
     const PackedVec3 new_v{s.v, v.w};
     f.detected.position[i] = f.next.position[i] = new_x;
     f.detected.velocity[i] = f.next.velocity[i] = new_v;
-    const core::Box box = core::translated(local_box(f, static_cast<std::uint32_t>(i)), s.x);
+    const core::Box box = core::translated(local, s.x);
     f.boxes[i] = pack(box, static_cast<std::uint32_t>(i), x.w > 0.0F ? 0U : 1U);
     if (f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, box);
     if (f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, box);
     f.degree[i] = 0;
   }
   if (team.rank() == 0) *f.counters = Counters{};
+  return true;
 }
 
 // The contacts of one body with the six half-spaces of the domain, in their order; calls `found` for each.

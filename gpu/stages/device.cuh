@@ -39,6 +39,14 @@ __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
   return before;
 }
 
+// A word that is asked for behind everything that was asked for before, and not first: the compiler would like to know
+// it before it loads what may not be needed, and that were two waits one after the other.
+__device__ inline std::uint32_t load_behind(const std::uint32_t* from) {
+  std::uint32_t v = 0;
+  asm volatile("ld.global.u32 %0, [%1];" : "=r"(v) : "l"(from) : "memory");
+  return v;
+}
+
 // Two words of 16 bytes of global memory, asked for at once, each in one access that is never torn, and never served
 // from this multiprocessor's own cache: each is of one moment, both together need not be.
 __device__ inline void load_two_whole(const uint4* from, uint4 (&words)[2]) {

@@ -78,8 +78,9 @@ __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& 
   const GridTeam grid;
   mark(grid, f, 0);
   const PackedBox* octrees = kIsFew ? fetch_octrees(f, shared) : f.shapes.octree;
-  integrate(grid, f);
+  const bool is_needed = integrate(grid, f);
   if constexpr (kIsFew) wait_for_copies();
+  if (!is_needed) return;
   grid.sync();
   mark(grid, f, 1);
 

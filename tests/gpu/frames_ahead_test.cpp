@@ -1,0 +1,111 @@
+// Frames that are launched before the host has seen the one before are the frames one by one, with a real queue.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "gpu/engines_on_cuda.hpp"
+#include "gpu/pipeline.hpp"
+#include "tests/gpu/ahead_comparison.hpp"
+#include "tests/gpu/small_scenes.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+class FramesAhead : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string why = gpu_absent(); !why.empty()) GTEST_SKIP() << "not run: " << why;
+  }
+};
+
+core::Scene spheres(std::uint32_t bodies, float cube_m, std::uint32_t static_every = 0) {
+  SceneShape shape;
+  shape.bodies = bodies;
+  shape.cube_m = cube_m;
+  shape.static_every = static_every;
+  return thrown({bumpy_sphere(12, 0.5F), bumpy_sphere(25, 0.6F)}, shape);
+}
+
+PipelineOptions boxes_alone() {
+  PipelineOptions options;
+  options.has_vertex_stage = false;
+  options.levels = core::Levels::kFlat;
+  return options;
+}
+
+TEST_F(FramesAhead, ThousandsOfThem) {
+  expect_same_steps(spheres(60, 4.0F), {}, 3000);
+  core::Scene pulled = spheres(40, 3.0F, 5);
+  add_springs(pulled, 30);
+  expect_same_steps(pulled, {}, 3000);
+}
+
+TEST_F(FramesAhead, EveryStartAndSolver) {
+  for (const Broad broad : {Broad::kTree, Broad::kOctree, Broad::kHash, Broad::kBrute}) {
+    for (const Solver solver : {Solver::kColored, Solver::kJacobi}) {
+      SCOPED_TRACE(static_cast<int>(broad) * 10 + static_cast<int>(solver));
+      PipelineOptions options;
+      options.broad = broad;
+      options.solver = solver;
+      options.levels = core::Levels::kA;
+      options.least_for_grid = 10;
+      expect_same_steps(spheres(100, 5.0F), options, 200);
+    }
+  }
+}
+
+// From one kernel to the next larger one, and more bodies than threads.
+TEST_F(FramesAhead, OfEveryKernel) {
+  for (const std::uint32_t bodies : {1U, 512U, 600U, 5000U}) {
+    SCOPED_TRACE(bodies);
+    expect_same_steps(spheres(bodies, 0.9F * std::cbrt(static_cast<float>(bodies))), {}, 100);
+  }
+  SceneShape shape;
+  shape.bodies = 300000;
+  shape.cube_m = 40.0F;
+  expect_same_steps(thrown({box_mesh({0.2F, 0.2F, 0.2F})}, shape), boxes_alone(), 8);
+}
+
+void expect_growth(std::uint32_t bodies) {
+  SCOPED_TRACE(bodies);
+  EXPECT_GT(expect_same_steps(flying_together(bodies, 6.0F), boxes_alone(), 16), 0U);
+  PipelineOptions hashed = boxes_alone();
+  hashed.broad = Broad::kHash;
+  EXPECT_GT(expect_same_steps(flying_together(bodies, 6.0F), hashed, 16), 0U);
+}
+
+TEST_F(FramesAhead, BuffersGrowInTheMiddle) {
+  expect_growth(110);
+  EXPECT_GT(expect_same_steps(flying_out(400, 6.0F), boxes_alone(), 16), 0U);
+}
+
+TEST_F(FramesAhead, BuffersOfMoreBodiesGrowInTheMiddle) {
+  expect_growth(700);
+  expect_growth(2500);
+}
+
+// Each abort is a race of the host with the frames that it has launched already.
+TEST_F(FramesAhead, BuffersGrowAgainAndAgain) {
+  const core::Scene scene = flying_together(250, 10.0F);
+  for (int k = 0; k < 200; ++k) EXPECT_GT(expect_same_steps(scene, boxes_alone(), 14), 0U) << "run " << k;
+}
+
+TEST_F(FramesAhead, EndWhereTheyAreToldTo) {
+  const core::Scene scene = spheres(60, 4.0F);
+  for (std::uint64_t told = 1; told < 40; ++told) {
+    Pipeline subject(PipelineOptions{});
+    Pipeline one_by_one(PipelineOptions{});
+    ASSERT_TRUE(subject.load(scene).ok() && one_by_one.load(scene).ok());
+    std::uint64_t calls = 0;
+    ASSERT_TRUE(subject.run(scene.dt_s, 100, [&] { return ++calls < told; }).ok());
+    core::FrameRecord frame;
+    ASSERT_TRUE(subject.read_back(frame, core::RecordLevel::kDigest).ok());
+    EXPECT_GE(frame.step, told);
+    step_by_step(one_by_one, scene.dt_s, frame.step);
+    expect_same_frame(subject, one_by_one);
+  }
+}
+
+}  // namespace
+}  // namespace broadside::gpu
