@@ -16,6 +16,7 @@
 #include "bench/near_pairs.hpp"
 #include "bench/progress.hpp"
 #include "bench/turns.hpp"
+#include "core/engine/runs_ahead.hpp"
 #include "core/pair.hpp"
 #include "core/trace/trace_reader.hpp"
 
@@ -62,18 +63,44 @@ core::Result<BakedFrames> bake(const std::filesystem::path& trace, const core::S
   return baked;
 }
 
+void add_step(core::Sample& sample, const core::Dynamics& dynamics, double whole) {
+  for (const core::StageTime& stage : dynamics.stage_times()) add_time(sample, stage.stage, stage.seconds);
+  add_time(sample, "frame", whole);
+}
+
+// From the end of one step to the end of the next; what is done here in between is in it, so that all of them are the
+// time that all steps took together.
+core::Status time_ahead(const RunPlan& plan, core::Dynamics& dynamics, core::RunsAhead& ahead, std::uint64_t frames,
+                        core::Sample& sample) {
+  auto start = Clock::now();
+  return ahead.run(plan.scene.dt_s, frames, [&] {
+    const auto now = Clock::now();
+    add_step(sample, dynamics, std::chrono::duration<double>(now - start).count());
+    start = now;
+    return !is_interrupted();
+  });
+}
+
+core::Status time_steps(const RunPlan& plan, core::Dynamics& dynamics, std::uint64_t frames, Turns& turns,
+                        core::Sample& sample) {
+  for (std::uint64_t step = 1; step <= frames && !is_interrupted(); ++step) {
+    const auto start = Clock::now();
+    if (core::Status s = dynamics.step(plan.scene.dt_s); !s) return s;
+    add_step(sample, dynamics, seconds_since(start));
+    turns.frame_done();
+  }
+  return core::Done{};
+}
+
 core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint64_t frames, Turns& turns,
                            core::Sample& sample) {
   core::Dynamics& dynamics = *engine.dynamics;
   if (core::Status s = dynamics.load(plan.scene); !s) return s;
-  for (std::uint64_t step = 1; step <= frames && !is_interrupted(); ++step) {
-    const auto start = Clock::now();
-    if (core::Status s = dynamics.step(plan.scene.dt_s); !s) return s;
-    const double whole = seconds_since(start);
-    for (const core::StageTime& stage : dynamics.stage_times()) add_time(sample, stage.stage, stage.seconds);
-    add_time(sample, "frame", whole);
-    turns.frame_done();
-  }
+  // Who takes turns must know when nothing of its own is under way.
+  core::RunsAhead* ahead = turns.are_alone() ? dynamic_cast<core::RunsAhead*>(&dynamics) : nullptr;
+  const core::Status ran = ahead != nullptr ? time_ahead(plan, dynamics, *ahead, frames, sample)
+                                            : time_steps(plan, dynamics, frames, turns, sample);
+  if (!ran) return ran;
   core::FrameRecord last;
   if (core::Status s = dynamics.read_back(last, core::RecordLevel::kDigest); !s) return s;
   sample.final_step = last.step;

@@ -14,7 +14,8 @@ namespace broadside::bench {
 // One sample per cell and repetition; repetitions of different cells alternate, so that a machine that drifts drifts
 // for all. Each repetition starts from the loaded scene and runs all frames of the plan. Before the first, each cell
 // runs some frames untimed on an instance of its own, so that memory, threads and code are warm.
-// Zones: a simulating engine's own stages, and "frame" = the whole step. A broad phase: "update", "find", "filter" (its
+// Zones: a simulating engine's own stages, and "frame" = the whole step, or where the engine runs ahead (and nobody
+// takes turns) the interval from the end of the step before to its end. A broad phase: "update", "find", "filter" (its
 // own, of raw pairs), "frame" = their sum, over boxes baked from plan.folder's octree-cpu trace. A narrow phase:
 // "measure", per sampled frame.
 // The final digest is read after the clock stopped.

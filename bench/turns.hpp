@@ -27,6 +27,9 @@ class Turns {
   // stream sockets that the other process has the other end of; each turn begins on CORE, or where it likes with -1.
   core::Status join(const std::string& text);
 
+  // Whether nothing below waits.
+  [[nodiscard]] bool are_alone() const { return socket_ < 0; }
+
   // Waits until both processes have set up and this one has its turn. No other work may be in between: it would run
   // beside the other's clock.
   void begin();
