@@ -85,7 +85,7 @@ __device__ void resolve_link(const FrameView& f, const Live& live, std::uint32_t
                {local_box(f, link.j), f.previous.position[link.j].w}, {a.x, a.v}, {b.x, b.v}, contact);
   if (link.rank_i != kNoRank) live.write(link.i, live_after(link.rank_i, contact.post_a, color));
   if (link.rank_j != kNoRank) live.write(link.j, live_after(link.rank_j, contact.post_b, color));
-  store_contact(f, place, contact);
+  store_contact(f.contacts + place, contact);
 }
 
 // Those that wait for nothing, by contact: where all threads begin.

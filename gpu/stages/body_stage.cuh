@@ -5,6 +5,7 @@
 #include "core/method/integrate.hpp"
 #include "core/method/response.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/stages/contact_words.cuh"
 #include "gpu/stages/grid_stage.cuh"
 #include "gpu/stages/octree_stage.cuh"
 #include "gpu/stages/team.cuh"
@@ -110,7 +111,7 @@ __device__ void resolve_faces(const Team& team, const FrameView& f) {
     if (count > 0) {
       core::Kinematics again{x.v, v.v};
       meet_faces(f, body, local, x.w, again, [&](const core::Contact& contact) {
-        if (place < f.face_contacts.capacity) f.face_contacts.items[place] = contact;
+        if (place < f.face_contacts.capacity) store_contact(f.face_contacts.items + place, contact);
         ++place;
       });
     }

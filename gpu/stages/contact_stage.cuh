@@ -5,6 +5,7 @@
 #include "core/method/response.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
+#include "gpu/stages/contact_words.cuh"
 #include "gpu/stages/order_stage.cuh"
 #include "gpu/stages/team.cuh"
 
@@ -32,15 +33,6 @@ __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint3
   if (!geometry.exists) return false;
   core::respond(contact, geometry, a.inverse_mass, b.inverse_mass, both, f.parameters, f.variant);
   return true;
-}
-
-// 144 bytes in nine wide stores.
-__device__ inline void store_contact(const FrameView& f, std::uint64_t k, const core::Contact& contact) {
-  uint4 words[sizeof(core::Contact) / sizeof(uint4)];
-  memcpy(words, &contact, sizeof contact);
-  auto* to = reinterpret_cast<uint4*>(f.contacts + k);
-#pragma unroll
-  for (std::size_t w = 0; w < sizeof(core::Contact) / sizeof(uint4); ++w) to[w] = words[w];
 }
 
 // Live bodies in global memory, seen by the whole grid: a reader knows from the two words alone whether they are of one
@@ -156,7 +148,7 @@ class BodyTurn {
     live_.write(body_, own_);
     if (other_is_written)
       live_.write(entry_.other, live_after(entry_.rank_other, chosen(is_a, contact.post_b, contact.post_a), color));
-    store_contact(f_, entry_.contact, contact);
+    store_contact(f_.contacts + entry_.contact, contact);
     return true;
   }
 
@@ -246,7 +238,7 @@ __device__ void resolve_racing(const Team& team, const FrameView& f, std::uint64
       f.next.position[link.j].v = contact.post_b.x;
       f.next.velocity[link.j].v = contact.post_b.v;
     }
-    store_contact(f, k, contact);
+    store_contact(f.contacts + k, contact);
   }
   team.sync();
 }
@@ -258,7 +250,7 @@ __device__ void resolve_jacobi(const Team& team, const FrameView& f, std::uint64
   for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
     core::Contact contact;
     fill_from_next(f, f.links[k], contact);
-    store_contact(f, k, contact);
+    store_contact(f.contacts + k, contact);
   }
   team.sync();
   for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {

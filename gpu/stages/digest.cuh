@@ -2,25 +2,12 @@
 // it.
 #pragma once
 
-#include <cstring>
-
 #include "core/method/frame_digest.hpp"
 #include "gpu/frame_kernel.hpp"
+#include "gpu/stages/contact_words.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
-
-// In wide words that are read once: what the frame left in the cache is not pushed out by what comes from memory, and
-// so met there.
-__device__ inline core::Contact load_contact(const core::Contact* from) {
-  uint4 words[sizeof(core::Contact) / sizeof(uint4)];
-#pragma unroll
-  for (std::size_t w = 0; w < sizeof(core::Contact) / sizeof(uint4); ++w)
-    words[w] = load_once(reinterpret_cast<const uint4*>(from) + w);
-  core::Contact contact;
-  memcpy(&contact, words, sizeof contact);
-  return contact;
-}
 
 // `block_sum`: of the block's shared memory. The last block that enters its share tells the host.
 __device__ inline void run_digest(const DigestView& view, unsigned long long* block_sum) {
@@ -40,12 +27,12 @@ __device__ inline void run_digest(const DigestView& view, unsigned long long* bl
     for (std::uint64_t k = grid.rank(); k < confirmed; k += grid.size())
       sum += core::confirmed_digest(view.confirmed[k]);
   for (std::uint64_t k = grid.rank(); k < counters.touching; k += grid.size()) {
-    const core::Contact contact = load_contact(view.contacts + k);
+    const core::Contact contact = load_contact_once(view.contacts + k);
     if (all_touch) sum += core::confirmed_digest({contact.a, contact.b});
     if (contact.depth_m > 0.0F) sum += core::contact_digest(contact);
   }
   for (std::uint64_t k = grid.rank(); k < counters.faces; k += grid.size())
-    sum += core::contact_digest(load_contact(view.face_contacts + k));
+    sum += core::contact_digest(load_contact_once(view.face_contacts + k));
 
   for (unsigned step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(kFullWarp, sum, step);
   if (lane() == 0 && sum != 0) atomicAdd(block_sum, sum);
