@@ -41,6 +41,8 @@ core::Status FrameBuffers::load(const core::Scene& scene) {
   BROADSIDE_TRY(live_.reserve(n, "order of contacts"));
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(counters_.fill_bytes(0));
+  BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
+  BROADSIDE_TRY(barrier_.fill_bytes(0));
   const std::uint64_t pairs = std::max(kLeastPairs, kPairsPerBody * n);
   BROADSIDE_TRY(pairs_.reserve(pairs, "candidate pairs"));
   BROADSIDE_TRY(face_contacts_.reserve(std::max<std::uint64_t>(kLeastPairs, n), "contacts with faces"));
@@ -84,6 +86,7 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
   view.list_begin = list_begin_.data();
   view.live = live_.data();
   view.counters = counters_.data();
+  view.barrier = barrier_.data();
 }
 
 std::uint64_t FrameBuffers::body_bytes() const {

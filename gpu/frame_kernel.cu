@@ -21,7 +21,7 @@ __global__ void __launch_bounds__(kThreads,
                                   kKind == FrameKind::kFew ? kFewBlocksPerMultiprocessor : kBlocksPerMultiprocessor)
     frame_kernel(const __grid_constant__ FrameView frame) {
   extern __shared__ __align__(16) unsigned char shared[];
-  __shared__ ProximityScratch scratch;
+  __shared__ BlockScratch scratch;
   run_frame<kKind>(frame, scratch, shared);
 }
 
@@ -45,7 +45,7 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
                                                 static_cast<std::uint32_t>((sizeof(PairQueue) + 15) / 16 * 16));
   for (std::uint32_t threads = kThreads; threads >= 32; threads /= 2) {
     LaunchShape shape{threads, 0, threads / 32 * bytes_per_warp, 0};
-    if (shape.shared_bytes + sizeof(ProximityScratch) > block_limit.value()) continue;
+    if (shape.shared_bytes + sizeof(BlockScratch) > block_limit.value()) continue;
     LaunchShape few = shape;
     LaunchShape many = shape;
     BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kSome>), shape));

@@ -21,6 +21,16 @@ struct LaunchShape {
   std::uint32_t multiprocessors = 0;
 };
 
+// Of the ring of all bodies (stages/body_ring.cuh) a warp takes so few places at once as there are warps for: seldom do
+// two of its pairs go down the levels one after the other then.
+inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) {
+  const std::uint64_t warps = std::uint64_t{shape.blocks} * (shape.threads / 32);
+  const std::uint32_t half = bodies / 2;
+  std::uint32_t share = 1;
+  while (share < 32 && std::uint64_t{bodies} * ((half + share - 1) / share) > warps) ++share;
+  return share;
+}
+
 // For trees of this many levels. An error says that the GPU has too little shared memory for one warp's stack.
 core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
 
@@ -35,6 +45,7 @@ struct PairsView {
   ManyView many;  // where the start is Start::kMany
   AppendView<core::Pair> pairs;
   Counters* counters = nullptr;
+  std::uint32_t* barrier = nullptr;  // the word where the grid meets
   Outcome* outcome = nullptr;
 };
 struct PairsShape {

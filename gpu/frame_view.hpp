@@ -116,6 +116,7 @@ struct FrameView {
   AppendView<core::Pair> pairs;
   AppendView<core::Pair> confirmed;      // flat: the same memory as pairs
   core::Proximity* proximity = nullptr;  // one per confirmed pair
+  std::uint32_t ring_share = 1;          // places of the ring that a warp takes, where there are few bodies
   std::uint32_t stack_entries = 0;       // of each warp's stack in the proximity stage
   std::uint32_t block_bodies = 0;        // that one block resolves alone
   Link* links = nullptr;                 // the touching pairs: as many as confirmed
@@ -128,7 +129,8 @@ struct FrameView {
   std::uint32_t* list_begin = nullptr;  // [bodies]
   LiveBody* live = nullptr;             // [bodies]
 
-  Counters* counters = nullptr;  // until this frame begins, those of the frame before it
+  Counters* counters = nullptr;      // until this frame begins, those of the frame before it
+  std::uint32_t* barrier = nullptr;  // the word where the grid meets
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;

@@ -38,6 +38,7 @@ struct PairFinder::Impl {
   WorkCounter work;
   DeviceBuffer<core::Pair> pairs;
   DeviceBuffer<Counters> counters;
+  DeviceBuffer<std::uint32_t> barrier;
 
   [[nodiscard]] Start start() const;
   core::Status reserve();
@@ -70,6 +71,8 @@ core::Status PairFinder::Impl::reserve() {
   BROADSIDE_TRY(outcome.allocate());
   BROADSIDE_TRY(boxes.reserve(count, "boxes"));
   BROADSIDE_TRY(counters.reserve(1, "counters"));
+  BROADSIDE_TRY(barrier.reserve(1, "barrier"));
+  BROADSIDE_TRY(barrier.fill_bytes(0));
   BROADSIDE_TRY(work.reset());
   BROADSIDE_TRY(pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBox * count), "pairs"));
   auto shape =
@@ -80,6 +83,7 @@ core::Status PairFinder::Impl::reserve() {
   view.box_count = static_cast<std::uint32_t>(count);
   view.boxes = boxes.data();
   view.counters = counters.data();
+  view.barrier = barrier.data();
   view.outcome = outcome.device(0);
   return wait_for_device("clearing the broad phase");
 }

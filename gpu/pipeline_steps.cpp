@@ -18,9 +18,12 @@ core::Status Pipeline::Impl::launch_frame() {
   buffers.fill(view, frames.under_way());
   broad.fill(view.broad);
   if (is_confirmed_by_level0()) view.confirmed.items = view.pairs.items;
-  // Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them.
+  // Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them, as there is
+  // where all levels are tested for all pairs.
   LaunchShape shape = launch;
-  if (view.body_count < kLeastBodiesForGrid) shape.blocks = std::min(shape.blocks, shape.multiprocessors);
+  if (view.body_count < kLeastBodiesForGrid && view.broad.start != Start::kNone)
+    shape.blocks = std::min(shape.blocks, shape.multiprocessors);
+  view.ring_share = ring_share(view.body_count, shape);
   return frames.launch(view, shape);
 }
 

@@ -39,11 +39,13 @@ __device__ inline bool is_behind_aborted(const FrameView& f) {
 // P(1) to P(3), P(5); and clean slates for the frame's later stages. The previous state stays as it is, so that a frame
 // whose buffers turn out too small can be repeated. Returns false, and has done nothing, behind an aborted frame. All
 // threads see that alike: the counters are cleared only where there is nothing to see.
-template <typename Team>
-__device__ bool integrate(const Team& team, const FrameView& f) {
-  std::uint64_t i = team.rank();
+//
+// By the last warps, one of a block: the first block waits longest for the kernel's parameters, and other warps have
+// something else to see to meanwhile.
+__device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
+  std::uint64_t i = grid.size() - 1 - grid.spread_rank();
   if (i >= f.body_count && is_behind_aborted(f)) return false;
-  for (; i < f.body_count; i += team.size()) {
+  for (; i < f.body_count; i += grid.size()) {
     // Everything is asked for before any of it is looked at.
     const PackedVec3 x = f.previous.position[i];
     const PackedVec3 v = f.previous.velocity[i];
@@ -61,7 +63,7 @@ __device__ bool integrate(const Team& team, const FrameView& f) {
     if (f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, box);
     f.degree[i] = 0;
   }
-  if (team.rank() == 0) *f.counters = Counters{};
+  if (grid.rank() == 0) *f.counters = Counters{};
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/stages/fetched.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/work_count.cuh"
 
@@ -10,18 +11,43 @@ namespace broadside::gpu {
 
 struct PlacedShape {
   std::uint32_t shape = 0;
-  const PackedBox* octree = nullptr;
   core::Vec3 x;
+
+  // Of its octree, among those of all shapes.
+  __device__ std::uint32_t first_box() const { return shape * core::kBodyOctreeNodes; }
 };
 
-// `octrees`: of all shapes, wherever they are at hand.
-__device__ inline PlacedShape placed_shape(const FrameView& f, const PackedBox* octrees, std::uint32_t body) {
-  const std::uint32_t shape = f.shape_of_body[body];
-  return {shape, octrees + std::uint64_t{shape} * core::kBodyOctreeNodes, f.detected.position[body].v};
-}
 __device__ inline PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
-  return placed_shape(f, f.shapes.octree, body);
+  return {f.shape_of_body[body], f.detected.position[body].v};
 }
+
+// Where the boxes of all shapes' octrees are; stages that descend take any class with this at(), once it was waited
+// for.
+struct OctreesInMemory {
+  const PackedBox* boxes;
+
+  __device__ void wait() const {}
+  __device__ core::Box at(std::uint32_t k) const { return fetched(boxes + k); }
+};
+
+// Which of 64 pairs overlap: bit 8 p + q for box p of A and q of B.
+struct EightByEightHits {
+  unsigned low = 0;   // bits 0 to 31
+  unsigned high = 0;  // bits 32 to 63
+
+  __device__ bool any() const { return (low | high) != 0; }
+  __device__ friend EightByEightHits operator|(const EightByEightHits& p, const EightByEightHits& q) {
+    return {p.low | q.low, p.high | q.high};
+  }
+  // The lowest bit leaves; of none, it is 63.
+  __device__ std::uint32_t take() {
+    const bool is_low = low != 0;
+    const std::uint32_t bit = static_cast<std::uint32_t>(__ffs(static_cast<int>(is_low ? low : high)) - 1) % 32;
+    high &= is_low ? ~0U : high - 1;
+    low &= low - 1;
+    return is_low ? bit : bit + 32;
+  }
+};
 
 // Eight boxes of each body, as the lanes of a warp hold them: one of B, two of A.
 struct EightByEight {
@@ -31,48 +57,49 @@ struct EightByEight {
   core::Box low;
   core::Box high;
 
-  __device__ EightByEight(const PackedBox* of_a, core::Vec3 xa, const PackedBox* of_b, core::Vec3 xb)
-      : b(core::translated(unpack(of_b[lane() % 8]), xb)),
-        low(core::translated(unpack(of_a[lane() / 8]), xa)),
-        high(core::translated(unpack(of_a[lane() / 8 + 4]), xa)) {}
+  // From these boxes of both on.
+  template <typename Octrees>
+  __device__ EightByEight(const Octrees& octrees, std::uint32_t of_a, core::Vec3 xa, std::uint32_t of_b, core::Vec3 xb)
+      : b(core::translated(octrees.at(of_b + lane() % 8), xb)),
+        low(core::translated(octrees.at(of_a + lane() / 8), xa)),
+        high(core::translated(octrees.at(of_a + lane() / 8 + 4), xa)) {}
 
-  // Of their 64 pairs, two a lane: bit 8 p + q for box p of A and q of B.
-  __device__ std::uint64_t hits() const {
-    const std::uint64_t low_hits = __ballot_sync(kFullWarp, core::overlaps(low, b));
-    const std::uint64_t high_hits = __ballot_sync(kFullWarp, core::overlaps(high, b));
-    return low_hits | high_hits << 32;
+  __device__ EightByEightHits hits() const {
+    return {__ballot_sync(kFullWarp, core::overlaps(low, b)), __ballot_sync(kFullWarp, core::overlaps(high, b))};
   }
 };
 
-__device__ inline EightByEight first_level(const PlacedShape& a, const PlacedShape& b) {
-  return {a.octree + core::kLevelOffset[1], a.x, b.octree + core::kLevelOffset[1], b.x};
+template <typename Octrees>
+__device__ EightByEight first_level(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b) {
+  constexpr std::uint32_t kFirst = core::kLevelOffset[1];
+  return {octrees, a.first_box() + kFirst, a.x, b.first_box() + kFirst, b.x};
 }
 
 // The children of boxes p of A and q of B, which `bit` = 8 p + q of the first level's hits names.
-__device__ inline EightByEight second_level(const PlacedShape& a, const PlacedShape& b, int bit) {
-  return {a.octree + core::first_child(core::kLevelOffset[1] + bit / 8), a.x,
-          b.octree + core::first_child(core::kLevelOffset[1] + bit % 8), b.x};
+template <typename Octrees>
+__device__ EightByEight second_level(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b,
+                                     std::uint32_t bit) {
+  constexpr std::uint32_t kFirst = core::first_child(core::kLevelOffset[1]);
+  return {octrees, a.first_box() + kFirst + bit / 8 * 8, a.x, b.first_box() + kFirst + bit % 8 * 8, b.x};
 }
 
 // core::descent_overlaps by a warp: empty boxes overlap nothing, so they need no care. So many of the first level's
 // hits at a time: two where what takes the time is waiting for boxes, one where warps are many and hide each other's
 // waits.
-template <unsigned kAtOnce, typename Work>
-__device__ bool descends(const PlacedShape& a, const PlacedShape& b, Work& work) {
+template <unsigned kAtOnce, typename Octrees, typename Work>
+__device__ bool descends(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b, Work& work) {
   static_assert(kAtOnce == 1 || kAtOnce == 2);
   work.tests(EightByEight::kTestsOfLane);
-  for (std::uint64_t hits = first_level(a, b).hits(); hits != 0;) {
-    const int one = __ffsll(static_cast<long long>(hits)) - 1;
-    hits &= hits - 1;
+  for (EightByEightHits hits = first_level(octrees, a, b).hits(); hits.any();) {
     work.tests(EightByEight::kTestsOfLane * kAtOnce);
-    const EightByEight below_one = second_level(a, b, one);
-    std::uint64_t below = 0;
+    const EightByEight one = second_level(octrees, a, b, hits.take());
     if constexpr (kAtOnce == 2) {
-      const int other = hits != 0 ? __ffsll(static_cast<long long>(hits)) - 1 : one;
-      hits &= hits - 1;
-      below = second_level(a, b, other).hits();
+      // Where there is no other hit, children of a pair that is none are tested: they do not overlap either.
+      const EightByEight other = second_level(octrees, a, b, hits.take());
+      if ((one.hits() | other.hits()).any()) return true;
+    } else if (one.hits().any()) {
+      return true;
     }
-    if ((below | below_one.hits()) != 0) return true;
   }
   return false;
 }
@@ -85,34 +112,42 @@ __device__ bool level2_meets(const FrameView& f, const PlacedShape& a, const Pla
   const std::uint32_t count_a = f.shapes.level2_count[a.shape];
   const std::uint32_t count_b = f.shapes.level2_count[b.shape];
   const core::Box none = core::empty_box();
-  const core::Box low = lane() < count_a ? core::translated(unpack(boxes_a[lane()]), a.x) : none;
-  const core::Box high = lane() + 32 < count_a ? core::translated(unpack(boxes_a[lane() + 32]), a.x) : none;
+  const core::Box low = lane() < count_a ? core::translated(fetched(boxes_a + lane()), a.x) : none;
+  const core::Box high = lane() + 32 < count_a ? core::translated(fetched(boxes_a + lane() + 32), a.x) : none;
   work.tests(count_b * ((lane() < count_a ? 1U : 0U) + (lane() + 32 < count_a ? 1U : 0U)));
   bool hit = false;
 #pragma unroll 4
   for (std::uint32_t q = 0; q < count_b; ++q) {
-    const core::Box box = core::translated(unpack(boxes_b[q]), b.x);
+    const core::Box box = core::translated(fetched(boxes_b + q), b.x);
     hit = hit || core::overlaps(low, box) || core::overlaps(high, box);
   }
   return __any_sync(kFullWarp, hit);
 }
 
 // core::is_confirmed by a warp, for the levels that have a first level below 0 or passed it already.
-template <unsigned kAtOnce = 1, typename Work>
-__device__ bool are_levels_overlapping(const FrameView& f, const PlacedShape& a, const PlacedShape& b, Work& work) {
+template <unsigned kAtOnce, typename Octrees, typename Work>
+__device__ bool are_levels_overlapping(const FrameView& f, const Octrees& octrees, const PlacedShape& a,
+                                       const PlacedShape& b, Work& work) {
   switch (f.levels) {
     case core::Levels::kFlat:
       return true;
     case core::Levels::kLevel1:
       work.tests(EightByEight::kTestsOfLane);
-      return first_level(a, b).hits() != 0;
+      return first_level(octrees, a, b).hits().any();
     case core::Levels::kA:
       return level2_meets(f, a, b, work);
     case core::Levels::kB:
     case core::Levels::kC:
-      return descends<kAtOnce>(a, b, work);
+      return descends<kAtOnce>(octrees, a, b, work);
   }
   return false;
+}
+
+// Of these two bodies.
+template <typename Work>
+__device__ bool are_levels_overlapping(const FrameView& f, core::Pair p, Work& work) {
+  return are_levels_overlapping<1>(f, OctreesInMemory{f.shapes.octree}, placed_shape(f, p.i), placed_shape(f, p.j),
+                                   work);
 }
 
 // From pairs to confirmed. Each warp takes a run of pairs and appends what it confirms with one atomic; runs are short
@@ -126,8 +161,7 @@ __device__ void confirm_pairs(const Team& team, const FrameView& f, Work& work) 
     const std::uint64_t last = min(first + run, count);
     unsigned hits = 0;
     for (std::uint64_t k = first; k < last; ++k) {
-      const core::Pair p = f.pairs.items[k];
-      if (are_levels_overlapping(f, placed_shape(f, p.i), placed_shape(f, p.j), work)) hits |= 1U << (k - first);
+      if (are_levels_overlapping(f, f.pairs.items[k], work)) hits |= 1U << (k - first);
     }
     const bool mine = ((hits >> lane()) & 1U) != 0;
     const unsigned long long place = warp_append(mine ? 1U : 0U, &f.counters->confirmed);

@@ -15,7 +15,7 @@ __device__ inline void run_digest(const DigestView& view, unsigned long long* bl
   if (counters.is_aborted != 0) return;
   if (threadIdx.x == 0) *block_sum = 0;
   __syncthreads();
-  const GridTeam grid;
+  const GridPlaces grid;
   unsigned long long sum = 0;
   for (std::uint64_t i = grid.rank(); i < view.body_count; i += grid.size())
     sum += core::body_digest(static_cast<std::uint32_t>(i), view.state.position[i].v, view.orientation[i],

@@ -3,7 +3,9 @@
 
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/stages/body_ring.cuh"
 #include "gpu/stages/confirm_stage.cuh"
+#include "gpu/stages/fetched.cuh"
 #include "gpu/stages/pair_queue.cuh"
 #include "gpu/stages/team.cuh"
 
@@ -18,73 +20,119 @@ inline bool has_few_bodies(const FrameView& f, std::uint64_t threads) {
          f.solver == Solver::kColored;
 }
 
-// The octrees of all shapes in the block's shared memory, if there is room: what is fetched while bodies are integrated
-// need not be waited for when pairs go down the levels. They are there after wait_for_copies and a barrier.
-__device__ inline const PackedBox* fetch_octrees(const FrameView& f, unsigned char* shared) {
-  const std::uint32_t words = f.shapes.count * core::kBodyOctreeNodes * (sizeof(PackedBox) / sizeof(uint4));
-  if (f.levels == core::Levels::kFlat || words * sizeof(uint4) > blockDim.x / 32 * sizeof(PairQueue))
-    return f.shapes.octree;
-  auto* to = reinterpret_cast<uint4*>(shared);
-  const auto* from = reinterpret_cast<const uint4*>(f.shapes.octree);
-  for (std::uint32_t w = threadIdx.x; w < words; w += blockDim.x) start_copy(to + w, from + w);
-  return reinterpret_cast<const PackedBox*>(shared);
-}
+// The octrees of all shapes in a block's shared memory. They are asked for while bodies are integrated, and waited for
+// where a pair goes down the levels.
+class OctreesInBlock {
+ public:
+  __device__ OctreesInBlock(const FrameView& f, unsigned char* shared, BlockCopy& copy)
+      : boxes_(reinterpret_cast<PackedBox*>(shared)),
+        copy_(copy),
+        bytes_(f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox)),
+        // Where there is room for them, and somebody needs them.
+        are_there_(f.levels != core::Levels::kFlat && bytes_ <= blockDim.x / 32 * sizeof(PairQueue)) {}
 
-// Bodies on a ring: body i meets those 1 to n / 2 places on, so that every pair is met once without a root or a
-// triangle. A warp takes some places on from one body, a lane each: as few as the warps there are allow, so that
-// seldom two of its pairs go down the levels one after the other.
-__device__ inline void find_and_confirm_few(const GridTeam& team, const FrameView& f, const PackedBox* octrees) {
+  __device__ bool are_there() const { return are_there_; }
+  // By all threads of the block; one warp does it. Between the two the block meets, and nobody uses `shared` for
+  // anything else.
+  __device__ void begin(const FrameView& f) const {
+    if (are_there_ && is_ours()) copy_.begin(boxes_, f.shapes.octree, bytes_);
+  }
+  __device__ void end() const {
+    if (are_there_ && is_ours()) copy_.wait();
+  }
+
+  __device__ void wait() const { copy_.wait(); }
+  __device__ core::Box at(std::uint32_t k) const { return fetched(boxes_ + k); }
+
+ private:
+  // Neither the first warp, which meets for the block, nor the last, which has bodies.
+  __device__ static bool is_ours() { return threadIdx.x / 32 == blockDim.x / 64; }
+
+  PackedBox* boxes_;
+  BlockCopy& copy_;
+  std::uint32_t bytes_;
+  bool are_there_;
+};
+
+// What few bodies' pairs come to: both counts in one word, so that one atomic takes room in both lists.
+struct FewCounts {
+  std::uint32_t pairs = 0;
+  std::uint32_t confirmed = 0;
+
+  __device__ unsigned long long packed() const { return pairs | std::uint64_t{confirmed} << 32U; }
+  __device__ static FewCounts unpacked(unsigned long long word) {
+    return {static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(word >> 32U)};
+  }
+};
+
+// A warp's first item, and what of it does not move: known before the bodies do.
+struct FewStart {
+  BodyRing<std::uint32_t> ring;
+  std::uint32_t item = 0;
+  BodyRing<std::uint32_t>::Meeting meeting;
+  std::uint32_t shape_i = 0;
+  std::uint32_t shape_j = 0;
+
+  __device__ FewStart(const GridTeam& team, const FrameView& f)
+      : ring(f.body_count, f.ring_share), item(static_cast<std::uint32_t>(team.spread_rank() / 32)) {
+    if (item < ring.items()) enter(f);
+  }
+
+  __device__ bool next(const FrameView& f, std::uint32_t stride) {
+    item += stride;
+    if (item >= ring.items()) return false;
+    enter(f);
+    return true;
+  }
+
+ private:
+  __device__ void enter(const FrameView& f) {
+    meeting = ring.meeting(item);
+    shape_i = f.shape_of_body[meeting.i];
+    shape_j = f.shape_of_body[meeting.j];
+  }
+};
+
+template <typename Octrees>
+__device__ void find_and_confirm_few(const GridTeam& team, const FrameView& f, FewStart at, const Octrees& octrees) {
+  if (at.item >= at.ring.items()) return;
   Uncounted work;
-  const std::uint32_t count = f.body_count;
-  const std::uint32_t half = count / 2;
-  const std::uint64_t warps = warp_count(team);
-  std::uint32_t share = 1;
-  while (share < 32 && std::uint64_t{count} * ((half + share - 1) / share) > warps) share *= 2;
-  const std::uint32_t shares = (half + share - 1) / share;
-  const std::uint32_t items = count * shares;
-  const auto stride = static_cast<std::uint32_t>(warps);
-  for (auto item = static_cast<std::uint32_t>(team.spread_rank() / 32); item < items; item += stride) {
-    const std::uint32_t i = item / shares;
-    const std::uint32_t on = item % shares * share + lane() + 1;
-    // Bodies that face each other on an even ring meet once.
-    const bool has_pair = lane() < share && on <= half && (on * 2 != count || i < half);
-    const std::uint32_t j = has_pair ? (i + on < count ? i + on : i + on - count) : i;
+  const auto stride = static_cast<std::uint32_t>(warp_count(team));
+  do {
     // Everything is asked for before any of it is looked at: one wait.
-    const PackedBox box_i = f.boxes[i];
-    const PackedBox box_j = f.boxes[j];
-    const PlacedShape placed_i = placed_shape(f, octrees, i);
-    const PlacedShape placed_j = placed_shape(f, octrees, j);
+    const PackedBox box_i = f.boxes[at.meeting.i];
+    const PackedBox box_j = f.boxes[at.meeting.j];
+    const PlacedShape placed_i{at.shape_i, f.detected.position[at.meeting.i].v};
+    const PlacedShape placed_j{at.shape_j, f.detected.position[at.meeting.j].v};
     const bool overlaps =
-        has_pair && core::overlaps(unpack(box_i), unpack(box_j)) && (box_i.high_tag & box_j.high_tag) == 0;
+        at.meeting.exists && core::overlaps(unpack(box_i), unpack(box_j)) && (box_i.high_tag & box_j.high_tag) == 0;
     const unsigned found = __ballot_sync(kFullWarp, overlaps);
     if (found == 0) continue;
+    octrees.wait();
     unsigned confirmed = 0;
-    if (f.levels != core::Levels::kFlat) {
-      for (unsigned left = found; left != 0; left &= left - 1) {
-        const int source = __ffs(left) - 1;
-        PlacedShape other;
-        other.shape = __shfl_sync(kFullWarp, placed_j.shape, source);
-        other.octree = octrees + std::uint64_t{other.shape} * core::kBodyOctreeNodes;
-        other.x = {__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
-                   __shfl_sync(kFullWarp, placed_j.x.z, source)};
-        if (are_levels_overlapping<2>(f, placed_i, other, work)) confirmed |= 1U << source;
-      }
+    for (unsigned left = f.levels == core::Levels::kFlat ? 0U : found; left != 0; left &= left - 1) {
+      const int source = __ffs(static_cast<int>(left)) - 1;
+      const PlacedShape other{
+          __shfl_sync(kFullWarp, placed_j.shape, source),
+          {__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
+           __shfl_sync(kFullWarp, placed_j.x.z, source)}};
+      if (are_levels_overlapping<2>(f, octrees, placed_i, other, work)) confirmed |= 1U << source;
     }
-    // Lane 0 takes room for the pairs, lane 1 for what is confirmed: one wait.
-    unsigned long long base = 0;
-    if (lane() < 2)
-      base = atomicAdd(lane() == 0 ? &f.counters->pairs : &f.counters->confirmed,
-                       static_cast<unsigned long long>(__popc(lane() == 0 ? found : confirmed)));
-    const unsigned long long first_pair = __shfl_sync(kFullWarp, base, 0);
-    const unsigned long long first_confirmed = __shfl_sync(kFullWarp, base, 1);
-    const core::Pair pair = core::make_pair_of(i, j);
-    const auto enter = [&](unsigned lanes, unsigned long long first, const AppendView<core::Pair>& out) {
-      const unsigned long long place = first + __popc(lanes & ((1U << lane()) - 1U));
+    // Room in both lists with one atomic: one wait.
+    unsigned long long room = 0;
+    if (lane() == 0)
+      room = atomicAdd(
+          &f.counters->few,
+          FewCounts{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))}.packed());
+    const FewCounts first = FewCounts::unpacked(__shfl_sync(kFullWarp, room, 0));
+    const core::Pair pair = core::make_pair_of(at.meeting.i, at.meeting.j);
+    const auto enter = [&pair](unsigned lanes, std::uint32_t place, const AppendView<core::Pair>& out) {
+      place += __popc(lanes & ((1U << lane()) - 1U));
       if ((lanes >> lane() & 1U) != 0 && place < out.capacity) out.items[place] = pair;
     };
-    enter(found, first_pair, f.pairs);
-    enter(confirmed, first_confirmed, f.confirmed);
-  }
+    enter(found, first.pairs, f.pairs);
+    enter(confirmed, first.confirmed, f.confirmed);
+  } while (at.next(f, stride));
 }
 
 }  // namespace broadside::gpu

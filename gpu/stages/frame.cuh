@@ -34,9 +34,14 @@ __device__ void mark(const Team& team, const FrameView& f, int stage) {
   if (team.rank() == 0) f.outcome->stage_end_ns[stage] = now_ns();
 }
 
-template <typename Team>
+template <FrameKind kKind, typename Team>
 __device__ void report(const Team& team, const FrameView& f, bool is_aborted) {
   if (team.rank() != 0) return;
+  if constexpr (kKind == FrameKind::kFew) {
+    const FewCounts counts = FewCounts::unpacked(f.counters->few);
+    f.counters->pairs = counts.pairs;
+    f.counters->confirmed = counts.confirmed;
+  }
   f.counters->is_aborted = is_aborted ? 1 : 0;
   f.outcome->counters = *f.counters;
 }
@@ -67,37 +72,54 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
   resolve_faces(team, f);
   team.sync();
   mark(team, f, 6);
-  report(team, f, f.counters->faces > f.face_contacts.capacity);
+  report<kKind>(team, f, f.counters->faces > f.face_contacts.capacity);
 }
+
+// What a block has in shared memory beside `shared`.
+struct BlockScratch {
+  ProximityScratch proximity;
+  BlockCopy copy;
+};
 
 // `shared`: what LaunchShape says, a block's own. Each kind is a kernel of its own, because what is left out there
 // leaves registers and instruction cache to the rest. Always inlined: a call would take the view through memory.
 template <FrameKind kKind>
-__device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& scratch, unsigned char* shared) {
+__device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scratch, unsigned char* shared) {
   constexpr bool kIsFew = kKind == FrameKind::kFew;
-  const GridTeam grid;
+  const GridTeam grid(f.barrier);
   mark(grid, f, 0);
-  const PackedBox* octrees = kIsFew ? fetch_octrees(f, shared) : f.shapes.octree;
-  const bool is_needed = integrate(grid, f);
-  if constexpr (kIsFew) wait_for_copies();
-  if (!is_needed) return;
-  grid.sync();
-  mark(grid, f, 1);
-
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
-    find_and_confirm_few(grid, f, octrees);
-  } else if (starts_at_level0) {
-    PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
-    if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
-      return report(grid, f, true);
+    const OctreesInBlock octrees(f, shared, scratch.copy);
+    const bool is_needed = integrate(grid, f);
+    octrees.begin(f);
+    const FewStart start(grid, f);
+    if (is_needed) grid.sync();
+    octrees.end();
+    if (!is_needed) return;
+    mark(grid, f, 1);
+    if (octrees.are_there())
+      find_and_confirm_few(grid, f, start, octrees);
+    else
+      find_and_confirm_few(grid, f, start, OctreesInMemory{f.shapes.octree});
   } else {
-    Uncounted work;
-    confirm_by_brute_force(grid, f, work);
+    if (!integrate(grid, f)) return;
+    grid.sync();
+    mark(grid, f, 1);
+    if (starts_at_level0) {
+      PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
+      if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
+        return report<kKind>(grid, f, true);
+    } else {
+      Uncounted work;
+      confirm_by_brute_force(grid, f, work);
+    }
   }
   grid.sync();
   mark(grid, f, 2);
-  if (f.counters->pairs > f.pairs.capacity) return report(grid, f, true);
+  const FewCounts few = FewCounts::unpacked(kIsFew ? f.counters->few : 0ULL);
+  const std::uint64_t pairs = kIsFew ? few.pairs : f.counters->pairs;
+  if (pairs > f.pairs.capacity) return report<kKind>(grid, f, true);
 
   // From level 0 alone, what was found is what is confirmed.
   const bool is_confirmed_by_level0 = starts_at_level0 && f.levels == core::Levels::kFlat;
@@ -106,12 +128,13 @@ __device__ __forceinline__ void run_frame(const FrameView& f, ProximityScratch& 
     confirm_pairs(grid, f, work);
     grid.sync();
   }
-  const std::uint64_t confirmed = is_confirmed_by_level0 ? f.counters->pairs : f.counters->confirmed;
+  const std::uint64_t confirmed =
+      is_confirmed_by_level0 ? pairs : (kIsFew ? std::uint64_t{few.confirmed} : f.counters->confirmed);
   mark(grid, f, 3);
-  if (confirmed > f.confirmed.capacity) return report(grid, f, true);
+  if (confirmed > f.confirmed.capacity) return report<kKind>(grid, f, true);
 
   if (f.has_vertex_stage && confirmed > 0) {
-    measure_proximity(f, confirmed, scratch, shared);
+    measure_proximity(f, confirmed, scratch.proximity, shared);
     grid.sync();
   }
   mark(grid, f, 4);

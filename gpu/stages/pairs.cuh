@@ -23,7 +23,7 @@ __device__ inline void start_counts(const PairsView& view) {
 
 // Before run_pairs<true>, where there are bins. `shared`: a block's own, tile_bytes or bin_bytes, the larger.
 __device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
-  const GridTeam grid;
+  const GridTeam grid(view.barrier);
   const ManyView& many = view.many;
   mark_stage(grid, view, 0);
   if (grid.rank() == 0) start_counts(view);
@@ -52,7 +52,7 @@ struct PairsScratch<true> {
 // Boxes in, pairs out. kAreMany: the search is that of Start::kMany.
 template <bool kAreMany>
 __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
-  const GridTeam grid;
+  const GridTeam grid(view.barrier);
   auto& scratch = reinterpret_cast<PairsScratch<kAreMany>*>(shared)[threadIdx.x / 32];
   const ManyView& many = view.many;
   const bool is_sorted = kAreMany && many.bins.bins != 0;

@@ -3,22 +3,10 @@
 
 #include "core/method/proximity.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/stages/fetched.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
-
-// In one access of 16 bytes, two for a box: left to itself, the compiler fetches word by word what it needs first, and
-// lines of the cache that are looked up are what a search has fewest of.
-__device__ inline PackedVec3 fetched(const PackedVec3* from) {
-  const uint4 word = *reinterpret_cast<const uint4*>(from);
-  return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, __uint_as_float(word.w)};
-}
-__device__ inline core::Box fetched(const PackedBox* from) {
-  const uint4 low = reinterpret_cast<const uint4*>(from)[0];
-  const uint4 high = reinterpret_cast<const uint4*>(from)[1];
-  return {{__uint_as_float(low.x), __uint_as_float(low.y), __uint_as_float(low.z)},
-          {__uint_as_float(high.x), __uint_as_float(high.y), __uint_as_float(high.z)}};
-}
 
 // A node of each body's tree, level << 28 | index, and the squared gap of their boxes.
 struct NodePair {

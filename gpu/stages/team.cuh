@@ -9,15 +9,25 @@ namespace broadside::gpu {
 
 constexpr unsigned kFullWarp = 0xFFFFFFFFU;
 
-// sync() waits for all threads of the grid and makes their writes visible: the kernel must be launched cooperatively.
-struct GridTeam {
+// The grid of a kernel whose threads do not meet.
+struct GridPlaces {
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
   // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * gridDim.x + blockIdx.x) * 32 + threadIdx.x % 32;
   }
   __device__ std::uint64_t size() const { return std::uint64_t{gridDim.x} * blockDim.x; }
-  __device__ void sync() const { sync_grid(); }
+};
+
+// sync() waits for all threads of the grid and makes their writes visible: the kernel must be launched cooperatively.
+class GridTeam : public GridPlaces {
+ public:
+  // `barrier`: the word of GridBarrier.
+  __device__ explicit GridTeam(std::uint32_t* barrier) : barrier_(barrier) {}
+  __device__ void sync() const { barrier_.meet(); }
+
+ private:
+  mutable GridBarrier barrier_;
 };
 
 struct BlockTeam {
@@ -36,7 +46,7 @@ struct PartialGridTeam {
   mutable std::uint32_t meetings = 0;
 
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
-  // As in GridTeam.
+  // As in GridPlaces.
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x) * 32 + threadIdx.x % 32;
   }

@@ -4,6 +4,7 @@
 
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/stages/body_ring.cuh"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/confirm_stage.cuh"
 #include "gpu/stages/team.cuh"
@@ -62,26 +63,24 @@ __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, st
   }
 }
 
-// Levels level1, A and B: a warp meets all boxes of the level of body i with those of four bodies j.
+// Levels level1, A and B: a warp meets all boxes of the level of a body with those of four others.
 template <typename Team, typename Work>
 __device__ void confirm_by_brute_force(const Team& team, const FrameView& f, Work& work) {
-  constexpr std::uint32_t kChunk = 4;
-  const std::uint64_t chunks_a_row = (f.body_count + kChunk - 1) / kChunk;
-  const std::uint64_t items = chunks_a_row * f.body_count;
-  for (std::uint64_t item = warp_rank(team); item < items; item += warp_count(team)) {
-    const auto i = static_cast<std::uint32_t>(item / chunks_a_row);
-    const auto first = static_cast<std::uint32_t>(item % chunks_a_row) * kChunk;
-    if (first + kChunk <= i + 1) continue;
-    const std::uint32_t last = min(first + kChunk, f.body_count);
+  const BodyRing<std::uint64_t> ring(f.body_count, 4);
+  for (std::uint64_t item = warp_rank(team); item < ring.items(); item += warp_count(team)) {
+    const BodyRing<std::uint64_t>::Meeting own = ring.meeting(item);
+    const core::Pair pair = core::make_pair_of(own.i, own.j);
+    unsigned left = __ballot_sync(kFullWarp, own.exists && !(is_static(f, own.i) && is_static(f, own.j)));
     unsigned hits = 0;
-    for (std::uint32_t j = max(first, i + 1); j < last; ++j) {
-      if (is_static(f, i) && is_static(f, j)) continue;
-      if (are_levels_overlapping(f, placed_shape(f, i), placed_shape(f, j), work)) hits |= 1U << (j - first);
+    for (; left != 0; left &= left - 1) {
+      const int source = __ffs(static_cast<int>(left)) - 1;
+      const core::Pair met{__shfl_sync(kFullWarp, pair.i, source), __shfl_sync(kFullWarp, pair.j, source)};
+      if (are_levels_overlapping(f, met, work)) hits |= 1U << source;
     }
     if (hits == 0) continue;
-    const unsigned long long place = warp_append(lane() < kChunk ? (hits >> lane()) & 1U : 0U, &f.counters->confirmed);
-    if (lane() < kChunk && ((hits >> lane()) & 1U) != 0 && place < f.confirmed.capacity)
-      f.confirmed.items[place] = {i, first + lane()};
+    const bool mine = (hits >> lane() & 1U) != 0;
+    const unsigned long long place = warp_append(mine ? 1U : 0U, &f.counters->confirmed);
+    if (mine && place < f.confirmed.capacity) f.confirmed.items[place] = pair;
   }
 }
 

@@ -16,7 +16,7 @@ __device__ inline void add_of_warp(unsigned long long* sum, unsigned long long o
 }
 
 // Boxes in the order of their entries, whichever warp took which: of the turns of many_find nothing shows.
-__device__ inline Counted count_many_work(const GridTeam& grid, const BroadWorkView& view, ManyNotes& notes) {
+__device__ inline Counted count_many_work(const GridPlaces& grid, const BroadWorkView& view, ManyNotes& notes) {
   const volatile std::uint32_t* known = view.many.levels;
   const LevelMarks marks{known[0], known[1]};
   ManySearch<Counted> search(view.many, view.boxes, notes, {}, &view.work->pairs);
@@ -30,7 +30,7 @@ __device__ inline Counted count_many_work(const GridTeam& grid, const BroadWorkV
 
 // Few bodies' pairs are all tested, as tiles do.
 __device__ inline void count_broad_work(const BroadWorkView& view, ManyNotes& room) {
-  const GridTeam grid;
+  const GridPlaces grid;
   const BroadView& b = view.broad;
   const AppendView<core::Pair> nowhere;
   Counted work;
@@ -62,7 +62,7 @@ __device__ inline void count_broad_work(const BroadWorkView& view, ManyNotes& ro
 // Hits of a first level one at a time, however many the frame looked at together: how many that were depends on the
 // GPU.
 __device__ inline void count_level_work(const LevelWorkView& view) {
-  const GridTeam grid;
+  const GridPlaces grid;
   Counted work;
   if (view.frame.broad.start == Start::kNone)
     confirm_by_brute_force(grid, view.frame, work);

@@ -1,0 +1,44 @@
+// All pairs of bodies, dealt out evenly.
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+// Bodies on a ring: body i meets those 1 to n / 2 places on, so that every pair is met once without a root or a
+// triangle, and every body has as much to do as the next. An item is one body and `share` places on from it, a lane
+// each. Item: an unsigned type that can count the items.
+template <typename Item>
+class BodyRing {
+ public:
+  struct Meeting {
+    std::uint32_t i = 0;
+    std::uint32_t j = 0;  // i where there is none
+    bool exists = false;
+  };
+
+  __device__ BodyRing(std::uint32_t bodies, std::uint32_t share)
+      : bodies_(bodies), half_(bodies / 2), share_(share), shares_((half_ + share - 1) / share) {}
+
+  __device__ Item items() const { return Item{bodies_} * shares_; }
+
+  // Of this lane, in an item that exists.
+  __device__ Meeting meeting(Item item) const {
+    const auto i = static_cast<std::uint32_t>(item / shares_);
+    const std::uint32_t on = static_cast<std::uint32_t>(item % shares_) * share_ + lane() + 1;
+    // Bodies that face each other on an even ring meet once.
+    const bool exists = lane() < share_ && on <= half_ && (on * 2 != bodies_ || i < half_);
+    if (!exists) return {i, i, false};
+    return {i, i < bodies_ - on ? i + on : i - (bodies_ - on), true};
+  }
+
+ private:
+  std::uint32_t bodies_;
+  std::uint32_t half_;
+  std::uint32_t share_;
+  std::uint32_t shares_;
+};
+
+}  // namespace broadside::gpu

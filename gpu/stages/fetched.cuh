@@ -1,0 +1,25 @@
+// Boxes and vertices out of memory as whole words.
+#pragma once
+
+#include "core/math/box.hpp"
+#include "gpu/packed_box.hpp"
+#include "gpu/stages/device.cuh"
+
+namespace broadside::gpu {
+
+// In one access of 16 bytes, two for a box: left to itself, the compiler fetches word by word what it needs first, and
+// lines of the cache that are looked up are what a search has fewest of.
+__device__ inline core::Box box_of(const uint4& low, const uint4& high) {
+  return {{__uint_as_float(low.x), __uint_as_float(low.y), __uint_as_float(low.z)},
+          {__uint_as_float(high.x), __uint_as_float(high.y), __uint_as_float(high.z)}};
+}
+__device__ inline PackedVec3 fetched(const PackedVec3* from) {
+  const uint4 word = *reinterpret_cast<const uint4*>(from);
+  return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, __uint_as_float(word.w)};
+}
+__device__ inline core::Box fetched(const PackedBox* from) {
+  const auto* words = reinterpret_cast<const uint4*>(from);
+  return box_of(words[0], words[1]);
+}
+
+}  // namespace broadside::gpu
