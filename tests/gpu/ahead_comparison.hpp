@@ -82,15 +82,42 @@ inline std::uint64_t expect_same_steps(const core::Scene& scene, const PipelineO
   return ahead.repeated_frames();
 }
 
-// Bodies apart from each other that fly to one point, where they all are after so many steps: few pairs, then all there
-// are.
-inline core::Scene flying_together(std::uint32_t bodies, float steps) {
+inline PipelineOptions boxes_alone() {
+  PipelineOptions options;
+  options.has_vertex_stage = false;
+  options.levels = core::Levels::kFlat;
+  return options;
+}
+
+inline void expect_same_steps_of_every_start(const core::Scene& scene, std::uint64_t steps) {
+  for (const Broad broad : {Broad::kTree, Broad::kOctree, Broad::kHash, Broad::kBrute}) {
+    for (const Solver solver : {Solver::kColored, Solver::kJacobi}) {
+      SCOPED_TRACE(static_cast<int>(broad) * 10 + static_cast<int>(solver));
+      PipelineOptions options;
+      options.broad = broad;
+      options.solver = solver;
+      options.levels = core::Levels::kA;
+      options.least_for_grid = 10;
+      expect_same_steps(scene, options, steps);
+    }
+  }
+}
+
+// Small boxes that nothing pulls.
+inline core::Scene floating_boxes(std::uint32_t bodies) {
   SceneShape shape;
   shape.bodies = bodies;
   shape.gravity_m_s2 = 0.0F;
   core::Scene scene = thrown({box_mesh({0.02F, 0.02F, 0.02F})}, shape);
   scene.dt_s = 0.01F;
   scene.domain = {{-9, -9, -9}, {9, 9, 9}};
+  return scene;
+}
+
+// Bodies apart from each other that fly to one point, where they all are after so many steps: few pairs, then all there
+// are.
+inline core::Scene flying_together(std::uint32_t bodies, float steps) {
+  core::Scene scene = floating_boxes(bodies);
   for (core::Body& body : scene.bodies) {
     body.position = (1.0F / core::length(body.position)) * body.position;
     body.velocity = (-1.0F / (steps * scene.dt_s)) * body.position;
@@ -101,12 +128,7 @@ inline core::Scene flying_together(std::uint32_t bodies, float steps) {
 // Bodies in a lattice, none near another, that all leave the domain over one of its corners after so many steps: three
 // faces each.
 inline core::Scene flying_out(std::uint32_t bodies, float steps) {
-  SceneShape shape;
-  shape.bodies = bodies;
-  shape.gravity_m_s2 = 0.0F;
-  core::Scene scene = thrown({box_mesh({0.02F, 0.02F, 0.02F})}, shape);
-  scene.dt_s = 0.01F;
-  scene.domain = {{-9, -9, -9}, {9, 9, 9}};
+  core::Scene scene = floating_boxes(bodies);
   const float speed_m_s = 9.0F / (steps * scene.dt_s);
   for (std::uint32_t i = 0; i < bodies; ++i) {
     scene.bodies[i].position =

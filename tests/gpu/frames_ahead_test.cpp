@@ -20,18 +20,7 @@ class FramesAhead : public testing::Test {
 };
 
 core::Scene spheres(std::uint32_t bodies, float cube_m, std::uint32_t static_every = 0) {
-  SceneShape shape;
-  shape.bodies = bodies;
-  shape.cube_m = cube_m;
-  shape.static_every = static_every;
-  return thrown({bumpy_sphere(12, 0.5F), bumpy_sphere(25, 0.6F)}, shape);
-}
-
-PipelineOptions boxes_alone() {
-  PipelineOptions options;
-  options.has_vertex_stage = false;
-  options.levels = core::Levels::kFlat;
-  return options;
+  return thrown_spheres(12, 25, bodies, cube_m, static_every);
 }
 
 TEST_F(FramesAhead, ThousandsOfThem) {
@@ -42,17 +31,7 @@ TEST_F(FramesAhead, ThousandsOfThem) {
 }
 
 TEST_F(FramesAhead, EveryStartAndSolver) {
-  for (const Broad broad : {Broad::kTree, Broad::kOctree, Broad::kHash, Broad::kBrute}) {
-    for (const Solver solver : {Solver::kColored, Solver::kJacobi}) {
-      SCOPED_TRACE(static_cast<int>(broad) * 10 + static_cast<int>(solver));
-      PipelineOptions options;
-      options.broad = broad;
-      options.solver = solver;
-      options.levels = core::Levels::kA;
-      options.least_for_grid = 10;
-      expect_same_steps(spheres(100, 5.0F), options, 200);
-    }
-  }
+  expect_same_steps_of_every_start(spheres(100, 5.0F), 200);
 }
 
 // From one kernel to the next larger one, and more bodies than threads.

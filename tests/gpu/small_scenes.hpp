@@ -94,6 +94,16 @@ inline core::Scene thrown(std::vector<std::shared_ptr<const core::Mesh>> meshes,
   return scene;
 }
 
+// Bumpy spheres of two kinds, of so many rings each.
+inline core::Scene thrown_spheres(std::uint32_t rings, std::uint32_t other_rings, std::uint32_t bodies, float cube_m,
+                                  std::uint32_t static_every) {
+  SceneShape shape;
+  shape.bodies = bodies;
+  shape.cube_m = cube_m;
+  shape.static_every = static_every;
+  return thrown({bumpy_sphere(rings, 0.5F), bumpy_sphere(other_rings, 0.6F)}, shape);
+}
+
 // On the first bodies, one or two each; some bodies stay free.
 inline void add_springs(core::Scene& scene, std::uint32_t count) {
   for (std::uint32_t k = 0; k < count; ++k)

@@ -33,11 +33,7 @@ std::uint64_t compare(const core::Scene& scene, const PipelineOptions& options, 
 }
 
 core::Scene spheres(std::uint32_t bodies, float cube_m, std::uint32_t static_every = 0) {
-  SceneShape shape;
-  shape.bodies = bodies;
-  shape.cube_m = cube_m;
-  shape.static_every = static_every;
-  return thrown({bumpy_sphere(4, 0.5F), bumpy_sphere(3, 0.6F)}, shape);
+  return thrown_spheres(4, 3, bodies, cube_m, static_every);
 }
 
 TEST(PipelineOnHost, EveryStart) {
