@@ -7,12 +7,14 @@
 
 namespace broadside::gpu {
 
-// In one access of 16 bytes, two for a box: left to itself, the compiler fetches word by word what it needs first, and
-// lines of the cache that are looked up are what a search has fewest of.
+// Of its lower and upper corner.
 __device__ inline core::Box box_of(const uint4& low, const uint4& high) {
   return {{__uint_as_float(low.x), __uint_as_float(low.y), __uint_as_float(low.z)},
           {__uint_as_float(high.x), __uint_as_float(high.y), __uint_as_float(high.z)}};
 }
+
+// In one access of 16 bytes, two for a box: left to itself, the compiler fetches word by word what it needs first, and
+// lines of the cache that are looked up are what a search has fewest of.
 __device__ inline PackedVec3 fetched(const PackedVec3* from) {
   const uint4 word = *reinterpret_cast<const uint4*>(from);
   return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, __uint_as_float(word.w)};
