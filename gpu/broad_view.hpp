@@ -42,7 +42,6 @@ struct Counters {
   std::uint32_t colors = 0;
   std::uint32_t is_aborted = 0;
   std::uint32_t digested = 0;  // blocks of the digest's kernel that have entered their share
-  unsigned long long few = 0;  // of few bodies: pairs, and 2^32 times those that are confirmed
 };
 
 // Buckets are in chunks of kBucketChunk, each with one more word in `begin`: bucket b has the entries begin[place(b)]

@@ -105,6 +105,7 @@ core::Status DeviceScene::load(const core::Scene& scene, const SceneNeeds& needs
   BROADSIDE_TRY(quantized_.upload(cells.quantized, "cells of near vertices"));
   shape_count_ = static_cast<std::uint32_t>(table.shapes.size());
   extent_m_ = near.extent_m;
+  has_cells_ = !cells.lower.empty();
   BROADSIDE_TRY(shape_of_body_.upload(table.shape_of_body, "bodies"));
   BROADSIDE_TRY(material_.upload(material, "materials"));
   BROADSIDE_TRY(orientation_.upload(orientation, "orientations"));

@@ -26,6 +26,8 @@ class DeviceScene {
   [[nodiscard]] const core::Quat* orientation() const { return orientation_.data(); }
   // Of the deepest vertex tree.
   [[nodiscard]] std::uint32_t tree_levels() const { return tree_levels_; }
+  // Whether a shape has cells of near vertices.
+  [[nodiscard]] bool has_cells() const { return has_cells_; }
   // What the broad phase must know before the first frame: a body's box is its shape's, wherever it is.
   [[nodiscard]] const BoxFacts& box_facts() const { return box_facts_; }
   [[nodiscard]] std::uint64_t shape_bytes() const;
@@ -53,6 +55,7 @@ class DeviceScene {
   DeviceBuffer<core::Spring> springs_;
   DeviceBuffer<std::uint32_t> spring_begin_;
   bool has_springs_ = false;
+  bool has_cells_ = false;
   std::uint32_t tree_levels_ = 1;
   BoxFacts box_facts_;
 };

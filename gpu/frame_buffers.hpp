@@ -56,7 +56,7 @@ class FrameBuffers {
   DeviceBuffer<std::uint32_t> list_begin_;
   DeviceBuffer<LiveBody> live_;
   DeviceBuffer<Counters> counters_;
-  DeviceBuffer<std::uint32_t> barrier_;
+  DeviceBuffer<unsigned long long> barrier_;
 
   DeviceBuffer<core::Pair> pairs_;
   DeviceBuffer<core::Pair> confirmed_;

@@ -31,6 +31,12 @@ __global__ void __launch_bounds__(kDigestThreads, kDigestBlocksPerMultiprocessor
   run_digest(view, &block_sum);
 }
 
+// Few bodies' kernel has shapes in shared memory too.
+LaunchShape few_shape(LaunchShape shape) {
+  shape.shared_bytes += sizeof(BlockShapes);
+  return shape;
+}
+
 }  // namespace
 
 core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
@@ -45,8 +51,8 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
                                                 static_cast<std::uint32_t>((sizeof(PairQueue) + 15) / 16 * 16));
   for (std::uint32_t threads = kThreads; threads >= 32; threads /= 2) {
     LaunchShape shape{threads, 0, threads / 32 * bytes_per_warp, 0};
-    if (shape.shared_bytes + sizeof(BlockScratch) > block_limit.value()) continue;
-    LaunchShape few = shape;
+    if (few_shape(shape).shared_bytes + sizeof(BlockScratch) > block_limit.value()) continue;
+    LaunchShape few = few_shape(shape);
     LaunchShape many = shape;
     BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kSome>), shape));
     BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kMany>), many));
@@ -62,8 +68,9 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream) {
   void (*const kernels[])(FrameView) = {frame_kernel<FrameKind::kFew>, frame_kernel<FrameKind::kSome>,
                                         frame_kernel<FrameKind::kMany>};
-  const FrameKind kind = kind_of(frame, std::uint64_t{shape.blocks} * shape.threads);
-  return launch(kernels[static_cast<std::size_t>(kind)], frame, shape, stream);
+  const FrameKind kind = kind_of(frame, shape.all_threads());
+  return launch(kernels[static_cast<std::size_t>(kind)], frame, kind == FrameKind::kFew ? few_shape(shape) : shape,
+                stream);
 }
 
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {

@@ -19,16 +19,28 @@ struct LaunchShape {
   std::uint32_t blocks = 0;   // that are resident at once: all of them meet at barriers
   std::uint32_t shared_bytes = 0;
   std::uint32_t multiprocessors = 0;
+
+  [[nodiscard]] std::uint64_t all_threads() const { return std::uint64_t{blocks} * threads; }
 };
 
 // Of the ring of all bodies (stages/body_ring.cuh) a warp takes so few places at once as there are warps for: seldom do
 // two of its pairs go down the levels one after the other then.
 inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) {
-  const std::uint64_t warps = std::uint64_t{shape.blocks} * (shape.threads / 32);
+  const std::uint64_t warps = shape.all_threads() / 32;
   const std::uint32_t half = bodies / 2;
   std::uint32_t share = 1;
   while (share < 32 && std::uint64_t{bodies} * ((half + share - 1) / share) > warps) ++share;
   return share;
+}
+
+// Above this the tiles of tile_stage.cuh are sooner done: a warp of theirs tests 1024 pairs, one of ours 32.
+constexpr std::uint32_t kFewBodies = 512;
+
+// Whether frames are those of the kernel for few bodies, which knows nothing else and has a thread of one block for
+// each.
+inline bool has_few_bodies(const FrameView& f) {
+  return f.broad.start == Start::kTiles && f.body_count <= kFewBodies && f.body_count <= f.block_bodies &&
+         f.solver == Solver::kColored;
 }
 
 // For trees of this many levels. An error says that the GPU has too little shared memory for one warp's stack.
@@ -45,7 +57,7 @@ struct PairsView {
   ManyView many;  // where the start is Start::kMany
   AppendView<core::Pair> pairs;
   Counters* counters = nullptr;
-  std::uint32_t* barrier = nullptr;  // the word where the grid meets
+  unsigned long long* barrier = nullptr;  // the word where the grid meets
   Outcome* outcome = nullptr;
 };
 struct PairsShape {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/attributes.hpp"
 #include "core/contact.hpp"
 #include "core/material.hpp"
 #include "core/math/box.hpp"
@@ -116,24 +117,32 @@ struct FrameView {
   AppendView<core::Pair> pairs;
   AppendView<core::Pair> confirmed;      // flat: the same memory as pairs
   core::Proximity* proximity = nullptr;  // one per confirmed pair
-  std::uint32_t ring_share = 1;          // places of the ring that a warp takes, where there are few bodies
-  std::uint32_t stack_entries = 0;       // of each warp's stack in the proximity stage
-  std::uint32_t block_bodies = 0;        // that one block resolves alone
-  Link* links = nullptr;                 // the touching pairs: as many as confirmed
-  unsigned long long* keys = nullptr;    // [2 * links] order of the contacts of each written body, as they came
-  ListEntry* lists = nullptr;            // [2 * links] contacts of each written body, in their order
-  core::Contact* contacts = nullptr;     // one slot per link; depth 0 = no contact
+  // Few bodies: the levels below 0 are gone down where pairs are found, not while they are measured.
+  bool are_levels_first = false;
+  std::uint32_t ring_share = 1;        // places of the ring that a warp takes, where there are few bodies
+  std::uint32_t stack_entries = 0;     // of each warp's stack in the proximity stage
+  std::uint32_t block_bodies = 0;      // that one block resolves alone
+  std::uint32_t block_bytes = 0;       // of shared memory that a block has, beside what is fixed
+  Link* links = nullptr;               // the touching pairs: as many as confirmed
+  unsigned long long* keys = nullptr;  // [2 * links] order of the contacts of each written body, as they came
+  ListEntry* lists = nullptr;          // [2 * links] contacts of each written body, in their order
+  core::Contact* contacts = nullptr;   // one slot per link; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
 
   std::uint32_t* degree = nullptr;      // [bodies] contacts of a written body
   std::uint32_t* list_begin = nullptr;  // [bodies]
   LiveBody* live = nullptr;             // [bodies]
 
-  Counters* counters = nullptr;      // until this frame begins, those of the frame before it
-  std::uint32_t* barrier = nullptr;  // the word where the grid meets
+  Counters* counters = nullptr;           // until this frame begins, those of the frame before it
+  unsigned long long* barrier = nullptr;  // the word where the grid meets
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;
 };
+
+// Of one shape nobody has to ask which.
+BROADSIDE_HD std::uint32_t shape_of(const FrameView& f, std::uint32_t body) {
+  return f.shapes.count == 1 ? 0U : f.shape_of_body[body];
+}
 
 }  // namespace broadside::gpu

@@ -38,7 +38,7 @@ struct PairFinder::Impl {
   WorkCounter work;
   DeviceBuffer<core::Pair> pairs;
   DeviceBuffer<Counters> counters;
-  DeviceBuffer<std::uint32_t> barrier;
+  DeviceBuffer<unsigned long long> barrier;
 
   [[nodiscard]] Start start() const;
   core::Status reserve();

@@ -78,6 +78,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   // One body a thread: with more, a block takes longer than the grid.
   d.view.block_bodies =
       std::min(d.launch.threads, static_cast<std::uint32_t>(d.launch.shared_bytes / sizeof(LiveBody)));
+  d.view.block_bytes = d.launch.shared_bytes;
   d.device_scene.fill(d.view);
   // Uploads ran on the default stream, which this one does not wait for.
   d.broad.fill(d.view.broad);

@@ -54,6 +54,8 @@ struct Pipeline::Impl {
   [[nodiscard]] bool starts_at_level0() const { return chosen_start() != Start::kNone; }
   // Whether somebody will ask for the digest of the next frame, to judge by when they asked before.
   [[nodiscard]] bool expects_digest() const { return steps > 0 && steps + 1 == asked_step + asked_stride; }
+  [[nodiscard]] LaunchShape frame_shape() const;
+  [[nodiscard]] bool levels_come_first(const LaunchShape& shape) const;
   core::Status launch_frame();
   core::Status wait_for_frame();
   core::Result<bool> is_kept();

@@ -13,17 +13,32 @@ constexpr std::array<std::string_view, kStageCount> kStageNames{"integrate", "br
 
 }  // namespace
 
+// Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them, as there is
+// where all levels are tested for all pairs.
+LaunchShape Pipeline::Impl::frame_shape() const {
+  LaunchShape shape = launch;
+  if (view.body_count < kLeastBodiesForGrid && view.broad.start != Start::kNone)
+    shape.blocks = std::min(shape.blocks, shape.multiprocessors);
+  return shape;
+}
+
+// Of few bodies. While a pair is measured its levels are gone down for nothing. But where there are more pairs than the
+// grid has teams of warps, as there were in the last frame that was seen, it is worth while to know before which of
+// them are left: there are more warps for each then. Descending two trees takes long, and wants all warps of a block.
+bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
+  if (view.levels == core::Levels::kFlat) return false;
+  const std::uint64_t teams = std::uint64_t{shape.blocks} * (device_scene.has_cells() ? 2 : 1);
+  return !view.has_vertex_stage || last.pairs > teams;
+}
+
 // Behind those under way.
 core::Status Pipeline::Impl::launch_frame() {
   buffers.fill(view, frames.under_way());
   broad.fill(view.broad);
   if (is_confirmed_by_level0()) view.confirmed.items = view.pairs.items;
-  // Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them, as there is
-  // where all levels are tested for all pairs.
-  LaunchShape shape = launch;
-  if (view.body_count < kLeastBodiesForGrid && view.broad.start != Start::kNone)
-    shape.blocks = std::min(shape.blocks, shape.multiprocessors);
+  const LaunchShape shape = frame_shape();
   view.ring_share = ring_share(view.body_count, shape);
+  view.are_levels_first = levels_come_first(shape);
   return frames.launch(view, shape);
 }
 

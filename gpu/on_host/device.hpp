@@ -43,8 +43,20 @@ inline void relax() {
 }
 class GridBarrier {
  public:
-  explicit GridBarrier(std::uint32_t* /*word*/) {}
+  static constexpr unsigned long long kTally = (1ULL << 40) - 1;
+
+  explicit GridBarrier(unsigned long long* word) : word_(word) {}
   void meet() { on_host::meet_grid(); }
+  unsigned long long meet_and_ask(unsigned long long* /*in_block*/) {
+    on_host::meet_grid();
+    const unsigned long long tally = *word_;
+    // Nobody goes on to change it before all have seen it.
+    on_host::meet_grid();
+    return tally;
+  }
+
+ private:
+  unsigned long long* word_;
 };
 inline void __syncthreads() {
   on_host::meet_block(false);
@@ -128,6 +140,10 @@ T atomicOr(T* to, T value) {
   return old;
 }
 
+inline unsigned long long add_by_first_lane(unsigned long long* to, unsigned long long value) {
+  return threadIdx.x % 32 == 0 ? atomicAdd(to, value) : 0;
+}
+
 inline int __popc(unsigned v) {
   return std::popcount(v);
 }
@@ -171,13 +187,14 @@ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
 inline uint4 load_once(const uint4* from) {
   return *from;
 }
-inline void load_two_whole(const uint4* from, uint4 (&words)[2]) {
-  words[0] = from[0];
-  words[1] = from[1];
-}
-inline void store_whole(uint4* to, uint4 v) {
-  *to = v;
-}
+struct GridWords {
+  static void load_two_whole(const uint4* from, uint4 (&words)[2]) {
+    words[0] = from[0];
+    words[1] = from[1];
+  }
+  static void store_whole(uint4* to, uint4 v) { *to = v; }
+};
+using BlockWords = GridWords;
 class BlockCopy {
  public:
   void begin(void* to, const void* from, std::uint32_t bytes) {

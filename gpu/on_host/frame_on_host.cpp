@@ -33,8 +33,8 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle /*stream*/) {
   std::vector<BlockScratch> scratch(shape.blocks);
-  on_host::run(launch_of(shape), shape.shared_bytes, [&](unsigned char* shared) {
-    switch (kind_of(frame, std::uint64_t{shape.blocks} * shape.threads)) {
+  on_host::run(launch_of(shape), shape.shared_bytes + sizeof(BlockShapes), [&](unsigned char* shared) {
+    switch (kind_of(frame, shape.all_threads())) {
       case FrameKind::kFew:
         return run_frame<FrameKind::kFew>(frame, scratch[blockIdx.x], shared);
       case FrameKind::kSome:

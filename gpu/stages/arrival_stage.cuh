@@ -81,8 +81,7 @@ __device__ void resolve_link(const FrameView& f, const Live& live, std::uint32_t
   const std::uint32_t color = max(link.rank_i != kNoRank ? a.tag >> 1 : 0U, link.rank_j != kNoRank ? b.tag >> 1 : 0U);
   core::Contact contact;
   fill_contact(f, {link.i, link.j}, color, core::combine(f.material[link.i], f.material[link.j]),
-               {local_box(f, link.i), f.previous.position[link.i].w},
-               {local_box(f, link.j), f.previous.position[link.j].w}, {a.x, a.v}, {b.x, b.v}, contact);
+               contact_side(f, link.i), contact_side(f, link.j), {a.x, a.v}, {b.x, b.v}, contact);
   if (link.rank_i != kNoRank) live.write(link.i, live_after(link.rank_i, contact.post_a, color));
   if (link.rank_j != kNoRank) live.write(link.j, live_after(link.rank_j, contact.post_b, color));
   store_contact(f.contacts + place, contact);

@@ -13,7 +13,7 @@
 namespace broadside::gpu {
 
 __device__ inline core::Box local_box(const FrameView& f, std::uint32_t body) {
-  return unpack(f.shapes.octree[std::uint64_t{f.shape_of_body[body]} * core::kBodyOctreeNodes]);
+  return unpack(f.shapes.octree[std::uint64_t{shape_of(f, body)} * core::kBodyOctreeNodes]);
 }
 
 __device__ inline bool is_static(const FrameView& f, std::uint32_t body) {
@@ -67,28 +67,46 @@ __device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
   return true;
 }
 
-// The contacts of one body with the six half-spaces of the domain, in their order; calls `found` for each.
-template <typename Found>
-__device__ void meet_faces(const FrameView& f, std::uint32_t body, const core::Box& local, float inverse_mass,
-                           core::Kinematics& state, const Found& found) {
-  for (int face = 0; face < core::kFaceCount; ++face) {
-    const core::ContactGeometry geometry = core::face_contact(core::translated(local, state.x), f.domain, face);
-    if (!geometry.exists) continue;
+// Which faces of the domain a body is behind: bit k for face k.
+__device__ inline unsigned faces_before(const FrameView& f, const core::Box& local, core::Vec3 x) {
+  const core::Box box = core::translated(local, x);
+  unsigned faces = 0;
+#pragma unroll
+  for (int face = 0; face < core::kFaceCount; ++face)
+    faces |= (core::face_contact(box, f.domain, face).exists ? 1U : 0U) << face;
+  return faces;
+}
+
+// A moving body at the six half-spaces of the domain, in their order, then P(23); the state that this leaves. By whole
+// warps, whoever has no body to move with them: each lane looks for its next face, so that lanes whose faces differ are
+// resolved together.
+template <typename Count>
+__device__ core::Kinematics settled_at_faces(const FrameView& f, std::uint32_t body, bool moves, const core::Box& local,
+                                             float inverse_mass, core::Kinematics state, Count* demanded) {
+  unsigned left = moves ? (1U << core::kFaceCount) - 1U : 0U;  // faces that are not behind us
+  for (;;) {
+    const unsigned faces = left == 0 ? 0U : faces_before(f, local, state.x) & left;
+    const bool has_one = faces != 0;
+    if (!__any_sync(kFullWarp, has_one)) break;
+    const Count place = warp_append_one(has_one, demanded);
+    if (!has_one) continue;
+    const int face = __ffs(static_cast<int>(faces)) - 1;
+    left &= ~1U << face;
     core::Contact contact;
     contact.a = body;
     contact.b = core::kFirstFace + static_cast<std::uint32_t>(face);
     contact.color = core::kFaceColor;
     contact.pre_a = state;
     contact.pre_b = {};
-    core::respond(contact, geometry, inverse_mass, 0.0F, core::combine(f.material[body], f.face_material), f.parameters,
-                  core::face_variant(f.variant));
+    core::respond(contact, core::face_contact(core::translated(local, state.x), f.domain, face), inverse_mass, 0.0F,
+                  core::combine(f.material[body], f.face_material), f.parameters, core::face_variant(f.variant));
     state = contact.post_a;
-    found(contact);
+    if (place < f.face_contacts.capacity) store_contact(f.face_contacts.items + place, contact);
   }
+  if (moves) state.v = core::clipped(state.v, f.parameters.v_max_m_s);
+  return state;
 }
 
-// The six half-spaces of the domain, then P(23). Contacts are counted first and made again when there is a place for
-// them: making them is cheap, and a warp takes its room with one atomic.
 template <typename Team>
 __device__ void resolve_faces(const Team& team, const FrameView& f) {
   const std::uint64_t rounds = (f.body_count + team.size() - 1) / team.size();
@@ -98,29 +116,16 @@ __device__ void resolve_faces(const Team& team, const FrameView& f) {
     PackedVec3 x;
     PackedVec3 v;
     core::Box local;
-    unsigned count = 0;
-    core::Kinematics state;
     if (i < f.body_count) {
       x = f.next.position[i];
       v = f.next.velocity[i];
       local = local_box(f, body);
-      state = {x.v, v.v};
     }
     const bool moves = x.w > 0.0F;
-    if (moves) meet_faces(f, body, local, x.w, state, [&count](const core::Contact&) { ++count; });
-    unsigned long long place = warp_append(count, &f.counters->faces);
+    const core::Kinematics after = settled_at_faces(f, body, moves, local, x.w, {x.v, v.v}, &f.counters->faces);
     if (!moves) continue;
-    if (count > 0) {
-      core::Kinematics again{x.v, v.v};
-      meet_faces(f, body, local, x.w, again, [&](const core::Contact& contact) {
-        if (place < f.face_contacts.capacity) store_contact(f.face_contacts.items + place, contact);
-        ++place;
-      });
-    }
-    x.v = state.x;
-    v.v = core::clipped(state.v, f.parameters.v_max_m_s);
-    f.next.position[i] = x;
-    f.next.velocity[i] = v;
+    f.next.position[i] = {after.x, x.w};
+    f.next.velocity[i] = {after.v, v.w};
   }
 }
 

@@ -5,6 +5,7 @@
 #include "core/method/proximity.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/search_stack.cuh"
+#include "gpu/stages/shape_headers.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
@@ -15,11 +16,11 @@ struct CellRoles {
   bool is_asked_by_j = false;
 };
 
-__device__ inline CellRoles cell_roles(const FrameView& f, core::Pair pair) {
-  const std::uint32_t shape_i = f.shape_of_body[pair.i];
-  const std::uint32_t shape_j = f.shape_of_body[pair.j];
-  const NearCells& of_i = f.shapes.near_cells[shape_i];
-  const NearCells& of_j = f.shapes.near_cells[shape_j];
+__device__ inline CellRoles cell_roles(const FrameView& f, const ShapeHeaders& headers, core::Pair pair) {
+  const std::uint32_t shape_i = shape_of(f, pair.i);
+  const std::uint32_t shape_j = shape_of(f, pair.j);
+  const NearCells& of_i = headers.cells[shape_i];
+  const NearCells& of_j = headers.cells[shape_j];
   const core::Vec3 xi = f.detected.position[pair.i].v;
   const core::Vec3 xj = f.detected.position[pair.j].v;
   const float far = f.shapes.extent_m + fmaxf(fmaxf(fmaxf(fabsf(xi.x), fabsf(xi.y)), fabsf(xi.z)),
@@ -28,7 +29,7 @@ __device__ inline CellRoles cell_roles(const FrameView& f, core::Pair pair) {
   const bool j_answers = of_j.count_x != 0 && far <= of_j.range_m;
   // The body of fewer vertices asks.
   const bool is_asked_by_j =
-      i_answers && (!j_answers || f.shapes.trees[shape_j].node_count[0] < f.shapes.trees[shape_i].node_count[0]);
+      i_answers && (!j_answers || headers.trees[shape_j].node_count[0] < headers.trees[shape_i].node_count[0]);
   return {i_answers || j_answers, is_asked_by_j};
 }
 
@@ -42,12 +43,12 @@ static_assert(kRunVertices == 64, "two a lane");
 // looked up in its cells; those that find something near enough wait until a lane each has one.
 class NearestByCells {
  public:
-  __device__ NearestByCells(const FrameView& f, core::Pair pair, bool is_asked_by_j, SearchStack stack,
-                            std::uint32_t* bound, std::uint32_t member, std::uint32_t members)
+  __device__ NearestByCells(const FrameView& f, const ShapeHeaders& headers, core::Pair pair, bool is_asked_by_j,
+                            SearchStack stack, std::uint32_t* bound, const WarpShare& share)
       : f_(f),
-        tree_(f.shapes.trees[f.shape_of_body[is_asked_by_j ? pair.j : pair.i]]),
-        other_tree_(f.shapes.trees[f.shape_of_body[is_asked_by_j ? pair.i : pair.j]]),
-        cells_(f.shapes.near_cells[f.shape_of_body[is_asked_by_j ? pair.i : pair.j]]),
+        tree_(headers.trees[shape_of(f, is_asked_by_j ? pair.j : pair.i)]),
+        other_tree_(headers.trees[shape_of(f, is_asked_by_j ? pair.i : pair.j)]),
+        cells_(headers.cells[shape_of(f, is_asked_by_j ? pair.i : pair.j)]),
         vertices_(f.shapes.tree_vertices + tree_.vertex_begin),
         quantized_(f.shapes.quantized + tree_.vertex_begin),
         x_(f.detected.position[is_asked_by_j ? pair.j : pair.i].v),
@@ -55,8 +56,7 @@ class NearestByCells {
         is_asked_by_j_(is_asked_by_j),
         queue_(stack),
         bound_(bound),
-        member_(member),
-        members_(members) {
+        share_(share) {
     const float theta_m = core::pair_theta_m(f.parameters, tree_.mean_edge_m, other_tree_.mean_edge_m);
     theta2_ = theta_m * theta_m;
     const core::Vec3 at = cells_.quanta_per_m * ((x_ - other_x_) - cells_.low);
@@ -77,15 +77,16 @@ class NearestByCells {
     last_ = tree_.node_count[0] * kLeafVertices - 1;
   }
 
+  // Each lane's nearest.
   __device__ core::Proximity find() {
     // A tree without runs is one: its root's box is the body's, which is near the other's.
     const std::uint32_t level = min(kRunLevel, tree_.top);
     const std::uint32_t runs = tree_.node_count[level];
     const core::Box other_box =
         core::translated(fetched(f_.shapes.tree_nodes + other_tree_.node_begin[other_tree_.top]), other_x_);
-    for (std::uint32_t first = 0; first < runs; first += 32) {
-      const std::uint32_t run = first + lane();
-      bool is_near = run < runs && run % members_ == member_;  // dealt out to the pair's warps
+    for (std::uint32_t first = share_.member; first < runs; first += 32 * share_.members) {
+      const std::uint32_t run = first + lane() * share_.members;  // dealt out to the pair's warps
+      bool is_near = run < runs;
       if (is_near) {
         const core::Box box = core::translated(fetched(f_.shapes.tree_nodes + tree_.node_begin[level] + run), x_);
         const float gap2 = squared_gap(box, other_box);
@@ -95,7 +96,7 @@ class NearestByCells {
         const auto take = [&] {
           const auto taken = static_cast<std::uint32_t>(__ffs(static_cast<int>(left)) - 1);
           left &= left - 1;
-          return first + taken;
+          return first + taken * share_.members;
         };
         const std::uint32_t one = take();
         const bool are_two = left != 0;
@@ -104,7 +105,7 @@ class NearestByCells {
       }
     }
     if (waiting_ > 0) meet(waiting_);
-    return warp_nearest(best_);
+    return best_;
   }
 
  private:
@@ -170,17 +171,23 @@ class NearestByCells {
     take(second_d2, own_id, second.w);
   }
 
-  // The last `count` of the waiting vertices, a lane each, with the lists of their cells.
+  // The last `count` of the waiting vertices, up to 32, with the lists of their cells: the more lanes for each the
+  // fewer there are. What takes the time is waiting for what a list names.
   __device__ void meet(std::uint32_t count) {
     waiting_ -= count;
-    if (lane() < count) {
-      const std::uint32_t cell = queue_.b()[waiting_ + lane()];
-      const PackedVec3 mine = fetched(vertices_ + queue_.a()[waiting_ + lane()]);
+    const auto shift =
+        static_cast<std::uint32_t>(__clz(static_cast<int>(count - 1))) - 27U;  // 32 / count, rounded down
+    const std::uint32_t lanes = 1U << shift;
+    const std::uint32_t own = lane() >> shift;
+    if (own < count) {
+      const std::uint32_t cell = queue_.b()[waiting_ + own];
+      const PackedVec3 mine = fetched(vertices_ + queue_.a()[waiting_ + own]);
       const core::Vec3 v = mine.v + x_;
       const NearList list = unpacked_list(f_.shapes.near_lists[cells_.first_list + cell]);
       const NearEntry* entry = f_.shapes.near_entries + cells_.first_entry + list.begin;
       const PackedVec3* others = f_.shapes.tree_vertices + other_tree_.vertex_begin;
-      for (const NearEntry* end = entry + list.length; entry != end; ++entry) {
+      const NearEntry* end = entry + list.length;
+      for (entry += lane() & (lanes - 1U); entry < end; entry += lanes) {
         const uint2 four = *reinterpret_cast<const uint2*>(entry);
         meet_two(v, mine.w, fetched(others + (four.x & 0xFFFFU)), fetched(others + (four.x >> 16U)));
         meet_two(v, mine.w, fetched(others + (four.y & 0xFFFFU)), fetched(others + (four.y >> 16U)));
@@ -214,8 +221,7 @@ class NearestByCells {
   SearchStack queue_;
   std::uint32_t waiting_ = 0;  // vertices in the queue: below 32, and 128 more
   std::uint32_t* bound_;
-  std::uint32_t member_;
-  std::uint32_t members_;
+  WarpShare share_;
   float theta2_ = 0.0F;
   float limit_ = INFINITY;
   std::uint32_t most_ = 254;  // of `lower`, for limit_

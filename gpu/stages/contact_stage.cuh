@@ -35,14 +35,16 @@ __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint3
   return true;
 }
 
-// Live bodies in global memory, seen by the whole grid: a reader knows from the two words alone whether they are of one
-// moment, so that one round trip to the cache that all multiprocessors share is the price of a contact's turn.
-struct GridLive {
+// Live bodies that others look at while they are written: a reader knows from the two words alone whether they are of
+// one moment, so that one round trip is the price of a contact's turn. Words: load_two_whole and store_whole for where
+// they lie.
+template <typename Words>
+struct LiveBodies {
   LiveBody* bodies;
 
   __device__ LiveBody fetch(std::uint32_t body) const {
     uint4 both[2];
-    load_two_whole(reinterpret_cast<const uint4*>(bodies + body), both);
+    Words::load_two_whole(reinterpret_cast<const uint4*>(bodies + body), both);
     LiveBody out;
     memcpy(&out, both, sizeof out);
     return out;
@@ -55,39 +57,12 @@ struct GridLive {
     uint4 both[2];
     memcpy(both, &value, sizeof value);
     auto* words = reinterpret_cast<uint4*>(bodies + body);
-    store_whole(words, both[0]);
-    store_whole(words + 1, both[1]);
+    Words::store_whole(words, both[0]);
+    Words::store_whole(words + 1, both[1]);
   }
 };
-
-// Live bodies in one block's shared memory: `done` is written last and read first.
-struct BlockLive {
-  LiveBody* bodies;
-
-  __device__ LiveBody fetch(std::uint32_t body) const {
-    const volatile LiveBody& from = bodies[body];
-    LiveBody out;
-    out.done = from.done;
-    __threadfence_block();
-    out.x = {from.x.x, from.x.y, from.x.z};
-    out.v = {from.v.x, from.v.y, from.v.z};
-    out.tag = from.tag;
-    return out;
-  }
-  __device__ static bool is_at(const LiveBody& b, std::uint32_t rank) { return rank == kNoRank || b.done == rank; }
-  __device__ void write(std::uint32_t body, const LiveBody& value) const {
-    volatile LiveBody& to = bodies[body];
-    to.x.x = value.x.x;
-    to.x.y = value.x.y;
-    to.x.z = value.x.z;
-    to.v.x = value.v.x;
-    to.v.y = value.v.y;
-    to.v.z = value.v.z;
-    to.tag = value.tag;
-    __threadfence_block();
-    to.done = value.done;
-  }
-};
+using GridLive = LiveBodies<GridWords>;    // in global memory, seen by the whole grid
+using BlockLive = LiveBodies<BlockWords>;  // in one block's shared memory
 
 // What a contact of this rank and color leaves of a body.
 __device__ inline LiveBody live_after(std::uint32_t rank, const core::Kinematics& s, std::uint32_t color) {
@@ -101,26 +76,49 @@ __device__ void start_live(const Team& team, const FrameView& f, const Live& liv
   }
 }
 
+// The lists of contacts in global memory, one body's.
+class ListInMemory {
+ public:
+  __device__ ListInMemory(const FrameView& f, std::uint32_t body)
+      : entries_(f.lists + f.list_begin[body]), degree_(f.degree[body]) {}
+
+  __device__ std::uint32_t degree() const { return degree_; }
+  __device__ ListEntry at(std::uint32_t rank) const { return entries_[rank]; }
+
+ private:
+  const ListEntry* entries_;
+  std::uint32_t degree_;
+};
+
+__device__ inline ContactSide contact_side(const FrameView& f, std::uint32_t body) {
+  return {local_box(f, body), f.previous.position[body].w};
+}
+
 // One body's walk through its list. Of a contact's two written bodies, the one that a hash of the ids chooses resolves
 // it, when it is the next contact of both; the other skips it.
-template <typename Live>
+template <typename Live, typename List>
 class BodyTurn {
  public:
-  __device__ BodyTurn(const FrameView& f, const Live& live, std::uint32_t body)
-      : f_(f),
-        live_(live),
-        body_(body),
-        begin_(f.list_begin[body]),
-        degree_(f.degree[body]),
-        own_side_{local_box(f, body), f.previous.position[body].w} {}
+  __device__ BodyTurn(const FrameView& f, const Live& live, std::uint32_t body, const List& list,
+                      const ContactSide& own_side)
+      : f_(f), live_(live), body_(body), list_(list), own_side_(own_side) {}
 
-  __device__ std::uint32_t rank() const { return rank_; }
-  __device__ bool is_over() const { return rank_ == degree_; }
+  // All that this body resolves, each when its turn has come.
+  __device__ void resolve_all() {
+    seek(0);
+    while (rank_ != list_.degree()) {
+      if (try_resolve())
+        seek(rank_ + 1);
+      else
+        relax();
+    }
+  }
 
+ private:
   // To the next contact that this body resolves.
   __device__ void seek(std::uint32_t rank) {
-    for (rank_ = rank; rank_ < degree_; ++rank_) {
-      entry_ = f_.lists[begin_ + rank_];
+    for (rank_ = rank; rank_ < list_.degree(); ++rank_) {
+      entry_ = list_.at(rank_);
       if ((entry_.shape & ListEntry::kIsOurs) == 0) continue;
       other_side_ = {
           unpack(f_.shapes.octree[std::uint64_t{entry_.shape & ~ListEntry::kIsOurs} * core::kBodyOctreeNodes]),
@@ -152,7 +150,6 @@ class BodyTurn {
     return true;
   }
 
- private:
   // Word by word: a choice between two objects would put both into memory.
   __device__ static core::Vec3 chosen(bool first, core::Vec3 p, core::Vec3 q) {
     return {first ? p.x : q.x, first ? p.y : q.y, first ? p.z : q.z};
@@ -171,8 +168,7 @@ class BodyTurn {
   const FrameView& f_;
   const Live& live_;
   std::uint32_t body_;
-  std::uint32_t begin_;
-  std::uint32_t degree_;
+  List list_;
   std::uint32_t rank_ = 0;
   ListEntry entry_;
   ContactSide own_side_;
@@ -190,14 +186,8 @@ __device__ void resolve_by_looking(const Team& team, const FrameView& f, const L
   // Lonely threads where there are many warps for them; otherwise neighbors, whose words lie side by side.
   const std::uint64_t body = std::uint64_t{f.body_count} * 2 <= team.size() ? team.lonely_rank() : team.spread_rank();
   if (body >= f.body_count) return;
-  BodyTurn<Live> turn(f, live, static_cast<std::uint32_t>(body));
-  turn.seek(0);
-  while (!turn.is_over()) {
-    if (turn.try_resolve())
-      turn.seek(turn.rank() + 1);
-    else
-      relax();
-  }
+  const auto own = static_cast<std::uint32_t>(body);
+  BodyTurn(f, live, own, ListInMemory(f, own), contact_side(f, own)).resolve_all();
 }
 
 // The states that the contacts left become the next ones; colors are counted.
@@ -220,9 +210,9 @@ __device__ void finish_live(const Team& team, const FrameView& f, const Live& li
 }
 
 __device__ inline bool fill_from_next(const FrameView& f, const Link& link, core::Contact& contact) {
-  const auto side = [&f](std::uint32_t body) { return ContactSide{local_box(f, body), f.previous.position[body].w}; };
-  return fill_contact(f, {link.i, link.j}, 0, core::combine(f.material[link.i], f.material[link.j]), side(link.i),
-                      side(link.j), {f.next.position[link.i].v, f.next.velocity[link.i].v},
+  return fill_contact(f, {link.i, link.j}, 0, core::combine(f.material[link.i], f.material[link.j]),
+                      contact_side(f, link.i), contact_side(f, link.j),
+                      {f.next.position[link.i].v, f.next.velocity[link.i].v},
                       {f.next.position[link.j].v, f.next.velocity[link.j].v}, contact);
 }
 

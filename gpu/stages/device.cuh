@@ -29,34 +29,58 @@ __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awa
 // Where all blocks of a cooperative launch meet, by way of one word of global memory: zero before its first launch, and
 // of one launch at a time. Each block adds its share, and all shares together flip the highest bit and leave the others
 // zero, so nobody resets anything. What that bit was is asked for when the launch begins, before anybody can have
-// flipped it: at a meeting a block waits for one thing alone.
+// flipped it: at a meeting a block waits for one thing alone. The lowest bits are for something else that is added up
+// (`kTally`): whoever has met knows it.
 class GridBarrier {
  public:
-  __device__ explicit GridBarrier(std::uint32_t* word) : word_(word) {
-    if (threadIdx.x == 0) asm volatile("ld.relaxed.gpu.global.u32 %0, [%1];" : "=r"(seen_) : "l"(word) : "memory");
+  static constexpr unsigned long long kTally = (1ULL << 40) - 1;
+
+  __device__ explicit GridBarrier(unsigned long long* word) : word_(word) {
+    if (threadIdx.x == 0) asm volatile("ld.relaxed.gpu.global.u64 %0, [%1];" : "=l"(seen_) : "l"(word) : "memory");
   }
 
   // Orders memory over the grid. By all threads.
-  __device__ void meet() {
+  __device__ void meet() { arrive_and_wait_for_all(nullptr); }
+  // The same, and returns the tally. `in_block`: of the block's shared memory, used by nobody else.
+  __device__ unsigned long long meet_and_ask(unsigned long long* in_block) {
+    arrive_and_wait_for_all(in_block);
+    return *in_block;
+  }
+
+ private:
+  __device__ __forceinline__ void arrive_and_wait_for_all(unsigned long long* tally) {
     __syncthreads();
     if (threadIdx.x == 0) {
-      const std::uint32_t share = blockIdx.x == 0 ? kFlipped - (gridDim.x - 1) : 1U;
-      asm volatile("red.release.gpu.global.add.u32 [%0], %1;" ::"l"(word_), "r"(share) : "memory");
-      std::uint32_t now = 0;
+      const unsigned long long share = blockIdx.x == 0 ? kFlipped - (gridDim.x - 1) * kArrival : kArrival;
+      asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
+      unsigned long long now = 0;
       do {
-        asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(now) : "l"(word_) : "memory");
+        asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
       } while (((now ^ seen_) & kFlipped) == 0);
       seen_ = now;
+      if (tally != nullptr) *tally = now & kTally;
     }
     __syncthreads();
   }
 
- private:
-  static constexpr std::uint32_t kFlipped = 1U << 31;
+  static constexpr unsigned long long kArrival = kTally + 1;
+  static constexpr unsigned long long kFlipped = 1ULL << 63;
 
-  std::uint32_t* word_;
-  std::uint32_t seen_ = 0;
+  unsigned long long* word_;
+  unsigned long long seen_ = 0;
 };
+
+// Adds to a word of global memory, by the first lane of a whole warp, to whom it returns what was there. That is waited
+// for where it is used: behind an if it would be waited for at the end of the if.
+__device__ inline unsigned long long add_by_first_lane(unsigned long long* to, unsigned long long value) {
+  unsigned long long before = 0;
+  asm volatile(
+      "{ .reg .pred is_first; setp.eq.u32 is_first, %2, 0; @is_first atom.relaxed.gpu.global.add.u64 %0, [%1], %3; }"
+      : "+l"(before)
+      : "l"(to), "r"(threadIdx.x % 32), "l"(value)
+      : "memory");
+  return before;
+}
 
 // One more arrival at *arrived; orders memory over the grid. Returns how many there were before.
 __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
@@ -73,28 +97,57 @@ __device__ inline std::uint32_t load_behind(const std::uint32_t* from) {
   return v;
 }
 
-// Two words of 16 bytes of global memory, asked for at once, each in one access that is never torn, and never served
-// from this multiprocessor's own cache: each is of one moment, both together need not be.
-__device__ inline void load_two_whole(const uint4* from, uint4 (&words)[2]) {
-  unsigned long long part[4];
-  asm volatile(
-      "{ .reg .b128 s; .reg .b128 t; ld.relaxed.gpu.global.b128 s, [%4]; ld.relaxed.gpu.global.b128 t, [%4+16]; "
-      "mov.b128 {%0, %1}, s; mov.b128 {%2, %3}, t; }"
-      : "=l"(part[0]), "=l"(part[1]), "=l"(part[2]), "=l"(part[3])
-      : "l"(from)
-      : "memory");
-  for (int k = 0; k < 2; ++k)
-    words[k] = {static_cast<unsigned>(part[2 * k]), static_cast<unsigned>(part[2 * k] >> 32),
-                static_cast<unsigned>(part[2 * k + 1]), static_cast<unsigned>(part[2 * k + 1] >> 32)};
+// Two words of 16 bytes, asked for at once, each in one access that is never torn: each is of one moment, both together
+// need not be. In global memory they are never served from this multiprocessor's own cache.
+struct GridWords {
+  __device__ static void load_two_whole(const uint4* from, uint4 (&words)[2]) {
+    unsigned long long part[4];
+    asm volatile(
+        "{ .reg .b128 s; .reg .b128 t; ld.relaxed.gpu.global.b128 s, [%4]; ld.relaxed.gpu.global.b128 t, [%4+16]; "
+        "mov.b128 {%0, %1}, s; mov.b128 {%2, %3}, t; }"
+        : "=l"(part[0]), "=l"(part[1]), "=l"(part[2]), "=l"(part[3])
+        : "l"(from)
+        : "memory");
+    unpack(part, words);
+  }
+  // One such word.
+  __device__ static void store_whole(uint4* to, uint4 v) {
+    asm volatile("{ .reg .b128 t; mov.b128 t, {%1, %2}; st.relaxed.gpu.global.b128 [%0], t; }" ::"l"(to), "l"(low(v)),
+                 "l"(high(v))
+                 : "memory");
+  }
+
+  __device__ static unsigned long long low(uint4 v) { return v.x | static_cast<unsigned long long>(v.y) << 32; }
+  __device__ static unsigned long long high(uint4 v) { return v.z | static_cast<unsigned long long>(v.w) << 32; }
+  __device__ static void unpack(const unsigned long long (&part)[4], uint4 (&words)[2]) {
+    for (int k = 0; k < 2; ++k)
+      words[k] = {static_cast<unsigned>(part[2 * k]), static_cast<unsigned>(part[2 * k] >> 32),
+                  static_cast<unsigned>(part[2 * k + 1]), static_cast<unsigned>(part[2 * k + 1] >> 32)};
+  }
+};
+
+__device__ inline std::uint32_t in_shared(const void* p) {
+  return static_cast<std::uint32_t>(__cvta_generic_to_shared(p));
 }
-// One such word.
-__device__ inline void store_whole(uint4* to, uint4 v) {
-  const unsigned long long low = v.x | static_cast<unsigned long long>(v.y) << 32;
-  const unsigned long long high = v.z | static_cast<unsigned long long>(v.w) << 32;
-  asm volatile("{ .reg .b128 t; mov.b128 t, {%1, %2}; st.relaxed.gpu.global.b128 [%0], t; }" ::"l"(to), "l"(low),
-               "l"(high)
-               : "memory");
-}
+
+// The same in the block's shared memory.
+struct BlockWords {
+  __device__ static void load_two_whole(const uint4* from, uint4 (&words)[2]) {
+    unsigned long long part[4];
+    asm volatile(
+        "{ .reg .b128 s; .reg .b128 t; ld.relaxed.cta.shared.b128 s, [%4]; ld.relaxed.cta.shared.b128 t, [%4+16]; "
+        "mov.b128 {%0, %1}, s; mov.b128 {%2, %3}, t; }"
+        : "=l"(part[0]), "=l"(part[1]), "=l"(part[2]), "=l"(part[3])
+        : "r"(in_shared(from))
+        : "memory");
+    GridWords::unpack(part, words);
+  }
+  __device__ static void store_whole(uint4* to, uint4 v) {
+    asm volatile("{ .reg .b128 t; mov.b128 t, {%1, %2}; st.relaxed.cta.shared.b128 [%0], t; }" ::"r"(in_shared(to)),
+                 "l"(GridWords::low(v)), "l"(GridWords::high(v))
+                 : "memory");
+  }
+};
 
 // 16 bytes that nobody needs again: the first to leave the caches.
 __device__ inline uint4 load_once(const uint4* from) {
@@ -134,10 +187,6 @@ class BlockCopy {
   }
 
  private:
-  __device__ static std::uint32_t in_shared(const void* p) {
-    return static_cast<std::uint32_t>(__cvta_generic_to_shared(p));
-  }
-
   unsigned long long done_;
 };
 

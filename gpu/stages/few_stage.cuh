@@ -1,68 +1,29 @@
-// All pairs of a few bodies: level 0 and the levels below it at once, without a barrier between them. METHOD section 2.
+// All pairs of a few bodies. METHOD section 2.
 #pragma once
 
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/body_ring.cuh"
 #include "gpu/stages/confirm_stage.cuh"
-#include "gpu/stages/fetched.cuh"
-#include "gpu/stages/pair_queue.cuh"
+#include "gpu/stages/shapes_in_block.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
 
-// Above this the tiles of tile_stage.cuh are sooner done: a warp of theirs tests 1024 pairs, one of ours 32.
-constexpr std::uint32_t kFewBodies = 512;
-
-// Whether frames are those of the kernel for few bodies, which knows nothing else and has a thread for each.
-inline bool has_few_bodies(const FrameView& f, std::uint64_t threads) {
-  return f.broad.start == Start::kTiles && f.body_count <= kFewBodies && f.body_count <= threads &&
-         f.solver == Solver::kColored;
-}
-
-// The octrees of all shapes in a block's shared memory. They are asked for while bodies are integrated, and waited for
-// where a pair goes down the levels.
-class OctreesInBlock {
- public:
-  __device__ OctreesInBlock(const FrameView& f, unsigned char* shared, BlockCopy& copy)
-      : boxes_(reinterpret_cast<PackedBox*>(shared)),
-        copy_(copy),
-        bytes_(f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox)),
-        // Where there is room for them, and somebody needs them.
-        are_there_(f.levels != core::Levels::kFlat && bytes_ <= blockDim.x / 32 * sizeof(PairQueue)) {}
-
-  __device__ bool are_there() const { return are_there_; }
-  // By all threads of the block; one warp does it. Between the two the block meets, and nobody uses `shared` for
-  // anything else.
-  __device__ void begin(const FrameView& f) const {
-    if (are_there_ && is_ours()) copy_.begin(boxes_, f.shapes.octree, bytes_);
-  }
-  __device__ void end() const {
-    if (are_there_ && is_ours()) copy_.wait();
-  }
-
-  __device__ void wait() const { copy_.wait(); }
-  __device__ core::Box at(std::uint32_t k) const { return fetched(boxes_ + k); }
-
- private:
-  // Neither the first warp, which meets for the block, nor the last, which has bodies.
-  __device__ static bool is_ours() { return threadIdx.x / 32 == blockDim.x / 64; }
-
-  PackedBox* boxes_;
-  BlockCopy& copy_;
-  std::uint32_t bytes_;
-  bool are_there_;
-};
-
-// What few bodies' pairs come to: both counts in one word, so that one atomic takes room in both lists.
+// What few bodies' pairs come to, in the tally beside the grid's barrier: one addition takes room in both lists.
 struct FewCounts {
   std::uint32_t pairs = 0;
   std::uint32_t confirmed = 0;
 
-  __device__ unsigned long long packed() const { return pairs | std::uint64_t{confirmed} << 32U; }
-  __device__ static FewCounts unpacked(unsigned long long word) {
-    return {static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(word >> 32U)};
+  __device__ unsigned long long packed() const { return pairs | std::uint64_t{confirmed} << kBits; }
+  __device__ static FewCounts unpacked(unsigned long long tally) {
+    return {static_cast<std::uint32_t>(tally) & kMost, static_cast<std::uint32_t>(tally >> kBits) & kMost};
   }
+
+ private:
+  static constexpr std::uint32_t kBits = 20;
+  static constexpr std::uint32_t kMost = (1U << kBits) - 1;
+  static_assert(kFewBodies * (kFewBodies - 1) / 2 <= kMost && GridBarrier::kTally >> 2 * kBits == 0);
 };
 
 // A warp's first item, and what of it does not move: known before the bodies do.
@@ -88,15 +49,23 @@ struct FewStart {
  private:
   __device__ void enter(const FrameView& f) {
     meeting = ring.meeting(item);
-    shape_i = f.shape_of_body[meeting.i];
-    shape_j = f.shape_of_body[meeting.j];
+    shape_i = shape_of(f, meeting.i);
+    shape_j = shape_of(f, meeting.j);
   }
 };
 
-template <typename Octrees>
-__device__ void find_and_confirm_few(const GridTeam& team, const FrameView& f, FewStart at, const Octrees& octrees) {
-  if (at.item >= at.ring.items()) return;
+// By a whole warp, of a pair that level 0 found, or its share of it.
+__device__ inline bool is_confirmed_few(const FrameView& f, const ShapesInBlock& shapes, const PlacedShape& a,
+                                        const PlacedShape& b, const WarpShare& share) {
   Uncounted work;
+  if (!shapes.has_octrees()) return are_levels_overlapping<2>(f, OctreesInMemory{f.shapes.octree}, a, b, share, work);
+  shapes.wait();
+  return are_levels_overlapping<2>(f, shapes, a, b, share, work);
+}
+
+// Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet.
+__device__ inline void find_few(const GridTeam& team, const FrameView& f, FewStart at, const ShapesInBlock& shapes) {
+  if (at.item >= at.ring.items()) return;
   const auto stride = static_cast<std::uint32_t>(warp_count(team));
   do {
     // Everything is asked for before any of it is looked at: one wait.
@@ -108,22 +77,17 @@ __device__ void find_and_confirm_few(const GridTeam& team, const FrameView& f, F
         at.meeting.exists && core::overlaps(unpack(box_i), unpack(box_j)) && (box_i.high_tag & box_j.high_tag) == 0;
     const unsigned found = __ballot_sync(kFullWarp, overlaps);
     if (found == 0) continue;
-    octrees.wait();
     unsigned confirmed = 0;
-    for (unsigned left = f.levels == core::Levels::kFlat ? 0U : found; left != 0; left &= left - 1) {
+    for (unsigned left = f.are_levels_first ? found : 0U; left != 0; left &= left - 1) {
       const int source = __ffs(static_cast<int>(left)) - 1;
       const PlacedShape other{
           __shfl_sync(kFullWarp, placed_j.shape, source),
           {__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
            __shfl_sync(kFullWarp, placed_j.x.z, source)}};
-      if (are_levels_overlapping<2>(f, octrees, placed_i, other, work)) confirmed |= 1U << source;
+      if (is_confirmed_few(f, shapes, placed_i, other, {})) confirmed |= 1U << source;
     }
-    // Room in both lists with one atomic: one wait.
-    unsigned long long room = 0;
-    if (lane() == 0)
-      room = atomicAdd(
-          &f.counters->few,
-          FewCounts{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))}.packed());
+    const FewCounts here{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))};
+    const unsigned long long room = add_by_first_lane(f.barrier, here.packed());
     const FewCounts first = FewCounts::unpacked(__shfl_sync(kFullWarp, room, 0));
     const core::Pair pair = core::make_pair_of(at.meeting.i, at.meeting.j);
     const auto enter = [&pair](unsigned lanes, std::uint32_t place, const AppendView<core::Pair>& out) {
@@ -134,5 +98,24 @@ __device__ void find_and_confirm_few(const GridTeam& team, const FrameView& f, F
     enter(confirmed, first.confirmed, f.confirmed);
   } while (at.next(f, stride));
 }
+
+// The levels of few bodies' pairs where they do not come first: by warps that have nothing else to do while others
+// measure the pair.
+class FewLevels {
+ public:
+  __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes, bool are_left)
+      : f_(f), shapes_(shapes), are_left_(are_left) {}
+
+  __device__ bool are_left() const { return are_left_; }
+  // By several warps: if it is so, at least one of them says so.
+  __device__ bool keeps(core::Pair pair, const WarpShare& share) const {
+    return is_confirmed_few(f_, shapes_, placed_shape(f_, pair.i), placed_shape(f_, pair.j), share);
+  }
+
+ private:
+  const FrameView& f_;
+  const ShapesInBlock& shapes_;
+  bool are_left_;
+};
 
 }  // namespace broadside::gpu

@@ -4,6 +4,7 @@
 #include "gpu/frame_kernel.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/arrival_stage.cuh"
+#include "gpu/stages/block_stage.cuh"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/broad_stage.cuh"
 #include "gpu/stages/confirm_stage.cuh"
@@ -25,7 +26,7 @@ enum class FrameKind : std::uint8_t { kFew, kSome, kMany };
 
 // For so many threads of the grid.
 inline FrameKind kind_of(const FrameView& f, std::uint64_t threads) {
-  if (has_few_bodies(f, threads)) return FrameKind::kFew;
+  if (has_few_bodies(f)) return FrameKind::kFew;
   return f.body_count <= threads ? FrameKind::kSome : FrameKind::kMany;
 }
 
@@ -34,23 +35,42 @@ __device__ void mark(const Team& team, const FrameView& f, int stage) {
   if (team.rank() == 0) f.outcome->stage_end_ns[stage] = now_ns();
 }
 
-template <FrameKind kKind, typename Team>
-__device__ void report(const Team& team, const FrameView& f, bool is_aborted) {
-  if (team.rank() != 0) return;
+// By one thread, when nobody adds to the tally any more, which is cleared for the next frame.
+__device__ inline void report(const FrameView& f, Counters counters, const FewCounts& few, bool is_aborted) {
+  counters.is_aborted = is_aborted ? 1 : 0;
+  *f.counters = counters;
+  f.outcome->counters = counters;
+  if (const unsigned long long tally = few.packed(); tally != 0) atomicAdd(f.barrier, 0ULL - tally);
+}
+
+// What is counted so far. Few bodies' counters are clear until their frame is reported.
+template <FrameKind kKind>
+__device__ Counters counters_of(const FrameView& f, const FewCounts& few) {
   if constexpr (kKind == FrameKind::kFew) {
-    const FewCounts counts = FewCounts::unpacked(f.counters->few);
-    f.counters->pairs = counts.pairs;
-    f.counters->confirmed = counts.confirmed;
+    Counters counters;
+    counters.pairs = few.pairs;
+    counters.confirmed = few.confirmed;
+    return counters;
+  } else {
+    return *f.counters;
   }
-  f.counters->is_aborted = is_aborted ? 1 : 0;
-  f.outcome->counters = *f.counters;
+}
+
+// For want of room for so many confirmed pairs, if that is known.
+template <FrameKind kKind>
+__device__ void report_aborted(const FrameView& f, const FewCounts& few = {}, std::uint64_t confirmed = 0) {
+  if (blockIdx.x != 0 || threadIdx.x != 0) return;
+  Counters counters = counters_of<kKind>(f, few);
+  counters.confirmed = max(std::uint64_t{counters.confirmed}, confirmed);
+  report(f, counters, few, true);
 }
 
 // Contacts, faces and the report: what a single block does alone when it is little.
 template <FrameKind kKind, typename Team, typename Live>
-__device__ void resolve(const Team& team, const FrameView& f, std::uint64_t confirmed, const Live& live) {
+__device__ void resolve(const Team& team, const FrameView& f, const MeetingPairs& pairs, const FewCounts& few,
+                        const Live& live) {
   constexpr bool kIsFew = kKind == FrameKind::kFew;
-  collect_touching(team, f, confirmed);
+  collect_touching(team, f, pairs);
   team.sync();
   const std::uint64_t count = f.counters->touching;
   if (!kIsFew && count > 0 && f.solver == Solver::kRacing) {
@@ -72,13 +92,51 @@ __device__ void resolve(const Team& team, const FrameView& f, std::uint64_t conf
   resolve_faces(team, f);
   team.sync();
   mark(team, f, 6);
-  report<kKind>(team, f, f.counters->faces > f.face_contacts.capacity);
+  if (team.rank() != 0) return;
+  Counters counters = *f.counters;
+  if constexpr (kIsFew) {
+    counters.pairs = few.pairs;
+    if (!pairs.has_rejections) counters.confirmed = few.confirmed;
+  }
+  report(f, counters, few, counters.faces > f.face_contacts.capacity);
+}
+
+// The same by one block that has room for it. `counters`: in its shared memory, because there are no registers for
+// them.
+template <FrameKind kKind>
+__device__ void resolve_alone(const FrameView& f, const MeetingPairs& pairs, const FewCounts& few,
+                              const BlockRoom& room, Counters& counters) {
+  const BlockTeam team;
+  if (team.rank() == 0) counters = counters_of<kKind>(f, few);
+  resolve_in_block(f, pairs, room, [&] { mark(team, f, 5); });
+  mark(team, f, 6);
+  if (team.rank() != 0) return;
+  if (pairs.has_rejections) counters.confirmed = room.counts->confirmed;
+  counters.touching = room.counts->touching;
+  counters.faces = room.counts->faces;
+  counters.colors = room.counts->colors;
+  report(f, counters, few, counters.faces > f.face_contacts.capacity);
+}
+
+// The same by the first blocks of the grid.
+template <FrameKind kKind>
+__device__ void resolve_by_grid(const FrameView& f, const MeetingPairs& pairs, const FewCounts& few) {
+  // No more blocks than there is work for: fewer meet sooner. Up to half of the grid, a body a warp is work enough: a
+  // chain of contacts waits longer in warps where other threads resolve theirs.
+  const std::uint64_t work = max(pairs.count, std::uint64_t{f.body_count});
+  const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
+  const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
+  if (blockIdx.x >= blocks) return;
+  resolve<kKind>(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, pairs, few,
+                 GridLive{f.live});
 }
 
 // What a block has in shared memory beside `shared`.
 struct BlockScratch {
   ProximityScratch proximity;
   BlockCopy copy;
+  unsigned long long tally;
+  Counters counters;
 };
 
 // `shared`: what LaunchShape says, a block's own. Each kind is a kernel of its own, because what is left out there
@@ -88,20 +146,17 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   constexpr bool kIsFew = kKind == FrameKind::kFew;
   const GridTeam grid(f.barrier);
   mark(grid, f, 0);
+  const ShapesInBlock shapes(f, shared, scratch.copy);  // of few bodies
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
-    const OctreesInBlock octrees(f, shared, scratch.copy);
     const bool is_needed = integrate(grid, f);
-    octrees.begin(f);
+    shapes.begin(f);
     const FewStart start(grid, f);
     if (is_needed) grid.sync();
-    octrees.end();
+    shapes.end();
     if (!is_needed) return;
     mark(grid, f, 1);
-    if (octrees.are_there())
-      find_and_confirm_few(grid, f, start, octrees);
-    else
-      find_and_confirm_few(grid, f, start, OctreesInMemory{f.shapes.octree});
+    find_few(grid, f, start, shapes);
   } else {
     if (!integrate(grid, f)) return;
     grid.sync();
@@ -109,17 +164,16 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
     if (starts_at_level0) {
       PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
       if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
-        return report<kKind>(grid, f, true);
+        return report_aborted<kKind>(f);
     } else {
       Uncounted work;
       confirm_by_brute_force(grid, f, work);
     }
   }
-  grid.sync();
+  const FewCounts few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
   mark(grid, f, 2);
-  const FewCounts few = FewCounts::unpacked(kIsFew ? f.counters->few : 0ULL);
   const std::uint64_t pairs = kIsFew ? few.pairs : f.counters->pairs;
-  if (pairs > f.pairs.capacity) return report<kKind>(grid, f, true);
+  if (pairs > f.pairs.capacity) return report_aborted<kKind>(f, few);
 
   // From level 0 alone, what was found is what is confirmed.
   const bool is_confirmed_by_level0 = starts_at_level0 && f.levels == core::Levels::kFlat;
@@ -128,31 +182,39 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
     confirm_pairs(grid, f, work);
     grid.sync();
   }
-  const std::uint64_t confirmed =
-      is_confirmed_by_level0 ? pairs : (kIsFew ? std::uint64_t{few.confirmed} : f.counters->confirmed);
+  // Where levels are left for the vertex stage, the confirmed are among all that was found.
+  const bool are_levels_left = kIsFew && !is_confirmed_by_level0 && !f.are_levels_first;
+  const std::uint64_t confirmed = is_confirmed_by_level0 || are_levels_left
+                                      ? pairs
+                                      : (kIsFew ? std::uint64_t{few.confirmed} : f.counters->confirmed);
   mark(grid, f, 3);
-  if (confirmed > f.confirmed.capacity) return report<kKind>(grid, f, true);
+  if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(f, few, confirmed);
 
   if (f.has_vertex_stage && confirmed > 0) {
-    measure_proximity(f, confirmed, scratch.proximity, shared);
+    if constexpr (kIsFew) {
+      const FewLevels levels(f, shapes, are_levels_left);
+      ProximityStage(f, shapes.headers(f), levels, confirmed, scratch.proximity, shared).run();
+    } else {
+      const ShapeHeaders headers{f.shapes.trees, f.shapes.near_cells};
+      ProximityStage(f, headers, NoLevels{}, confirmed, scratch.proximity, shared).run();
+    }
     grid.sync();
   }
   mark(grid, f, 4);
 
+  const MeetingPairs meeting{are_levels_left ? f.pairs.items : f.confirmed.items, confirmed, are_levels_left};
   if constexpr (kKind != FrameKind::kMany) {
-    if (confirmed <= kOneBlockPairs && f.body_count <= f.block_bodies) {
-      if (blockIdx.x == 0) resolve<kKind>(BlockTeam{}, f, confirmed, BlockLive{reinterpret_cast<LiveBody*>(shared)});
+    if (f.solver == Solver::kColored && BlockRoom::fits(f, confirmed)) {
+      const BlockRoom room(shared, f.body_count, static_cast<std::uint32_t>(confirmed));
+      if (blockIdx.x == 0) resolve_alone<kKind>(f, meeting, few, room, scratch.counters);
+      return;
+    }
+    if (kIsFew || (confirmed <= kOneBlockPairs && f.body_count <= f.block_bodies)) {
+      if (blockIdx.x == 0) resolve<kKind>(BlockTeam{}, f, meeting, few, BlockLive{reinterpret_cast<LiveBody*>(shared)});
       return;
     }
   }
-  // No more blocks than there is work for: fewer meet sooner. Up to half of the grid, a body a warp is work enough: a
-  // chain of contacts waits longer in warps where other threads resolve theirs.
-  const std::uint64_t work = max(confirmed, std::uint64_t{f.body_count});
-  const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
-  const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
-  if (blockIdx.x >= blocks) return;
-  resolve<kKind>(PartialGridTeam{static_cast<std::uint32_t>(blocks), &f.counters->arrived}, f, confirmed,
-                 GridLive{f.live});
+  if constexpr (!kIsFew) resolve_by_grid<kKind>(f, meeting, few);
 }
 
 }  // namespace broadside::gpu

@@ -4,6 +4,7 @@
 #include "core/method/coloring.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
+#include "gpu/stages/rejection.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
@@ -13,17 +14,57 @@ __device__ inline bool is_written(const FrameView& f, std::uint32_t body) {
   return !is_static(f, body) || f.variant == core::Variant::kE3;
 }
 
+// The pairs that were measured, or, without a vertex stage, confirmed.
+struct MeetingPairs {
+  const core::Pair* items = nullptr;
+  std::uint64_t count = 0;
+  // They are those that level 0 found: the ones that are not rejected are the confirmed, and not listed yet.
+  bool has_rejections = false;
+};
+
+// One of them. All of its words are asked for at once, and looked at when something is asked about it.
+class Meeting {
+ public:
+  __device__ Meeting(const FrameView& f, const MeetingPairs& pairs, std::uint64_t k) : exists_(k < pairs.count) {
+    if (!exists_) return;
+    pair_ = pairs.items[k];
+    if (f.has_vertex_stage) proximity_ = f.proximity[k];
+  }
+
+  __device__ core::Pair pair() const { return pair_; }
+  __device__ bool is_confirmed() const { return exists_ && !is_rejection(proximity_); }
+  __device__ bool touches(const FrameView& f) const {
+    return exists_ && (!f.has_vertex_stage || proximity_.is_touching());
+  }
+  // At its place among the confirmed, when everybody has read what was there.
+  __device__ void enter(const FrameView& f, std::uint64_t place) const {
+    f.confirmed.items[place] = pair_;
+    f.proximity[place] = proximity_;
+  }
+
+ private:
+  bool exists_;
+  core::Pair pair_;
+  core::Proximity proximity_;
+};
+
 // The touching pairs become links. Each written body's contacts are counted; a link's ranks are, for now, the places in
 // which they came.
 template <typename Team>
-__device__ void collect_touching(const Team& team, const FrameView& f, std::uint64_t confirmed) {
-  const std::uint64_t rounds = (confirmed + team.size() - 1) / team.size();
+__device__ void collect_touching(const Team& team, const FrameView& f, const MeetingPairs& pairs) {
+  const std::uint64_t rounds = (pairs.count + team.size() - 1) / team.size();
   for (std::uint64_t round = 0; round < rounds; ++round) {
     const std::uint64_t k = round * team.size() + team.rank();
-    const bool touches = k < confirmed && (!f.has_vertex_stage || f.proximity[k].is_touching());
-    const unsigned long long place = warp_append(touches ? 1U : 0U, &f.counters->touching);
+    const Meeting meeting(f, pairs, k);
+    if (pairs.has_rejections) {
+      team.sync();
+      const unsigned long long entry = warp_append_one(meeting.is_confirmed(), &f.counters->confirmed);
+      if (meeting.is_confirmed()) meeting.enter(f, entry);
+    }
+    const bool touches = meeting.touches(f);
+    const unsigned long long place = warp_append_one(touches, &f.counters->touching);
     if (!touches) continue;
-    const core::Pair p = f.confirmed.items[k];
+    const core::Pair p = meeting.pair();
     Link link{p.i, p.j, kNoRank, kNoRank};
     if (f.solver != Solver::kRacing) {
       if (is_written(f, p.i)) link.rank_i = atomicAdd(&f.degree[p.i], 1U);
@@ -45,6 +86,11 @@ __device__ inline std::uint32_t keys_before(const unsigned long long* keys, std:
 #pragma unroll 4
   for (std::uint32_t k = 0; k < count; ++k) before += keys[k] < key ? 1U : 0U;
   return before;
+}
+
+// Who resolves a contact of these ranks: whoever is written alone; of two, a hash of the ids chooses.
+__device__ inline bool is_resolved_by_i(core::Pair p, std::uint32_t rank_i, std::uint32_t rank_j) {
+  return rank_j == kNoRank || (rank_i != kNoRank && ((p.i * 0x9E3779B1U ^ p.j * 0x85EBCA6BU) >> 31) != 0);
 }
 
 // Each written body's list of its contacts, in their order: a contact's rank is the number of keys below its own, so
@@ -75,14 +121,12 @@ __device__ void list_contacts(const Team& team, const FrameView& f, std::uint64_
     const std::uint32_t rank_i = rank_of(link.i, link.rank_i);
     const std::uint32_t rank_j = rank_of(link.j, link.rank_j);
     if (kKeepsRanks) f.links[k] = {link.i, link.j, rank_i, rank_j};
-    // Whoever is written alone resolves; of two, a hash of the ids chooses.
-    const bool by_i =
-        rank_j == kNoRank || (rank_i != kNoRank && ((link.i * 0x9E3779B1U ^ link.j * 0x85EBCA6BU) >> 31) != 0);
+    const bool by_i = is_resolved_by_i({link.i, link.j}, rank_i, rank_j);
     const auto enter = [&](std::uint32_t body, std::uint32_t rank, std::uint32_t other, std::uint32_t rank_other,
                            bool is_ours) {
       if (rank == kNoRank) return;
       f.lists[f.list_begin[body] + rank] = {static_cast<std::uint32_t>(k), other, rank_other,
-                                            f.shape_of_body[other] | (is_ours ? ListEntry::kIsOurs : 0U)};
+                                            shape_of(f, other) | (is_ours ? ListEntry::kIsOurs : 0U)};
     };
     enter(link.i, rank_i, link.j, rank_j, by_i);
     enter(link.j, rank_j, link.i, rank_i, !by_i);

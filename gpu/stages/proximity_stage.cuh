@@ -4,6 +4,7 @@
 #include "core/method/proximity.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/cell_search.cuh"
+#include "gpu/stages/rejection.cuh"
 #include "gpu/stages/search_stack.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/tree_search.cuh"
@@ -17,6 +18,7 @@ struct ProximityScratch {
   std::uint32_t bound[kMaxBlockWarps];
   TeamCounts counts[kMaxBlockWarps][2];
   core::Proximity part[kMaxBlockWarps];
+  std::uint32_t is_kept[kMaxBlockWarps];
 };
 
 // Of so many warps side by side.
@@ -26,67 +28,133 @@ __device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, s
   return {static_cast<std::uint32_t*>(stacks) + std::uint64_t{first} * each * 3, count * each, count * each};
 }
 
-// A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at once
-// where there are very many, because all warps take from one counter.
-__device__ inline void measure_by_warps(const FrameView& f, std::uint64_t count, ProximityScratch& scratch,
-                                        void* stacks) {
-  const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
-  const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, count / (warps * 32)));
-  std::uint32_t* bound = &scratch.bound[threadIdx.x / 32];
-  const SearchStack stack = stack_of_warps(f, stacks, threadIdx.x / 32, 1);
-  for (;;) {
-    unsigned long long first = 0;
-    if (lane() == 0) first = atomicAdd(&f.counters->measured, static_cast<unsigned long long>(share));
-    first = __shfl_sync(kFullWarp, first, 0);
-    if (first >= count) return;
-    for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, count); ++k) {
-      if (lane() == 0) *bound = __float_as_uint(INFINITY);
-      __syncwarp();
-      const core::Pair pair = f.confirmed.items[k];
-      const CellRoles roles = cell_roles(f, pair);
-      const core::Proximity best = roles.has_cells
-                                       ? NearestByCells(f, pair, roles.is_asked_by_j, stack, bound, 0, 1).find()
-                                       : nearest_by_trees(TreePair(f, pair, bound), stack);
-      if (lane() == 0) f.proximity[k] = best;
-      __syncwarp();
+// Where nothing is left to be found out about pairs but how near they are; otherwise FewLevels.
+struct NoLevels {
+  __device__ static constexpr bool are_left() { return false; }
+  __device__ static bool keeps(core::Pair /*pair*/, const WarpShare& /*share*/) { return true; }
+};
+
+template <typename Levels>
+class ProximityStage {
+ public:
+  // `count` pairs: confirmed ones, or where levels are left those that level 0 found; what the levels then reject is
+  // told in its proximity.
+  __device__ ProximityStage(const FrameView& f, const ShapeHeaders& headers, const Levels& levels, std::uint64_t count,
+                            ProximityScratch& scratch, void* stacks)
+      : f_(f),
+        headers_(headers),
+        levels_(levels),
+        pairs_(levels.are_left() ? f.pairs.items : f.confirmed.items),
+        count_(count),
+        scratch_(scratch),
+        stacks_(stacks) {}
+
+  // When there are fewer pairs than warps, several warps of a block share a pair. The block's warps are a power of two.
+  __device__ void run() const {
+    const std::uint32_t warps = blockDim.x / 32;
+    const std::uint32_t all_warps = gridDim.x * warps;
+    const auto count = static_cast<std::uint32_t>(min(count_, std::uint64_t{all_warps}));
+    std::uint32_t members = 1;
+    while (members < warps && count * members * 2 <= all_warps) members *= 2;
+    if (members == 1)
+      measure_by_warps();
+    else
+      measure_by_teams(members);
+  }
+
+ private:
+  // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at
+  // once where there are very many, because all warps take from one counter.
+  __device__ void measure_by_warps() const {
+    const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
+    const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, count_ / (warps * 32)));
+    std::uint32_t* bound = &scratch_.bound[threadIdx.x / 32];
+    const SearchStack stack = stack_of_warps(f_, stacks_, threadIdx.x / 32, 1);
+    for (;;) {
+      unsigned long long first = 0;
+      if (lane() == 0) first = atomicAdd(&f_.counters->measured, static_cast<unsigned long long>(share));
+      first = __shfl_sync(kFullWarp, first, 0);
+      if (first >= count_) return;
+      for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, count_); ++k) {
+        if (lane() == 0) *bound = __float_as_uint(INFINITY);
+        __syncwarp();
+        const core::Pair pair = pairs_[k];
+        if (levels_.are_left() && !levels_.keeps(pair, {})) {
+          tell(k, rejection());
+          continue;
+        }
+        const CellRoles roles = cell_roles(f_, headers_, pair);
+        tell(k, warp_nearest(roles.has_cells
+                                 ? NearestByCells(f_, headers_, pair, roles.is_asked_by_j, stack, bound, {}).find()
+                                 : nearest_by_trees(TreePair(f_, headers_, pair, bound), stack)));
+        __syncwarp();
+      }
     }
   }
-}
 
-// When there are fewer pairs than warps, several warps of a block share a pair. The block's warps are a power of two.
-__device__ inline void measure_proximity(const FrameView& f, std::uint64_t count, ProximityScratch& scratch,
-                                         void* stacks) {
-  const std::uint32_t warps = blockDim.x / 32;
-  const std::uint32_t warp = threadIdx.x / 32;
-  std::uint32_t members = 1;
-  while (members < warps && count * members * 2 <= std::uint64_t{gridDim.x} * warps) members *= 2;
-  if (members == 1) return measure_by_warps(f, count, scratch, stacks);
-  const std::uint32_t teams = warps / members;
-  const std::uint32_t team = warp / members;
-  const std::uint32_t member = warp % members;
-  const SearchStack own_stack = stack_of_warps(f, stacks, warp, 1);
-  const SearchTeam search{member, members, team, stack_of_warps(f, stacks, team * members, members),
-                          scratch.counts[team]};
-
-  // The same number of turns for every warp of the block, because they meet at its barrier.
-  for (std::uint64_t base = 0; base < count; base += std::uint64_t{teams} * gridDim.x) {
-    const std::uint64_t k = base + std::uint64_t{team} * gridDim.x + blockIdx.x;
-    std::uint32_t* bound = &scratch.bound[team];
-    if (member == 0 && lane() == 0) *bound = __float_as_uint(INFINITY);
+  // There are as many teams as pairs, or more. Where levels are left, warps of the team that are idle see to them.
+  __device__ void measure_by_teams(std::uint32_t members) const {
+    const std::uint32_t warp = threadIdx.x / 32;
+    const std::uint32_t team = warp / members;
+    const WarpShare share{warp % members, members};
+    const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
+    if (lane() == 0) {
+      scratch_.bound[warp] = __float_as_uint(INFINITY);
+      scratch_.is_kept[warp] = 0;
+    }
     __syncthreads();
     core::Proximity best;
-    if (k < count) {
-      const core::Pair pair = f.confirmed.items[k];
-      const CellRoles roles = cell_roles(f, pair);
-      best = roles.has_cells ? NearestByCells(f, pair, roles.is_asked_by_j, own_stack, bound, member, members).find()
-                             : nearest_by_trees(TreePair(f, pair, bound), search);
+    if (k < count_) {
+      const core::Pair pair = pairs_[k];
+      const CellRoles roles = cell_roles(f_, headers_, pair);
+      best = warp_nearest(roles.has_cells ? nearest_by_cells(pair, roles.is_asked_by_j, team, share)
+                                          : nearest_by_team(pair, team, share));
     }
-    if (lane() == 0) scratch.part[warp] = best;
+    if (lane() == 0) scratch_.part[warp] = best;
     __syncthreads();
-    for (std::uint32_t m = 1; member == 0 && m < members; ++m)
-      if (core::is_nearer(scratch.part[warp + m], best)) best = scratch.part[warp + m];
-    if (member == 0 && lane() == 0 && k < count) f.proximity[k] = best;
+    if (share.member != 0 || k >= count_) return;
+    best = warp_nearest(lane() < members ? scratch_.part[warp + lane()] : core::Proximity{});
+    tell(k, levels_.are_left() && scratch_.is_kept[team] == 0 ? rejection() : best);
   }
-}
+
+  // These two return each lane's nearest.
+  __device__ core::Proximity nearest_by_cells(core::Pair pair, bool is_asked_by_j, std::uint32_t team,
+                                              const WarpShare& share) const {
+    if (!levels_.are_left() || !share.is_last()) {
+      const WarpShare searching{share.member, share.members - (levels_.are_left() ? 1U : 0U)};
+      return NearestByCells(f_, headers_, pair, is_asked_by_j, stack_of_warps(f_, stacks_, threadIdx.x / 32, 1),
+                            &scratch_.bound[team], searching)
+          .find();
+    }
+    see_to_levels(pair, team, {});
+    return {};
+  }
+  __device__ core::Proximity nearest_by_team(core::Pair pair, std::uint32_t team, const WarpShare& share) const {
+    const std::uint32_t first = team * share.members;
+    const SearchTeam all{share, team, stack_of_warps(f_, stacks_, first, share.members), scratch_.counts[team]};
+    const auto meanwhile = [&] {
+      const std::uint32_t half = share.members / 2;
+      if (levels_.are_left() && share.member >= half) see_to_levels(pair, team, {share.member - half, half});
+    };
+    const auto stops = [&] { return levels_.are_left() && scratch_.is_kept[team] == 0; };
+    return nearest_by_trees(TreePair(f_, headers_, pair, &scratch_.bound[team]), all, meanwhile, stops);
+  }
+
+  __device__ void see_to_levels(core::Pair pair, std::uint32_t team, const WarpShare& share) const {
+    if (levels_.keeps(pair, share) && lane() == 0) scratch_.is_kept[team] = 1;
+  }
+
+  __device__ void tell(std::uint64_t k, const core::Proximity& p) const {
+    if (lane() == 0) f_.proximity[k] = p;
+  }
+
+  const FrameView& f_;
+  ShapeHeaders headers_;
+  const Levels& levels_;
+  const core::Pair* pairs_;
+  std::uint64_t count_;
+  ProximityScratch& scratch_;
+  void* stacks_;
+};
 
 }  // namespace broadside::gpu

@@ -57,15 +57,22 @@ __device__ inline float squared_gap(const core::Box& a, const core::Box& b) {
   return core::dot(g, g);
 }
 
-__device__ inline core::Proximity warp_nearest(core::Proximity mine) {
-  for (unsigned step = 16; step > 0; step /= 2) {
-    core::Proximity other;
-    other.squared_distance_m2 = __shfl_xor_sync(kFullWarp, mine.squared_distance_m2, step);
-    other.vertex_a = __shfl_xor_sync(kFullWarp, mine.vertex_a, step);
-    other.vertex_b = __shfl_xor_sync(kFullWarp, mine.vertex_b, step);
-    if (core::is_nearer(other, mine)) mine = other;
-  }
-  return mine;
+// core::is_nearer's first of all lanes: one word of it after the other, and hardly ever more than the first.
+__device__ inline core::Proximity warp_nearest(const core::Proximity& mine) {
+  // Of non-negative floats, bits order as values do.
+  const std::uint32_t distance = __float_as_uint(mine.squared_distance_m2);
+  bool is_first = distance == warp_min(distance);
+  unsigned first = __ballot_sync(kFullWarp, is_first);
+  const auto among = [&](std::uint32_t word) {
+    const std::uint32_t least = warp_min(is_first ? word : 0xFFFFFFFFU);
+    is_first = is_first && word == least;
+    first = __ballot_sync(kFullWarp, is_first);
+  };
+  if ((first & (first - 1)) != 0) among(mine.vertex_a);
+  if ((first & (first - 1)) != 0) among(mine.vertex_b);
+  const int source = __ffs(static_cast<int>(first)) - 1;
+  return {__shfl_sync(kFullWarp, mine.squared_distance_m2, source), __shfl_sync(kFullWarp, mine.vertex_a, source),
+          __shfl_sync(kFullWarp, mine.vertex_b, source)};
 }
 
 }  // namespace broadside::gpu

@@ -23,8 +23,12 @@ struct GridPlaces {
 class GridTeam : public GridPlaces {
  public:
   // `barrier`: the word of GridBarrier.
-  __device__ explicit GridTeam(std::uint32_t* barrier) : barrier_(barrier) {}
+  __device__ explicit GridTeam(unsigned long long* barrier) : barrier_(barrier) {}
   __device__ void sync() const { barrier_.meet(); }
+  // The same; returns what was added up beside the barrier.
+  __device__ unsigned long long sync_and_ask(unsigned long long* in_block) const {
+    return barrier_.meet_and_ask(in_block);
+  }
 
  private:
   mutable GridBarrier barrier_;
@@ -65,6 +69,14 @@ struct PartialGridTeam {
   }
 };
 
+// Which of the warps that share something this is.
+struct WarpShare {
+  std::uint32_t member = 0;
+  std::uint32_t members = 1;
+
+  __device__ bool is_last() const { return member == members - 1; }
+};
+
 template <typename Team>
 __device__ std::uint64_t warp_rank(const Team& team) {
   return team.rank() / 32;
@@ -79,7 +91,8 @@ __device__ inline unsigned lane() {
 
 // Room for the items of one warp in an append buffer: one atomic for all its lanes. Called by whole warps. Returns the
 // place of this lane's first item; places at or past the capacity are counted and not to be written.
-__device__ inline unsigned long long warp_append(unsigned count, unsigned long long* demanded) {
+template <typename Count>
+__device__ Count warp_append(unsigned count, Count* demanded) {
   unsigned before = count;
   for (unsigned step = 1; step < 32; step *= 2) {
     const unsigned other = __shfl_up_sync(kFullWarp, before, step);
@@ -88,9 +101,19 @@ __device__ inline unsigned long long warp_append(unsigned count, unsigned long l
   const unsigned total = __shfl_sync(kFullWarp, before, 31);
   before -= count;
   if (total == 0) return 0;
-  unsigned long long base = 0;
-  if (lane() == 0) base = atomicAdd(demanded, static_cast<unsigned long long>(total));
+  Count base = 0;
+  if (lane() == 0) base = atomicAdd(demanded, static_cast<Count>(total));
   return __shfl_sync(kFullWarp, base, 0) + before;
+}
+
+// The same for one item of some lanes.
+template <typename Count>
+__device__ Count warp_append_one(bool has_one, Count* demanded) {
+  const unsigned with = __ballot_sync(kFullWarp, has_one);
+  if (with == 0) return 0;
+  Count base = 0;
+  if (lane() == 0) base = atomicAdd(demanded, static_cast<Count>(__popc(with)));
+  return __shfl_sync(kFullWarp, base, 0) + static_cast<Count>(__popc(with & ((1U << lane()) - 1U)));
 }
 
 }  // namespace broadside::gpu

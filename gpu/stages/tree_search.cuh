@@ -5,6 +5,7 @@
 #include "core/method/proximity.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/search_stack.cuh"
+#include "gpu/stages/shape_headers.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
@@ -13,11 +14,11 @@ namespace broadside::gpu {
 // the smallest squared distance that anybody found (of non-negative floats, bits order as values do).
 class TreePair {
  public:
-  __device__ TreePair(const FrameView& f, core::Pair pair, std::uint32_t* bound)
+  __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, core::Pair pair, std::uint32_t* bound)
       : nodes_(f.shapes.tree_nodes),
         vertices_(f.shapes.tree_vertices),
-        a_(f.shapes.trees[f.shape_of_body[pair.i]]),
-        b_(f.shapes.trees[f.shape_of_body[pair.j]]),
+        a_(headers.trees[shape_of(f, pair.i)]),
+        b_(headers.trees[shape_of(f, pair.j)]),
         xa_(f.detected.position[pair.i].v),
         xb_(f.detected.position[pair.j].v),
         bound_(bound) {
@@ -28,7 +29,8 @@ class TreePair {
   __device__ NodePair roots() const { return {a_.top << 28, b_.top << 28, 0.0F}; }
   __device__ std::uint32_t top() const { return max(a_.top, b_.top); }
   __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
-  __device__ core::Proximity best() const { return warp_nearest(best_); }
+  // This lane's.
+  __device__ core::Proximity best() const { return best_; }
 
   // By the whole warp: the higher of the two nodes is opened, both when they are level. Calls keep(is_near, pair) twice
   // for every lane, for the children that are near enough.
@@ -99,7 +101,7 @@ class TreePair {
   core::Proximity best_;
 };
 
-// By one warp, with a stack of its own.
+// By one warp, with a stack of its own. Returns each lane's nearest.
 __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchStack& stack) {
   if (lane() == 0) stack.put(0, trees.roots());
   std::uint32_t size = 1;
@@ -131,11 +133,9 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
 }
 
 // Several warps of a block that search one pair.
-struct SearchTeam {
-  std::uint32_t member = 0;
-  std::uint32_t members = 1;  // 2 or more share
-  std::uint32_t barrier = 0;  // the team's number in its block
-  SearchStack stack;          // of all members together
+struct SearchTeam : WarpShare {  // of two or more
+  std::uint32_t barrier = 0;     // the team's number in its block
+  SearchStack stack;             // of all members together
   // By turns: how many pairs of nodes and of leaves are left. In shared memory.
   TeamCounts* counts = nullptr;
 
@@ -144,7 +144,12 @@ struct SearchTeam {
 
 // By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.
 // Where surfaces meet, nearly all the work is below one pair of upper nodes, so it cannot be dealt out beforehand.
-__device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team) {
+//
+// `meanwhile`: called by every warp in the round after the roots', when few warps have a pair to open yet; when `stops`
+// says so after it, nothing more is looked for. Returns each lane's nearest.
+template <typename Meanwhile, typename Stops>
+__device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, const Meanwhile& meanwhile,
+                                            const Stops& stops) {
   const std::uint32_t room = team.stack.entries;
   // Of the leaves: a round makes no more than 64 a warp.
   const std::uint32_t leaf_room = 64 * team.members;
@@ -153,13 +158,31 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchT
   const SearchStack leaves = team.stack.from(node_room);
   // One warp alone, opening one pair after the other, never adds more than this.
   const std::uint32_t reserve = 63 * trees.top();
+  const auto open = [&](const NodePair& parents, float limit, TeamCounts& next) {
+    trees.open(parents, limit, [&](bool is_near, const NodePair& children) {
+      const unsigned kept = __ballot_sync(kFullWarp, is_near);
+      if (kept == 0) return;
+      const bool are_leaves = children.are_leaves();  // the same in all lanes
+      std::uint32_t first = 0;
+      if (lane() == 0)
+        first = atomicAdd(are_leaves ? &next.leaves : &next.nodes, static_cast<std::uint32_t>(__popc(kept)));
+      first = __shfl_sync(kFullWarp, first, 0);
+      if (is_near) (are_leaves ? leaves : nodes).put(first + __popc(kept & ((1U << lane()) - 1U)), children);
+    });
+  };
 
-  TeamCounts left;
-  const NodePair roots = trees.roots();
-  (roots.are_leaves() ? left.leaves : left.nodes) = 1;
-  if (team.member == 0 && lane() == 0) (roots.are_leaves() ? leaves : nodes).put(0, roots);
+  if (team.member == 0) {
+    const NodePair roots = trees.roots();
+    if (lane() == 0) team.counts[0] = {0, roots.are_leaves() ? 1U : 0U};
+    __syncwarp();
+    if (!roots.are_leaves())
+      open(roots, INFINITY, team.counts[0]);
+    else if (lane() == 0)
+      leaves.put(0, roots);
+  }
   team.sync();
-  for (std::uint32_t round = 0; left.nodes + left.leaves > 0; ++round) {
+  TeamCounts left = team.counts[0];
+  const auto play = [&](std::uint32_t round, const auto& besides) {
     // What all members do follows from what is left, so that they agree without a word.
     const std::uint32_t groups = min(team.members, left.nodes > 0 ? left.leaves / 4 : (left.leaves + 3) / 4);
     const std::uint32_t met = min(4 * groups, left.leaves);
@@ -177,21 +200,15 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchT
     team.sync();
     const float limit = trees.limit();
     if (meets) trees.meet(leaf < met, own, limit);
-    if (opens && own.gap2 <= limit) {
-      trees.open(own, limit, [&](bool is_near, const NodePair& children) {
-        const unsigned kept = __ballot_sync(kFullWarp, is_near);
-        if (kept == 0) return;
-        const bool are_leaves = children.are_leaves();  // the same in all lanes
-        std::uint32_t first = 0;
-        if (lane() == 0)
-          first = atomicAdd(are_leaves ? &next.leaves : &next.nodes, static_cast<std::uint32_t>(__popc(kept)));
-        first = __shfl_sync(kFullWarp, first, 0);
-        if (is_near) (are_leaves ? leaves : nodes).put(first + __popc(kept & ((1U << lane()) - 1U)), children);
-      });
-    }
+    if (opens && own.gap2 <= limit) open(own, limit, next);
+    besides();
     team.sync();
     left = next;
-  }
+  };
+  // Apart from the others, so that what is done besides is not in their way.
+  play(1, meanwhile);
+  if (stops()) return trees.best();
+  for (std::uint32_t round = 2; left.nodes + left.leaves > 0; ++round) play(round, [] {});
   return trees.best();
 }
 
