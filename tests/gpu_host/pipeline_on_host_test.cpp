@@ -131,6 +131,21 @@ TEST(PipelineOnHost, FewBodiesOfEveryNumber) {
   }
 }
 
+// Levels that are gone down while pairs are measured, and where they are found: the first frame knows of none before
+// it.
+TEST(PipelineOnHost, EveryLevelOfFewBodies) {
+  const core::Scene scene = spheres(40, 1.6F, 5);
+  for (const bool has_vertex_stage : {true, false}) {
+    for (const std::string name : {"level1", "A", "B"}) {
+      SCOPED_TRACE(name + (has_vertex_stage ? "" : " without vertices"));
+      PipelineOptions options;
+      options.levels = *core::levels_named(name);
+      options.has_vertex_stage = has_vertex_stage;
+      EXPECT_GT(compare(scene, options, {{"levels", name}, {"vertex_stage", has_vertex_stage ? "on" : "off"}}, 3), 0U);
+    }
+  }
+}
+
 // A frame that is copied while the next one is computed is the frame that it was; two may be under way, a third may
 // not.
 TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {
