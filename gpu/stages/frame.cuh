@@ -16,8 +16,8 @@
 
 namespace broadside::gpu {
 
-// Up to this many confirmed pairs, of bodies that fit its shared memory, one block resolves alone: its threads see each
-// other's writes in some 30 ns, those of the grid in some 700.
+// Up to this many confirmed pairs, of bodies that fit its shared memory, one block resolves alone, and few bodies' in
+// any number: its threads see each other's writes in some 30 ns, those of the grid in some 700.
 constexpr std::uint64_t kOneBlockPairs = 8192;
 
 // Whether all contacts are resolved by a thread for each body; few: has_few_bodies, and nothing else that they do not
