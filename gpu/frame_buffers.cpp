@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/frame_kernel.hpp"
+
 namespace broadside::gpu {
 namespace {
 
@@ -52,6 +54,7 @@ core::Status FrameBuffers::load(const core::Scene& scene) {
 core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   BROADSIDE_TRY(confirmed_.reserve(count, "confirmed pairs"));
   BROADSIDE_TRY(proximity_.reserve(count, "nearest vertices"));
+  if (body_count_ <= kFewBodies) BROADSIDE_TRY(measured_.reserve(count, "nearest vertices"));
   BROADSIDE_TRY(links_.reserve(count, "touching pairs"));
   BROADSIDE_TRY(keys_.reserve(2 * count, "order of contacts"));
   BROADSIDE_TRY(lists_.reserve(2 * count, "order of contacts"));
@@ -77,6 +80,7 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
   view.pairs = {pairs_.data(), pairs_.capacity()};
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.proximity = proximity_.data();
+  view.measured = measured_.data();
   view.links = links_.data();
   view.keys = keys_.data();
   view.lists = lists_.data();
@@ -94,8 +98,8 @@ std::uint64_t FrameBuffers::body_bytes() const {
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {
-  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + links_.bytes() + keys_.bytes() + lists_.bytes() +
-         contacts_.bytes() + face_contacts_.bytes();
+  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + measured_.bytes() + links_.bytes() + keys_.bytes() +
+         lists_.bytes() + contacts_.bytes() + face_contacts_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -61,6 +61,7 @@ class FrameBuffers {
   DeviceBuffer<core::Pair> pairs_;
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<core::Proximity> proximity_;
+  DeviceBuffer<MeasuredPair> measured_;
   DeviceBuffer<Link> links_;
   DeviceBuffer<unsigned long long> keys_;
   DeviceBuffer<ListEntry> lists_;

@@ -80,6 +80,13 @@ struct alignas(16) LiveBody {
 static_assert(sizeof(Link) == 16 && sizeof(ListEntry) == 16 && sizeof(LiveBody) == 32,
               "read and written in words of 16 bytes");
 
+// A pair whose levels are gone down while it is measured. Of a rejected one `nearest` says nothing.
+struct alignas(16) MeasuredPair {
+  core::Proximity nearest;
+  std::uint32_t is_rejected = 0;
+};
+static_assert(sizeof(MeasuredPair) == 16, "read in one word");
+
 constexpr int kStageCount = 6;
 
 // What the host reads after a frame, in host memory that the device writes.
@@ -138,7 +145,13 @@ struct FrameView {
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;
+  MeasuredPair* measured = nullptr;    // few bodies: one per pair, as many as confirmed
 };
+
+// Few bodies: whether the vertex stage is given pairs whose levels are still to be gone down.
+BROADSIDE_HD bool are_levels_left(const FrameView& f) {
+  return f.levels != core::Levels::kFlat && !f.are_levels_first;
+}
 
 // Of one shape nobody has to ask which.
 BROADSIDE_HD std::uint32_t shape_of(const FrameView& f, std::uint32_t body) {

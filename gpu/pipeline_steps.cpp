@@ -22,13 +22,15 @@ LaunchShape Pipeline::Impl::frame_shape() const {
   return shape;
 }
 
-// Of few bodies. While a pair is measured its levels are gone down for nothing. But where there are more pairs than the
-// grid has teams of warps, as there were in the last frame that was seen, it is worth while to know before which of
-// them are left: there are more warps for each then. Descending two trees takes long, and wants all warps of a block.
+// Of few bodies. While a pair is measured other warps go down its levels, for nothing. But where there are more pairs,
+// as in the last frame that was seen, than the grid has large teams of warps, and a warp more for each, it is worth
+// while to know before which of them are left: there are more warps for each then. Descending two trees takes long, and
+// wants all warps of a block.
 bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
   if (view.levels == core::Levels::kFlat) return false;
-  const std::uint64_t teams = std::uint64_t{shape.blocks} * (device_scene.has_cells() ? 2 : 1);
-  return !view.has_vertex_stage || last.pairs > teams;
+  const std::uint64_t warps = shape.threads / 32;
+  const std::uint64_t large = device_scene.has_cells() ? std::max<std::uint64_t>(1, warps / 2) : warps;
+  return !view.has_vertex_stage || last.pairs * (large + 1) > shape.blocks * warps;
 }
 
 // Behind those under way.

@@ -177,6 +177,9 @@ inline unsigned __float_as_uint(float v) {
 inline std::uint32_t load_behind(const std::uint32_t* from) {
   return *from;
 }
+inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* from) {
+  return asks ? *from : 0U;
+}
 inline std::uint32_t arrive(std::uint32_t* arrived) {
   return (*arrived)++;
 }

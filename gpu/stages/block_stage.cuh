@@ -8,6 +8,7 @@
 #include "gpu/stages/block_room.cuh"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/contact_stage.cuh"
+#include "gpu/stages/meeting_pairs.cuh"
 #include "gpu/stages/order_stage.cuh"
 #include "gpu/stages/team.cuh"
 
@@ -28,19 +29,12 @@ class ListInBlock {
   std::uint32_t degree_;
 };
 
-// The touching pairs become links, and those that are not rejected are listed, as in order_stage.cuh. `meeting`: the
-// thread's first pair; all threads have asked for theirs.
+// The touching pairs become links, as in order_stage.cuh. `meeting`: the thread's first pair.
 __device__ inline void collect_in_block(const FrameView& f, Meeting meeting, const MeetingPairs& pairs,
                                         const BlockRoom& room) {
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
-    if (base > 0) {
-      meeting = Meeting(f, pairs, base + threadIdx.x);
-      __syncthreads();
-    }
-    if (pairs.has_rejections) {
-      const std::uint32_t entry = warp_append_one(meeting.is_confirmed(), &room.counts->confirmed);
-      if (meeting.is_confirmed()) meeting.enter(f, entry);
-    }
+    if (base > 0) meeting = Meeting(f, pairs, base + threadIdx.x);
+    if (pairs.are_levels_left) warp_append_one(meeting.is_confirmed(), &room.counts->confirmed);
     const bool touches = meeting.touches(f);
     const std::uint32_t place = warp_append_one(touches, &room.counts->touching);
     if (!touches) continue;

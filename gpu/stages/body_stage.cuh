@@ -41,8 +41,9 @@ __device__ inline bool is_behind_aborted(const FrameView& f) {
 // threads see that alike: the counters are cleared only where there is nothing to see.
 //
 // By the last warps, one of a block: the first block waits longest for the kernel's parameters, and other warps have
-// something else to see to meanwhile.
-__device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
+// something else to see to meanwhile. kCounts: where a broad phase may want boxes counted.
+template <bool kCounts>
+__device__ bool integrate(const GridPlaces& grid, const FrameView& f) {
   std::uint64_t i = grid.size() - 1 - grid.spread_rank();
   if (i >= f.body_count && is_behind_aborted(f)) return false;
   for (; i < f.body_count; i += grid.size()) {
@@ -59,8 +60,8 @@ __device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
     f.detected.velocity[i] = f.next.velocity[i] = new_v;
     const core::Box box = core::translated(local, s.x);
     f.boxes[i] = pack(box, static_cast<std::uint32_t>(i), x.w > 0.0F ? 0U : 1U);
-    if (f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, box);
-    if (f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, box);
+    if (kCounts && f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, box);
+    if (kCounts && f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, box);
     f.degree[i] = 0;
   }
   if (grid.rank() == 0) *f.counters = Counters{};

@@ -35,13 +35,6 @@ struct EightByEightHits {
   unsigned low = 0;   // bits 0 to 31
   unsigned high = 0;  // bits 32 to 63
 
-  // One member's share, when a power of two of up to 32 warps deal them out.
-  __device__ EightByEightHits dealt(std::uint32_t member, std::uint32_t members) const {
-    unsigned own = 1U << member;
-    for (std::uint32_t step = members; step < 32; step *= 2) own |= own << step;
-    return {low & own, high & own};
-  }
-
   __device__ bool any() const { return (low | high) != 0; }
   __device__ friend EightByEightHits operator|(const EightByEightHits& p, const EightByEightHits& q) {
     return {p.low | q.low, p.high | q.high};
@@ -90,15 +83,14 @@ __device__ EightByEight second_level(const Octrees& octrees, const PlacedShape& 
   return {octrees, a.first_box() + kFirst + bit / 8 * 8, a.x, b.first_box() + kFirst + bit % 8 * 8, b.x};
 }
 
-// core::descent_overlaps by a warp, or this warp's share of it: empty boxes overlap nothing, so they need no care. So
-// many of the first level's hits at a time: two where what takes the time is waiting for boxes, one where warps are
-// many and hide each other's waits.
+// core::descent_overlaps by a warp: empty boxes overlap nothing, so they need no care. So many of the first level's
+// hits at a time: two where what takes the time is waiting for boxes, one where warps are many and hide each other's
+// waits.
 template <unsigned kAtOnce, typename Octrees, typename Work>
-__device__ bool descends(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b, const WarpShare& share,
-                         Work& work) {
+__device__ bool descends(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b, Work& work) {
   static_assert(kAtOnce == 1 || kAtOnce == 2);
   work.tests(EightByEight::kTestsOfLane);
-  for (EightByEightHits hits = first_level(octrees, a, b).hits().dealt(share.member, share.members); hits.any();) {
+  for (EightByEightHits hits = first_level(octrees, a, b).hits(); hits.any();) {
     work.tests(EightByEight::kTestsOfLane * kAtOnce);
     const EightByEight one = second_level(octrees, a, b, hits.take());
     if constexpr (kAtOnce == 2) {
@@ -132,11 +124,10 @@ __device__ bool level2_meets(const FrameView& f, const PlacedShape& a, const Pla
   return __any_sync(kFullWarp, hit);
 }
 
-// core::is_confirmed by a warp, for the levels that have a first level below 0 or passed it already. By several warps:
-// if it is so, at least one of them says so.
+// core::is_confirmed by a warp, for the levels that have a first level below 0 or passed it already.
 template <unsigned kAtOnce, typename Octrees, typename Work>
 __device__ bool are_levels_overlapping(const FrameView& f, const Octrees& octrees, const PlacedShape& a,
-                                       const PlacedShape& b, const WarpShare& share, Work& work) {
+                                       const PlacedShape& b, Work& work) {
   switch (f.levels) {
     case core::Levels::kFlat:
       return true;
@@ -144,10 +135,10 @@ __device__ bool are_levels_overlapping(const FrameView& f, const Octrees& octree
       work.tests(EightByEight::kTestsOfLane);
       return first_level(octrees, a, b).hits().any();
     case core::Levels::kA:
-      return share.member == 0 && level2_meets(f, a, b, work);
+      return level2_meets(f, a, b, work);
     case core::Levels::kB:
     case core::Levels::kC:
-      return descends<kAtOnce>(octrees, a, b, share, work);
+      return descends<kAtOnce>(octrees, a, b, work);
   }
   return false;
 }
@@ -155,7 +146,7 @@ __device__ bool are_levels_overlapping(const FrameView& f, const Octrees& octree
 // Of these two bodies.
 template <typename Work>
 __device__ bool are_levels_overlapping(const FrameView& f, core::Pair p, Work& work) {
-  return are_levels_overlapping<1>(f, OctreesInMemory{f.shapes.octree}, placed_shape(f, p.i), placed_shape(f, p.j), {},
+  return are_levels_overlapping<1>(f, OctreesInMemory{f.shapes.octree}, placed_shape(f, p.i), placed_shape(f, p.j),
                                    work);
 }
 

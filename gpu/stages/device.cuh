@@ -97,6 +97,17 @@ __device__ inline std::uint32_t load_behind(const std::uint32_t* from) {
   return v;
 }
 
+// A word that others write meanwhile, asked for by the threads for which `asks`; 0 for others. That is waited for where
+// it is used: behind an if it would be waited for at the end of the if.
+__device__ inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* from) {
+  std::uint32_t v = 0;
+  asm volatile("{ .reg .pred asks; setp.ne.u32 asks, %2, 0; @asks ld.relaxed.gpu.global.u32 %0, [%1]; }"
+               : "+r"(v)
+               : "l"(from), "r"(asks ? 1U : 0U)
+               : "memory");
+  return v;
+}
+
 // Two words of 16 bytes, asked for at once, each in one access that is never torn: each is of one moment, both together
 // need not be. In global memory they are never served from this multiprocessor's own cache.
 struct GridWords {

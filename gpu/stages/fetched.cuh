@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/math/box.hpp"
+#include "gpu/frame_view.hpp"
 #include "gpu/packed_box.hpp"
 #include "gpu/stages/device.cuh"
 
@@ -22,6 +23,11 @@ __device__ inline PackedVec3 fetched(const PackedVec3* from) {
 __device__ inline core::Box fetched(const PackedBox* from) {
   const auto* words = reinterpret_cast<const uint4*>(from);
   return box_of(words[0], words[1]);
+}
+
+__device__ inline MeasuredPair fetched(const MeasuredPair* from) {
+  const uint4 word = *reinterpret_cast<const uint4*>(from);
+  return {{__uint_as_float(word.x), word.y, word.z}, word.w};
 }
 
 }  // namespace broadside::gpu

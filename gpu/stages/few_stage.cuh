@@ -10,6 +10,9 @@
 
 namespace broadside::gpu {
 
+// In no list.
+constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
+
 // What few bodies' pairs come to, in the tally beside the grid's barrier: one addition takes room in both lists.
 struct FewCounts {
   std::uint32_t pairs = 0;
@@ -54,13 +57,13 @@ struct FewStart {
   }
 };
 
-// By a whole warp, of a pair that level 0 found, or its share of it.
+// By a whole warp, of a pair that level 0 found.
 __device__ inline bool is_confirmed_few(const FrameView& f, const ShapesInBlock& shapes, const PlacedShape& a,
-                                        const PlacedShape& b, const WarpShare& share) {
+                                        const PlacedShape& b) {
   Uncounted work;
-  if (!shapes.has_octrees()) return are_levels_overlapping<2>(f, OctreesInMemory{f.shapes.octree}, a, b, share, work);
+  if (!shapes.has_octrees()) return are_levels_overlapping<2>(f, OctreesInMemory{f.shapes.octree}, a, b, work);
   shapes.wait();
-  return are_levels_overlapping<2>(f, shapes, a, b, share, work);
+  return are_levels_overlapping<2>(f, shapes, a, b, work);
 }
 
 // Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet.
@@ -84,38 +87,48 @@ __device__ inline void find_few(const GridTeam& team, const FrameView& f, FewSta
           __shfl_sync(kFullWarp, placed_j.shape, source),
           {__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
            __shfl_sync(kFullWarp, placed_j.x.z, source)}};
-      if (is_confirmed_few(f, shapes, placed_i, other, {})) confirmed |= 1U << source;
+      if (is_confirmed_few(f, shapes, placed_i, other)) confirmed |= 1U << source;
     }
     const FewCounts here{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))};
     const unsigned long long room = add_by_first_lane(f.barrier, here.packed());
     const FewCounts first = FewCounts::unpacked(__shfl_sync(kFullWarp, room, 0));
     const core::Pair pair = core::make_pair_of(at.meeting.i, at.meeting.j);
-    const auto enter = [&pair](unsigned lanes, std::uint32_t place, const AppendView<core::Pair>& out) {
-      place += __popc(lanes & ((1U << lane()) - 1U));
-      if ((lanes >> lane() & 1U) != 0 && place < out.capacity) out.items[place] = pair;
+    const auto place_among = [](unsigned lanes, std::uint32_t begin) {
+      return (lanes >> lane() & 1U) != 0 ? begin + __popc(lanes & ((1U << lane()) - 1U)) : kNoPlace;
     };
-    enter(found, first.pairs, f.pairs);
-    enter(confirmed, first.confirmed, f.confirmed);
+    const std::uint32_t place = place_among(found, first.pairs);
+    if (place < f.pairs.capacity) f.pairs.items[place] = pair;
+    if (are_levels_left(f) && place < f.confirmed.capacity) f.measured[place] = MeasuredPair{};
+    const std::uint32_t confirmed_place = place_among(confirmed, first.confirmed);
+    if (confirmed_place < f.confirmed.capacity) f.confirmed.items[confirmed_place] = pair;
   } while (at.next(f, stride));
 }
 
-// The levels of few bodies' pairs where they do not come first: by warps that have nothing else to do while others
-// measure the pair.
+// The levels of few bodies' pairs where they do not come first: gone down by warps of blocks that have nothing else to
+// do, while others measure the pairs.
 class FewLevels {
  public:
-  __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes, bool are_left)
-      : f_(f), shapes_(shapes), are_left_(are_left) {}
+  __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
 
-  __device__ bool are_left() const { return are_left_; }
-  // By several warps: if it is so, at least one of them says so.
-  __device__ bool keeps(core::Pair pair, const WarpShare& share) const {
-    return is_confirmed_few(f_, shapes_, placed_shape(f_, pair.i), placed_shape(f_, pair.j), share);
+  // Before the first look(), by all threads of the block, which meets between the two; and when all are done.
+  __device__ void begin() const { shapes_.begin_octrees(f_); }
+  __device__ void end() const { shapes_.end_octrees(); }
+
+  // By a warp: pair k is told to be rejected if it is. Returns whether it is not.
+  __device__ bool look(core::Pair pair, std::uint64_t k) const {
+    const bool is_kept = is_confirmed_few(f_, shapes_, placed_shape(f_, pair.i), placed_shape(f_, pair.j));
+    if (!is_kept && lane() == 0) f_.measured[k].is_rejected = 1;
+    return is_kept;
+  }
+
+  // Of those who measure pair k meanwhile, if `asks`: whether somebody has told that it is rejected.
+  __device__ std::uint32_t ask(bool asks, std::uint64_t k) const {
+    return load_fresh_if(asks, &f_.measured[k].is_rejected);
   }
 
  private:
   const FrameView& f_;
   const ShapesInBlock& shapes_;
-  bool are_left_;
 };
 
 }  // namespace broadside::gpu

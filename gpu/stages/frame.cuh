@@ -96,7 +96,7 @@ __device__ void resolve(const Team& team, const FrameView& f, const MeetingPairs
   Counters counters = *f.counters;
   if constexpr (kIsFew) {
     counters.pairs = few.pairs;
-    if (!pairs.has_rejections) counters.confirmed = few.confirmed;
+    if (!pairs.are_levels_left) counters.confirmed = few.confirmed;
   }
   report(f, counters, few, counters.faces > f.face_contacts.capacity);
 }
@@ -111,7 +111,7 @@ __device__ void resolve_alone(const FrameView& f, const MeetingPairs& pairs, con
   resolve_in_block(f, pairs, room, [&] { mark(team, f, 5); });
   mark(team, f, 6);
   if (team.rank() != 0) return;
-  if (pairs.has_rejections) counters.confirmed = room.counts->confirmed;
+  if (pairs.are_levels_left) counters.confirmed = room.counts->confirmed;
   counters.touching = room.counts->touching;
   counters.faces = room.counts->faces;
   counters.colors = room.counts->colors;
@@ -137,6 +137,7 @@ struct BlockScratch {
   BlockCopy copy;
   unsigned long long tally;
   Counters counters;
+  std::uint32_t listed;
 };
 
 // `shared`: what LaunchShape says, a block's own. Each kind is a kernel of its own, because what is left out there
@@ -149,16 +150,16 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   const ShapesInBlock shapes(f, shared, scratch.copy);  // of few bodies
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
-    const bool is_needed = integrate(grid, f);
+    const bool is_needed = integrate<false>(grid, f);
     shapes.begin(f);
     const FewStart start(grid, f);
     if (is_needed) grid.sync();
-    shapes.end();
+    shapes.end(f);
     if (!is_needed) return;
     mark(grid, f, 1);
     find_few(grid, f, start, shapes);
   } else {
-    if (!integrate(grid, f)) return;
+    if (!integrate<true>(grid, f)) return;
     grid.sync();
     mark(grid, f, 1);
     if (starts_at_level0) {
@@ -183,26 +184,26 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
     grid.sync();
   }
   // Where levels are left for the vertex stage, the confirmed are among all that was found.
-  const bool are_levels_left = kIsFew && !is_confirmed_by_level0 && !f.are_levels_first;
-  const std::uint64_t confirmed = is_confirmed_by_level0 || are_levels_left
+  const bool has_levels_left = kIsFew && are_levels_left(f);
+  const std::uint64_t confirmed = is_confirmed_by_level0 || has_levels_left
                                       ? pairs
                                       : (kIsFew ? std::uint64_t{few.confirmed} : f.counters->confirmed);
   mark(grid, f, 3);
   if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(f, few, confirmed);
 
+  const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left};
   if (f.has_vertex_stage && confirmed > 0) {
     if constexpr (kIsFew) {
-      const FewLevels levels(f, shapes, are_levels_left);
-      ProximityStage(f, shapes.headers(f), levels, confirmed, scratch.proximity, shared).run();
+      ProximityStage(f, shapes.headers(f), FewLevels(f, shapes), meeting, scratch.proximity, shared).run();
     } else {
       const ShapeHeaders headers{f.shapes.trees, f.shapes.near_cells};
-      ProximityStage(f, headers, NoLevels{}, confirmed, scratch.proximity, shared).run();
+      ProximityStage(f, headers, NoLevels{}, meeting, scratch.proximity, shared).run();
     }
     grid.sync();
   }
   mark(grid, f, 4);
 
-  const MeetingPairs meeting{are_levels_left ? f.pairs.items : f.confirmed.items, confirmed, are_levels_left};
+  if (has_levels_left && blockIdx.x == gridDim.x - 1) list_confirmed(f, meeting, &scratch.listed);
   if constexpr (kKind != FrameKind::kMany) {
     if (f.solver == Solver::kColored && BlockRoom::fits(f, confirmed)) {
       const BlockRoom room(shared, f.body_count, static_cast<std::uint32_t>(confirmed));

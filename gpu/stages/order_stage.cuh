@@ -4,7 +4,7 @@
 #include "core/method/coloring.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
-#include "gpu/stages/rejection.cuh"
+#include "gpu/stages/meeting_pairs.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
@@ -14,40 +14,6 @@ __device__ inline bool is_written(const FrameView& f, std::uint32_t body) {
   return !is_static(f, body) || f.variant == core::Variant::kE3;
 }
 
-// The pairs that were measured, or, without a vertex stage, confirmed.
-struct MeetingPairs {
-  const core::Pair* items = nullptr;
-  std::uint64_t count = 0;
-  // They are those that level 0 found: the ones that are not rejected are the confirmed, and not listed yet.
-  bool has_rejections = false;
-};
-
-// One of them. All of its words are asked for at once, and looked at when something is asked about it.
-class Meeting {
- public:
-  __device__ Meeting(const FrameView& f, const MeetingPairs& pairs, std::uint64_t k) : exists_(k < pairs.count) {
-    if (!exists_) return;
-    pair_ = pairs.items[k];
-    if (f.has_vertex_stage) proximity_ = f.proximity[k];
-  }
-
-  __device__ core::Pair pair() const { return pair_; }
-  __device__ bool is_confirmed() const { return exists_ && !is_rejection(proximity_); }
-  __device__ bool touches(const FrameView& f) const {
-    return exists_ && (!f.has_vertex_stage || proximity_.is_touching());
-  }
-  // At its place among the confirmed, when everybody has read what was there.
-  __device__ void enter(const FrameView& f, std::uint64_t place) const {
-    f.confirmed.items[place] = pair_;
-    f.proximity[place] = proximity_;
-  }
-
- private:
-  bool exists_;
-  core::Pair pair_;
-  core::Proximity proximity_;
-};
-
 // The touching pairs become links. Each written body's contacts are counted; a link's ranks are, for now, the places in
 // which they came.
 template <typename Team>
@@ -56,11 +22,7 @@ __device__ void collect_touching(const Team& team, const FrameView& f, const Mee
   for (std::uint64_t round = 0; round < rounds; ++round) {
     const std::uint64_t k = round * team.size() + team.rank();
     const Meeting meeting(f, pairs, k);
-    if (pairs.has_rejections) {
-      team.sync();
-      const unsigned long long entry = warp_append_one(meeting.is_confirmed(), &f.counters->confirmed);
-      if (meeting.is_confirmed()) meeting.enter(f, entry);
-    }
+    if (pairs.are_levels_left) warp_append_one(meeting.is_confirmed(), &f.counters->confirmed);
     const bool touches = meeting.touches(f);
     const unsigned long long place = warp_append_one(touches, &f.counters->touching);
     if (!touches) continue;

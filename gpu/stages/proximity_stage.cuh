@@ -1,10 +1,10 @@
-// Nearest vertices of each confirmed pair, P(7) and P(8): how pairs are dealt out to warps.
+// Nearest vertices of each pair, P(7) and P(8): how pairs are dealt out to warps.
 #pragma once
 
 #include "core/method/proximity.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/cell_search.cuh"
-#include "gpu/stages/rejection.cuh"
+#include "gpu/stages/meeting_pairs.cuh"
 #include "gpu/stages/search_stack.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/tree_search.cuh"
@@ -18,7 +18,6 @@ struct ProximityScratch {
   std::uint32_t bound[kMaxBlockWarps];
   TeamCounts counts[kMaxBlockWarps][2];
   core::Proximity part[kMaxBlockWarps];
-  std::uint32_t is_kept[kMaxBlockWarps];
 };
 
 // Of so many warps side by side.
@@ -28,61 +27,57 @@ __device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, s
   return {static_cast<std::uint32_t*>(stacks) + std::uint64_t{first} * each * 3, count * each, count * each};
 }
 
-// Where nothing is left to be found out about pairs but how near they are; otherwise FewLevels.
+// Where nothing is ever left to be found out about pairs but how near they are; otherwise FewLevels.
 struct NoLevels {
-  __device__ static constexpr bool are_left() { return false; }
-  __device__ static bool keeps(core::Pair /*pair*/, const WarpShare& /*share*/) { return true; }
+  __device__ void begin() const {}
+  __device__ void end() const {}
+  __device__ static bool look(core::Pair /*pair*/, std::uint64_t /*k*/) { return true; }
+  __device__ static std::uint32_t ask(bool /*asks*/, std::uint64_t /*k*/) { return 0; }
 };
 
 template <typename Levels>
 class ProximityStage {
  public:
-  // `count` pairs: confirmed ones, or where levels are left those that level 0 found; what the levels then reject is
-  // told in its proximity.
-  __device__ ProximityStage(const FrameView& f, const ShapeHeaders& headers, const Levels& levels, std::uint64_t count,
-                            ProximityScratch& scratch, void* stacks)
-      : f_(f),
-        headers_(headers),
-        levels_(levels),
-        pairs_(levels.are_left() ? f.pairs.items : f.confirmed.items),
-        count_(count),
-        scratch_(scratch),
-        stacks_(stacks) {}
+  __device__ ProximityStage(const FrameView& f, const ShapeHeaders& headers, const Levels& levels,
+                            const MeetingPairs& pairs, ProximityScratch& scratch, void* stacks)
+      : f_(f), headers_(headers), levels_(levels), pairs_(pairs), scratch_(scratch), stacks_(stacks) {}
 
-  // When there are fewer pairs than warps, several warps of a block share a pair. The block's warps are a power of two.
+  // When there are fewer pairs than warps, several warps of a block share a pair, and where levels are left so many
+  // warps remain that there is one for each pair's. The block's warps are a power of two.
   __device__ void run() const {
+    if (pairs_.are_levels_left) levels_.begin();
     const std::uint32_t warps = blockDim.x / 32;
     const std::uint32_t all_warps = gridDim.x * warps;
-    const auto count = static_cast<std::uint32_t>(min(count_, std::uint64_t{all_warps}));
+    const auto count = static_cast<std::uint32_t>(min(pairs_.count, std::uint64_t{all_warps}));
+    const std::uint32_t besides = pairs_.are_levels_left ? count : 0;
     std::uint32_t members = 1;
-    while (members < warps && count * members * 2 <= all_warps) members *= 2;
+    while (members < warps && count * members * 2 + besides <= all_warps) members *= 2;
     if (members == 1)
       measure_by_warps();
     else
       measure_by_teams(members);
+    if (pairs_.are_levels_left) levels_.end();
   }
 
  private:
   // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at
   // once where there are very many, because all warps take from one counter.
   __device__ void measure_by_warps() const {
+    if (pairs_.are_levels_left) __syncthreads();
     const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
-    const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, count_ / (warps * 32)));
+    const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, pairs_.count / (warps * 32)));
     std::uint32_t* bound = &scratch_.bound[threadIdx.x / 32];
     const SearchStack stack = stack_of_warps(f_, stacks_, threadIdx.x / 32, 1);
     for (;;) {
       unsigned long long first = 0;
       if (lane() == 0) first = atomicAdd(&f_.counters->measured, static_cast<unsigned long long>(share));
       first = __shfl_sync(kFullWarp, first, 0);
-      if (first >= count_) return;
-      for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, count_); ++k) {
+      if (first >= pairs_.count) return;
+      for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, pairs_.count); ++k) {
         if (lane() == 0) *bound = __float_as_uint(INFINITY);
         __syncwarp();
-        const core::Pair pair = pairs_[k];
-        if (levels_.are_left() && !levels_.keeps(pair, {})) {
-          tell(k, rejection());
-          continue;
-        }
+        const core::Pair pair = pairs_.items[k];
+        if (pairs_.are_levels_left && !levels_.look(pair, k)) continue;
         const CellRoles roles = cell_roles(f_, headers_, pair);
         tell(k, warp_nearest(roles.has_cells
                                  ? NearestByCells(f_, headers_, pair, roles.is_asked_by_j, stack, bound, {}).find()
@@ -92,67 +87,55 @@ class ProximityStage {
     }
   }
 
-  // There are as many teams as pairs, or more. Where levels are left, warps of the team that are idle see to them.
+  // There are as many teams as pairs, or more. Where levels are left, the warps of those that have no pair see to them.
   __device__ void measure_by_teams(std::uint32_t members) const {
     const std::uint32_t warp = threadIdx.x / 32;
     const std::uint32_t team = warp / members;
     const WarpShare share{warp % members, members};
     const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
-    if (lane() == 0) {
-      scratch_.bound[warp] = __float_as_uint(INFINITY);
-      scratch_.is_kept[warp] = 0;
-    }
+    if (lane() == 0) scratch_.bound[warp] = __float_as_uint(INFINITY);
     __syncthreads();
     core::Proximity best;
-    if (k < count_) {
-      const core::Pair pair = pairs_[k];
+    if (k < pairs_.count) {
+      const core::Pair pair = pairs_.items[k];
       const CellRoles roles = cell_roles(f_, headers_, pair);
       best = warp_nearest(roles.has_cells ? nearest_by_cells(pair, roles.is_asked_by_j, team, share)
-                                          : nearest_by_team(pair, team, share));
+                                          : nearest_by_team(pair, k, team, share));
+    } else if (pairs_.are_levels_left) {
+      const std::uint64_t idle = std::uint64_t{gridDim.x} * (blockDim.x / 32 / members) - pairs_.count;
+      const std::uint64_t other = share.member * idle + (k - pairs_.count);
+      if (other < pairs_.count) levels_.look(pairs_.items[other], other);
     }
     if (lane() == 0) scratch_.part[warp] = best;
     __syncthreads();
-    if (share.member != 0 || k >= count_) return;
+    if (share.member != 0 || k >= pairs_.count) return;
     best = warp_nearest(lane() < members ? scratch_.part[warp + lane()] : core::Proximity{});
-    tell(k, levels_.are_left() && scratch_.is_kept[team] == 0 ? rejection() : best);
+    tell(k, best);
   }
 
   // These two return each lane's nearest.
   __device__ core::Proximity nearest_by_cells(core::Pair pair, bool is_asked_by_j, std::uint32_t team,
                                               const WarpShare& share) const {
-    if (!levels_.are_left() || !share.is_last()) {
-      const WarpShare searching{share.member, share.members - (levels_.are_left() ? 1U : 0U)};
-      return NearestByCells(f_, headers_, pair, is_asked_by_j, stack_of_warps(f_, stacks_, threadIdx.x / 32, 1),
-                            &scratch_.bound[team], searching)
-          .find();
-    }
-    see_to_levels(pair, team, {});
-    return {};
+    return NearestByCells(f_, headers_, pair, is_asked_by_j, stack_of_warps(f_, stacks_, threadIdx.x / 32, 1),
+                          &scratch_.bound[team], share)
+        .find();
   }
-  __device__ core::Proximity nearest_by_team(core::Pair pair, std::uint32_t team, const WarpShare& share) const {
+  __device__ core::Proximity nearest_by_team(core::Pair pair, std::uint64_t k, std::uint32_t team,
+                                             const WarpShare& share) const {
     const std::uint32_t first = team * share.members;
     const SearchTeam all{share, team, stack_of_warps(f_, stacks_, first, share.members), scratch_.counts[team]};
-    const auto meanwhile = [&] {
-      const std::uint32_t half = share.members / 2;
-      if (levels_.are_left() && share.member >= half) see_to_levels(pair, team, {share.member - half, half});
-    };
-    const auto stops = [&] { return levels_.are_left() && scratch_.is_kept[team] == 0; };
-    return nearest_by_trees(TreePair(f_, headers_, pair, &scratch_.bound[team]), all, meanwhile, stops);
-  }
-
-  __device__ void see_to_levels(core::Pair pair, std::uint32_t team, const WarpShare& share) const {
-    if (levels_.keeps(pair, share) && lane() == 0) scratch_.is_kept[team] = 1;
+    return nearest_by_trees(TreePair(f_, headers_, pair, &scratch_.bound[team]), all,
+                            [&](bool asks) { return levels_.ask(asks && pairs_.are_levels_left, k); });
   }
 
   __device__ void tell(std::uint64_t k, const core::Proximity& p) const {
-    if (lane() == 0) f_.proximity[k] = p;
+    if (lane() == 0) pairs_.measured(f_, k, p);
   }
 
   const FrameView& f_;
   ShapeHeaders headers_;
   const Levels& levels_;
-  const core::Pair* pairs_;
-  std::uint64_t count_;
+  const MeetingPairs& pairs_;
   ProximityScratch& scratch_;
   void* stacks_;
 };

@@ -39,8 +39,13 @@ struct SearchStack {
 
 // How many pairs of nodes and of leaves a team of warps has left to look at.
 struct TeamCounts {
+  static constexpr std::uint32_t kOver = 1U << 31;  // beside the nodes: nobody wants to know any more
+
   std::uint32_t nodes = 0;
   std::uint32_t leaves = 0;
+
+  // In one comparison, because all warps wait for it in every round.
+  __device__ bool goes_on() const { return nodes + leaves - 1U < kOver - 1U; }
 };
 
 constexpr std::uint32_t kBytesPerStackEntry = 12;

@@ -18,7 +18,7 @@ struct alignas(16) BlockShapes {
   NearCells cells[kMost];
 };
 
-// Asked for while bodies are integrated; octrees are waited for where a pair goes down the levels.
+// Asked for while bodies are integrated, octrees only where levels come first: waited for where a pair goes down them.
 class ShapesInBlock {
  public:
   __device__ ShapesInBlock(const FrameView& f, unsigned char* shared, BlockCopy& copy)
@@ -30,14 +30,20 @@ class ShapesInBlock {
   __device__ bool has_octrees() const { return has_octrees_; }
   // By all threads of the block; one warp does it. Between the two the block meets.
   __device__ void begin(const FrameView& f) const {
-    if (!are_there_ || !is_ours()) return;
-    if (has_octrees_)
-      copy_.begin(room_->octree, f.shapes.octree, f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox));
-    if (!f.has_vertex_stage) return;
+    if (f.are_levels_first) begin_octrees(f);
+    if (!are_there_ || !f.has_vertex_stage || !is_ours()) return;
     copy(room_->trees, f.shapes.trees, f.shapes.count);
     copy(room_->cells, f.shapes.near_cells, f.shapes.count);
   }
-  __device__ void end() const {
+  __device__ void end(const FrameView& f) const {
+    if (f.are_levels_first) end_octrees();
+  }
+  // The same, of octrees alone, once a launch.
+  __device__ void begin_octrees(const FrameView& f) const {
+    if (has_octrees_ && is_ours())
+      copy_.begin(room_->octree, f.shapes.octree, f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox));
+  }
+  __device__ void end_octrees() const {
     if (has_octrees_ && is_ours()) copy_.wait();
   }
 

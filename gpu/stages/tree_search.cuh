@@ -16,9 +16,10 @@ class TreePair {
  public:
   __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, core::Pair pair, std::uint32_t* bound)
       : nodes_(f.shapes.tree_nodes),
-        vertices_(f.shapes.tree_vertices),
         a_(headers.trees[shape_of(f, pair.i)]),
         b_(headers.trees[shape_of(f, pair.j)]),
+        vertices_a_(f.shapes.tree_vertices + a_.vertex_begin),
+        vertices_b_(f.shapes.tree_vertices + b_.vertex_begin),
         xa_(f.detected.position[pair.i].v),
         xb_(f.detected.position[pair.j].v),
         bound_(bound) {
@@ -68,8 +69,8 @@ class TreePair {
   // Four at once, because what takes the time is waiting for the vertices.
   __device__ void meet(bool has_leaves, const NodePair& leaves, float limit) {
     if (has_leaves && leaves.gap2 <= limit) {
-      const PackedVec3 mine = fetched(vertices_ + a_.vertex_begin + leaves.a * kLeafVertices + lane() % 8);
-      const PackedVec3* of_b = vertices_ + b_.vertex_begin + leaves.b * kLeafVertices;
+      const PackedVec3 mine = fetched(vertices_a_ + leaves.a * kLeafVertices + lane() % 8);
+      const PackedVec3* of_b = vertices_b_ + leaves.b * kLeafVertices;
       const core::Vec3 va = mine.v + xa_;
 #pragma unroll 4
       for (std::uint32_t t = 0; t < kLeafVertices; ++t) {
@@ -91,9 +92,10 @@ class TreePair {
   }
 
   const PackedBox* nodes_;
-  const PackedVec3* vertices_;
   const TreeHeader& a_;
   const TreeHeader& b_;
+  const PackedVec3* vertices_a_;
+  const PackedVec3* vertices_b_;
   core::Vec3 xa_;
   core::Vec3 xb_;
   std::uint32_t* bound_;
@@ -145,11 +147,10 @@ struct SearchTeam : WarpShare {  // of two or more
 // By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.
 // Where surfaces meet, nearly all the work is below one pair of upper nodes, so it cannot be dealt out beforehand.
 //
-// `meanwhile`: called by every warp in the round after the roots', when few warps have a pair to open yet; when `stops`
-// says so after it, nothing more is looked for. Returns each lane's nearest.
-template <typename Meanwhile, typename Stops>
-__device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, const Meanwhile& meanwhile,
-                                            const Stops& stops) {
+// `ask_whether_over`: what it returns to the lane that calls it with true is waited for a round later; when that is not
+// 0, nothing more is looked for after that round. Returns each lane's nearest.
+template <typename Ask>
+__device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, const Ask& ask_whether_over) {
   const std::uint32_t room = team.stack.entries;
   // Of the leaves: a round makes no more than 64 a warp.
   const std::uint32_t leaf_room = 64 * team.members;
@@ -182,7 +183,8 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
   }
   team.sync();
   TeamCounts left = team.counts[0];
-  const auto play = [&](std::uint32_t round, const auto& besides) {
+  std::uint32_t is_over = 0;  // as far as the first lane of all has heard
+  const auto play = [&](std::uint32_t round) {
     // What all members do follows from what is left, so that they agree without a word.
     const std::uint32_t groups = min(team.members, left.nodes > 0 ? left.leaves / 4 : (left.leaves + 3) / 4);
     const std::uint32_t met = min(4 * groups, left.leaves);
@@ -196,19 +198,19 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
     if (meets && leaf < met) own = leaves.at(left.leaves - 1 - leaf);
     if (opens) own = nodes.at(left.nodes - 1 - (team.member - groups));
     TeamCounts& next = team.counts[round % 2];
-    if (team.member == 0 && lane() == 0) next = {left.nodes - opened, left.leaves - met};
+    const bool is_first = team.member == 0 && lane() == 0;
+    if (is_first) next = {(left.nodes - opened) | is_over * TeamCounts::kOver, left.leaves - met};
+    is_over = ask_whether_over(is_first);
     team.sync();
     const float limit = trees.limit();
     if (meets) trees.meet(leaf < met, own, limit);
     if (opens && own.gap2 <= limit) open(own, limit, next);
-    besides();
     team.sync();
     left = next;
   };
-  // Apart from the others, so that what is done besides is not in their way.
-  play(1, meanwhile);
-  if (stops()) return trees.best();
-  for (std::uint32_t round = 2; left.nodes + left.leaves > 0; ++round) play(round, [] {});
+  // The first apart from the others, which the compiler makes shorter then.
+  play(1);
+  for (std::uint32_t round = 2; left.goes_on(); ++round) play(round);
   return trees.best();
 }
 

@@ -65,20 +65,6 @@ TEST(EightByEightHits, AreTakenFromTheLowest) {
   EXPECT_FALSE(hits.any());
 }
 
-TEST(EightByEightHits, AreDealtOutOnceEach) {
-  for (const std::uint32_t members : {1U, 2U, 8U, 16U, 32U}) {
-    EightByEightHits all;
-    for (std::uint32_t member = 0; member < members; ++member) {
-      const EightByEightHits own = EightByEightHits{~0U, ~0U}.dealt(member, members);
-      EXPECT_EQ(all.low & own.low, 0U) << members;
-      EXPECT_EQ(all.high & own.high, 0U) << members;
-      EXPECT_TRUE(own.any()) << members;
-      all = all | own;
-    }
-    EXPECT_EQ(all.low & all.high, ~0U) << members;
-  }
-}
-
 std::vector<core::Vec3> random_vertices(std::mt19937& random, std::size_t count) {
   std::uniform_real_distribution<float> place(-1.0F, 1.0F);
   std::vector<core::Vec3> vertices;
@@ -87,13 +73,12 @@ std::vector<core::Vec3> random_vertices(std::mt19937& random, std::size_t count)
 }
 
 template <unsigned kAtOnce>
-bool descends_in_warp(const std::vector<PackedBox>& boxes, const PlacedShape& a, const PlacedShape& b,
-                      const WarpShare& share = {}) {
+bool descends_in_warp(const std::vector<PackedBox>& boxes, const PlacedShape& a, const PlacedShape& b) {
   bool all = true;
   bool any = false;
   on_host::run(kWarp, 0, [&](unsigned char*) {
     Uncounted work;
-    const bool own = descends<kAtOnce>(OctreesInMemory{boxes.data()}, a, b, share, work);
+    const bool own = descends<kAtOnce>(OctreesInMemory{boxes.data()}, a, b, work);
     all = all && own;
     any = any || own;
   });
@@ -121,13 +106,6 @@ TEST(LevelDescent, IsThatOfTheMethod) {
     (wanted ? confirmed : rejected) += 1;
     EXPECT_EQ(descends_in_warp<1>(boxes, {0, xa}, {1, xb}), wanted) << round;
     EXPECT_EQ(descends_in_warp<2>(boxes, {0, xa}, {1, xb}), wanted) << round;
-    for (const std::uint32_t members : {2U, 8U}) {
-      if (round % 4 != 0) break;  // it takes long
-      bool any = false;
-      for (std::uint32_t member = 0; member < members; ++member)
-        any = descends_in_warp<2>(boxes, {0, xa}, {1, xb}, {member, members}) || any;
-      EXPECT_EQ(any, wanted) << round << ", shared by " << members;
-    }
   }
   EXPECT_GT(confirmed, 50) << rejected;
   EXPECT_GT(rejected, 50);

@@ -146,6 +146,42 @@ TEST(PipelineOnHost, EveryLevelOfFewBodies) {
   }
 }
 
+// Two bodies that come nearer corner by corner: at first their boxes overlap and nothing in them does. One block
+// measures the pair, by cells or by trees, and another goes down its levels meanwhile.
+TEST(PipelineOnHost, LevelsOfAPairThatIsMeasuredMeanwhile) {
+  SceneShape shape;
+  shape.bodies = 2;
+  shape.gravity_m_s2 = 0.0F;
+  core::Scene scene = thrown({bumpy_sphere(9, 0.6F)}, shape);
+  for (core::Body& body : scene.bodies) body.velocity = {};
+  scene.bodies[1].position = scene.bodies[0].position + core::Vec3{1.1F, 1.1F, 0.05F};
+  const float step_m = 0.02F;
+  scene.bodies[1].velocity = (step_m / scene.dt_s) * core::Vec3{-1.0F, -1.0F, 0.0F};
+  constexpr int kFrames = 24;
+
+  const std::unique_ptr<core::Dynamics> twin = twin_of({});
+  ASSERT_TRUE(twin->load(scene).ok());
+  int rejected = 0;
+  int confirmed = 0;
+  for (int k = 0; k < kFrames; ++k) {
+    core::FrameRecord frame;
+    ASSERT_TRUE(twin->step(scene.dt_s).ok());
+    ASSERT_TRUE(twin->read_back(frame, core::RecordLevel::kFull).ok());
+    rejected += frame.confirmed.size() < frame.pairs.size() ? 1 : 0;
+    confirmed += frame.confirmed.empty() ? 0 : 1;
+  }
+  EXPECT_GT(rejected, 3);
+  EXPECT_GT(rejected, 0);
+  EXPECT_GT(confirmed, 0);
+  for (const std::uint32_t least : {1U, 100U}) {
+    SCOPED_TRACE(least);
+    PipelineOptions options;
+    options.least_for_cells = least;
+    Pipeline subject(options);
+    EXPECT_GT(compare_pipelines(scene, subject, *twin, kFrames, 1), 0U);
+  }
+}
+
 // A frame that is copied while the next one is computed is the frame that it was; two may be under way, a third may
 // not.
 TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {

@@ -1,0 +1,65 @@
+// The pairs that the vertex stage measures, or is left out for, and that the response collects.
+#pragma once
+
+#include "core/method/proximity.hpp"
+#include "core/pair.hpp"
+#include "gpu/frame_view.hpp"
+#include "gpu/stages/fetched.cuh"
+#include "gpu/stages/team.cuh"
+
+namespace broadside::gpu {
+
+// The confirmed pairs; or all that level 0 found, where levels are left.
+struct MeetingPairs {
+  const core::Pair* items = nullptr;
+  std::uint64_t count = 0;
+  // Levels are left for the vertex stage: other warps go down them while these pairs are measured, and those that are
+  // not rejected then are the confirmed, and not listed yet.
+  bool are_levels_left = false;
+
+  // By one thread.
+  __device__ void measured(const FrameView& f, std::uint64_t k, const core::Proximity& nearest) const {
+    (are_levels_left ? f.measured[k].nearest : f.proximity[k]) = nearest;
+  }
+};
+
+// One of them. All of its words are asked for at once, and looked at when something is asked about it.
+class Meeting {
+ public:
+  __device__ Meeting(const FrameView& f, const MeetingPairs& pairs, std::uint64_t k) : exists_(k < pairs.count) {
+    if (!exists_) return;
+    pair_ = pairs.items[k];
+    if (pairs.are_levels_left)
+      measured_ = fetched(f.measured + k);
+    else if (f.has_vertex_stage)
+      measured_.nearest = f.proximity[k];
+  }
+
+  __device__ core::Pair pair() const { return pair_; }
+  __device__ const core::Proximity& nearest() const { return measured_.nearest; }
+  __device__ bool is_confirmed() const { return exists_ && measured_.is_rejected == 0; }
+  __device__ bool touches(const FrameView& f) const {
+    return is_confirmed() && (!f.has_vertex_stage || nearest().is_touching());
+  }
+
+ private:
+  bool exists_;
+  core::Pair pair_;
+  MeasuredPair measured_;
+};
+
+// Where levels were left: the confirmed in a list of their own. Nobody waits for it but who reads the frame, so it is
+// for a block that has nothing else to do. `listed`: in its shared memory.
+__device__ inline void list_confirmed(const FrameView& f, const MeetingPairs& pairs, std::uint32_t* listed) {
+  if (threadIdx.x == 0) *listed = 0;
+  __syncthreads();
+  for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
+    const Meeting meeting(f, pairs, base + threadIdx.x);
+    const std::uint32_t place = warp_append_one(meeting.is_confirmed(), listed);
+    if (!meeting.is_confirmed()) continue;
+    f.confirmed.items[place] = meeting.pair();
+    f.proximity[place] = meeting.nearest();
+  }
+}
+
+}  // namespace broadside::gpu
