@@ -44,6 +44,8 @@ struct TeamCounts {
   std::uint32_t nodes = 0;
   std::uint32_t leaves = 0;
 
+  // In the stack, of one that was given out while it may be over already.
+  __device__ static std::uint32_t place(std::uint32_t counted) { return counted & (kOver - 1U); }
   // In one comparison, because all warps wait for it in every round.
   __device__ bool goes_on() const { return nodes + leaves - 1U < kOver - 1U; }
 };

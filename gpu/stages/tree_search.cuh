@@ -168,7 +168,8 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
       if (lane() == 0)
         first = atomicAdd(are_leaves ? &next.leaves : &next.nodes, static_cast<std::uint32_t>(__popc(kept)));
       first = __shfl_sync(kFullWarp, first, 0);
-      if (is_near) (are_leaves ? leaves : nodes).put(first + __popc(kept & ((1U << lane()) - 1U)), children);
+      if (is_near)
+        (are_leaves ? leaves : nodes).put(TeamCounts::place(first + __popc(kept & ((1U << lane()) - 1U))), children);
     });
   };
 
