@@ -145,7 +145,7 @@ struct FrameView {
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;
-  MeasuredPair* measured = nullptr;    // few bodies: one per pair, as many as confirmed
+  MeasuredPair* measured = nullptr;  // few bodies: one per pair, as many as confirmed
 };
 
 // Few bodies: whether the vertex stage is given pairs whose levels are still to be gone down.
