@@ -104,8 +104,8 @@ __device__ inline void find_few(const GridTeam& team, const FrameView& f, FewSta
   } while (at.next(f, stride));
 }
 
-// The levels of few bodies' pairs where they do not come first: gone down by warps of blocks that have nothing else to
-// do, while others measure the pairs.
+// The levels of few bodies' pairs where they do not come first: gone down by warps of teams that have no pair, while
+// others measure the pairs.
 class FewLevels {
  public:
   __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
