@@ -61,6 +61,12 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   return contacts_.reserve(count, "contacts");
 }
 
+core::Status FrameBuffers::reserve_rests() {
+  if (body_count_ > kFewBodies) return core::Done{};
+  BROADSIDE_TRY(rests_.reserve(2 * std::size_t{RestsView::kMost}, "shared searches"));
+  return rest_entries_.reserve(2 * std::size_t{RestsView::kMost} * RestsView::kEntries, "shared searches");
+}
+
 core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_level0) {
   if (demanded.pairs > pairs_.capacity()) BROADSIDE_TRY(pairs_.reserve(with_slack(demanded.pairs), "candidate pairs"));
   const std::uint64_t confirmed = is_confirmed_by_level0 ? demanded.pairs : demanded.confirmed;
@@ -81,6 +87,8 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.proximity = proximity_.data();
   view.measured = measured_.data();
+  view.rests[0] = {rests_.data(), rest_entries_.data()};
+  view.rests[1] = {rests_.data() + RestsView::kMost, rest_entries_.data() + RestsView::kMost * RestsView::kEntries};
   view.links = links_.data();
   view.keys = keys_.data();
   view.lists = lists_.data();
@@ -94,7 +102,8 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
 }
 
 std::uint64_t FrameBuffers::body_bytes() const {
-  return 6 * previous_.position.bytes() + boxes_.bytes() + 2 * degree_.bytes() + live_.bytes();
+  return 6 * previous_.position.bytes() + boxes_.bytes() + 2 * degree_.bytes() + live_.bytes() + rests_.bytes() +
+         rest_entries_.bytes();
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {

@@ -25,6 +25,8 @@ class FrameBuffers {
  public:
   // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
   core::Status load(const core::Scene& scene);
+  // Where long searches of few bodies are handed over.
+  core::Status reserve_rests();
   // For the frame that has so many others under way before it, none of which advance() was called for.
   void fill(FrameView& view, std::uint64_t under_way = 0) const;
   // Makes room for what the aborted frame demanded, and a quarter more. Contents are lost.
@@ -62,6 +64,8 @@ class FrameBuffers {
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<core::Proximity> proximity_;
   DeviceBuffer<MeasuredPair> measured_;
+  DeviceBuffer<SearchRest> rests_;
+  DeviceBuffer<NodePair> rest_entries_;
   DeviceBuffer<Link> links_;
   DeviceBuffer<unsigned long long> keys_;
   DeviceBuffer<ListEntry> lists_;

@@ -15,8 +15,11 @@
 #include "core/scene/spring.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad_view.hpp"
+#include "gpu/measured_pair.hpp"
 #include "gpu/near_cells.hpp"
 #include "gpu/packed_box.hpp"
+#include "gpu/placed_shape.hpp"
+#include "gpu/search_rest.hpp"
 #include "gpu/shape_tree.hpp"
 
 namespace broadside::gpu {
@@ -80,13 +83,6 @@ struct alignas(16) LiveBody {
 static_assert(sizeof(Link) == 16 && sizeof(ListEntry) == 16 && sizeof(LiveBody) == 32,
               "read and written in words of 16 bytes");
 
-// A pair whose levels are gone down while it is measured. Of a rejected one `nearest` says nothing.
-struct alignas(16) MeasuredPair {
-  core::Proximity nearest;
-  std::uint32_t is_rejected = 0;
-};
-static_assert(sizeof(MeasuredPair) == 16, "read in one word");
-
 constexpr int kStageCount = 6;
 
 // What the host reads after a frame, in host memory that the device writes.
@@ -145,7 +141,8 @@ struct FrameView {
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;
-  MeasuredPair* measured = nullptr;  // few bodies: one per pair, as many as confirmed
+  MeasuredPair* measured = nullptr;  // few bodies: one per pair that is measured
+  RestsView rests[2];                // few bodies
 };
 
 // Few bodies: whether the vertex stage is given pairs whose levels are still to be gone down.
@@ -156,6 +153,11 @@ BROADSIDE_HD bool are_levels_left(const FrameView& f) {
 // Of one shape nobody has to ask which.
 BROADSIDE_HD std::uint32_t shape_of(const FrameView& f, std::uint32_t body) {
   return f.shapes.count == 1 ? 0U : f.shape_of_body[body];
+}
+
+// At detection.
+BROADSIDE_HD PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
+  return {f.detected.position[body].v, shape_of(f, body)};
 }
 
 }  // namespace broadside::gpu

@@ -65,6 +65,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   auto launch = frame_launch_shape(d.device_scene.tree_levels());
   if (!launch.ok()) return launch.error();
   d.launch = launch.value();
+  if (d.options.has_vertex_stage) BROADSIDE_TRY(d.buffers.reserve_rests());
 
   d.view.levels = d.options.levels;
   d.view.solver = d.options.solver;

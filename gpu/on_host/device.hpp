@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "gpu/grid_word.hpp"
 #include "gpu/on_host/fibers.hpp"
 
 // The two function attributes that stages are written with.
@@ -43,13 +44,14 @@ inline void relax() {
 }
 class GridBarrier {
  public:
-  static constexpr unsigned long long kTally = (1ULL << 40) - 1;
-
   explicit GridBarrier(unsigned long long* word) : word_(word) {}
-  void meet() { on_host::meet_grid(); }
-  unsigned long long meet_and_ask(unsigned long long* /*in_block*/) {
+  void meet() {
+    if (threadIdx.x == 0) *word_ += GridWord::share(blockIdx.x, gridDim.x);
     on_host::meet_grid();
-    const unsigned long long tally = *word_;
+  }
+  unsigned long long meet_and_ask(unsigned long long* /*in_block*/) {
+    meet();
+    const unsigned long long tally = *word_ & GridWord::kTally;
     // Nobody goes on to change it before all have seen it.
     on_host::meet_grid();
     return tally;
@@ -196,6 +198,14 @@ struct GridWords {
     words[1] = from[1];
   }
   static void store_whole(uint4* to, uint4 v) { *to = v; }
+  static uint4 load_whole(const uint4* from) { return *from; }
+  static bool replace_whole(uint4* at, uint4& seen, uint4 v) {
+    const uint4 before = seen;
+    seen = *at;
+    if (std::memcmp(&before, &seen, sizeof seen) != 0) return false;
+    *at = v;
+    return true;
+  }
 };
 using BlockWords = GridWords;
 class BlockCopy {

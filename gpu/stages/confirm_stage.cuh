@@ -3,23 +3,12 @@
 
 #include "core/method/levels.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/placed_shape.hpp"
 #include "gpu/stages/fetched.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/work_count.cuh"
 
 namespace broadside::gpu {
-
-struct PlacedShape {
-  std::uint32_t shape = 0;
-  core::Vec3 x;
-
-  // Of its octree, among those of all shapes.
-  __device__ std::uint32_t first_box() const { return shape * core::kBodyOctreeNodes; }
-};
-
-__device__ inline PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
-  return {shape_of(f, body), f.detected.position[body].v};
-}
 
 // Where the boxes of all shapes' octrees are; stages that descend take any class with this at(), once it was waited
 // for.

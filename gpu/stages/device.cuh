@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "gpu/grid_word.hpp"
+
 #if defined(__CUDACC__)
 
 namespace broadside::gpu {
@@ -26,15 +28,11 @@ __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awa
   } while (seen < awaited);
 }
 
-// Where all blocks of a cooperative launch meet, by way of one word of global memory: zero before its first launch, and
-// of one launch at a time. Each block adds its share, and all shares together flip the highest bit and leave the others
-// zero, so nobody resets anything. What that bit was is asked for when the launch begins, before anybody can have
-// flipped it: at a meeting a block waits for one thing alone. The lowest bits are for something else that is added up
-// (`kTally`): whoever has met knows it.
+// Where all blocks of a cooperative launch meet, by way of one word (grid_word.hpp): zero before its first launch, and
+// of one launch at a time. What its highest bit was is asked for when the launch begins, before anybody can have
+// flipped it: at a meeting a block waits for one thing alone. Whoever has met knows the tally.
 class GridBarrier {
  public:
-  static constexpr unsigned long long kTally = (1ULL << 40) - 1;
-
   __device__ explicit GridBarrier(unsigned long long* word) : word_(word) {
     if (threadIdx.x == 0) asm volatile("ld.relaxed.gpu.global.u64 %0, [%1];" : "=l"(seen_) : "l"(word) : "memory");
   }
@@ -51,20 +49,17 @@ class GridBarrier {
   __device__ __forceinline__ void arrive_and_wait_for_all(unsigned long long* tally) {
     __syncthreads();
     if (threadIdx.x == 0) {
-      const unsigned long long share = blockIdx.x == 0 ? kFlipped - (gridDim.x - 1) * kArrival : kArrival;
+      const unsigned long long share = GridWord::share(blockIdx.x, gridDim.x);
       asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
       unsigned long long now = 0;
       do {
         asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
-      } while (((now ^ seen_) & kFlipped) == 0);
+      } while (((now ^ seen_) & GridWord::kFlipped) == 0);
       seen_ = now;
-      if (tally != nullptr) *tally = now & kTally;
+      if (tally != nullptr) *tally = now & GridWord::kTally;
     }
     __syncthreads();
   }
-
-  static constexpr unsigned long long kArrival = kTally + 1;
-  static constexpr unsigned long long kFlipped = 1ULL << 63;
 
   unsigned long long* word_;
   unsigned long long seen_ = 0;
@@ -128,12 +123,56 @@ struct GridWords {
                  : "memory");
   }
 
-  __device__ static unsigned long long low(uint4 v) { return v.x | static_cast<unsigned long long>(v.y) << 32; }
-  __device__ static unsigned long long high(uint4 v) { return v.z | static_cast<unsigned long long>(v.w) << 32; }
+  // One such word, of this moment.
+  __device__ static uint4 load_whole(const uint4* from) {
+    unsigned long long part[2];
+    asm volatile("{ .reg .b128 s; ld.relaxed.gpu.global.b128 s, [%2]; mov.b128 {%0, %1}, s; }"
+                 : "=l"(part[0]), "=l"(part[1])
+                 : "l"(from)
+                 : "memory");
+    return unpacked(part[0], part[1]);
+  }
+  // Puts `v` there if it still holds `seen`, which gets what it holds. Returns whether it did. The highest bit of the
+  // last word is nobody else's: where there is no such instruction, it locks the word.
+  __device__ static bool replace_whole(uint4* at, uint4& seen, uint4 v) {
+#if __CUDA_ARCH__ >= 900
+    const unsigned long long before[2] = {low(seen), high(seen)};
+    unsigned long long now[2];
+    asm volatile(
+        "{ .reg .b128 s; .reg .b128 t; .reg .b128 u; mov.b128 s, {%3, %4}; mov.b128 t, {%5, %6};\n"
+        "atom.relaxed.gpu.global.cas.b128 u, [%2], s, t; mov.b128 {%0, %1}, u; }"
+        : "=l"(now[0]), "=l"(now[1])
+        : "l"(at), "l"(before[0]), "l"(before[1]), "l"(low(v)), "l"(high(v))
+        : "memory");
+    seen = unpacked(now[0], now[1]);
+    return now[0] == before[0] && now[1] == before[1];
+#else
+    constexpr unsigned kLock = 1U << 31;
+    while ((atomicOr(&at->w, kLock) & kLock) != 0) relax();
+    __threadfence();
+    uint4 now = load_whole(at);
+    now.w &= ~kLock;
+    const bool is_same = now.x == seen.x && now.y == seen.y && now.z == seen.z && now.w == (seen.w & ~kLock);
+    if (is_same) store_whole(at, {v.x, v.y, v.z, v.w | kLock});
+    __threadfence();
+    atomicAnd(&at->w, ~kLock);
+    seen = now;
+    return is_same;
+#endif
+  }
+
+  __device__ static unsigned long long low(uint4 v) {
+    return v.x | static_cast<unsigned long long>(v.y) << 32;
+  }
+  __device__ static unsigned long long high(uint4 v) {
+    return v.z | static_cast<unsigned long long>(v.w) << 32;
+  }
+  __device__ static uint4 unpacked(unsigned long long low, unsigned long long high) {
+    return {static_cast<unsigned>(low), static_cast<unsigned>(low >> 32), static_cast<unsigned>(high),
+            static_cast<unsigned>(high >> 32)};
+  }
   __device__ static void unpack(const unsigned long long (&part)[4], uint4 (&words)[2]) {
-    for (int k = 0; k < 2; ++k)
-      words[k] = {static_cast<unsigned>(part[2 * k]), static_cast<unsigned>(part[2 * k] >> 32),
-                  static_cast<unsigned>(part[2 * k + 1]), static_cast<unsigned>(part[2 * k + 1] >> 32)};
+    for (int k = 0; k < 2; ++k) words[k] = unpacked(part[2 * k], part[2 * k + 1]);
   }
 };
 

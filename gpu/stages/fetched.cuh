@@ -4,6 +4,7 @@
 #include "core/math/box.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/packed_box.hpp"
+#include "gpu/search_rest.hpp"
 #include "gpu/stages/device.cuh"
 
 namespace broadside::gpu {
@@ -28,6 +29,15 @@ __device__ inline core::Box fetched(const PackedBox* from) {
 __device__ inline MeasuredPair fetched(const MeasuredPair* from) {
   const uint4 word = *reinterpret_cast<const uint4*>(from);
   return {{__uint_as_float(word.x), word.y, word.z}, word.w};
+}
+
+__device__ inline SearchRest fetched(const SearchRest* from) {
+  const auto* words = reinterpret_cast<const uint4*>(from);
+  const auto placed = [](const uint4& word) {
+    return PlacedShape{{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, word.w};
+  };
+  const uint4 last = words[2];
+  return {placed(words[0]), placed(words[1]), last.x, __uint_as_float(last.y), last.z, last.w};
 }
 
 }  // namespace broadside::gpu

@@ -5,6 +5,7 @@
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/body_ring.cuh"
 #include "gpu/stages/confirm_stage.cuh"
+#include "gpu/stages/few_counts.cuh"
 #include "gpu/stages/shapes_in_block.cuh"
 #include "gpu/stages/team.cuh"
 
@@ -12,22 +13,6 @@ namespace broadside::gpu {
 
 // In no list.
 constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
-
-// What few bodies' pairs come to, in the tally beside the grid's barrier: one addition takes room in both lists.
-struct FewCounts {
-  std::uint32_t pairs = 0;
-  std::uint32_t confirmed = 0;
-
-  __device__ unsigned long long packed() const { return pairs | std::uint64_t{confirmed} << kBits; }
-  __device__ static FewCounts unpacked(unsigned long long tally) {
-    return {static_cast<std::uint32_t>(tally) & kMost, static_cast<std::uint32_t>(tally >> kBits) & kMost};
-  }
-
- private:
-  static constexpr std::uint32_t kBits = 20;
-  static constexpr std::uint32_t kMost = (1U << kBits) - 1;
-  static_assert(kFewBodies * (kFewBodies - 1) / 2 <= kMost && GridBarrier::kTally >> 2 * kBits == 0);
-};
 
 // A warp's first item, and what of it does not move: known before the bodies do.
 struct FewStart {
@@ -74,8 +59,8 @@ __device__ inline void find_few(const GridTeam& team, const FrameView& f, FewSta
     // Everything is asked for before any of it is looked at: one wait.
     const PackedBox box_i = f.boxes[at.meeting.i];
     const PackedBox box_j = f.boxes[at.meeting.j];
-    const PlacedShape placed_i{at.shape_i, f.detected.position[at.meeting.i].v};
-    const PlacedShape placed_j{at.shape_j, f.detected.position[at.meeting.j].v};
+    const PlacedShape placed_i{f.detected.position[at.meeting.i].v, at.shape_i};
+    const PlacedShape placed_j{f.detected.position[at.meeting.j].v, at.shape_j};
     const bool overlaps =
         at.meeting.exists && core::overlaps(unpack(box_i), unpack(box_j)) && (box_i.high_tag & box_j.high_tag) == 0;
     const unsigned found = __ballot_sync(kFullWarp, overlaps);
@@ -84,9 +69,9 @@ __device__ inline void find_few(const GridTeam& team, const FrameView& f, FewSta
     for (unsigned left = f.are_levels_first ? found : 0U; left != 0; left &= left - 1) {
       const int source = __ffs(static_cast<int>(left)) - 1;
       const PlacedShape other{
-          __shfl_sync(kFullWarp, placed_j.shape, source),
           {__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
-           __shfl_sync(kFullWarp, placed_j.x.z, source)}};
+           __shfl_sync(kFullWarp, placed_j.x.z, source)},
+          __shfl_sync(kFullWarp, placed_j.shape, source)};
       if (is_confirmed_few(f, shapes, placed_i, other)) confirmed |= 1U << source;
     }
     const FewCounts here{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))};
@@ -108,6 +93,8 @@ __device__ inline void find_few(const GridTeam& team, const FrameView& f, FewSta
 // others measure the pairs.
 class FewLevels {
  public:
+  static constexpr bool kAreOfFewBodies = true;
+
   __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
 
   // Before the first look(), by all threads of the block, which meets between the two; and when all are done.
@@ -121,9 +108,9 @@ class FewLevels {
     return is_kept;
   }
 
-  // Of those who measure pair k meanwhile, if `asks`: whether somebody has told that it is rejected.
-  __device__ std::uint32_t ask(bool asks, std::uint64_t k) const {
-    return load_fresh_if(asks, &f_.measured[k].is_rejected);
+  // Of those who measure pair k meanwhile: not 0 when somebody has told that it is rejected.
+  __device__ std::uint32_t is_told_to_be_rejected(std::uint64_t k) const {
+    return load_fresh_if(are_levels_left(f_), &f_.measured[k].is_rejected);
   }
 
  private:

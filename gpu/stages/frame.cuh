@@ -171,7 +171,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
       confirm_by_brute_force(grid, f, work);
     }
   }
-  const FewCounts few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
+  FewCounts few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
   mark(grid, f, 2);
   const std::uint64_t pairs = kIsFew ? few.pairs : f.counters->pairs;
   if (pairs > f.pairs.capacity) return report_aborted<kKind>(f, few);
@@ -191,19 +191,26 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   mark(grid, f, 3);
   if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(f, few, confirmed);
 
-  const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left};
+  const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
+                             kIsFew && f.has_vertex_stage ? f.measured : nullptr};
   if (f.has_vertex_stage && confirmed > 0) {
     if constexpr (kIsFew) {
-      ProximityStage(f, shapes.headers(f), FewLevels(f, shapes), meeting, scratch.proximity, shared).run();
+      const FewLevels levels(f, shapes);
+      const ProximityStage stage(f, shapes.headers(f), levels, meeting, scratch.proximity, shared);
+      stage.run();
+      stage.share_rests([&] {
+        few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
+        return few.rests;
+      });
     } else {
       const ShapeHeaders headers{f.shapes.trees, f.shapes.near_cells};
       ProximityStage(f, headers, NoLevels{}, meeting, scratch.proximity, shared).run();
+      grid.sync();
     }
-    grid.sync();
   }
   mark(grid, f, 4);
 
-  if (has_levels_left && blockIdx.x == gridDim.x - 1) list_confirmed(f, meeting, &scratch.listed);
+  if (kIsFew && f.has_vertex_stage && blockIdx.x == gridDim.x - 1) list_measured(f, meeting, &scratch.listed);
   if constexpr (kKind != FrameKind::kMany) {
     if (f.solver == Solver::kColored && BlockRoom::fits(f, confirmed)) {
       const BlockRoom room(shared, f.body_count, static_cast<std::uint32_t>(confirmed));

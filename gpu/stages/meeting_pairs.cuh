@@ -16,10 +16,17 @@ struct MeetingPairs {
   // Levels are left for the vertex stage: other warps go down them while these pairs are measured, and those that are
   // not rejected then are the confirmed, and not listed yet.
   bool are_levels_left = false;
+  // Of few bodies, where they are measured: what came of each. The others have f.proximity.
+  MeasuredPair* measured = nullptr;
 
   // By one thread.
-  __device__ void measured(const FrameView& f, std::uint64_t k, const core::Proximity& nearest) const {
-    (are_levels_left ? f.measured[k].nearest : f.proximity[k]) = nearest;
+  __device__ void tell(const FrameView& f, std::uint64_t k, const core::Proximity& nearest) const {
+    if (measured == nullptr)
+      f.proximity[k] = nearest;
+    else if (are_levels_left)
+      measured[k].nearest = nearest;
+    else
+      measured[k] = {nearest};
   }
 };
 
@@ -29,8 +36,8 @@ class Meeting {
   __device__ Meeting(const FrameView& f, const MeetingPairs& pairs, std::uint64_t k) : exists_(k < pairs.count) {
     if (!exists_) return;
     pair_ = pairs.items[k];
-    if (pairs.are_levels_left)
-      measured_ = fetched(f.measured + k);
+    if (pairs.measured != nullptr)
+      measured_ = fetched(pairs.measured + k);
     else if (f.has_vertex_stage)
       measured_.nearest = f.proximity[k];
   }
@@ -48,16 +55,19 @@ class Meeting {
   MeasuredPair measured_;
 };
 
-// Where levels were left: the confirmed in a list of their own. Nobody waits for it but who reads the frame, so it is
-// for a block that has nothing else to do. `listed`: in its shared memory.
-__device__ inline void list_confirmed(const FrameView& f, const MeetingPairs& pairs, std::uint32_t* listed) {
+// Of few bodies: what was measured in a list of its own, beside the confirmed, which were not listed yet where levels
+// were left. Nobody waits for it but who reads the frame, so it is for a block that has nothing else to do. `listed`:
+// in its shared memory.
+__device__ inline void list_measured(const FrameView& f, const MeetingPairs& pairs, std::uint32_t* listed) {
   if (threadIdx.x == 0) *listed = 0;
   __syncthreads();
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
-    const Meeting meeting(f, pairs, base + threadIdx.x);
-    const std::uint32_t place = warp_append_one(meeting.is_confirmed(), listed);
+    const std::uint64_t k = base + threadIdx.x;
+    const Meeting meeting(f, pairs, k);
+    std::uint64_t place = k;
+    if (pairs.are_levels_left) place = warp_append_one(meeting.is_confirmed(), listed);
     if (!meeting.is_confirmed()) continue;
-    f.confirmed.items[place] = meeting.pair();
+    if (pairs.are_levels_left) f.confirmed.items[place] = meeting.pair();
     f.proximity[place] = meeting.nearest();
   }
 }

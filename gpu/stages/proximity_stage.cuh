@@ -5,6 +5,7 @@
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/cell_search.cuh"
 #include "gpu/stages/meeting_pairs.cuh"
+#include "gpu/stages/search_rests.cuh"
 #include "gpu/stages/search_stack.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/tree_search.cuh"
@@ -17,6 +18,7 @@ constexpr std::uint32_t kMaxBlockWarps = 16;  // so that each of their teams has
 struct ProximityScratch {
   std::uint32_t bound[kMaxBlockWarps];
   TeamCounts counts[kMaxBlockWarps][2];
+  std::uint32_t place[kMaxBlockWarps];
   core::Proximity part[kMaxBlockWarps];
 };
 
@@ -29,10 +31,12 @@ __device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, s
 
 // Where nothing is ever left to be found out about pairs but how near they are; otherwise FewLevels.
 struct NoLevels {
+  static constexpr bool kAreOfFewBodies = false;
+
   __device__ void begin() const {}
   __device__ void end() const {}
   __device__ static bool look(core::Pair /*pair*/, std::uint64_t /*k*/) { return true; }
-  __device__ static std::uint32_t ask(bool /*asks*/, std::uint64_t /*k*/) { return 0; }
+  __device__ static std::uint32_t is_told_to_be_rejected(std::uint64_t /*k*/) { return 0; }
 };
 
 template <typename Levels>
@@ -45,18 +49,35 @@ class ProximityStage {
   // When there are fewer pairs than warps, several warps of a block share a pair, and where levels are left so many
   // warps remain that there is one for each pair's. The block's warps are a power of two.
   __device__ void run() const {
-    if (pairs_.are_levels_left) levels_.begin();
     const std::uint32_t warps = blockDim.x / 32;
     const std::uint32_t all_warps = gridDim.x * warps;
     const auto count = static_cast<std::uint32_t>(min(pairs_.count, std::uint64_t{all_warps}));
     const std::uint32_t besides = pairs_.are_levels_left ? count : 0;
     std::uint32_t members = 1;
-    while (members < warps && count * members * 2 + besides <= all_warps) members *= 2;
+    std::uint32_t teams = warps;  // of a block
+    for (; teams > 1 && count * members * 2 + besides <= all_warps; teams /= 2) members *= 2;
+    // The last of a block's teams has no pair, if any of them has none.
+    const bool looks = pairs_.are_levels_left && (members == 1 || (teams - 1) * gridDim.x + blockIdx.x >= pairs_.count);
+    if (looks) levels_.begin();
     if (members == 1)
       measure_by_warps();
     else
       measure_by_teams(members);
-    if (pairs_.are_levels_left) levels_.end();
+    if (looks) levels_.end();
+  }
+
+  // Of few bodies, what teams handed over, shared by the whole grid, until nothing is handed over any more. `meet`: the
+  // grid does; returns how often somebody asked to hand over since the frame began.
+  template <typename Meet>
+  __device__ void share_rests(const Meet& meet) const {
+    std::uint32_t before = 0;
+    std::uint32_t turn = 0;
+    for (std::uint32_t asked = meet(); asked > before; ++turn) {
+      const std::uint32_t count = min(asked - before, most_rests());
+      before = asked;
+      search_part(f_.rests[turn % 2], count, f_.rests[(turn + 1) % 2], before);
+      asked = meet();
+    }
   }
 
  private:
@@ -79,9 +100,12 @@ class ProximityStage {
         const core::Pair pair = pairs_.items[k];
         if (pairs_.are_levels_left && !levels_.look(pair, k)) continue;
         const CellRoles roles = cell_roles(f_, headers_, pair);
-        tell(k, warp_nearest(roles.has_cells
-                                 ? NearestByCells(f_, headers_, pair, roles.is_asked_by_j, stack, bound, {}).find()
-                                 : nearest_by_trees(TreePair(f_, headers_, pair, bound), stack)));
+        const core::Proximity best = warp_nearest(
+            roles.has_cells
+                ? NearestByCells(f_, headers_, pair, roles.is_asked_by_j, stack, bound, {}).find()
+                : nearest_by_trees(TreePair(f_, headers_, placed_shape(f_, pair.i), placed_shape(f_, pair.j), bound),
+                                   stack));
+        if (lane() == 0) pairs_.tell(f_, k, best);
         __syncwarp();
       }
     }
@@ -106,11 +130,38 @@ class ProximityStage {
       const std::uint64_t other = share.member * idle + (k - pairs_.count);
       if (other < pairs_.count) levels_.look(pairs_.items[other], other);
     }
+    best = nearest_of_team(share, best);
+    if (share.member == 0 && lane() == 0 && k < pairs_.count) pairs_.tell(f_, k, best);
+  }
+
+  // This block's part of what was handed over: all its warps are one team.
+  __device__ void search_part(const RestsView& rests, std::uint32_t count, const RestsView& to,
+                              std::uint32_t before) const {
+    const std::uint32_t warp = threadIdx.x / 32;
+    const std::uint32_t warps = blockDim.x / 32;
+    const SearchTeam all{{warp, warps}, 0, stack_of_warps(f_, stacks_, 0, warps), scratch_.counts[0]};
+    const RestPart part(rests, count, all);
+    const SearchRest& rest = part.rest();
+    if (threadIdx.x == 0) scratch_.bound[0] = __float_as_uint(rest.bound_m2);
+    __syncthreads();
+    core::Proximity best;
+    if (part.counts().any()) {
+      constexpr NoLevels kNone;  // what was handed over late may be rejected: it is searched for nothing
+      RestOfPair<kRoundsOfBlock, NoLevels> next(f_, kNone, to, before, rest.a, rest.b, rest.k, &scratch_.place[0]);
+      best = warp_nearest(
+          nearest_by_trees(TreePair(f_, headers_, rest.a, rest.b, &scratch_.bound[0]), all, part.counts(), next));
+    }
+    best = nearest_of_team(all, best);
+    if (threadIdx.x == 0 && best.is_touching()) improve(f_.measured + rest.k, best);
+  }
+
+  // Of what the warps of a team found, each the same in all lanes; known to the first. By all threads of the block.
+  __device__ core::Proximity nearest_of_team(const WarpShare& share, const core::Proximity& best) const {
+    const std::uint32_t warp = threadIdx.x / 32;
     if (lane() == 0) scratch_.part[warp] = best;
     __syncthreads();
-    if (share.member != 0 || k >= pairs_.count) return;
-    best = warp_nearest(lane() < members ? scratch_.part[warp + lane()] : core::Proximity{});
-    tell(k, best);
+    if (share.member != 0) return best;
+    return warp_nearest(lane() < share.members ? scratch_.part[warp + lane()] : core::Proximity{});
   }
 
   // These two return each lane's nearest.
@@ -122,15 +173,24 @@ class ProximityStage {
   }
   __device__ core::Proximity nearest_by_team(core::Pair pair, std::uint64_t k, std::uint32_t team,
                                              const WarpShare& share) const {
-    const std::uint32_t first = team * share.members;
-    const SearchTeam all{share, team, stack_of_warps(f_, stacks_, first, share.members), scratch_.counts[team]};
-    return nearest_by_trees(TreePair(f_, headers_, pair, &scratch_.bound[team]), all,
-                            [&](bool asks) { return levels_.ask(asks && pairs_.are_levels_left, k); });
+    const PlacedShape a = placed_shape(f_, pair.i);
+    const PlacedShape b = placed_shape(f_, pair.j);
+    const SearchTeam all{share, team, stack_of_warps(f_, stacks_, team * share.members, share.members),
+                         scratch_.counts[team]};
+    TreePair trees(f_, headers_, a, b, &scratch_.bound[team]);
+    const TeamCounts left = begin_at_roots(trees, all);
+    if constexpr (Levels::kAreOfFewBodies) {
+      RestOfPair<kRoundsOfTeam, Levels> rest(f_, levels_, f_.rests[0], 0, a, b, k, &scratch_.place[team]);
+      return nearest_by_trees(trees, all, left, rest);
+    } else {
+      NoRest rest;
+      return nearest_by_trees(trees, all, left, rest);
+    }
   }
 
-  __device__ void tell(std::uint64_t k, const core::Proximity& p) const {
-    if (lane() == 0) pairs_.measured(f_, k, p);
-  }
+  // What a meeting of the grid costs is some four rounds.
+  static constexpr std::uint32_t kRoundsOfTeam = 4;
+  static constexpr std::uint32_t kRoundsOfBlock = 8;
 
   const FrameView& f_;
   ShapeHeaders headers_;

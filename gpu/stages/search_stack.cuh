@@ -3,19 +3,11 @@
 
 #include "core/method/proximity.hpp"
 #include "gpu/frame_view.hpp"
+#include "gpu/search_rest.hpp"
 #include "gpu/stages/fetched.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
-
-// A node of each body's tree, level << 28 | index, and the squared gap of their boxes.
-struct NodePair {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  float gap2 = 0.0F;
-
-  __device__ bool are_leaves() const { return (a | b) >> 28 == 0; }
-};
 
 // In shared memory, three words an entry, each kind of word side by side.
 struct SearchStack {
@@ -33,21 +25,17 @@ struct SearchStack {
     words[stride + k] = p.b;
     words[2 * stride + k] = __float_as_uint(p.gap2);
   }
-  // Its entries from this one on.
+  // Its first entries, and those from this one on.
+  __device__ SearchStack first(std::uint32_t count) const { return {words, count, stride}; }
   __device__ SearchStack from(std::uint32_t first) const { return {words + first, entries - first, stride}; }
 };
 
 // How many pairs of nodes and of leaves a team of warps has left to look at.
 struct TeamCounts {
-  static constexpr std::uint32_t kOver = 1U << 31;  // beside the nodes: nobody wants to know any more
-
   std::uint32_t nodes = 0;
   std::uint32_t leaves = 0;
 
-  // In the stack, of one that was given out while it may be over already.
-  __device__ static std::uint32_t place(std::uint32_t counted) { return counted & (kOver - 1U); }
-  // In one comparison, because all warps wait for it in every round.
-  __device__ bool goes_on() const { return nodes + leaves - 1U < kOver - 1U; }
+  __device__ bool any() const { return (nodes | leaves) != 0; }
 };
 
 constexpr std::uint32_t kBytesPerStackEntry = 12;

@@ -14,14 +14,15 @@ namespace broadside::gpu {
 // the smallest squared distance that anybody found (of non-negative floats, bits order as values do).
 class TreePair {
  public:
-  __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, core::Pair pair, std::uint32_t* bound)
+  __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, const PlacedShape& a, const PlacedShape& b,
+                      std::uint32_t* bound)
       : nodes_(f.shapes.tree_nodes),
-        a_(headers.trees[shape_of(f, pair.i)]),
-        b_(headers.trees[shape_of(f, pair.j)]),
+        a_(headers.trees[a.shape]),
+        b_(headers.trees[b.shape]),
         vertices_a_(f.shapes.tree_vertices + a_.vertex_begin),
         vertices_b_(f.shapes.tree_vertices + b_.vertex_begin),
-        xa_(f.detected.position[pair.i].v),
-        xb_(f.detected.position[pair.j].v),
+        xa_(a.x),
+        xb_(b.x),
         bound_(bound) {
     const float theta_m = core::pair_theta_m(f.parameters, a_.mean_edge_m, b_.mean_edge_m);
     theta2_ = theta_m * theta_m;
@@ -134,6 +135,12 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
   return trees.best();
 }
 
+// More than a round of a few warps: worth handing over.
+__device__ inline bool is_much(const TeamCounts& left) {
+  constexpr std::uint32_t kWarps = 4;
+  return 4 * left.nodes + left.leaves >= 4 * kWarps;
+}
+
 // Several warps of a block that search one pair.
 struct SearchTeam : WarpShare {  // of two or more
   std::uint32_t barrier = 0;     // the team's number in its block
@@ -142,55 +149,65 @@ struct SearchTeam : WarpShare {  // of two or more
   TeamCounts* counts = nullptr;
 
   __device__ void sync() const { sync_warps(barrier, members); }
+  // The stack is two: a round makes no more than 64 pairs of leaves a warp.
+  __device__ SearchStack nodes() const { return stack.first(stack.entries - 64 * members); }
+  __device__ SearchStack leaves() const { return stack.from(stack.entries - 64 * members); }
+  // Entry k of a stack that holds so many.
+  __device__ void put(const TeamCounts& of, std::uint32_t k, const NodePair& p) const {
+    k < of.nodes ? nodes().put(k, p) : leaves().put(k - of.nodes, p);
+  }
+  __device__ NodePair at(const TeamCounts& of, std::uint32_t k) const {
+    return k < of.nodes ? nodes().at(k) : leaves().at(k - of.nodes);
+  }
 };
 
-// By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.
-// Where surfaces meet, nearly all the work is below one pair of upper nodes, so it cannot be dealt out beforehand.
-//
-// `ask_whether_over`: what it returns to the lane that calls it with true is waited for a round later; when that is not
-// 0, nothing more is looked for after that round. Returns each lane's nearest.
-template <typename Ask>
-__device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, const Ask& ask_whether_over) {
-  const std::uint32_t room = team.stack.entries;
-  // Of the leaves: a round makes no more than 64 a warp.
-  const std::uint32_t leaf_room = 64 * team.members;
-  const std::uint32_t node_room = room - leaf_room;
-  const SearchStack nodes = team.stack;
-  const SearchStack leaves = team.stack.from(node_room);
-  // One warp alone, opening one pair after the other, never adds more than this.
-  const std::uint32_t reserve = 63 * trees.top();
-  const auto open = [&](const NodePair& parents, float limit, TeamCounts& next) {
-    trees.open(parents, limit, [&](bool is_near, const NodePair& children) {
-      const unsigned kept = __ballot_sync(kFullWarp, is_near);
-      if (kept == 0) return;
-      const bool are_leaves = children.are_leaves();  // the same in all lanes
-      std::uint32_t first = 0;
-      if (lane() == 0)
-        first = atomicAdd(are_leaves ? &next.leaves : &next.nodes, static_cast<std::uint32_t>(__popc(kept)));
-      first = __shfl_sync(kFullWarp, first, 0);
-      if (is_near)
-        (are_leaves ? leaves : nodes).put(TeamCounts::place(first + __popc(kept & ((1U << lane()) - 1U))), children);
-    });
-  };
+// By one warp of a team: what it finds below these nodes goes to the stack, and is counted.
+__device__ inline void open_for_team(TreePair& trees, const SearchTeam& team, const NodePair& parents, float limit,
+                                     TeamCounts& counts) {
+  trees.open(parents, limit, [&](bool is_near, const NodePair& children) {
+    const unsigned kept = __ballot_sync(kFullWarp, is_near);
+    if (kept == 0) return;
+    const bool are_leaves = children.are_leaves();  // the same in all lanes
+    std::uint32_t first = 0;
+    if (lane() == 0)
+      first = atomicAdd(are_leaves ? &counts.leaves : &counts.nodes, static_cast<std::uint32_t>(__popc(kept)));
+    first = __shfl_sync(kFullWarp, first, 0);
+    if (is_near)
+      (are_leaves ? team.leaves() : team.nodes()).put(first + __popc(kept & ((1U << lane()) - 1U)), children);
+  });
+}
 
+// The start of a search, by all warps of a team. Returns what the stack holds.
+__device__ inline TeamCounts begin_at_roots(TreePair& trees, const SearchTeam& team) {
   if (team.member == 0) {
     const NodePair roots = trees.roots();
     if (lane() == 0) team.counts[0] = {0, roots.are_leaves() ? 1U : 0U};
     __syncwarp();
     if (!roots.are_leaves())
-      open(roots, INFINITY, team.counts[0]);
+      open_for_team(trees, team, roots, INFINITY, team.counts[0]);
     else if (lane() == 0)
-      leaves.put(0, roots);
+      team.leaves().put(0, roots);
   }
   team.sync();
-  TeamCounts left = team.counts[0];
-  std::uint32_t is_over = 0;  // as far as the first lane of all has heard
-  const auto play = [&](std::uint32_t round) {
+  return team.counts[0];
+}
+
+// By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.
+// Where surfaces meet, nearly all the work is below one pair of upper nodes, so it cannot be dealt out beforehand.
+//
+// `left`: what the stack holds. `rest`: a RestOfPair or NoRest (search_rests.cuh). Returns each lane's nearest.
+template <typename Rest>
+__device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, TeamCounts left, Rest& rest) {
+  const SearchStack nodes = team.nodes();
+  const SearchStack leaves = team.leaves();
+  // One warp alone, opening one pair after the other, never adds more than this.
+  const std::uint32_t reserve = 63 * trees.top();
+  for (std::uint32_t round = 1; left.any(); ++round) {
     // What all members do follows from what is left, so that they agree without a word.
     const std::uint32_t groups = min(team.members, left.nodes > 0 ? left.leaves / 4 : (left.leaves + 3) / 4);
     const std::uint32_t met = min(4 * groups, left.leaves);
-    std::uint32_t opened = min(min(team.members - groups, left.nodes), (leaf_room - (left.leaves - met)) / 64);
-    const std::uint32_t spare = node_room > reserve + left.nodes ? (node_room - reserve - left.nodes) / 63 : 0U;
+    std::uint32_t opened = min(min(team.members - groups, left.nodes), (leaves.entries - (left.leaves - met)) / 64);
+    const std::uint32_t spare = nodes.entries > reserve + left.nodes ? (nodes.entries - reserve - left.nodes) / 63 : 0U;
     opened = min(opened, max(spare, 1U));
     const bool meets = team.member < groups;
     const bool opens = !meets && team.member - groups < opened;
@@ -199,19 +216,15 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
     if (meets && leaf < met) own = leaves.at(left.leaves - 1 - leaf);
     if (opens) own = nodes.at(left.nodes - 1 - (team.member - groups));
     TeamCounts& next = team.counts[round % 2];
-    const bool is_first = team.member == 0 && lane() == 0;
-    if (is_first) next = {(left.nodes - opened) | is_over * TeamCounts::kOver, left.leaves - met};
-    is_over = ask_whether_over(is_first);
+    if (team.member == 0 && lane() == 0) next = {left.nodes - opened, left.leaves - met};
     team.sync();
     const float limit = trees.limit();
     if (meets) trees.meet(leaf < met, own, limit);
-    if (opens && own.gap2 <= limit) open(own, limit, next);
+    if (opens && own.gap2 <= limit) open_for_team(trees, team, own, limit, next);
     team.sync();
     left = next;
-  };
-  // The first apart from the others, which the compiler makes shorter then.
-  play(1);
-  for (std::uint32_t round = 2; left.goes_on(); ++round) play(round);
+    if (rest.is_asked_after(round) && is_much(left) && rest.hand_over(team, left, trees.limit())) break;
+  }
   return trees.best();
 }
 

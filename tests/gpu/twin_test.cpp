@@ -67,6 +67,20 @@ TEST_F(Twin, EveryLevelFromTheTree) {
   }
 }
 
+// Without cells, fine spheres in each other: a few pairs, whose searches are handed over to the whole grid.
+TEST_F(Twin, LongSearchesThatTheGridShares) {
+  SceneShape shape;
+  for (const std::uint32_t bodies : {2U, 9U, 15U}) {
+    shape.bodies = bodies;
+    shape.cube_m = 0.6F * std::cbrt(static_cast<float>(bodies));
+    for (const std::string levels : {"flat", "C"}) {
+      SCOPED_TRACE(levels + " " + std::to_string(bodies));
+      EXPECT_GT(compare(thrown({bumpy_sphere(70, 0.5F), bumpy_sphere(50, 0.6F)}, shape), {{"levels", levels}}, 100),
+                0U);
+    }
+  }
+}
+
 TEST_F(Twin, WithoutTheVertexStage) {
   SceneShape shape;
   shape.bodies = 200;

@@ -104,8 +104,8 @@ TEST(LevelDescent, IsThatOfTheMethod) {
     const core::Vec3 xb = xa + core::Vec3{shift(random), shift(random), shift(random)};
     const bool wanted = core::is_confirmed(core::Levels::kB, nodes[0], xa, nodes[1], xb);
     (wanted ? confirmed : rejected) += 1;
-    EXPECT_EQ(descends_in_warp<1>(boxes, {0, xa}, {1, xb}), wanted) << round;
-    EXPECT_EQ(descends_in_warp<2>(boxes, {0, xa}, {1, xb}), wanted) << round;
+    EXPECT_EQ(descends_in_warp<1>(boxes, {xa, 0}, {xb, 1}), wanted) << round;
+    EXPECT_EQ(descends_in_warp<2>(boxes, {xa, 0}, {xb, 1}), wanted) << round;
   }
   EXPECT_GT(confirmed, 50) << rejected;
   EXPECT_GT(rejected, 50);

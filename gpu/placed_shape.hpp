@@ -1,0 +1,20 @@
+// A body as searches see it: bodies translate only.
+#pragma once
+
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/levels.hpp"
+
+namespace broadside::gpu {
+
+struct alignas(16) PlacedShape {
+  core::Vec3 x;
+  std::uint32_t shape = 0;
+
+  // Of its octree, among those of all shapes.
+  BROADSIDE_HD std::uint32_t first_box() const { return shape * core::kBodyOctreeNodes; }
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,38 @@
+// What is counted in a frame of few bodies while the grid meets.
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/frame_kernel.hpp"
+#include "gpu/grid_word.hpp"
+#include "gpu/stages/device.cuh"
+
+namespace broadside::gpu {
+
+// In the tally beside the grid's barrier: one addition takes room in several lists, and whoever has met knows all.
+struct FewCounts {
+  // From here on nobody asks: those who do at the same time still fit.
+  static constexpr std::uint32_t kMostRests = 1U << 13;
+
+  std::uint32_t pairs = 0;
+  std::uint32_t confirmed = 0;
+  std::uint32_t rests = 0;  // how often a team asked to hand over what is left of its search
+
+  __device__ unsigned long long packed() const {
+    return pairs | std::uint64_t{confirmed} << kPairBits | std::uint64_t{rests} << 2 * kPairBits;
+  }
+  // Of the word, or of its tally alone.
+  __device__ static FewCounts unpacked(unsigned long long word) {
+    const unsigned long long tally = word & GridWord::kTally;
+    return {static_cast<std::uint32_t>(tally) & kMostPairs, static_cast<std::uint32_t>(tally >> kPairBits) & kMostPairs,
+            static_cast<std::uint32_t>(tally >> 2 * kPairBits)};
+  }
+
+ private:
+  static constexpr std::uint32_t kPairBits = 17;
+  static constexpr std::uint32_t kMostPairs = (1U << kPairBits) - 1;
+  static_assert(kFewBodies * (kFewBodies - 1) / 2 <= kMostPairs &&
+                GridWord::kTally >> 2 * kPairBits >= 2 * kMostRests - 1);
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,127 @@
+// Long searches of few pairs: what is left of one when its team has worked at it for some rounds is shared by the whole
+// grid, most of which has nothing else to do.
+#pragma once
+
+#include "gpu/frame_view.hpp"
+#include "gpu/search_rest.hpp"
+#include "gpu/stages/few_counts.cuh"
+#include "gpu/stages/search_stack.cuh"
+#include "gpu/stages/team.cuh"
+#include "gpu/stages/tree_search.cuh"
+
+namespace broadside::gpu {
+
+// So many rests there can be: each of them has a block of its own, or more.
+__device__ inline std::uint32_t most_rests() {
+  return min(RestsView::kMost, gridDim.x);
+}
+
+// What a team that searches pair k may do with what is left: hand it over, or drop it. `kRoundsTillLong`: how long it
+// has lasted then, and again after as many rounds.
+template <std::uint32_t kRoundsTillLong, typename Levels>
+class RestOfPair {
+ public:
+  // `to`: where those of this time go, before which there were so many. `place`: of the team, in shared memory.
+  __device__ RestOfPair(const FrameView& f, const Levels& levels, const RestsView& to, std::uint32_t before,
+                        const PlacedShape& a, const PlacedShape& b, std::uint64_t k, std::uint32_t* place)
+      : f_(f),
+        levels_(levels),
+        to_(to),
+        before_(before),
+        a_(a),
+        b_(b),
+        k_(k),
+        place_(place),
+        is_refused_(before >= FewCounts::kMostRests) {}
+
+  __device__ static bool is_asked_after(std::uint32_t round) { return round % kRoundsTillLong == 0; }
+
+  // By all warps of the team; true: the search ends.
+  __device__ bool hand_over(const SearchTeam& team, const TeamCounts& left, float limit) {
+    if (is_refused_ || left.nodes + left.leaves > RestsView::kEntries) return false;
+    const bool is_first = team.member == 0 && lane() == 0;
+    std::uint32_t is_rejected = 0;
+    if (is_first) {
+      // Both are asked for before either is waited for.
+      is_rejected = levels_.is_told_to_be_rejected(k_);
+      *place_ = FewCounts::unpacked(atomicAdd(f_.barrier, FewCounts{0, 0, 1}.packed())).rests - before_;
+    }
+    team.sync();
+    const std::uint32_t place = *place_;
+    is_refused_ = place >= most_rests();
+    if (is_refused_) return false;
+    for (std::uint32_t e = team.member * 32 + lane(); e < left.nodes + left.leaves; e += team.members * 32)
+      to_.entries[place * RestsView::kEntries + e] = team.at(left, e);
+    if (is_first) {
+      // Of a pair that nobody wants to know about any more nothing is left.
+      const TeamCounts wanted = is_rejected == 0 ? left : TeamCounts{};
+      to_.items[place] = {a_, b_, static_cast<std::uint32_t>(k_), limit, wanted.nodes, wanted.leaves};
+    }
+    return true;
+  }
+
+ private:
+  const FrameView& f_;
+  const Levels& levels_;
+  const RestsView& to_;
+  std::uint32_t before_;
+  PlacedShape a_;
+  PlacedShape b_;
+  std::uint64_t k_;
+  std::uint32_t* place_;
+  bool is_refused_;
+};
+
+// Of searches that end where they began.
+struct NoRest {
+  __device__ static bool is_asked_after(std::uint32_t /*round*/) { return false; }
+  __device__ static bool hand_over(const SearchTeam& /*team*/, const TeamCounts& /*left*/, float /*limit*/) {
+    return false;
+  }
+};
+
+// A block's part of one of so many rests: every so-manieth entry, those that were opened last at the end.
+class RestPart {
+ public:
+  // By all threads of a block, which are the team and meet afterwards.
+  __device__ RestPart(const RestsView& rests, std::uint32_t count, const SearchTeam& team) {
+    const std::uint32_t place = blockIdx.x % count;
+    const std::uint32_t part = blockIdx.x / count;
+    const std::uint32_t parts = (gridDim.x - place + count - 1) / count;
+    const auto up_to = [&](std::uint32_t end) { return end > part ? (end - part - 1) / parts + 1 : 0U; };
+    const NodePair* entries = rests.entries + place * RestsView::kEntries;
+    rest_ = fetched(rests.items + place);
+    // The first are asked for before it is known how many there are: one wait.
+    std::uint32_t k = threadIdx.x;
+    NodePair entry;
+    if (part + k * parts < RestsView::kEntries) entry = entries[part + k * parts];
+    own_.nodes = up_to(rest_.nodes);
+    own_.leaves = up_to(rest_.nodes + rest_.leaves) - own_.nodes;
+    while (k < own_.nodes + own_.leaves) {
+      team.put(own_, k, entry);
+      k += blockDim.x;
+      if (part + k * parts < RestsView::kEntries) entry = entries[part + k * parts];
+    }
+  }
+
+  __device__ const SearchRest& rest() const { return rest_; }
+  __device__ const TeamCounts& counts() const { return own_; }
+
+ private:
+  SearchRest rest_;
+  TeamCounts own_;
+};
+
+// By one thread, of a pair for which others may find something at the same time.
+__device__ inline void improve(MeasuredPair* pair, const core::Proximity& found) {
+  auto* word = reinterpret_cast<uint4*>(pair);
+  uint4 seen = GridWords::load_whole(word);
+  for (bool is_done = false; !is_done;) {
+    const core::Proximity nearest{__uint_as_float(seen.x), seen.y, seen.z};
+    is_done = !core::is_nearer(found, nearest) ||
+              GridWords::replace_whole(
+                  word, seen, {__float_as_uint(found.squared_distance_m2), found.vertex_a, found.vertex_b, seen.w});
+  }
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,111 @@
+// Long searches that a team of warps hands over and the whole grid goes on with.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <memory>
+#include <vector>
+
+#include "core/engine/engine.hpp"
+#include "gpu/pipeline.hpp"
+#include "gpu/stages/few_counts.cuh"
+#include "gpu/stages/search_rests.cuh"
+#include "reference/octree_cpu/engine.hpp"
+#include "tests/gpu/small_scenes.hpp"
+#include "tests/gpu/twin_comparison.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+TEST(FewCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
+  const FewCounts most{130816, 130816, (1U << 14) - 1};
+  for (const FewCounts& counts : {FewCounts{}, FewCounts{1, 2, 3}, most}) {
+    const unsigned long long word = counts.packed() + 131 * GridWord::kArrival + GridWord::kFlipped;
+    const FewCounts again = FewCounts::unpacked(word);
+    EXPECT_EQ(again.pairs, counts.pairs);
+    EXPECT_EQ(again.confirmed, counts.confirmed);
+    EXPECT_EQ(again.rests, counts.rests);
+  }
+}
+
+TEST(GridWord, SharesOfAllBlocksFlipOneBit) {
+  for (const std::uint32_t blocks : {1U, 2U, 132U, 1024U}) {
+    unsigned long long word = 77;
+    for (std::uint32_t b = 0; b < blocks; ++b) word += GridWord::share(b, blocks);
+    EXPECT_EQ(word, GridWord::kFlipped + 77) << blocks;
+    for (std::uint32_t b = 0; b < blocks; ++b) word += GridWord::share(b, blocks);
+    EXPECT_EQ(word, 77U) << blocks;
+  }
+}
+
+// All entries of three rests, over seven blocks: each entry in one block, as what it is.
+TEST(RestPart, OfAllBlocksAreTheRest) {
+  constexpr std::uint32_t kBlocks = 7;
+  constexpr std::uint32_t kEntries = 64 * 4;
+  const std::vector<TeamCounts> handed_over = {{40, 216}, {3, 0}, {0, 0}};
+  std::vector<SearchRest> items(RestsView::kMost);
+  std::vector<NodePair> entries(std::size_t{RestsView::kMost} * RestsView::kEntries);
+  for (std::uint32_t r = 0; r < handed_over.size(); ++r) {
+    items[r].nodes = handed_over[r].nodes;
+    items[r].leaves = handed_over[r].leaves;
+    for (std::uint32_t e = 0; e < RestsView::kEntries; ++e) entries[r * RestsView::kEntries + e] = {1000 * r + e, e, 0};
+  }
+  std::vector<std::vector<std::uint32_t>> stacks(kBlocks, std::vector<std::uint32_t>(3 * 2 * kEntries));
+  std::vector<TeamCounts> counts(kBlocks);
+  on_host::run({{kBlocks}, {64}, 0}, 0, [&](unsigned char*) {
+    const WarpShare share{threadIdx.x / 32, 2};
+    const SearchTeam team{share, 0, {stacks[blockIdx.x].data(), 2 * kEntries, 2 * kEntries}, nullptr};
+    const RestPart part({items.data(), entries.data()}, static_cast<std::uint32_t>(handed_over.size()), team);
+    if (threadIdx.x == 0) counts[blockIdx.x] = part.counts();
+  });
+  std::vector<std::vector<int>> met(handed_over.size(), std::vector<int>(RestsView::kEntries, 0));
+  for (std::uint32_t b = 0; b < kBlocks; ++b) {
+    const SearchTeam team{{0, 2}, 0, {stacks[b].data(), 2 * kEntries, 2 * kEntries}, nullptr};
+    for (std::uint32_t k = 0; k < counts[b].nodes + counts[b].leaves; ++k) {
+      const NodePair entry = team.at(counts[b], k);
+      const std::uint32_t rest = entry.a / 1000;
+      ASSERT_EQ(rest, b % handed_over.size());
+      EXPECT_EQ(entry.b < handed_over[rest].nodes, k < counts[b].nodes);
+      ++met[rest][entry.b];
+    }
+  }
+  for (std::uint32_t r = 0; r < handed_over.size(); ++r)
+    for (std::uint32_t e = 0; e < RestsView::kEntries; ++e)
+      EXPECT_EQ(met[r][e], e < handed_over[r].nodes + handed_over[r].leaves ? 1 : 0) << r << ' ' << e;
+}
+
+TEST(MeasuredPair, IsImprovedToTheNearestInAnyOrder) {
+  const std::vector<core::Proximity> found = {{2.0F, 1, 1}, {1.0F, 7, 3}, {1.0F, 7, 2}, {1.0F, 9, 0}, {3.0F, 0, 0}};
+  for (std::size_t first = 0; first < found.size(); ++first) {
+    MeasuredPair pair;
+    pair.is_rejected = 1;
+    for (std::size_t k = 0; k < found.size(); ++k) improve(&pair, found[(first + k) % found.size()]);
+    EXPECT_EQ(pair.nearest, (core::Proximity{1.0F, 7, 2}));
+    EXPECT_EQ(pair.is_rejected, 1U);
+  }
+}
+
+// Fine spheres deep in each other, without cells: a few pairs whose searches take many rounds.
+TEST(SharedSearches, GiveTheFramesOfTheTwin) {
+  SceneShape shape;
+  shape.gravity_m_s2 = 0.0F;
+  shape.cube_m = 0.9F;
+  for (const std::uint32_t bodies : {2U, 4U}) {
+    shape.bodies = bodies;
+    const core::Scene scene = thrown({bumpy_sphere(24, 0.5F)}, shape);
+    for (const std::string name : {"flat", "C"}) {
+      SCOPED_TRACE(name + " " + std::to_string(bodies));
+      PipelineOptions options;
+      options.levels = *core::levels_named(name);
+      options.least_for_cells = 1000;
+      Pipeline subject(options);
+      const core::EngineRow row = reference::octree_cpu_row();
+      auto settings = core::Settings::parse(row.id, row.settings, {{"levels", name}});
+      ASSERT_TRUE(settings.ok());
+      const core::Engine twin = std::move(row.create(settings.value())).value();
+      EXPECT_GT(compare_pipelines(scene, subject, *twin.dynamics, 4, 1), 0U);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace broadside::gpu
