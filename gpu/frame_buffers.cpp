@@ -64,7 +64,9 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
 core::Status FrameBuffers::reserve_rests() {
   if (body_count_ > kFewBodies) return core::Done{};
   BROADSIDE_TRY(rests_.reserve(2 * std::size_t{RestsView::kMost}, "shared searches"));
-  return rest_entries_.reserve(2 * std::size_t{RestsView::kMost} * RestsView::kEntries, "shared searches");
+  BROADSIDE_TRY(rest_entries_.reserve(2 * std::size_t{RestsView::kMost} * RestsView::kEntries, "shared searches"));
+  // They are read before it is known how many there are.
+  return rest_entries_.fill_bytes(0);
 }
 
 core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_level0) {
