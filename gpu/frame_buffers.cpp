@@ -54,7 +54,10 @@ core::Status FrameBuffers::load(const core::Scene& scene) {
 core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   BROADSIDE_TRY(confirmed_.reserve(count, "confirmed pairs"));
   BROADSIDE_TRY(proximity_.reserve(count, "nearest vertices"));
-  if (body_count_ <= kFewBodies) BROADSIDE_TRY(measured_.reserve(count, "nearest vertices"));
+  if (body_count_ <= kFewBodies) {
+    BROADSIDE_TRY(measured_.reserve(count, "nearest vertices"));
+    BROADSIDE_TRY(placed_.reserve(count, "nearest vertices"));
+  }
   BROADSIDE_TRY(links_.reserve(count, "touching pairs"));
   BROADSIDE_TRY(keys_.reserve(2 * count, "order of contacts"));
   BROADSIDE_TRY(lists_.reserve(2 * count, "order of contacts"));
@@ -89,6 +92,7 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.proximity = proximity_.data();
   view.measured = measured_.data();
+  view.placed = placed_.data();
   view.rests[0] = {rests_.data(), rest_entries_.data()};
   view.rests[1] = {rests_.data() + RestsView::kMost, rest_entries_.data() + RestsView::kMost * RestsView::kEntries};
   view.links = links_.data();
@@ -109,8 +113,8 @@ std::uint64_t FrameBuffers::body_bytes() const {
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {
-  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + measured_.bytes() + links_.bytes() + keys_.bytes() +
-         lists_.bytes() + contacts_.bytes() + face_contacts_.bytes();
+  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + measured_.bytes() + placed_.bytes() + links_.bytes() +
+         keys_.bytes() + lists_.bytes() + contacts_.bytes() + face_contacts_.bytes();
 }
 
 }  // namespace broadside::gpu

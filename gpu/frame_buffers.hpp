@@ -64,6 +64,7 @@ class FrameBuffers {
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<core::Proximity> proximity_;
   DeviceBuffer<MeasuredPair> measured_;
+  DeviceBuffer<PlacedPair> placed_;
   DeviceBuffer<SearchRest> rests_;
   DeviceBuffer<NodePair> rest_entries_;
   DeviceBuffer<Link> links_;

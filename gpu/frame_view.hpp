@@ -142,6 +142,7 @@ struct FrameView {
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;
   MeasuredPair* measured = nullptr;  // few bodies: one per pair that is measured
+  PlacedPair* placed = nullptr;      // likewise
   RestsView rests[2];                // few bodies
 };
 

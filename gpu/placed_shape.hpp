@@ -17,4 +17,11 @@ struct alignas(16) PlacedShape {
   BROADSIDE_HD std::uint32_t first_box() const { return shape * core::kBodyOctreeNodes; }
 };
 
+// Of a pair, in its order.
+struct PlacedPair {
+  PlacedShape i;
+  PlacedShape j;
+};
+static_assert(sizeof(PlacedPair) == 32, "read in words of 16 bytes");
+
 }  // namespace broadside::gpu

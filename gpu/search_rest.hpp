@@ -18,8 +18,7 @@ struct NodePair {
 };
 
 struct SearchRest {
-  PlacedShape a;
-  PlacedShape b;
+  PlacedPair bodies;
   std::uint32_t k = 0;      // the pair's place among those that are measured
   float bound_m2 = 0.0F;    // the smallest squared distance so far
   std::uint32_t nodes = 0;  // of so many entries; then come those of leaves

@@ -16,20 +16,18 @@ struct CellRoles {
   bool is_asked_by_j = false;
 };
 
-__device__ inline CellRoles cell_roles(const FrameView& f, const ShapeHeaders& headers, core::Pair pair) {
-  const std::uint32_t shape_i = shape_of(f, pair.i);
-  const std::uint32_t shape_j = shape_of(f, pair.j);
-  const NearCells& of_i = headers.cells[shape_i];
-  const NearCells& of_j = headers.cells[shape_j];
-  const core::Vec3 xi = f.detected.position[pair.i].v;
-  const core::Vec3 xj = f.detected.position[pair.j].v;
+__device__ inline CellRoles cell_roles(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies) {
+  const NearCells& of_i = headers.cells[bodies.i.shape];
+  const NearCells& of_j = headers.cells[bodies.j.shape];
+  const core::Vec3 xi = bodies.i.x;
+  const core::Vec3 xj = bodies.j.x;
   const float far = f.shapes.extent_m + fmaxf(fmaxf(fmaxf(fabsf(xi.x), fabsf(xi.y)), fabsf(xi.z)),
                                               fmaxf(fmaxf(fabsf(xj.x), fabsf(xj.y)), fabsf(xj.z)));
   const bool i_answers = of_i.count_x != 0 && far <= of_i.range_m;
   const bool j_answers = of_j.count_x != 0 && far <= of_j.range_m;
   // The body of fewer vertices asks.
   const bool is_asked_by_j =
-      i_answers && (!j_answers || headers.trees[shape_j].node_count[0] < headers.trees[shape_i].node_count[0]);
+      i_answers && (!j_answers || headers.trees[bodies.j.shape].node_count[0] < headers.trees[bodies.i.shape].node_count[0]);
   return {i_answers || j_answers, is_asked_by_j};
 }
 
@@ -43,16 +41,16 @@ static_assert(kRunVertices == 64, "two a lane");
 // looked up in its cells; those that find something near enough wait until a lane each has one.
 class NearestByCells {
  public:
-  __device__ NearestByCells(const FrameView& f, const ShapeHeaders& headers, core::Pair pair, bool is_asked_by_j,
-                            SearchStack stack, std::uint32_t* bound, const WarpShare& share)
+  __device__ NearestByCells(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies,
+                            bool is_asked_by_j, SearchStack stack, std::uint32_t* bound, const WarpShare& share)
       : f_(f),
-        tree_(headers.trees[shape_of(f, is_asked_by_j ? pair.j : pair.i)]),
-        other_tree_(headers.trees[shape_of(f, is_asked_by_j ? pair.i : pair.j)]),
-        cells_(headers.cells[shape_of(f, is_asked_by_j ? pair.i : pair.j)]),
+        tree_(headers.trees[is_asked_by_j ? bodies.j.shape : bodies.i.shape]),
+        other_tree_(headers.trees[is_asked_by_j ? bodies.i.shape : bodies.j.shape]),
+        cells_(headers.cells[is_asked_by_j ? bodies.i.shape : bodies.j.shape]),
         vertices_(f.shapes.tree_vertices + tree_.vertex_begin),
         quantized_(f.shapes.quantized + tree_.vertex_begin),
-        x_(f.detected.position[is_asked_by_j ? pair.j : pair.i].v),
-        other_x_(f.detected.position[is_asked_by_j ? pair.i : pair.j].v),
+        x_(is_asked_by_j ? bodies.j.x : bodies.i.x),
+        other_x_(is_asked_by_j ? bodies.i.x : bodies.j.x),
         is_asked_by_j_(is_asked_by_j),
         queue_(stack),
         bound_(bound),

@@ -31,13 +31,17 @@ __device__ inline MeasuredPair fetched(const MeasuredPair* from) {
   return {{__uint_as_float(word.x), word.y, word.z}, word.w};
 }
 
+__device__ inline PlacedShape fetched(const PlacedShape* from) {
+  const uint4 word = *reinterpret_cast<const uint4*>(from);
+  return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, word.w};
+}
+__device__ inline PlacedPair fetched(const PlacedPair* from) {
+  return {fetched(&from->i), fetched(&from->j)};
+}
+
 __device__ inline SearchRest fetched(const SearchRest* from) {
-  const auto* words = reinterpret_cast<const uint4*>(from);
-  const auto placed = [](const uint4& word) {
-    return PlacedShape{{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, word.w};
-  };
-  const uint4 last = words[2];
-  return {placed(words[0]), placed(words[1]), last.x, __uint_as_float(last.y), last.z, last.w};
+  const uint4 last = reinterpret_cast<const uint4*>(from)[2];
+  return {fetched(&from->bodies), last.x, __uint_as_float(last.y), last.z, last.w};
 }
 
 }  // namespace broadside::gpu

@@ -86,6 +86,10 @@ __device__ inline void find_few(const GridTeam& team, const FrameView& f, FewSta
     if (are_levels_left(f) && place < f.confirmed.capacity) f.measured[place] = MeasuredPair{};
     const std::uint32_t confirmed_place = place_among(confirmed, first.confirmed);
     if (confirmed_place < f.confirmed.capacity) f.confirmed.items[confirmed_place] = pair;
+    const std::uint32_t measured_place = f.are_levels_first ? confirmed_place : place;
+    if (measured_place < f.confirmed.capacity)
+      f.placed[measured_place] =
+          at.meeting.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i};
   } while (at.next(f, stride));
 }
 
@@ -102,8 +106,8 @@ class FewLevels {
   __device__ void end() const { shapes_.end_octrees(); }
 
   // By a warp: pair k is told to be rejected if it is. Returns whether it is not.
-  __device__ bool look(core::Pair pair, std::uint64_t k) const {
-    const bool is_kept = is_confirmed_few(f_, shapes_, placed_shape(f_, pair.i), placed_shape(f_, pair.j));
+  __device__ bool look(const PlacedPair& bodies, std::uint64_t k) const {
+    const bool is_kept = is_confirmed_few(f_, shapes_, bodies.i, bodies.j);
     if (!is_kept && lane() == 0) f_.measured[k].is_rejected = 1;
     return is_kept;
   }

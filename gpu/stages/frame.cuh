@@ -192,7 +192,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(f, few, confirmed);
 
   const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
-                             kIsFew && f.has_vertex_stage ? f.measured : nullptr};
+                             kIsFew && f.has_vertex_stage ? f.measured : nullptr, kIsFew ? f.placed : nullptr};
   if (f.has_vertex_stage && confirmed > 0) {
     if constexpr (kIsFew) {
       const FewLevels levels(f, shapes);

@@ -18,6 +18,13 @@ struct MeetingPairs {
   bool are_levels_left = false;
   // Of few bodies, where they are measured: what came of each. The others have f.proximity.
   MeasuredPair* measured = nullptr;
+  const PlacedPair* placed = nullptr;  // likewise: where their bodies are
+
+  __device__ PlacedPair bodies(const FrameView& f, std::uint64_t k) const {
+    if (placed != nullptr) return fetched(placed + k);
+    const core::Pair pair = items[k];
+    return {placed_shape(f, pair.i), placed_shape(f, pair.j)};
+  }
 
   // By one thread.
   __device__ void tell(const FrameView& f, std::uint64_t k, const core::Proximity& nearest) const {

@@ -17,9 +17,9 @@ constexpr std::uint32_t kMaxBlockWarps = 16;  // so that each of their teams has
 // Shared memory of a block: what the warps of one pair share.
 struct ProximityScratch {
   std::uint32_t bound[kMaxBlockWarps];
+  unsigned long long nearest[kMaxBlockWarps];
   TeamCounts counts[kMaxBlockWarps][2];
   std::uint32_t place[kMaxBlockWarps];
-  core::Proximity part[kMaxBlockWarps];
 };
 
 // Of so many warps side by side.
@@ -35,7 +35,7 @@ struct NoLevels {
 
   __device__ void begin() const {}
   __device__ void end() const {}
-  __device__ static bool look(core::Pair /*pair*/, std::uint64_t /*k*/) { return true; }
+  __device__ static bool look(const PlacedPair& /*bodies*/, std::uint64_t /*k*/) { return true; }
   __device__ static std::uint32_t is_told_to_be_rejected(std::uint64_t /*k*/) { return 0; }
 };
 
@@ -97,14 +97,13 @@ class ProximityStage {
       for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, pairs_.count); ++k) {
         if (lane() == 0) *bound = __float_as_uint(INFINITY);
         __syncwarp();
-        const core::Pair pair = pairs_.items[k];
-        if (pairs_.are_levels_left && !levels_.look(pair, k)) continue;
-        const CellRoles roles = cell_roles(f_, headers_, pair);
-        const core::Proximity best = warp_nearest(
-            roles.has_cells
-                ? NearestByCells(f_, headers_, pair, roles.is_asked_by_j, stack, bound, {}).find()
-                : nearest_by_trees(TreePair(f_, headers_, placed_shape(f_, pair.i), placed_shape(f_, pair.j), bound),
-                                   stack));
+        const PlacedPair bodies = pairs_.bodies(f_, k);
+        if (pairs_.are_levels_left && !levels_.look(bodies, k)) continue;
+        const CellRoles roles = cell_roles(f_, headers_, bodies);
+        const core::Proximity best =
+            warp_nearest(roles.has_cells
+                             ? NearestByCells(f_, headers_, bodies, roles.is_asked_by_j, stack, bound, {}).find()
+                             : nearest_by_trees(TreePair(f_, headers_, bodies, bound), stack));
         if (lane() == 0) pairs_.tell(f_, k, best);
         __syncwarp();
       }
@@ -117,21 +116,25 @@ class ProximityStage {
     const std::uint32_t team = warp / members;
     const WarpShare share{warp % members, members};
     const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
-    if (lane() == 0) scratch_.bound[warp] = __float_as_uint(INFINITY);
+    if (lane() == 0) {
+      scratch_.bound[warp] = __float_as_uint(INFINITY);
+      scratch_.nearest[warp] = kNoVertices;
+      scratch_.counts[warp][0] = {};
+    }
     __syncthreads();
-    core::Proximity best;
     if (k < pairs_.count) {
-      const core::Pair pair = pairs_.items[k];
-      const CellRoles roles = cell_roles(f_, headers_, pair);
-      best = warp_nearest(roles.has_cells ? nearest_by_cells(pair, roles.is_asked_by_j, team, share)
-                                          : nearest_by_team(pair, k, team, share));
+      const PlacedPair bodies = pairs_.bodies(f_, k);
+      const CellRoles roles = cell_roles(f_, headers_, bodies);
+      const core::Proximity best = roles.has_cells ? nearest_by_cells(bodies, roles.is_asked_by_j, team, share)
+                                                   : nearest_by_team(bodies, k, team, share);
+      tell_team(team, best);
     } else if (pairs_.are_levels_left) {
       const std::uint64_t idle = std::uint64_t{gridDim.x} * (blockDim.x / 32 / members) - pairs_.count;
       const std::uint64_t other = share.member * idle + (k - pairs_.count);
-      if (other < pairs_.count) levels_.look(pairs_.items[other], other);
+      if (other < pairs_.count) levels_.look(pairs_.bodies(f_, other), other);
     }
-    best = nearest_of_team(share, best);
-    if (share.member == 0 && lane() == 0 && k < pairs_.count) pairs_.tell(f_, k, best);
+    __syncthreads();
+    if (share.member == 0 && lane() == 0 && k < pairs_.count) pairs_.tell(f_, k, nearest_of_team(team));
   }
 
   // This block's part of what was handed over: all its warps are one team.
@@ -142,45 +145,52 @@ class ProximityStage {
     const SearchTeam all{{warp, warps}, 0, stack_of_warps(f_, stacks_, 0, warps), scratch_.counts[0]};
     const RestPart part(rests, count, all);
     const SearchRest& rest = part.rest();
-    if (threadIdx.x == 0) scratch_.bound[0] = __float_as_uint(rest.bound_m2);
+    if (threadIdx.x == 0) {
+      scratch_.bound[0] = __float_as_uint(rest.bound_m2);
+      scratch_.nearest[0] = kNoVertices;
+    }
     __syncthreads();
-    core::Proximity best;
     if (part.counts().any()) {
       constexpr NoLevels kNone;  // what was handed over late may be rejected: it is searched for nothing
-      RestOfPair<kRoundsOfBlock, NoLevels> next(f_, kNone, to, before, rest.a, rest.b, rest.k, &scratch_.place[0]);
-      best = warp_nearest(
-          nearest_by_trees(TreePair(f_, headers_, rest.a, rest.b, &scratch_.bound[0]), all, part.counts(), next));
+      RestOfPair<kRoundsOfBlock, NoLevels> next(f_, kNone, to, before, rest.bodies, rest.k, &scratch_.place[0]);
+      tell_team(0, nearest_by_trees(TreePair(f_, headers_, rest.bodies, &scratch_.bound[0]), all, part.counts(), next));
     }
-    best = nearest_of_team(all, best);
-    if (threadIdx.x == 0 && best.is_touching()) improve(f_.measured + rest.k, best);
-  }
-
-  // Of what the warps of a team found, each the same in all lanes; known to the first. By all threads of the block.
-  __device__ core::Proximity nearest_of_team(const WarpShare& share, const core::Proximity& best) const {
-    const std::uint32_t warp = threadIdx.x / 32;
-    if (lane() == 0) scratch_.part[warp] = best;
     __syncthreads();
-    if (share.member != 0) return best;
-    return warp_nearest(lane() < share.members ? scratch_.part[warp + lane()] : core::Proximity{});
+    if (threadIdx.x == 0 && scratch_.nearest[0] != kNoVertices) improve(f_.measured + rest.k, nearest_of_team(0));
   }
 
-  // These two return each lane's nearest.
-  __device__ core::Proximity nearest_by_cells(core::Pair pair, bool is_asked_by_j, std::uint32_t team,
-                                              const WarpShare& share) const {
-    return NearestByCells(f_, headers_, pair, is_asked_by_j, stack_of_warps(f_, stacks_, threadIdx.x / 32, 1),
-                          &scratch_.bound[team], share)
-        .find();
+  // By all lanes of a team that has met since it searched: its bound is the least distance, and whoever has found that
+  // names the vertices.
+  __device__ void tell_team(std::uint32_t team, const core::Proximity& best) const {
+    if (best.is_touching() && __float_as_uint(best.squared_distance_m2) == scratch_.bound[team])
+      atomicMin(&scratch_.nearest[team], static_cast<unsigned long long>(best.vertex_a) << 32 | best.vertex_b);
   }
-  __device__ core::Proximity nearest_by_team(core::Pair pair, std::uint64_t k, std::uint32_t team,
+  // When all have told and the block has met.
+  __device__ core::Proximity nearest_of_team(std::uint32_t team) const {
+    const unsigned long long vertices = scratch_.nearest[team];
+    if (vertices == kNoVertices) return {};
+    return {__uint_as_float(scratch_.bound[team]), static_cast<std::uint32_t>(vertices >> 32),
+            static_cast<std::uint32_t>(vertices)};
+  }
+
+  // These two return each lane's nearest, when the team has met.
+  __device__ core::Proximity nearest_by_cells(const PlacedPair& bodies, bool is_asked_by_j, std::uint32_t team,
+                                              const WarpShare& share) const {
+    const core::Proximity best = NearestByCells(f_, headers_, bodies, is_asked_by_j,
+                                                stack_of_warps(f_, stacks_, threadIdx.x / 32, 1),
+                                                &scratch_.bound[team], share)
+                                     .find();
+    sync_warps(team, share.members);
+    return best;
+  }
+  __device__ core::Proximity nearest_by_team(const PlacedPair& bodies, std::uint64_t k, std::uint32_t team,
                                              const WarpShare& share) const {
-    const PlacedShape a = placed_shape(f_, pair.i);
-    const PlacedShape b = placed_shape(f_, pair.j);
     const SearchTeam all{share, team, stack_of_warps(f_, stacks_, team * share.members, share.members),
                          scratch_.counts[team]};
-    TreePair trees(f_, headers_, a, b, &scratch_.bound[team]);
+    const TreePair trees(f_, headers_, bodies, &scratch_.bound[team]);
     const TeamCounts left = begin_at_roots(trees, all);
     if constexpr (Levels::kAreOfFewBodies) {
-      RestOfPair<kRoundsOfTeam, Levels> rest(f_, levels_, f_.rests[0], 0, a, b, k, &scratch_.place[team]);
+      RestOfPair<kRoundsOfTeam, Levels> rest(f_, levels_, f_.rests[0], 0, bodies, k, &scratch_.place[team]);
       return nearest_by_trees(trees, all, left, rest);
     } else {
       NoRest rest;
@@ -188,8 +198,9 @@ class ProximityStage {
     }
   }
 
+  static constexpr unsigned long long kNoVertices = ~0ULL;
   // What a meeting of the grid costs is some four rounds.
-  static constexpr std::uint32_t kRoundsOfTeam = 4;
+  static constexpr std::uint32_t kRoundsOfTeam = 3;
   static constexpr std::uint32_t kRoundsOfBlock = 8;
 
   const FrameView& f_;

@@ -23,13 +23,12 @@ class RestOfPair {
  public:
   // `to`: where those of this time go, before which there were so many. `place`: of the team, in shared memory.
   __device__ RestOfPair(const FrameView& f, const Levels& levels, const RestsView& to, std::uint32_t before,
-                        const PlacedShape& a, const PlacedShape& b, std::uint64_t k, std::uint32_t* place)
+                        const PlacedPair& bodies, std::uint64_t k, std::uint32_t* place)
       : f_(f),
         levels_(levels),
         to_(to),
         before_(before),
-        a_(a),
-        b_(b),
+        bodies_(bodies),
         k_(k),
         place_(place),
         is_refused_(before >= FewCounts::kMostRests) {}
@@ -55,7 +54,7 @@ class RestOfPair {
     if (is_first) {
       // Of a pair that nobody wants to know about any more nothing is left.
       const TeamCounts wanted = is_rejected == 0 ? left : TeamCounts{};
-      to_.items[place] = {a_, b_, static_cast<std::uint32_t>(k_), limit, wanted.nodes, wanted.leaves};
+      to_.items[place] = {bodies_, static_cast<std::uint32_t>(k_), limit, wanted.nodes, wanted.leaves};
     }
     return true;
   }
@@ -65,8 +64,7 @@ class RestOfPair {
   const Levels& levels_;
   const RestsView& to_;
   std::uint32_t before_;
-  PlacedShape a_;
-  PlacedShape b_;
+  PlacedPair bodies_;
   std::uint64_t k_;
   std::uint32_t* place_;
   bool is_refused_;
@@ -80,15 +78,30 @@ struct NoRest {
   }
 };
 
+// Divides below 2^20 by the same number again and again, in a few steps instead of some thirty: half a unit above the
+// quotient is farther from the next whole number than roundings reach.
+class SmallDivisor {
+ public:
+  __device__ explicit SmallDivisor(std::uint32_t by) : inverse_(1.0F / static_cast<float>(by)) {}
+  __device__ std::uint32_t quotient(std::uint32_t of) const {
+    return static_cast<std::uint32_t>((static_cast<float>(of) + 0.5F) * inverse_);
+  }
+
+ private:
+  float inverse_;
+};
+
 // A block's part of one of so many rests: every so-manieth entry, those that were opened last at the end.
 class RestPart {
  public:
   // By all threads of a block, which are the team and meet afterwards.
   __device__ RestPart(const RestsView& rests, std::uint32_t count, const SearchTeam& team) {
-    const std::uint32_t place = blockIdx.x % count;
-    const std::uint32_t part = blockIdx.x / count;
-    const std::uint32_t parts = (gridDim.x - place + count - 1) / count;
-    const auto up_to = [&](std::uint32_t end) { return end > part ? (end - part - 1) / parts + 1 : 0U; };
+    const SmallDivisor by_count(count);
+    const std::uint32_t part = by_count.quotient(blockIdx.x);
+    const std::uint32_t place = blockIdx.x - part * count;
+    const std::uint32_t parts = by_count.quotient(gridDim.x - place + count - 1);
+    const SmallDivisor by_parts(parts);
+    const auto up_to = [&](std::uint32_t end) { return end > part ? by_parts.quotient(end - part - 1) + 1 : 0U; };
     const NodePair* entries = rests.entries + place * RestsView::kEntries;
     rest_ = fetched(rests.items + place);
     // The first are asked for before it is known how many there are: one wait.

@@ -10,19 +10,67 @@
 
 namespace broadside::gpu {
 
+// What a warp finds near in a pair of nodes that it opens: of their 64 pairs of children a lane has two, whose nodes of A
+// are four apart.
+class NearChildren {
+ public:
+  NearChildren() = default;
+  // By the whole warp.
+  __device__ NearChildren(const NodePair& first, float second_gap2, bool is_first_near, bool is_second_near)
+      : first_(first),
+        second_gap2_(second_gap2),
+        first_near_(__ballot_sync(kFullWarp, is_first_near)),
+        second_near_(__ballot_sync(kFullWarp, is_second_near)) {}
+
+  // The same in all lanes.
+  __device__ std::uint32_t count() const { return __popc(first_near_) + __popc(second_near_); }
+  __device__ bool are_leaves() const { return first_.are_leaves(); }
+
+  // Calls put(place, pair) for this lane's, which have their places among all.
+  template <typename Put>
+  __device__ void each(const Put& put) const {
+    if (is_first_near()) put(first_place(), first_);
+    if (is_second_near()) put(second_place(), second());
+  }
+
+  // The one of this place, by the whole warp.
+  __device__ NodePair at(std::uint32_t place) const {
+    const unsigned as_first = __ballot_sync(kFullWarp, is_first_near() && first_place() == place);
+    const unsigned as_second = __ballot_sync(kFullWarp, is_second_near() && second_place() == place);
+    const NodePair own = as_first != 0 ? first_ : second();
+    const int source = __ffs(static_cast<int>(as_first | as_second)) - 1;
+    return {__shfl_sync(kFullWarp, own.a, source), __shfl_sync(kFullWarp, own.b, source),
+            __shfl_sync(kFullWarp, own.gap2, source)};
+  }
+
+ private:
+  __device__ static unsigned lanes_before() { return (1U << lane()) - 1U; }
+  __device__ bool is_first_near() const { return (first_near_ >> lane() & 1U) != 0; }
+  __device__ bool is_second_near() const { return (second_near_ >> lane() & 1U) != 0; }
+  __device__ std::uint32_t first_place() const { return __popc(first_near_ & lanes_before()); }
+  __device__ std::uint32_t second_place() const {
+    return __popc(first_near_) + __popc(second_near_ & lanes_before());
+  }
+  __device__ NodePair second() const { return {first_.a + 4, first_.b, second_gap2_}; }
+
+  NodePair first_;
+  float second_gap2_ = 0.0F;
+  unsigned first_near_ = 0;  // of which lanes
+  unsigned second_near_ = 0;
+};
+
 // The two trees of a pair, and the nearest vertices that this lane has met. `bound`, in shared memory, has the bits of
 // the smallest squared distance that anybody found (of non-negative floats, bits order as values do).
 class TreePair {
  public:
-  __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, const PlacedShape& a, const PlacedShape& b,
-                      std::uint32_t* bound)
+  __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies, std::uint32_t* bound)
       : nodes_(f.shapes.tree_nodes),
-        a_(headers.trees[a.shape]),
-        b_(headers.trees[b.shape]),
+        a_(headers.trees[bodies.i.shape]),
+        b_(headers.trees[bodies.j.shape]),
         vertices_a_(f.shapes.tree_vertices + a_.vertex_begin),
         vertices_b_(f.shapes.tree_vertices + b_.vertex_begin),
-        xa_(a.x),
-        xb_(b.x),
+        xa_(bodies.i.x),
+        xb_(bodies.j.x),
         bound_(bound) {
     const float theta_m = core::pair_theta_m(f.parameters, a_.mean_edge_m, b_.mean_edge_m);
     theta2_ = theta_m * theta_m;
@@ -34,10 +82,9 @@ class TreePair {
   // This lane's.
   __device__ core::Proximity best() const { return best_; }
 
-  // By the whole warp: the higher of the two nodes is opened, both when they are level. Calls keep(is_near, pair) twice
-  // for every lane, for the children that are near enough.
-  template <typename Keep>
-  __device__ void open(const NodePair& parents, float limit, const Keep& keep) {
+  // By the whole warp: the higher of the two nodes is opened, both when they are level. All boxes are asked for before
+  // any of them is looked at: one wait. So a child that there is not is another one, and not near.
+  __device__ NearChildren open(const NodePair& parents, float limit) const {
     const std::uint32_t level_a = parents.a >> 28;
     const std::uint32_t level_b = parents.b >> 28;
     const bool opens_a = level_a >= level_b;
@@ -49,38 +96,45 @@ class TreePair {
     const std::uint32_t count_a = opens_a ? min(kFanOut, a_.node_count[child_level_a] - first_a) : 1U;
     const std::uint32_t count_b = opens_b ? min(kFanOut, b_.node_count[child_level_b] - first_b) : 1U;
 
+    const std::uint32_t p = lane() / 8;
     const std::uint32_t q = lane() % 8;
-    core::Box box_b;
-    if (q < count_b) box_b = box(b_, child_level_b, first_b + q, xb_);
-#pragma unroll
-    for (std::uint32_t half = 0; half < 2; ++half) {
-      const std::uint32_t p = lane() / 8 + 4 * half;
-      float gap2 = 0.0F;
-      bool keeps = p < count_a && q < count_b;
-      if (keeps) {
-        gap2 = squared_gap(box(a_, child_level_a, first_a + p, xa_), box_b);
-        keeps = gap2 < theta2_ && gap2 <= limit;
-      }
-      keep(keeps, NodePair{child_level_a << 28 | (first_a + p), child_level_b << 28 | (first_b + q), gap2});
-    }
-    __syncwarp();
+    const core::Box low = box(a_, child_level_a, first_a + min(p, count_a - 1), xa_);
+    const core::Box high = box(a_, child_level_a, first_a + min(p + 4, count_a - 1), xa_);
+    const core::Box box_b = box(b_, child_level_b, first_b + min(q, count_b - 1), xb_);
+    const float low_gap2 = squared_gap(low, box_b);
+    const float high_gap2 = squared_gap(high, box_b);
+    const auto is_near = [&](float gap2) { return gap2 < theta2_ && gap2 <= limit; };
+    return {{child_level_a << 28 | (first_a + p), child_level_b << 28 | (first_b + q), low_gap2},
+            high_gap2,
+            p < count_a && q < count_b && is_near(low_gap2),
+            p + 4 < count_a && q < count_b && is_near(high_gap2)};
   }
 
   // By the whole warp: up to four pairs of leaves, eight lanes a pair: a lane has one vertex of A and meets eight of B.
-  // Four at once, because what takes the time is waiting for the vertices.
+  // So many of them are asked for at once: what takes the time is waiting for them.
+  template <std::uint32_t kAtOnce>
   __device__ void meet(bool has_leaves, const NodePair& leaves, float limit) {
+    static_assert(kLeafVertices % kAtOnce == 0);
     if (has_leaves && leaves.gap2 <= limit) {
       const PackedVec3 mine = fetched(vertices_a_ + leaves.a * kLeafVertices + lane() % 8);
       const PackedVec3* of_b = vertices_b_ + leaves.b * kLeafVertices;
       const core::Vec3 va = mine.v + xa_;
-#pragma unroll 4
-      for (std::uint32_t t = 0; t < kLeafVertices; ++t) {
-        const PackedVec3 other = fetched(of_b + t);
-        const float d2 = core::squared_distance(va, other.v + xb_);
-        if (!(d2 < theta2_) || d2 > best_.squared_distance_m2) continue;
-        const core::Proximity found{d2, __float_as_uint(mine.w), __float_as_uint(other.w)};
-        if (core::is_nearer(found, best_)) best_ = found;
+      core::Proximity nearest{INFINITY, __float_as_uint(mine.w), 0};
+      for (std::uint32_t first = 0; first < kLeafVertices; first += kAtOnce) {
+        PackedVec3 others[kAtOnce];
+#pragma unroll
+        for (std::uint32_t t = 0; t < kAtOnce; ++t) others[t] = fetched(of_b + first + t);
+#pragma unroll
+        for (std::uint32_t t = 0; t < kAtOnce; ++t) {
+          const float d2 = core::squared_distance(va, others[t].v + xb_);
+          const std::uint32_t other = __float_as_uint(others[t].w);
+          if (d2 < nearest.squared_distance_m2 || (d2 == nearest.squared_distance_m2 && other < nearest.vertex_b)) {
+            nearest.squared_distance_m2 = d2;
+            nearest.vertex_b = other;
+          }
+        }
       }
+      if (nearest.squared_distance_m2 < theta2_ && core::is_nearer(nearest, best_)) best_ = nearest;
     }
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
     if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);
@@ -119,18 +173,17 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
       const std::uint32_t taken =
           are_leaves == kFullWarp ? 4U : static_cast<std::uint32_t>(__ffs(~are_leaves) - 1) / 8U;
       size -= taken;
-      trees.meet(group < taken, one, limit);
+      trees.meet<4>(group < taken, one, limit);
       continue;
     }
     const NodePair parents = stack.at(size - 1);
     --size;
     __syncwarp();
     if (parents.gap2 > limit) continue;
-    trees.open(parents, limit, [&](bool is_near, const NodePair& children) {
-      const unsigned kept = __ballot_sync(kFullWarp, is_near);
-      if (is_near) stack.put(size + __popc(kept & ((1U << lane()) - 1U)), children);
-      size += static_cast<std::uint32_t>(__popc(kept));
-    });
+    const NearChildren near = trees.open(parents, limit);
+    near.each([&](std::uint32_t place, const NodePair& pair) { stack.put(size + place, pair); });
+    size += near.count();
+    __syncwarp();
   }
   return trees.best();
 }
@@ -161,35 +214,44 @@ struct SearchTeam : WarpShare {  // of two or more
   }
 };
 
-// By one warp of a team: what it finds below these nodes goes to the stack, and is counted.
-__device__ inline void open_for_team(TreePair& trees, const SearchTeam& team, const NodePair& parents, float limit,
-                                     TeamCounts& counts) {
-  trees.open(parents, limit, [&](bool is_near, const NodePair& children) {
-    const unsigned kept = __ballot_sync(kFullWarp, is_near);
-    if (kept == 0) return;
-    const bool are_leaves = children.are_leaves();  // the same in all lanes
-    std::uint32_t first = 0;
-    if (lane() == 0)
-      first = atomicAdd(are_leaves ? &counts.leaves : &counts.nodes, static_cast<std::uint32_t>(__popc(kept)));
-    first = __shfl_sync(kFullWarp, first, 0);
-    if (is_near)
-      (are_leaves ? team.leaves() : team.nodes()).put(first + __popc(kept & ((1U << lane()) - 1U)), children);
-  });
+// By one warp of a team: what is near goes to the stack, and is counted.
+__device__ inline void put_for_team(const SearchTeam& team, const NearChildren& near, TeamCounts& counts) {
+  const std::uint32_t count = near.count();
+  if (count == 0) return;
+  std::uint32_t first = 0;
+  if (lane() == 0) first = atomicAdd(near.are_leaves() ? &counts.leaves : &counts.nodes, count);
+  first = __shfl_sync(kFullWarp, first, 0);
+  const SearchStack stack = near.are_leaves() ? team.leaves() : team.nodes();
+  near.each([&](std::uint32_t place, const NodePair& pair) { stack.put(first + place, pair); });
 }
 
-// The start of a search, by all warps of a team. Returns what the stack holds.
-__device__ inline TeamCounts begin_at_roots(TreePair& trees, const SearchTeam& team) {
-  if (team.member == 0) {
-    const NodePair roots = trees.roots();
-    if (lane() == 0) team.counts[0] = {0, roots.are_leaves() ? 1U : 0U};
-    __syncwarp();
-    if (!roots.are_leaves())
-      open_for_team(trees, team, roots, INFINITY, team.counts[0]);
-    else if (lane() == 0)
+// The start of a search, by all warps of a team, whose first counts are zero. Returns what the stack holds.
+//
+// Each warp opens the roots, and then its own of what it finds there: a level less on which all wait for all.
+__device__ inline TeamCounts begin_at_roots(const TreePair& trees, const SearchTeam& team) {
+  TeamCounts& counts = team.counts[0];
+  const NodePair roots = trees.roots();
+  if (roots.are_leaves()) {
+    if (team.member == 0 && lane() == 0) {
       team.leaves().put(0, roots);
+      counts.leaves = 1;
+    }
+  } else if (const NearChildren upper = trees.open(roots, INFINITY); upper.are_leaves()) {
+    if (team.member == 0) put_for_team(team, upper, counts);
+  } else {
+    if (team.member < upper.count()) put_for_team(team, trees.open(upper.at(team.member), INFINITY), counts);
+    // What is too much for one each waits.
+    if (team.member == 0 && upper.count() > team.members) {
+      std::uint32_t first = 0;
+      if (lane() == 0) first = atomicAdd(&counts.nodes, upper.count() - team.members);
+      first = __shfl_sync(kFullWarp, first, 0);
+      upper.each([&](std::uint32_t place, const NodePair& pair) {
+        if (place >= team.members) team.nodes().put(first + place - team.members, pair);
+      });
+    }
   }
   team.sync();
-  return team.counts[0];
+  return counts;
 }
 
 // By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.
@@ -217,10 +279,13 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
     if (opens) own = nodes.at(left.nodes - 1 - (team.member - groups));
     TeamCounts& next = team.counts[round % 2];
     if (team.member == 0 && lane() == 0) next = {left.nodes - opened, left.leaves - met};
-    team.sync();
     const float limit = trees.limit();
-    if (meets) trees.meet(leaf < met, own, limit);
-    if (opens && own.gap2 <= limit) open_for_team(trees, team, own, limit, next);
+    NearChildren near;
+    if (meets) trees.meet<kLeafVertices>(leaf < met, own, limit);
+    if (opens && own.gap2 <= limit) near = trees.open(own, limit);
+    // By now all have taken their own off the stack.
+    team.sync();
+    put_for_team(team, near, next);
     team.sync();
     left = next;
     if (rest.is_asked_after(round) && is_much(left) && rest.hand_over(team, left, trees.limit())) break;

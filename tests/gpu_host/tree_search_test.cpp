@@ -65,7 +65,7 @@ class TwoBodies {
     on_host::run({{1}, {32 * kMembers}, 0}, 0, [&](unsigned char*) {
       const WarpShare share{threadIdx.x / 32, kMembers};
       const SearchTeam team{share, 0, {stack.data(), entries, entries}, counts};
-      TreePair pair(view_, {trees_.headers.data(), nullptr}, {positions_[0].v, 0}, {positions_[1].v, 0}, &bound);
+      TreePair pair(view_, {trees_.headers.data(), nullptr}, {{positions_[0].v, 0}, {positions_[1].v, 0}}, &bound);
       Ending ending{ends_at};
       const core::Proximity own = nearest_by_trees(pair, team, begin_at_roots(pair, team), ending);
       if (threadIdx.x == 0) asked_ = ending.asked;
