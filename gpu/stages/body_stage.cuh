@@ -45,13 +45,16 @@ __device__ inline bool is_behind_aborted(const FrameView& f) {
 template <bool kCounts>
 __device__ bool integrate(const GridPlaces& grid, const FrameView& f) {
   std::uint64_t i = grid.size() - 1 - grid.spread_rank();
-  if (i >= f.body_count && is_behind_aborted(f)) return false;
-  for (; i < f.body_count; i += grid.size()) {
-    // Everything is asked for before any of it is looked at.
-    const PackedVec3 x = f.previous.position[i];
-    const PackedVec3 v = f.previous.velocity[i];
-    const core::Box local = local_box(f, static_cast<std::uint32_t>(i));
-    if (is_behind_aborted(f)) return false;
+  if (!__any_sync(kFullWarp, i < f.body_count) && is_behind_aborted(f)) return false;
+  for (; __any_sync(kFullWarp, i < f.body_count); i += grid.size()) {
+    const std::uint64_t k = min(i, std::uint64_t{f.body_count} - 1);
+    const PackedVec3 x = f.previous.position[k];
+    const PackedVec3 v = f.previous.velocity[k];
+    const core::Box local = local_box(f, static_cast<std::uint32_t>(k));
+    const std::uint32_t is_aborted = load_fresh_if(f.is_behind_unseen, &f.counters->is_aborted);
+    ask_for_all();
+    if (is_aborted != 0) return false;
+    if (i >= f.body_count) continue;
     const core::Kinematics before{x.v, v.v};
     const core::Kinematics s = core::semi_implicit_euler(before, x.w, acceleration(f, i, before, x.w), f.dt_s);
     const PackedVec3 new_x{s.x, x.w};

@@ -80,16 +80,15 @@ class NearestByCells {
     // A tree without runs is one: its root's box is the body's, which is near the other's.
     const std::uint32_t level = min(kRunLevel, tree_.top);
     const std::uint32_t runs = tree_.node_count[level];
-    const core::Box other_box =
-        core::translated(fetched(f_.shapes.tree_nodes + other_tree_.node_begin[other_tree_.top]), other_x_);
+    const PackedBox* root = f_.shapes.tree_nodes + other_tree_.node_begin[other_tree_.top];
+    const PackedBox* boxes = f_.shapes.tree_nodes + tree_.node_begin[level];
     for (std::uint32_t first = share_.member; first < runs; first += 32 * share_.members) {
       const std::uint32_t run = first + lane() * share_.members;  // dealt out to the pair's warps
-      bool is_near = run < runs;
-      if (is_near) {
-        const core::Box box = core::translated(fetched(f_.shapes.tree_nodes + tree_.node_begin[level] + run), x_);
-        const float gap2 = squared_gap(box, other_box);
-        is_near = gap2 < theta2_ && gap2 <= limit();
-      }
+      const core::Box box = fetched(boxes + min(run, runs - 1));
+      const core::Box other_box = fetched(root);
+      ask_for_all();
+      const float gap2 = squared_gap(core::translated(box, x_), core::translated(other_box, other_x_));
+      const bool is_near = run < runs && gap2 < theta2_ && gap2 <= limit();
       for (unsigned left = __ballot_sync(kFullWarp, is_near); left != 0;) {
         const auto take = [&] {
           const auto taken = static_cast<std::uint32_t>(__ffs(static_cast<int>(left)) - 1);
@@ -136,10 +135,16 @@ class NearestByCells {
       vertex[k] = min((k < 2 ? one : other) * kRunVertices + k % 2 * 32 + lane(), last_);
       place[k] = *reinterpret_cast<const uint2*>(quantized_ + vertex[k]);
     }
+    ask_for_all();
+    std::uint32_t lower[4];
 #pragma unroll
-    for (std::uint32_t k = 0; k < 4; ++k) cell[k] = cell_of(place[k].x, place[k].y);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      cell[k] = cell_of(place[k].x, place[k].y);
+      lower[k] = lower_[cell[k]];
+    }
+    ask_for_all();
 #pragma unroll
-    for (std::uint32_t k = 0; k < 4; ++k) keeps[k] = (k < 2 || are_two) && lower_[cell[k]] <= most_;
+    for (std::uint32_t k = 0; k < 4; ++k) keeps[k] = (k < 2 || are_two) && lower[k] <= most_;
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) {
       const unsigned kept = __ballot_sync(kFullWarp, keeps[k]);
@@ -159,7 +164,6 @@ class NearestByCells {
     if (d2 < theta2_ && core::is_nearer(found, best_)) best_ = found;
   }
 
-  // Both are asked for before either is looked at: what takes the time is waiting for them.
   __device__ void meet_two(core::Vec3 v, float own_id, const PackedVec3& first, const PackedVec3& second) {
     const float first_d2 = core::squared_distance(v, first.v + other_x_);
     const float second_d2 = core::squared_distance(v, second.v + other_x_);
@@ -177,19 +181,31 @@ class NearestByCells {
         static_cast<std::uint32_t>(__clz(static_cast<int>(count - 1))) - 27U;  // 32 / count, rounded down
     const std::uint32_t lanes = 1U << shift;
     const std::uint32_t own = lane() >> shift;
-    if (own < count) {
-      const std::uint32_t cell = queue_.b()[waiting_ + own];
-      const PackedVec3 mine = fetched(vertices_ + queue_.a()[waiting_ + own]);
-      const core::Vec3 v = mine.v + x_;
-      const NearList list = unpacked_list(f_.shapes.near_lists[cells_.first_list + cell]);
-      const NearEntry* entry = f_.shapes.near_entries + cells_.first_entry + list.begin;
-      const PackedVec3* others = f_.shapes.tree_vertices + other_tree_.vertex_begin;
-      const NearEntry* end = entry + list.length;
-      for (entry += lane() & (lanes - 1U); entry < end; entry += lanes) {
-        const uint2 four = *reinterpret_cast<const uint2*>(entry);
-        meet_two(v, mine.w, fetched(others + (four.x & 0xFFFFU)), fetched(others + (four.x >> 16U)));
-        meet_two(v, mine.w, fetched(others + (four.y & 0xFFFFU)), fetched(others + (four.y >> 16U)));
-      }
+    // Lanes without a vertex of their own look at the last one's, and have no list.
+    const std::uint32_t at = waiting_ + min(own, count - 1);
+    const std::uint32_t cell = queue_.b()[at];
+    const PackedVec3 mine = fetched(vertices_ + queue_.a()[at]);
+    const NearList list = unpacked_list(f_.shapes.near_lists[cells_.first_list + cell]);
+    ask_for_all();
+    const core::Vec3 v = mine.v + x_;
+    const NearEntry* entries = f_.shapes.near_entries + cells_.first_entry + list.begin;
+    const PackedVec3* others = f_.shapes.tree_vertices + other_tree_.vertex_begin;
+    const std::uint32_t length = own < count ? list.length : 0U;
+    // What the next step of a list names is asked for together with this one's vertices.
+    std::uint32_t step = lane() & (lanes - 1U);
+    uint2 four = step < length ? *reinterpret_cast<const uint2*>(entries + step) : uint2{0, 0};
+    while (__any_sync(kFullWarp, step < length)) {
+      const bool has_four = step < length;
+      const PackedVec3 first = fetched(others + (four.x & 0xFFFFU));
+      const PackedVec3 second = fetched(others + (four.x >> 16U));
+      const PackedVec3 third = fetched(others + (four.y & 0xFFFFU));
+      const PackedVec3 fourth = fetched(others + (four.y >> 16U));
+      step += lanes;
+      if (step < length) four = *reinterpret_cast<const uint2*>(entries + step);
+      ask_for_all();
+      if (!has_four) continue;
+      meet_two(v, mine.w, first, second);
+      meet_two(v, mine.w, third, fourth);
     }
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
     if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);

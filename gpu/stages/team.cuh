@@ -89,6 +89,12 @@ __device__ inline unsigned lane() {
   return threadIdx.x % 32;
 }
 
+// Between what a whole warp asks memory for and the first look at any of it: one wait. Without it the compiler, to have
+// fewer registers in use, looks at one word before it asks for the next; it moves no access past where warps meet.
+__device__ inline void ask_for_all() {
+  __syncwarp();
+}
+
 // Room for the items of one warp in an append buffer: one atomic for all its lanes. Called by whole warps. Returns the
 // place of this lane's first item; places at or past the capacity are counted and not to be written.
 template <typename Count>

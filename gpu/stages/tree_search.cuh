@@ -98,9 +98,15 @@ class TreePair {
 
     const std::uint32_t p = lane() / 8;
     const std::uint32_t q = lane() % 8;
-    const core::Box low = box(a_, child_level_a, first_a + min(p, count_a - 1), xa_);
-    const core::Box high = box(a_, child_level_a, first_a + min(p + 4, count_a - 1), xa_);
-    const core::Box box_b = box(b_, child_level_b, first_b + min(q, count_b - 1), xb_);
+    const PackedBox* of_a = nodes_ + a_.node_begin[child_level_a] + first_a;
+    const PackedBox* of_b = nodes_ + b_.node_begin[child_level_b] + first_b;
+    core::Box low = fetched(of_a + min(p, count_a - 1));
+    core::Box high = fetched(of_a + min(p + 4, count_a - 1));
+    core::Box box_b = fetched(of_b + min(q, count_b - 1));
+    ask_for_all();
+    low = core::translated(low, xa_);
+    high = core::translated(high, xa_);
+    box_b = core::translated(box_b, xb_);
     const float low_gap2 = squared_gap(low, box_b);
     const float high_gap2 = squared_gap(high, box_b);
     const auto is_near = [&](float gap2) { return gap2 < theta2_ && gap2 <= limit; };
@@ -115,37 +121,35 @@ class TreePair {
   template <std::uint32_t kAtOnce>
   __device__ void meet(bool has_leaves, const NodePair& leaves, float limit) {
     static_assert(kLeafVertices % kAtOnce == 0);
-    if (has_leaves && leaves.gap2 <= limit) {
-      const PackedVec3 mine = fetched(vertices_a_ + leaves.a * kLeafVertices + lane() % 8);
-      const PackedVec3* of_b = vertices_b_ + leaves.b * kLeafVertices;
-      const core::Vec3 va = mine.v + xa_;
-      core::Proximity nearest{INFINITY, __float_as_uint(mine.w), 0};
-      for (std::uint32_t first = 0; first < kLeafVertices; first += kAtOnce) {
-        PackedVec3 others[kAtOnce];
+    const bool meets = has_leaves && leaves.gap2 <= limit;
+    // Where there is nothing to meet, the first leaf is asked for, and not looked at.
+    const PackedVec3* of_b = vertices_b_ + (meets ? leaves.b * kLeafVertices : 0U);
+    const PackedVec3 mine = fetched(vertices_a_ + (meets ? leaves.a * kLeafVertices : 0U) + lane() % 8);
+    const core::Vec3 va = mine.v + xa_;
+    core::Proximity nearest{INFINITY, __float_as_uint(mine.w), 0};
 #pragma unroll
-        for (std::uint32_t t = 0; t < kAtOnce; ++t) others[t] = fetched(of_b + first + t);
+    for (std::uint32_t first = 0; first < kLeafVertices; first += kAtOnce) {
+      PackedVec3 others[kAtOnce];
 #pragma unroll
-        for (std::uint32_t t = 0; t < kAtOnce; ++t) {
-          const float d2 = core::squared_distance(va, others[t].v + xb_);
-          const std::uint32_t other = __float_as_uint(others[t].w);
-          if (d2 < nearest.squared_distance_m2 || (d2 == nearest.squared_distance_m2 && other < nearest.vertex_b)) {
-            nearest.squared_distance_m2 = d2;
-            nearest.vertex_b = other;
-          }
+      for (std::uint32_t t = 0; t < kAtOnce; ++t) others[t] = fetched(of_b + first + t);
+      ask_for_all();
+#pragma unroll
+      for (std::uint32_t t = 0; t < kAtOnce; ++t) {
+        const float d2 = core::squared_distance(va, others[t].v + xb_);
+        const std::uint32_t other = __float_as_uint(others[t].w);
+        if (d2 < nearest.squared_distance_m2 || (d2 == nearest.squared_distance_m2 && other < nearest.vertex_b)) {
+          nearest.squared_distance_m2 = d2;
+          nearest.vertex_b = other;
         }
       }
-      if (nearest.squared_distance_m2 < theta2_ && core::is_nearer(nearest, best_)) best_ = nearest;
     }
+    if (meets && nearest.squared_distance_m2 < theta2_ && core::is_nearer(nearest, best_)) best_ = nearest;
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
     if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);
     __syncwarp();
   }
 
  private:
-  __device__ core::Box box(const TreeHeader& tree, std::uint32_t level, std::uint32_t node, core::Vec3 x) const {
-    return core::translated(fetched(nodes_ + tree.node_begin[level] + node), x);
-  }
-
   const PackedBox* nodes_;
   const TreeHeader& a_;
   const TreeHeader& b_;
