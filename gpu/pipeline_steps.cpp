@@ -29,7 +29,7 @@ LaunchShape Pipeline::Impl::frame_shape() const {
 bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
   if (view.levels == core::Levels::kFlat) return false;
   const std::uint64_t warps = shape.threads / 32;
-  const std::uint64_t large = device_scene.has_cells() ? std::max<std::uint64_t>(1, warps / 2) : warps;
+  const std::uint64_t large = device_scene.has_cells() ? std::max<std::uint64_t>(1, warps / 4) : warps;
   return !view.has_vertex_stage || last.pairs * (large + 1) > shape.blocks * warps;
 }
 

@@ -176,9 +176,6 @@ inline unsigned __float_as_uint(float v) {
   return std::bit_cast<unsigned>(v);
 }
 
-inline std::uint32_t load_behind(const std::uint32_t* from) {
-  return *from;
-}
 inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* from) {
   return asks ? *from : 0U;
 }

@@ -3,13 +3,14 @@
 
 #include <cstdint>
 
+#include "gpu/stages/small_divisor.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
 
 // Bodies on a ring: body i meets those 1 to n / 2 places on, so that every pair is met once without a root or a
 // triangle, and every body has as much to do as the next. An item is one body and `share` places on from it, a lane
-// each. Item: an unsigned type that can count the items.
+// each. Item: an unsigned type that can count the items; of 32 bits where there are fewer than 2^20.
 template <typename Item>
 class BodyRing {
  public:
@@ -20,21 +21,29 @@ class BodyRing {
   };
 
   __device__ BodyRing(std::uint32_t bodies, std::uint32_t share)
-      : bodies_(bodies), half_(bodies / 2), share_(share), shares_((half_ + share - 1) / share) {}
+      : bodies_(bodies), half_(bodies / 2), share_(share), shares_(quotient(half_ + share - 1, share)) {}
 
   __device__ Item items() const { return Item{bodies_} * shares_; }
 
   // Of this lane, in an item that exists.
   __device__ Meeting meeting(Item item) const {
-    const auto i = static_cast<std::uint32_t>(item / shares_);
-    const std::uint32_t on = static_cast<std::uint32_t>(item % shares_) * share_ + lane() + 1;
+    const std::uint32_t i = quotient(item, shares_);
+    return meeting(i, static_cast<std::uint32_t>(item - Item{i} * shares_));
+  }
+
+ private:
+  __device__ static std::uint32_t quotient(Item of, std::uint32_t by) {
+    if constexpr (sizeof(Item) == 4) return SmallDivisor(by).quotient(of);
+    return static_cast<std::uint32_t>(of / by);
+  }
+  __device__ Meeting meeting(std::uint32_t i, std::uint32_t part) const {
+    const std::uint32_t on = part * share_ + lane() + 1;
     // Bodies that face each other on an even ring meet once.
     const bool exists = lane() < share_ && on <= half_ && (on * 2 != bodies_ || i < half_);
     if (!exists) return {i, i, false};
     return {i, i < bodies_ - on ? i + on : i - (bodies_ - on), true};
   }
 
- private:
   std::uint32_t bodies_;
   std::uint32_t half_;
   std::uint32_t share_;

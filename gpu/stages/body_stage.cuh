@@ -6,14 +6,20 @@
 #include "core/method/response.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/contact_words.cuh"
+#include "gpu/stages/fetched.cuh"
 #include "gpu/stages/grid_stage.cuh"
 #include "gpu/stages/octree_stage.cuh"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
 
+template <typename Team>
+__device__ void mark(const Team& team, const FrameView& f, int stage) {
+  if (team.rank() == 0) f.outcome->stage_end_ns[stage] = now_ns();
+}
+
 __device__ inline core::Box local_box(const FrameView& f, std::uint32_t body) {
-  return unpack(f.shapes.octree[std::uint64_t{shape_of(f, body)} * core::kBodyOctreeNodes]);
+  return fetched(f.shapes.octree + std::uint64_t{shape_of(f, body)} * core::kBodyOctreeNodes);
 }
 
 __device__ inline bool is_static(const FrameView& f, std::uint32_t body) {
@@ -30,42 +36,71 @@ __device__ inline core::Vec3 acceleration(const FrameView& f, std::uint64_t body
   return sum;
 }
 
+// A body when the frame begins.
+struct BodyBefore {
+  PackedVec3 x;  // w = inverse mass
+  PackedVec3 v;
+  core::Box local;
+
+  __device__ BodyBefore() = default;
+  __device__ BodyBefore(const FrameView& f, std::uint32_t body)
+      : x(f.previous.position[body]), v(f.previous.velocity[body]), local(local_box(f, body)) {}
+
+  __device__ bool is_static() const { return !(x.w > 0.0F); }
+};
+
+// At detection: P(1) to P(3), P(5).
+struct BodyAtDetection {
+  core::Kinematics state;
+  core::Box box;
+
+  __device__ BodyAtDetection(const FrameView& f, std::uint32_t body, const BodyBefore& before) {
+    const core::Kinematics s{before.x.v, before.v.v};
+    state = core::semi_implicit_euler(s, before.x.w, acceleration(f, body, s, before.x.w), f.dt_s);
+    box = core::translated(before.local, state.x);
+  }
+};
+
 // Whether the frame before was aborted and the host does not know yet. This one must leave everything as it is then:
-// what it would write is the state to repeat from.
-__device__ inline bool is_behind_aborted(const FrameView& f) {
-  return f.is_behind_unseen && load_behind(&f.counters->is_aborted) != 0;
+// what it would write is the state to repeat from. All threads see that alike: the counters are cleared only where
+// there is nothing to see.
+__device__ inline std::uint32_t is_behind_aborted(const FrameView& f) {
+  return load_fresh_if(f.is_behind_unseen, &f.counters->is_aborted);
 }
 
-// P(1) to P(3), P(5); and clean slates for the frame's later stages. The previous state stays as it is, so that a frame
-// whose buffers turn out too small can be repeated. Returns false, and has done nothing, behind an aborted frame. All
-// threads see that alike: the counters are cleared only where there is nothing to see.
-//
-// By the last warps, one of a block: the first block waits longest for the kernel's parameters, and other warps have
-// something else to see to meanwhile. kCounts: where a broad phase may want boxes counted.
-template <bool kCounts>
-__device__ bool integrate(const GridPlaces& grid, const FrameView& f) {
-  std::uint64_t i = grid.size() - 1 - grid.spread_rank();
-  if (!__any_sync(kFullWarp, i < f.body_count) && is_behind_aborted(f)) return false;
+// Where a body is from now on, and clean slates for the frame's later stages. The previous state stays as it is, so
+// that a frame whose buffers turn out too small can be repeated.
+__device__ inline void start_body(const FrameView& f, std::uint32_t body, const BodyBefore& before,
+                                  const BodyAtDetection& now) {
+  const PackedVec3 x{now.state.x, before.x.w};
+  const PackedVec3 v{now.state.v, before.v.w};
+  f.detected.position[body] = f.next.position[body] = x;
+  f.detected.velocity[body] = f.next.velocity[body] = v;
+  f.boxes[body] = pack(now.box, body, before.is_static() ? 1U : 0U);
+  f.degree[body] = 0;
+}
+
+// The body with which a thread begins, by the last warps, one of a block: the first block waits longest for the
+// kernel's parameters, and other warps have something else to see to meanwhile.
+__device__ inline std::uint64_t first_body(const GridPlaces& grid) {
+  return grid.size() - 1 - grid.spread_rank();
+}
+
+// P(1) to P(3), P(5). Returns false, and has done nothing, behind an aborted frame.
+__device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
+  const std::uint32_t is_aborted = is_behind_aborted(f);
+  std::uint64_t i = first_body(grid);
+  if (!__any_sync(kFullWarp, i < f.body_count) && is_aborted != 0) return false;
   for (; __any_sync(kFullWarp, i < f.body_count); i += grid.size()) {
-    const std::uint64_t k = min(i, std::uint64_t{f.body_count} - 1);
-    const PackedVec3 x = f.previous.position[k];
-    const PackedVec3 v = f.previous.velocity[k];
-    const core::Box local = local_box(f, static_cast<std::uint32_t>(k));
-    const std::uint32_t is_aborted = load_fresh_if(f.is_behind_unseen, &f.counters->is_aborted);
+    const auto body = static_cast<std::uint32_t>(min(i, std::uint64_t{f.body_count} - 1));
+    const BodyBefore before(f, body);
     ask_for_all();
     if (is_aborted != 0) return false;
     if (i >= f.body_count) continue;
-    const core::Kinematics before{x.v, v.v};
-    const core::Kinematics s = core::semi_implicit_euler(before, x.w, acceleration(f, i, before, x.w), f.dt_s);
-    const PackedVec3 new_x{s.x, x.w};
-    const PackedVec3 new_v{s.v, v.w};
-    f.detected.position[i] = f.next.position[i] = new_x;
-    f.detected.velocity[i] = f.next.velocity[i] = new_v;
-    const core::Box box = core::translated(local, s.x);
-    f.boxes[i] = pack(box, static_cast<std::uint32_t>(i), x.w > 0.0F ? 0U : 1U);
-    if (kCounts && f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, box);
-    if (kCounts && f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, box);
-    f.degree[i] = 0;
+    const BodyAtDetection now(f, body, before);
+    start_body(f, body, before, now);
+    if (f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, now.box);
+    if (f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, now.box);
   }
   if (grid.rank() == 0) *f.counters = Counters{};
   return true;

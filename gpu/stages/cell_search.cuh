@@ -26,8 +26,8 @@ __device__ inline CellRoles cell_roles(const FrameView& f, const ShapeHeaders& h
   const bool i_answers = of_i.count_x != 0 && far <= of_i.range_m;
   const bool j_answers = of_j.count_x != 0 && far <= of_j.range_m;
   // The body of fewer vertices asks.
-  const bool is_asked_by_j =
-      i_answers && (!j_answers || headers.trees[bodies.j.shape].node_count[0] < headers.trees[bodies.i.shape].node_count[0]);
+  const bool is_asked_by_j = i_answers && (!j_answers || headers.trees[bodies.j.shape].node_count[0] <
+                                                             headers.trees[bodies.i.shape].node_count[0]);
   return {i_answers || j_answers, is_asked_by_j};
 }
 

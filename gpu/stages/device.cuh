@@ -84,14 +84,6 @@ __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
   return before;
 }
 
-// A word that is asked for behind everything that was asked for before, and not first: the compiler would like to know
-// it before it loads what may not be needed, and that were two waits one after the other.
-__device__ inline std::uint32_t load_behind(const std::uint32_t* from) {
-  std::uint32_t v = 0;
-  asm volatile("ld.global.u32 %0, [%1];" : "=r"(v) : "l"(from) : "memory");
-  return v;
-}
-
 // A word that others write meanwhile, asked for by the threads for which `asks`; 0 for others. That is waited for where
 // it is used: behind an if it would be waited for at the end of the if.
 __device__ inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* from) {

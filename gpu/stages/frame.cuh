@@ -30,11 +30,6 @@ inline FrameKind kind_of(const FrameView& f, std::uint64_t threads) {
   return f.body_count <= threads ? FrameKind::kSome : FrameKind::kMany;
 }
 
-template <typename Team>
-__device__ void mark(const Team& team, const FrameView& f, int stage) {
-  if (team.rank() == 0) f.outcome->stage_end_ns[stage] = now_ns();
-}
-
 // By one thread, when nobody adds to the tally any more, which is cleared for the next frame.
 __device__ inline void report(const FrameView& f, Counters counters, const FewCounts& few, bool is_aborted) {
   counters.is_aborted = is_aborted ? 1 : 0;
@@ -150,16 +145,12 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   const ShapesInBlock shapes(f, shared, scratch.copy);  // of few bodies
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
-    const bool is_needed = integrate<false>(grid, f);
     shapes.begin(f);
-    const FewStart start(grid, f);
-    if (is_needed) grid.sync();
+    const bool is_needed = integrate_and_find_few(grid, f, shapes);
     shapes.end(f);
     if (!is_needed) return;
-    mark(grid, f, 1);
-    find_few(grid, f, start, shapes);
   } else {
-    if (!integrate<true>(grid, f)) return;
+    if (!integrate(grid, f)) return;
     grid.sync();
     mark(grid, f, 1);
     if (starts_at_level0) {

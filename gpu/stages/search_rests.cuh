@@ -6,6 +6,7 @@
 #include "gpu/search_rest.hpp"
 #include "gpu/stages/few_counts.cuh"
 #include "gpu/stages/search_stack.cuh"
+#include "gpu/stages/small_divisor.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/tree_search.cuh"
 
@@ -78,19 +79,6 @@ struct NoRest {
   }
 };
 
-// Divides below 2^20 by the same number again and again, in a few steps instead of some thirty: half a unit above the
-// quotient is farther from the next whole number than roundings reach.
-class SmallDivisor {
- public:
-  __device__ explicit SmallDivisor(std::uint32_t by) : inverse_(1.0F / static_cast<float>(by)) {}
-  __device__ std::uint32_t quotient(std::uint32_t of) const {
-    return static_cast<std::uint32_t>((static_cast<float>(of) + 0.5F) * inverse_);
-  }
-
- private:
-  float inverse_;
-};
-
 // A block's part of one of so many rests: every so-manieth entry, those that were opened last at the end.
 class RestPart {
  public:
@@ -99,9 +87,9 @@ class RestPart {
     const SmallDivisor by_count(count);
     const std::uint32_t part = by_count.quotient(blockIdx.x);
     const std::uint32_t place = blockIdx.x - part * count;
-    const std::uint32_t parts = by_count.quotient(gridDim.x - place + count - 1);
+    const std::uint32_t parts = by_count.rounded_up(gridDim.x - place);
     const SmallDivisor by_parts(parts);
-    const auto up_to = [&](std::uint32_t end) { return end > part ? by_parts.quotient(end - part - 1) + 1 : 0U; };
+    const auto up_to = [&](std::uint32_t end) { return end > part ? by_parts.rounded_up(end - part) : 0U; };
     const NodePair* entries = rests.entries + place * RestsView::kEntries;
     rest_ = fetched(rests.items + place);
     // The first are asked for before it is known how many there are: one wait.

@@ -10,8 +10,8 @@
 
 namespace broadside::gpu {
 
-// What a warp finds near in a pair of nodes that it opens: of their 64 pairs of children a lane has two, whose nodes of A
-// are four apart.
+// What a warp finds near in a pair of nodes that it opens: of their 64 pairs of children a lane has two, whose nodes of
+// A are four apart.
 class NearChildren {
  public:
   NearChildren() = default;
@@ -48,9 +48,7 @@ class NearChildren {
   __device__ bool is_first_near() const { return (first_near_ >> lane() & 1U) != 0; }
   __device__ bool is_second_near() const { return (second_near_ >> lane() & 1U) != 0; }
   __device__ std::uint32_t first_place() const { return __popc(first_near_ & lanes_before()); }
-  __device__ std::uint32_t second_place() const {
-    return __popc(first_near_) + __popc(second_near_ & lanes_before());
-  }
+  __device__ std::uint32_t second_place() const { return __popc(first_near_) + __popc(second_near_ & lanes_before()); }
   __device__ NodePair second() const { return {first_.a + 4, first_.b, second_gap2_}; }
 
   NodePair first_;
