@@ -61,7 +61,6 @@ static_assert(ListEntry::kIsOurs == 1U << 31);
 
 // As in Counters, in half as many bits: atomics on these are sooner done.
 struct alignas(16) BlockCounts {
-  std::uint32_t confirmed = 0;  // where levels were left
   std::uint32_t touching = 0;
   std::uint32_t listed = 0;
   std::uint32_t faces = 0;

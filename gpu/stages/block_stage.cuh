@@ -34,7 +34,6 @@ __device__ inline void collect_in_block(const FrameView& f, Meeting meeting, con
                                         const BlockRoom& room) {
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
     if (base > 0) meeting = Meeting(f, pairs, base + threadIdx.x);
-    if (pairs.are_levels_left) add_by_warp(meeting.is_confirmed(), &room.counts->confirmed);
     const bool touches = meeting.touches(f);
     const std::uint32_t place = warp_append_one(touches, &room.counts->touching);
     if (!touches) continue;

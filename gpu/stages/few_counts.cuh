@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gpu/frame_kernel.hpp"
+#include "gpu/frame_view.hpp"
 #include "gpu/grid_word.hpp"
 #include "gpu/stages/device.cuh"
 
@@ -15,11 +16,14 @@ struct FewCounts {
   static constexpr std::uint32_t kMostRests = 1U << 13;
 
   std::uint32_t pairs = 0;
-  std::uint32_t confirmed = 0;
-  std::uint32_t rests = 0;  // how often a team asked to hand over what is left of its search
+  std::uint32_t judged = 0;  // of them by their levels: confirmed where levels come first, rejected where they are left
+  std::uint32_t rests = 0;   // how often a team asked to hand over what is left of its search
+
+  // By levels below 0: of flat levels, none.
+  __device__ std::uint32_t confirmed(const FrameView& f) const { return are_levels_left(f) ? pairs - judged : judged; }
 
   __device__ unsigned long long packed() const {
-    return pairs | std::uint64_t{confirmed} << kPairBits | std::uint64_t{rests} << 2 * kPairBits;
+    return pairs | std::uint64_t{judged} << kPairBits | std::uint64_t{rests} << 2 * kPairBits;
   }
   // Of the word, or of its tally alone.
   __device__ static FewCounts unpacked(unsigned long long word) {

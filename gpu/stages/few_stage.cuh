@@ -83,7 +83,7 @@ __device__ inline void find_few(const FrameView& f, const ShapesInBlock& shapes,
   const std::uint32_t place = place_among(found, first.pairs);
   if (place < f.pairs.capacity) f.pairs.items[place] = pair;
   if (are_levels_left(f) && place < f.confirmed.capacity) f.measured[place] = MeasuredPair{};
-  const std::uint32_t confirmed_place = place_among(confirmed, first.confirmed);
+  const std::uint32_t confirmed_place = place_among(confirmed, first.judged);
   if (confirmed_place < f.confirmed.capacity) f.confirmed.items[confirmed_place] = pair;
   const std::uint32_t measured_place = f.are_levels_first ? confirmed_place : place;
   if (measured_place < f.confirmed.capacity)
@@ -143,13 +143,11 @@ class FewLevels {
   // By a warp: pair k is told to be rejected if it is. Returns whether it is not.
   __device__ bool look(const PlacedPair& bodies, std::uint64_t k) const {
     const bool is_kept = is_confirmed_few(f_, shapes_, bodies.i, bodies.j);
-    if (!is_kept && lane() == 0) f_.measured[k].is_rejected = 1;
+    if (!is_kept && lane() == 0) {
+      f_.measured[k].is_rejected = 1;
+      atomicAdd(f_.barrier, FewCounts{0, 1}.packed());
+    }
     return is_kept;
-  }
-
-  // Of those who measure pair k meanwhile: not 0 when somebody has told that it is rejected.
-  __device__ std::uint32_t is_told_to_be_rejected(std::uint64_t k) const {
-    return load_fresh_if(are_levels_left(f_), &f_.measured[k].is_rejected);
   }
 
  private:

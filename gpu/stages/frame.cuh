@@ -44,7 +44,7 @@ __device__ Counters counters_of(const FrameView& f, const FewCounts& few) {
   if constexpr (kKind == FrameKind::kFew) {
     Counters counters;
     counters.pairs = few.pairs;
-    counters.confirmed = few.confirmed;
+    counters.confirmed = few.confirmed(f);
     return counters;
   } else {
     return *f.counters;
@@ -91,7 +91,7 @@ __device__ void resolve(const Team& team, const FrameView& f, const MeetingPairs
   Counters counters = *f.counters;
   if constexpr (kIsFew) {
     counters.pairs = few.pairs;
-    if (!pairs.are_levels_left) counters.confirmed = few.confirmed;
+    counters.confirmed = few.confirmed(f);
   }
   report(f, counters, few, counters.faces > f.face_contacts.capacity);
 }
@@ -106,7 +106,6 @@ __device__ void resolve_alone(const FrameView& f, const MeetingPairs& pairs, con
   resolve_in_block(f, pairs, room, [&] { mark(team, f, 5); });
   mark(team, f, 6);
   if (team.rank() != 0) return;
-  if (pairs.are_levels_left) counters.confirmed = room.counts->confirmed;
   counters.touching = room.counts->touching;
   counters.faces = room.counts->faces;
   counters.colors = room.counts->colors;
@@ -178,7 +177,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   const bool has_levels_left = kIsFew && are_levels_left(f);
   const std::uint64_t confirmed = is_confirmed_by_level0 || has_levels_left
                                       ? pairs
-                                      : (kIsFew ? std::uint64_t{few.confirmed} : f.counters->confirmed);
+                                      : (kIsFew ? std::uint64_t{few.confirmed(f)} : f.counters->confirmed);
   mark(grid, f, 3);
   if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(f, few, confirmed);
 

@@ -22,7 +22,6 @@ __device__ void collect_touching(const Team& team, const FrameView& f, const Mee
   for (std::uint64_t round = 0; round < rounds; ++round) {
     const std::uint64_t k = round * team.size() + team.rank();
     const Meeting meeting(f, pairs, k);
-    if (pairs.are_levels_left) warp_append_one(meeting.is_confirmed(), &f.counters->confirmed);
     const bool touches = meeting.touches(f);
     const unsigned long long place = warp_append_one(touches, &f.counters->touching);
     if (!touches) continue;

@@ -36,7 +36,6 @@ struct NoLevels {
   __device__ void begin() const {}
   __device__ void end() const {}
   __device__ static bool look(const PlacedPair& /*bodies*/, std::uint64_t /*k*/) { return true; }
-  __device__ static std::uint32_t is_told_to_be_rejected(std::uint64_t /*k*/) { return 0; }
 };
 
 template <typename Levels>
@@ -150,8 +149,7 @@ class ProximityStage {
     }
     __syncthreads();
     if (part.counts().any()) {
-      constexpr NoLevels kNone;  // what was handed over late may be rejected: it is searched for nothing
-      RestOfPair<kRoundsOfBlock, NoLevels> next(f_, kNone, to, before, rest.bodies, rest.k, &scratch_.place[0]);
+      RestOfPair<kRoundsOfBlock> next(f_, to, before, rest.bodies, rest.k, &scratch_.place[0]);
       tell_team(0, nearest_by_trees(TreePair(f_, headers_, rest.bodies, &scratch_.bound[0]), all, part.counts(), next));
     }
     __syncthreads();
@@ -189,7 +187,7 @@ class ProximityStage {
     const TreePair trees(f_, headers_, bodies, &scratch_.bound[team]);
     const TeamCounts left = begin_at_roots(trees, all);
     if constexpr (Levels::kAreOfFewBodies) {
-      RestOfPair<kRoundsOfTeam, Levels> rest(f_, levels_, f_.rests[0], 0, bodies, k, &scratch_.place[team]);
+      RestOfPair<kRoundsOfTeam> rest(f_, f_.rests[0], 0, bodies, k, &scratch_.place[team]);
       return nearest_by_trees(trees, all, left, rest);
     } else {
       NoRest rest;

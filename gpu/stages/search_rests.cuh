@@ -17,16 +17,16 @@ __device__ inline std::uint32_t most_rests() {
   return min(RestsView::kMost, gridDim.x);
 }
 
-// What a team that searches pair k may do with what is left: hand it over, or drop it. `kRoundsTillLong`: how long it
-// has lasted then, and again after as many rounds.
-template <std::uint32_t kRoundsTillLong, typename Levels>
+// What a team that searches pair k may do with what is left: hand it over. `kRoundsTillLong`: how long it has lasted
+// then, and again after as many rounds. The pair may be rejected by its levels meanwhile, and is searched for nothing
+// then: bodies so far apart are soon done.
+template <std::uint32_t kRoundsTillLong>
 class RestOfPair {
  public:
   // `to`: where those of this time go, before which there were so many. `place`: of the team, in shared memory.
-  __device__ RestOfPair(const FrameView& f, const Levels& levels, const RestsView& to, std::uint32_t before,
-                        const PlacedPair& bodies, std::uint64_t k, std::uint32_t* place)
+  __device__ RestOfPair(const FrameView& f, const RestsView& to, std::uint32_t before, const PlacedPair& bodies,
+                        std::uint64_t k, std::uint32_t* place)
       : f_(f),
-        levels_(levels),
         to_(to),
         before_(before),
         bodies_(bodies),
@@ -40,29 +40,19 @@ class RestOfPair {
   __device__ bool hand_over(const SearchTeam& team, const TeamCounts& left, float limit) {
     if (is_refused_ || left.nodes + left.leaves > RestsView::kEntries) return false;
     const bool is_first = team.member == 0 && lane() == 0;
-    std::uint32_t is_rejected = 0;
-    if (is_first) {
-      // Both are asked for before either is waited for.
-      is_rejected = levels_.is_told_to_be_rejected(k_);
-      *place_ = FewCounts::unpacked(atomicAdd(f_.barrier, FewCounts{0, 0, 1}.packed())).rests - before_;
-    }
+    if (is_first) *place_ = FewCounts::unpacked(atomicAdd(f_.barrier, FewCounts{0, 0, 1}.packed())).rests - before_;
     team.sync();
     const std::uint32_t place = *place_;
     is_refused_ = place >= most_rests();
     if (is_refused_) return false;
     for (std::uint32_t e = team.member * 32 + lane(); e < left.nodes + left.leaves; e += team.members * 32)
       to_.entries[place * RestsView::kEntries + e] = team.at(left, e);
-    if (is_first) {
-      // Of a pair that nobody wants to know about any more nothing is left.
-      const TeamCounts wanted = is_rejected == 0 ? left : TeamCounts{};
-      to_.items[place] = {bodies_, static_cast<std::uint32_t>(k_), limit, wanted.nodes, wanted.leaves};
-    }
+    if (is_first) to_.items[place] = {bodies_, static_cast<std::uint32_t>(k_), limit, left.nodes, left.leaves};
     return true;
   }
 
  private:
   const FrameView& f_;
-  const Levels& levels_;
   const RestsView& to_;
   std::uint32_t before_;
   PlacedPair bodies_;

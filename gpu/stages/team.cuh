@@ -122,10 +122,4 @@ __device__ Count warp_append_one(bool has_one, Count* demanded) {
   return __shfl_sync(kFullWarp, base, 0) + static_cast<Count>(__popc(with & ((1U << lane()) - 1U)));
 }
 
-// How many lanes of a warp have something, added to a word that nobody waits for.
-__device__ inline void add_by_warp(bool has_one, std::uint32_t* count) {
-  const unsigned with = __ballot_sync(kFullWarp, has_one);
-  if (lane() == 0 && with != 0) atomicAdd(count, static_cast<std::uint32_t>(__popc(with)));
-}
-
 }  // namespace broadside::gpu

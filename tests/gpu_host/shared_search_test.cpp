@@ -22,7 +22,7 @@ TEST(FewCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
     const unsigned long long word = counts.packed() + 131 * GridWord::kArrival + GridWord::kFlipped;
     const FewCounts again = FewCounts::unpacked(word);
     EXPECT_EQ(again.pairs, counts.pairs);
-    EXPECT_EQ(again.confirmed, counts.confirmed);
+    EXPECT_EQ(again.judged, counts.judged);
     EXPECT_EQ(again.rests, counts.rests);
   }
 }
