@@ -207,10 +207,18 @@ struct GridWords {
 using BlockWords = GridWords;
 class BlockCopy {
  public:
+  void init() { is_there_ = false; }
   void begin(void* to, const void* from, std::uint32_t bytes) {
-    if (threadIdx.x % 32 == 0) std::memcpy(to, from, bytes);
+    if (threadIdx.x % 32 != 0) return;
+    std::memcpy(to, from, bytes);
+    is_there_ = true;
   }
-  void wait() const {}
+  void wait() const {
+    while (!is_there_) on_host::yield();
+  }
+
+ private:
+  volatile bool is_there_;
 };
 inline unsigned long long now_ns() {
   return on_host::now_ns();

@@ -197,17 +197,24 @@ __device__ inline uint4 load_once(const uint4* from) {
 }
 
 // A copy from global to shared memory, both on 16 bytes, that one warp asks for and any thread of the block waits for.
-// In shared memory; used once a launch. Between begin and wait the block meets; nobody leaves before it is there.
+// In shared memory; used once a launch at most. Nobody leaves before what was begun is there.
 class BlockCopy {
  public:
+  // By one thread. The block meets before anything else is done with it.
+  __device__ void init() {
+#if __CUDA_ARCH__ >= 900
+    asm volatile("mbarrier.init.shared.b64 [%0], 1; fence.proxy.async.shared::cta;" ::"r"(in_shared(&done_))
+                 : "memory");
+#else
+    done_ = 0;
+#endif
+  }
   // By a whole warp. With compute capability 9, one thread asks for all of it at once.
   __device__ void begin(void* to, const void* from, std::uint32_t bytes) {
 #if __CUDA_ARCH__ >= 900
     if (threadIdx.x % 32 == 0)
       asm volatile(
           "{ .reg .b64 state;\n"
-          "mbarrier.init.shared.b64 [%0], 1;\n"
-          "fence.proxy.async.shared::cta;\n"
           "mbarrier.arrive.expect_tx.shared.b64 state, [%0], %3;\n"
           "cp.async.bulk.shared::cluster.global.mbarrier::complete_tx::bytes [%1], [%2], %3, [%0]; }" ::"r"(
               in_shared(&done_)),
@@ -216,6 +223,9 @@ class BlockCopy {
 #else
     for (std::uint32_t w = threadIdx.x % 32; w < bytes / sizeof(uint4); w += 32)
       static_cast<uint4*>(to)[w] = static_cast<const uint4*>(from)[w];
+    __threadfence_block();
+    __syncwarp();
+    if (threadIdx.x % 32 == 0) *static_cast<volatile unsigned long long*>(&done_) = 1;
 #endif
   }
   __device__ void wait() const {
@@ -225,6 +235,9 @@ class BlockCopy {
         "again: mbarrier.try_wait.parity.shared.b64 is_done, [%0], 0;\n"
         "@!is_done bra again; }" ::"r"(in_shared(&done_))
         : "memory");
+#else
+    while (*static_cast<const volatile unsigned long long*>(&done_) == 0) relax();
+    __threadfence_block();
 #endif
   }
 

@@ -136,7 +136,7 @@ class FewLevels {
 
   __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
 
-  // Before the first look(), by all threads of the block, which meets between the two; and when all are done.
+  // By one warp of the block, if any of it will look(): before that one does, and when it is done.
   __device__ void begin() const { shapes_.begin_octrees(f_); }
   __device__ void end() const { shapes_.end_octrees(); }
 

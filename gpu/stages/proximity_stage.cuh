@@ -55,8 +55,9 @@ class ProximityStage {
     std::uint32_t members = 1;
     std::uint32_t teams = warps;  // of a block
     for (; teams > 1 && count * members * 2 + besides <= all_warps; teams /= 2) members *= 2;
-    // The last of a block's teams has no pair, if any of them has none.
-    const bool looks = pairs_.are_levels_left && (members == 1 || (teams - 1) * gridDim.x + blockIdx.x >= pairs_.count);
+    // The last of a block's teams has no pair, if any of them has none: its last warp sees to what the others look at.
+    const bool looks = pairs_.are_levels_left && threadIdx.x / 32 == warps - 1 &&
+                       (members == 1 || (teams - 1) * gridDim.x + blockIdx.x >= pairs_.count);
     if (looks) levels_.begin();
     if (members == 1)
       measure_by_warps();
@@ -83,7 +84,6 @@ class ProximityStage {
   // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at
   // once where there are very many, because all warps take from one counter.
   __device__ void measure_by_warps() const {
-    if (pairs_.are_levels_left) __syncthreads();
     const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
     const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, pairs_.count / (warps * 32)));
     std::uint32_t* bound = &scratch_.bound[threadIdx.x / 32];

@@ -28,23 +28,26 @@ class ShapesInBlock {
         has_octrees_(are_there_ && f.levels != core::Levels::kFlat) {}
 
   __device__ bool has_octrees() const { return has_octrees_; }
-  // By all threads of the block; one warp does it. Between the two the block meets.
+  // By all threads of the block; one warp does it. Before the block meets and after it.
   __device__ void begin(const FrameView& f) const {
+    if (!is_ours()) return;
+    if (has_octrees_ && lane() == 0) copy_.init();
+    __syncwarp();
     if (f.are_levels_first) begin_octrees(f);
-    if (!are_there_ || !f.has_vertex_stage || !is_ours()) return;
+    if (!are_there_ || !f.has_vertex_stage) return;
     copy(room_->trees, f.shapes.trees, f.shapes.count);
     copy(room_->cells, f.shapes.near_cells, f.shapes.count);
   }
   __device__ void end(const FrameView& f) const {
-    if (f.are_levels_first) end_octrees();
+    if (f.are_levels_first && is_ours()) end_octrees();
   }
-  // The same, of octrees alone, once a launch.
+  // The same of octrees alone, once a launch, by one warp: before anybody waits for them, and before it leaves.
   __device__ void begin_octrees(const FrameView& f) const {
-    if (has_octrees_ && is_ours())
+    if (has_octrees_)
       copy_.begin(room_->octree, f.shapes.octree, f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox));
   }
   __device__ void end_octrees() const {
-    if (has_octrees_ && is_ours()) copy_.wait();
+    if (has_octrees_) copy_.wait();
   }
 
   __device__ void wait() const { copy_.wait(); }
