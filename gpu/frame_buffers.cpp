@@ -113,8 +113,8 @@ std::uint64_t FrameBuffers::body_bytes() const {
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {
-  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + measured_.bytes() + placed_.bytes() + links_.bytes() +
-         keys_.bytes() + lists_.bytes() + contacts_.bytes() + face_contacts_.bytes();
+  return pairs_.bytes() + confirmed_.bytes() + proximity_.bytes() + measured_.bytes() + placed_.bytes() +
+         links_.bytes() + keys_.bytes() + lists_.bytes() + contacts_.bytes() + face_contacts_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -10,6 +10,7 @@
 #include "gpu/frame_kernel.hpp"
 #include "gpu/stages/body_ring.cuh"
 #include "gpu/stages/confirm_stage.cuh"
+#include "gpu/stages/small_divisor.cuh"
 
 namespace broadside::gpu {
 namespace {
@@ -17,8 +18,20 @@ namespace {
 // One warp.
 constexpr on_host::Launch kWarp{{1}, {32}, 0};
 
+TEST(SmallDivisor, GivesWholeQuotients) {
+  for (std::uint32_t by = 1; by <= 512; ++by) {
+    const SmallDivisor divisor(by);
+    for (std::uint32_t multiple = 0; multiple + by <= 1U << 20; multiple += by) {
+      ASSERT_EQ(divisor.quotient(multiple), multiple / by) << multiple << " by " << by;
+      ASSERT_EQ(divisor.quotient(multiple + by - 1), multiple / by) << multiple + by - 1 << " by " << by;
+    }
+    EXPECT_EQ(divisor.rounded_up(7 * by), 7U);
+    EXPECT_EQ(divisor.rounded_up(7 * by + 1), 8U);
+  }
+}
+
 TEST(BodyRing, MeetsEveryPairOnce) {
-  for (std::uint32_t bodies : {0U, 1U, 2U, 3U, 4U, 7U, 8U, 31U, 64U, 65U}) {
+  for (std::uint32_t bodies : {0U, 1U, 2U, 3U, 4U, 7U, 8U, 31U, 64U, 65U, 511U, 512U}) {
     for (std::uint32_t share : {1U, 3U, 4U, 7U, 32U}) {
       std::map<core::Pair, int> met;
       on_host::run(kWarp, 0, [&](unsigned char*) {

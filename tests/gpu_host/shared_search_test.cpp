@@ -27,6 +27,15 @@ TEST(FewCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
   }
 }
 
+TEST(FewCounts, OfLevelsThatAreLeftTheRejectedAreCounted) {
+  const FewCounts counts{10, 4, 0};
+  FrameView view;
+  view.levels = core::Levels::kC;
+  EXPECT_EQ(counts.confirmed(view), 6U);
+  view.are_levels_first = true;
+  EXPECT_EQ(counts.confirmed(view), 4U);
+}
+
 TEST(GridWord, SharesOfAllBlocksFlipOneBit) {
   for (const std::uint32_t blocks : {1U, 2U, 132U, 1024U}) {
     unsigned long long word = 77;

@@ -24,10 +24,10 @@ struct Ending {
   bool hand_over(const SearchTeam& /*team*/, const TeamCounts& /*left*/, float /*limit*/) { return ++asked >= ends_at; }
 };
 
-// Two bumpy spheres in each other, searched by one block of two warps.
+// Two bumpy spheres in each other, searched by one block.
 class TwoBodies {
  public:
-  TwoBodies() {
+  explicit TwoBodies(std::uint32_t members) : members_(members) {
     const std::vector<core::Vec3> vertices = bumpy_sphere(20, 0.5F)->vertices;
     std::vector<std::uint32_t> indices(vertices.size());
     std::iota(indices.begin(), indices.end(), 0U);
@@ -55,15 +55,14 @@ class TwoBodies {
   // Ends at the `ends_at`-th time that it asks whether to hand over what is left. The stack has guards behind it.
   core::Proximity search(std::uint32_t ends_at) {
     asked_ = 0;
-    constexpr std::uint32_t kMembers = 2;
     constexpr std::uint32_t kGuard = 0xA5A5A5A5U;
-    const std::uint32_t entries = kMembers * stack_entries_of(trees_.headers[0].top + 1);
+    const std::uint32_t entries = members_ * stack_entries_of(trees_.headers[0].top + 1);
     std::vector<std::uint32_t> stack(4 * std::size_t{entries}, kGuard);
-    TeamCounts counts[2];
+    TeamCounts counts[2] = {};
     std::uint32_t bound = std::bit_cast<std::uint32_t>(INFINITY);
     core::Proximity nearest;
-    on_host::run({{1}, {32 * kMembers}, 0}, 0, [&](unsigned char*) {
-      const WarpShare share{threadIdx.x / 32, kMembers};
+    on_host::run({{1}, {32 * members_}, 0}, 0, [&](unsigned char*) {
+      const WarpShare share{threadIdx.x / 32, members_};
       const SearchTeam team{share, 0, {stack.data(), entries, entries}, counts};
       TreePair pair(view_, {trees_.headers.data(), nullptr}, {{positions_[0].v, 0}, {positions_[1].v, 0}}, &bound);
       Ending ending{ends_at};
@@ -79,22 +78,26 @@ class TwoBodies {
  private:
   static constexpr float kThetaM = 0.08F;
 
+  std::uint32_t members_;  // warps
   ShapeTrees trees_;
   PackedVec3 positions_[2] = {{{0.1F, 0.0F, 0.0F}, 1.0F}, {{0.85F, 0.2F, -0.1F}, 1.0F}};
   FrameView view_;
   std::uint32_t asked_ = 0;
 };
 
-TEST(TreeSearch, OfATeamFindsTheNearestOfAll) {
-  TwoBodies bodies;
+// Of fewer warps than there are pairs of nodes below the roots, and of more.
+class TreeSearch : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(TreeSearch, OfATeamFindsTheNearestOfAll) {
+  TwoBodies bodies(GetParam());
   const core::Proximity nearest = bodies.search(1000000);
   EXPECT_TRUE(nearest.is_touching());
   EXPECT_EQ(nearest, bodies.nearest_of_all());
-  EXPECT_GT(bodies.asked(), 1U) << "a long search";
+  EXPECT_GT(bodies.asked(), 0U) << "a long search";
 }
 
-TEST(TreeSearch, OfATeamEndsWhenWhatIsLeftIsHandedOver) {
-  TwoBodies bodies;
+TEST_P(TreeSearch, OfATeamEndsWhenWhatIsLeftIsHandedOver) {
+  TwoBodies bodies(GetParam());
   bodies.search(1000000);
   const std::uint32_t times = bodies.asked();
   for (std::uint32_t ends_at = 1; ends_at < times; ++ends_at) {
@@ -102,6 +105,8 @@ TEST(TreeSearch, OfATeamEndsWhenWhatIsLeftIsHandedOver) {
     EXPECT_EQ(bodies.asked(), ends_at);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Warps, TreeSearch, testing::Values(2U, 4U, 16U));
 
 }  // namespace
 }  // namespace broadside::gpu
