@@ -63,7 +63,7 @@ struct BodyAtDetection {
 
 // Whether the frame before was aborted and the host does not know yet. This one must leave everything as it is then:
 // what it would write is the state to repeat from. All threads see that alike: the counters are cleared only where
-// there is nothing to see.
+// there is nothing to see. Not 0 if it was: a word, not a bool, so that it is waited for where it is looked at.
 __device__ inline std::uint32_t is_behind_aborted(const FrameView& f) {
   return load_fresh_if(f.is_behind_unseen, &f.counters->is_aborted);
 }
