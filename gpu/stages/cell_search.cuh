@@ -39,6 +39,10 @@ static_assert(kRunVertices == 64, "two a lane");
 
 // As TreePair, with another way to the nearest: the asking body's vertices whose box is near the answering body's are
 // looked up in its cells; those that find something near enough wait until a lane each has one.
+//
+// `kAsksForAll`: whoever has nothing to look at asks for something all the same, so that a warp waits once. Where warps
+// are many and hide each other's waits, what is asked for is what takes the time.
+template <bool kAsksForAll>
 class NearestByCells {
  public:
   __device__ NearestByCells(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies,
@@ -140,9 +144,9 @@ class NearestByCells {
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) {
       cell[k] = cell_of(place[k].x, place[k].y);
-      lower[k] = lower_[cell[k]];
+      lower[k] = kAsksForAll || k < 2 || are_two ? lower_[cell[k]] : 255U;
     }
-    ask_for_all();
+    if constexpr (kAsksForAll) ask_for_all();
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) keeps[k] = (k < 2 || are_two) && lower[k] <= most_;
 #pragma unroll
@@ -191,21 +195,29 @@ class NearestByCells {
     const NearEntry* entries = f_.shapes.near_entries + cells_.first_entry + list.begin;
     const PackedVec3* others = f_.shapes.tree_vertices + other_tree_.vertex_begin;
     const std::uint32_t length = own < count ? list.length : 0U;
-    // What the next step of a list names is asked for together with this one's vertices.
     std::uint32_t step = lane() & (lanes - 1U);
-    uint2 four = step < length ? *reinterpret_cast<const uint2*>(entries + step) : uint2{0, 0};
-    while (__any_sync(kFullWarp, step < length)) {
-      const bool has_four = step < length;
-      const PackedVec3 first = fetched(others + (four.x & 0xFFFFU));
-      const PackedVec3 second = fetched(others + (four.x >> 16U));
-      const PackedVec3 third = fetched(others + (four.y & 0xFFFFU));
-      const PackedVec3 fourth = fetched(others + (four.y >> 16U));
-      step += lanes;
-      if (step < length) four = *reinterpret_cast<const uint2*>(entries + step);
-      ask_for_all();
-      if (!has_four) continue;
-      meet_two(v, mine.w, first, second);
-      meet_two(v, mine.w, third, fourth);
+    if constexpr (kAsksForAll) {
+      // What the next step of a list names is asked for together with this one's vertices.
+      uint2 four = step < length ? *reinterpret_cast<const uint2*>(entries + step) : uint2{0, 0};
+      while (__any_sync(kFullWarp, step < length)) {
+        const bool has_four = step < length;
+        const PackedVec3 first = fetched(others + (four.x & 0xFFFFU));
+        const PackedVec3 second = fetched(others + (four.x >> 16U));
+        const PackedVec3 third = fetched(others + (four.y & 0xFFFFU));
+        const PackedVec3 fourth = fetched(others + (four.y >> 16U));
+        step += lanes;
+        if (step < length) four = *reinterpret_cast<const uint2*>(entries + step);
+        ask_for_all();
+        if (!has_four) continue;
+        meet_two(v, mine.w, first, second);
+        meet_two(v, mine.w, third, fourth);
+      }
+    } else {
+      for (; step < length; step += lanes) {
+        const uint2 four = *reinterpret_cast<const uint2*>(entries + step);
+        meet_two(v, mine.w, fetched(others + (four.x & 0xFFFFU)), fetched(others + (four.x >> 16U)));
+        meet_two(v, mine.w, fetched(others + (four.y & 0xFFFFU)), fetched(others + (four.y >> 16U)));
+      }
     }
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
     if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);

@@ -81,6 +81,8 @@ class ProximityStage {
   }
 
  private:
+  using Cells = NearestByCells<Levels::kAreOfFewBodies>;
+
   // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at
   // once where there are very many, because all warps take from one counter.
   __device__ void measure_by_warps() const {
@@ -99,9 +101,9 @@ class ProximityStage {
         const PlacedPair bodies = pairs_.bodies(f_, k);
         if (pairs_.are_levels_left && !levels_.look(bodies, k)) continue;
         const CellRoles roles = cell_roles(f_, headers_, bodies);
-        const core::Proximity best = warp_nearest(
-            roles.has_cells ? NearestByCells(f_, headers_, bodies, roles.is_asked_by_j, stack, bound, {}).find()
-                            : nearest_by_trees(TreePair(f_, headers_, bodies, bound), stack));
+        const core::Proximity best =
+            warp_nearest(roles.has_cells ? Cells(f_, headers_, bodies, roles.is_asked_by_j, stack, bound, {}).find()
+                                         : nearest_by_trees(TreePair(f_, headers_, bodies, bound), stack));
         if (lane() == 0) pairs_.tell(f_, k, best);
         __syncwarp();
       }
@@ -173,10 +175,9 @@ class ProximityStage {
   // These two return each lane's nearest, when the team has met.
   __device__ core::Proximity nearest_by_cells(const PlacedPair& bodies, bool is_asked_by_j, std::uint32_t team,
                                               const WarpShare& share) const {
-    const core::Proximity best =
-        NearestByCells(f_, headers_, bodies, is_asked_by_j, stack_of_warps(f_, stacks_, threadIdx.x / 32, 1),
-                       &scratch_.bound[team], share)
-            .find();
+    const core::Proximity best = Cells(f_, headers_, bodies, is_asked_by_j,
+                                       stack_of_warps(f_, stacks_, threadIdx.x / 32, 1), &scratch_.bound[team], share)
+                                     .find();
     sync_warps(team, share.members);
     return best;
   }
