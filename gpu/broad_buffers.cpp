@@ -106,10 +106,9 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
     BROADSIDE_TRY(grow(expected));
   } else if (start == Start::kOctree) {
     OctreeView& octree = view_.octree;
-    octree.domain = facts.domain;
-    octree.depth = variant == core::Variant::kE7 ? 1 : core::kSceneOctreeDepth;
+    octree.grid = core::make_scene_grid(facts.domain, variant == core::Variant::kE7 ? 1 : core::kSceneOctreeDepth);
     octree.same_node_only = variant == core::Variant::kE2;
-    const std::uint32_t nodes = core::complete_octree_nodes(octree.depth);
+    const std::uint32_t nodes = core::complete_octree_nodes(octree.grid.depth);
     BROADSIDE_TRY(node_count_.reserve(nodes, "scene octree"));
     BROADSIDE_TRY(node_begin_.reserve(nodes + 1, "scene octree"));
     BROADSIDE_TRY(rank_.reserve(n, "scene octree"));

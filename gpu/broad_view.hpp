@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/math/box.hpp"
+#include "core/method/scene_octree.hpp"
 #include "core/pair.hpp"
 #include "gpu/packed_box.hpp"
 
@@ -84,8 +85,7 @@ struct HashView {
 
 // The published scene octree: bodies by node, nodes in preorder.
 struct OctreeView {
-  core::Box domain;
-  int depth = 0;
+  core::SceneGrid grid;
   bool same_node_only = false;          // printed-E2
   std::uint32_t* node_count = nullptr;  // [nodes]; zero between frames
   std::uint32_t* node_begin = nullptr;  // [nodes + 1]

@@ -89,9 +89,7 @@ __device__ inline std::uint64_t first_body(const GridPlaces& grid) {
 // P(1) to P(3), P(5). Returns false, and has done nothing, behind an aborted frame.
 __device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
-  std::uint64_t i = first_body(grid);
-  if (!__any_sync(kFullWarp, i < f.body_count) && is_aborted != 0) return false;
-  for (; __any_sync(kFullWarp, i < f.body_count); i += grid.size()) {
+  for (std::uint64_t i = first_body(grid); __any_sync(kFullWarp, i < f.body_count); i += grid.size()) {
     const auto body = static_cast<std::uint32_t>(min(i, std::uint64_t{f.body_count} - 1));
     const BodyBefore before(f, body);
     ask_for_all();
@@ -102,6 +100,8 @@ __device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
     if (f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, now.box);
     if (f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, now.box);
   }
+  // Looked at here by those who have no body. Before the loop, all would wait for it before they ask for a body.
+  if (is_aborted != 0) return false;
   if (grid.rank() == 0) *f.counters = Counters{};
   return true;
 }

@@ -16,14 +16,14 @@ struct NodeSpan {
 };
 
 __device__ inline NodeSpan node_span(const OctreeView& o, const core::Box& box) {
-  const core::SceneNode node = core::scene_node(core::make_scene_grid(o.domain, o.depth), box);
+  const core::SceneNode node = core::scene_node(o.grid, box);
   const std::uint32_t morton = node.key >> 4;
   std::uint32_t place = 0;
   for (int level = 1; level <= node.level(); ++level) {
-    const std::uint32_t digit = morton >> (3 * (o.depth - level)) & 7U;
-    place += 1 + digit * core::complete_octree_nodes(o.depth - level);
+    const std::uint32_t digit = morton >> (3 * (o.grid.depth - level)) & 7U;
+    place += 1 + digit * core::complete_octree_nodes(o.grid.depth - level);
   }
-  return {place, o.same_node_only ? place + 1 : place + core::complete_octree_nodes(o.depth - node.level())};
+  return {place, o.same_node_only ? place + 1 : place + core::complete_octree_nodes(o.grid.depth - node.level())};
 }
 
 __device__ inline void octree_count(const OctreeView& o, std::uint64_t body, const core::Box& box) {
@@ -34,7 +34,7 @@ __device__ inline void octree_count(const OctreeView& o, std::uint64_t body, con
 template <typename Team>
 __device__ void octree_place_nodes(const Team& team, const OctreeView& o) {
   if (team.rank() >= 32) return;
-  const std::uint32_t nodes = core::complete_octree_nodes(o.depth);
+  const std::uint32_t nodes = core::complete_octree_nodes(o.grid.depth);
   std::uint32_t before = 0;
   for (std::uint32_t first = 0; first < nodes; first += 32) {
     const std::uint32_t node = first + lane();
