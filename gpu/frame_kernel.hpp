@@ -27,9 +27,8 @@ struct LaunchShape {
 // two of its pairs go down the levels one after the other then.
 inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) {
   const std::uint64_t warps = shape.all_threads() / 32;
-  const std::uint32_t half = bodies / 2;
   std::uint32_t share = 1;
-  while (share < 32 && std::uint64_t{bodies} * ((half + share - 1) / share) > warps) ++share;
+  while (share < 32 && std::uint64_t{bodies} * ring_shares(bodies, share) > warps) ++share;
   return share;
 }
 

@@ -21,6 +21,7 @@
 #include "gpu/placed_shape.hpp"
 #include "gpu/search_rest.hpp"
 #include "gpu/shape_tree.hpp"
+#include "gpu/small_divisor.hpp"
 
 namespace broadside::gpu {
 
@@ -91,6 +92,11 @@ struct Outcome {
   unsigned long long stage_end_ns[kStageCount + 1] = {};  // [0] is the start of the frame
 };
 
+// Of the ring of all bodies (stages/body_ring.cuh), into how many shares of so many places each body's are dealt.
+BROADSIDE_HD std::uint32_t ring_shares(std::uint32_t bodies, std::uint32_t share) {
+  return (bodies / 2 + share - 1) / share;
+}
+
 // Fixed during a run, but for `previous` and `next`, which change places after every frame, and its outcome.
 struct FrameView {
   std::uint32_t body_count = 0;
@@ -123,6 +129,7 @@ struct FrameView {
   // Few bodies: the levels below 0 are gone down where pairs are found, not while they are measured.
   bool are_levels_first = false;
   std::uint32_t ring_share = 1;        // places of the ring that a warp takes, where there are few bodies
+  SmallDivisor ring_shares;            // by ring_shares() of them: divided beforehand, as all warps would wait for it
   std::uint32_t stack_entries = 0;     // of each warp's stack in the proximity stage
   std::uint32_t block_bodies = 0;      // that one block resolves alone
   std::uint32_t block_bytes = 0;       // of shared memory that a block has, beside what is fixed

@@ -40,6 +40,7 @@ core::Status Pipeline::Impl::launch_frame() {
   if (is_confirmed_by_level0()) view.confirmed.items = view.pairs.items;
   const LaunchShape shape = frame_shape();
   view.ring_share = ring_share(view.body_count, shape);
+  view.ring_shares = SmallDivisor(ring_shares(view.body_count, view.ring_share));
   view.are_levels_first = levels_come_first(shape);
   return frames.launch(view, shape);
 }

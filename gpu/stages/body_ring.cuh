@@ -3,39 +3,38 @@
 
 #include <cstdint>
 
-#include "gpu/stages/small_divisor.cuh"
+#include "gpu/small_divisor.hpp"
 #include "gpu/stages/team.cuh"
 
 namespace broadside::gpu {
 
 // Bodies on a ring: body i meets those 1 to n / 2 places on, so that every pair is met once without a root or a
 // triangle, and every body has as much to do as the next. An item is one body and `share` places on from it, a lane
-// each. Item: an unsigned type that can count the items; of 32 bits where there are fewer than 2^20.
-template <typename Item>
+// each. Divisor: SmallDivisor where there are fewer items than it can divide, or WideDivisor.
+template <typename Divisor>
 class BodyRing {
  public:
+  using Item = typename Divisor::Number;
+
   struct Meeting {
     std::uint32_t i = 0;
     std::uint32_t j = 0;  // i where there is none
     bool exists = false;
   };
 
-  __device__ BodyRing(std::uint32_t bodies, std::uint32_t share)
-      : bodies_(bodies), half_(bodies / 2), share_(share), shares_(quotient(half_ + share - 1, share)) {}
+  // `shares`: by ring_shares() of them.
+  __device__ BodyRing(std::uint32_t bodies, std::uint32_t share, const Divisor& shares)
+      : bodies_(bodies), half_(bodies / 2), share_(share), shares_(shares) {}
 
-  __device__ Item items() const { return Item{bodies_} * shares_; }
+  __device__ Item items() const { return Item{bodies_} * shares_.by(); }
 
   // Of this lane, in an item that exists.
   __device__ Meeting meeting(Item item) const {
-    const std::uint32_t i = quotient(item, shares_);
-    return meeting(i, static_cast<std::uint32_t>(item - Item{i} * shares_));
+    const std::uint32_t i = shares_.quotient(item);
+    return meeting(i, static_cast<std::uint32_t>(item - Item{i} * shares_.by()));
   }
 
  private:
-  __device__ static std::uint32_t quotient(Item of, std::uint32_t by) {
-    if constexpr (sizeof(Item) == 4) return SmallDivisor(by).quotient(of);
-    return static_cast<std::uint32_t>(of / by);
-  }
   __device__ Meeting meeting(std::uint32_t i, std::uint32_t part) const {
     const std::uint32_t on = part * share_ + lane() + 1;
     // Bodies that face each other on an even ring meet once.
@@ -47,7 +46,7 @@ class BodyRing {
   std::uint32_t bodies_;
   std::uint32_t half_;
   std::uint32_t share_;
-  std::uint32_t shares_;
+  Divisor shares_;
 };
 
 }  // namespace broadside::gpu

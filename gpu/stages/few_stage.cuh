@@ -19,7 +19,7 @@ constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 class FewItem {
  public:
   __device__ FewItem(const GridTeam& team, const FrameView& f)
-      : ring_(f.body_count, f.ring_share),
+      : ring_(f.body_count, f.ring_share, f.ring_shares),
         item_(static_cast<std::uint32_t>(team.spread_rank() / 32)),
         stride_(static_cast<std::uint32_t>(warp_count(team))) {
     enter();
@@ -30,17 +30,17 @@ class FewItem {
     item_ += stride_;
     enter();
   }
-  __device__ const BodyRing<std::uint32_t>::Meeting& meeting() const { return meeting_; }
+  __device__ const BodyRing<SmallDivisor>::Meeting& meeting() const { return meeting_; }
 
  private:
   __device__ void enter() {
     if (exists()) meeting_ = ring_.meeting(item_);
   }
 
-  BodyRing<std::uint32_t> ring_;
+  BodyRing<SmallDivisor> ring_;
   std::uint32_t item_;
   std::uint32_t stride_;
-  BodyRing<std::uint32_t>::Meeting meeting_;
+  BodyRing<SmallDivisor>::Meeting meeting_;
 };
 
 // By a whole warp, of a pair that level 0 found.
@@ -55,7 +55,7 @@ __device__ inline bool is_confirmed_few(const FrameView& f, const ShapesInBlock&
 // Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet. Of the bodies of an item,
 // before the frame.
 __device__ inline void find_few(const FrameView& f, const ShapesInBlock& shapes,
-                                const BodyRing<std::uint32_t>::Meeting& at, const BodyBefore& before_i,
+                                const BodyRing<SmallDivisor>::Meeting& at, const BodyBefore& before_i,
                                 const BodyBefore& before_j) {
   const BodyAtDetection now_i(f, at.i, before_i);
   const BodyAtDetection now_j(f, at.j, before_j);

@@ -4,9 +4,9 @@
 
 #include "gpu/frame_view.hpp"
 #include "gpu/search_rest.hpp"
+#include "gpu/small_divisor.hpp"
 #include "gpu/stages/few_counts.cuh"
 #include "gpu/stages/search_stack.cuh"
-#include "gpu/stages/small_divisor.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/tree_search.cuh"
 

@@ -66,9 +66,10 @@ __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, st
 // Levels level1, A and B: a warp meets all boxes of the level of a body with those of four others.
 template <typename Team, typename Work>
 __device__ void confirm_by_brute_force(const Team& team, const FrameView& f, Work& work) {
-  const BodyRing<std::uint64_t> ring(f.body_count, 4);
+  constexpr std::uint32_t kShare = 4;
+  const BodyRing<WideDivisor> ring(f.body_count, kShare, WideDivisor(ring_shares(f.body_count, kShare)));
   for (std::uint64_t item = warp_rank(team); item < ring.items(); item += warp_count(team)) {
-    const BodyRing<std::uint64_t>::Meeting own = ring.meeting(item);
+    const BodyRing<WideDivisor>::Meeting own = ring.meeting(item);
     const core::Pair pair = core::make_pair_of(own.i, own.j);
     unsigned left = __ballot_sync(kFullWarp, own.exists && !(is_static(f, own.i) && is_static(f, own.j)));
     unsigned hits = 0;

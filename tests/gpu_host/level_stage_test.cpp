@@ -8,9 +8,9 @@
 #include "core/method/levels.hpp"
 #include "core/scene/body_octree.hpp"
 #include "gpu/frame_kernel.hpp"
+#include "gpu/small_divisor.hpp"
 #include "gpu/stages/body_ring.cuh"
 #include "gpu/stages/confirm_stage.cuh"
-#include "gpu/stages/small_divisor.cuh"
 
 namespace broadside::gpu {
 namespace {
@@ -35,7 +35,7 @@ TEST(BodyRing, MeetsEveryPairOnce) {
     for (std::uint32_t share : {1U, 3U, 4U, 7U, 32U}) {
       std::map<core::Pair, int> met;
       on_host::run(kWarp, 0, [&](unsigned char*) {
-        const BodyRing<std::uint32_t> ring(bodies, share);
+        const BodyRing<SmallDivisor> ring(bodies, share, SmallDivisor(ring_shares(bodies, share)));
         for (std::uint32_t item = 0; item < ring.items(); ++item) {
           const auto own = ring.meeting(item);
           if (own.exists) ++met[core::make_pair_of(own.i, own.j)];

@@ -1,0 +1,44 @@
+// Divisions by a number that is known beforehand.
+#pragma once
+
+#include <cstdint>
+
+#include "core/attributes.hpp"
+
+namespace broadside::gpu {
+
+// Divides below 2^20 by the same number again and again, in a few steps instead of some thirty: half a unit above the
+// quotient is farther from the next whole number than roundings reach.
+class SmallDivisor {
+ public:
+  using Number = std::uint32_t;
+
+  SmallDivisor() = default;
+  BROADSIDE_HD explicit SmallDivisor(std::uint32_t by) : by_(by), inverse_(1.0F / static_cast<float>(by)) {}
+
+  BROADSIDE_HD std::uint32_t by() const { return by_; }
+  BROADSIDE_HD std::uint32_t quotient(std::uint32_t of) const {
+    return static_cast<std::uint32_t>((static_cast<float>(of) + 0.5F) * inverse_);
+  }
+  BROADSIDE_HD std::uint32_t rounded_up(std::uint32_t of) const { return quotient(of + by_ - 1); }
+
+ private:
+  std::uint32_t by_ = 1;
+  float inverse_ = 1.0F;
+};
+
+// The same of any numbers.
+class WideDivisor {
+ public:
+  using Number = std::uint64_t;
+
+  BROADSIDE_HD explicit WideDivisor(std::uint32_t by) : by_(by) {}
+
+  BROADSIDE_HD std::uint32_t by() const { return by_; }
+  BROADSIDE_HD std::uint32_t quotient(std::uint64_t of) const { return static_cast<std::uint32_t>(of / by_); }
+
+ private:
+  std::uint32_t by_;
+};
+
+}  // namespace broadside::gpu
