@@ -190,10 +190,12 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
   return trees.best();
 }
 
-// More than a round of a few warps: worth handing over.
+// Worth handing over: pairs of nodes for a few warps, each of which may become many, or as many pairs of leaves, which
+// become no more, as sixteen warps meet in a round.
 __device__ inline bool is_much(const TeamCounts& left) {
-  constexpr std::uint32_t kWarps = 4;
-  return 4 * left.nodes + left.leaves >= 4 * kWarps;
+  constexpr std::uint32_t kNodes = 4;
+  constexpr std::uint32_t kLeaves = 64;
+  return left.nodes * kLeaves + left.leaves * kNodes >= kNodes * kLeaves;
 }
 
 // Several warps of a block that search one pair.

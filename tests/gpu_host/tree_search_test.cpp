@@ -85,6 +85,14 @@ class TwoBodies {
   std::uint32_t asked_ = 0;
 };
 
+TEST(TeamCounts, AreMuchWithFewNodesOrManyLeaves) {
+  EXPECT_TRUE(is_much({4, 0}));
+  EXPECT_FALSE(is_much({3, 15}));
+  EXPECT_TRUE(is_much({3, 16}));
+  EXPECT_FALSE(is_much({0, 63}));
+  EXPECT_TRUE(is_much({0, 64}));
+}
+
 // Of fewer warps than there are pairs of nodes below the roots, and of more.
 class TreeSearch : public testing::TestWithParam<std::uint32_t> {};
 
