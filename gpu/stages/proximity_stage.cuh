@@ -155,7 +155,8 @@ class ProximityStage {
       tell_team(0, nearest_by_trees(TreePair(f_, headers_, rest.bodies, &scratch_.bound[0]), all, part.counts(), next));
     }
     __syncthreads();
-    if (threadIdx.x == 0 && scratch_.nearest[0] != kNoVertices) improve(f_.measured + rest.k, nearest_of_team(0));
+    if (threadIdx.x == 0 && scratch_.nearest[0] != kNoVertices)
+      improve(f_.measured + rest.k, nearest_of_team(0), rest.bound_m2 == INFINITY);
   }
 
   // By all lanes of a team that has met since it searched: its bound is the least distance, and whoever has found that

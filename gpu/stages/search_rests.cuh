@@ -103,10 +103,13 @@ class RestPart {
   TeamCounts own_;
 };
 
-// By one thread, of a pair for which others may find something at the same time.
-__device__ inline void improve(MeasuredPair* pair, const core::Proximity& found) {
+// By one thread, of a pair for which others may find something at the same time. `had_none`: its team had found nothing
+// when it handed over; then the word is not asked for first, as it is most likely still as it was.
+__device__ inline void improve(MeasuredPair* pair, const core::Proximity& found, bool had_none) {
   auto* word = reinterpret_cast<uint4*>(pair);
-  uint4 seen = GridWords::load_whole(word);
+  constexpr core::Proximity kNone;
+  uint4 seen{__float_as_uint(kNone.squared_distance_m2), kNone.vertex_a, kNone.vertex_b, 0};
+  if (!had_none) seen = GridWords::load_whole(word);
   for (bool is_done = false; !is_done;) {
     const core::Proximity nearest{__uint_as_float(seen.x), seen.y, seen.z};
     is_done = !core::is_nearer(found, nearest) ||
