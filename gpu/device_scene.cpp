@@ -97,6 +97,10 @@ core::Status DeviceScene::load(const core::Scene& scene, const SceneNeeds& needs
   BROADSIDE_TRY(level2_count_.upload(level2_count, "body octrees"));
   BROADSIDE_TRY(trees_.upload(trees.headers, "vertex trees"));
   BROADSIDE_TRY(tree_nodes_.upload(trees.nodes, "vertex trees"));
+  BROADSIDE_TRY(tree_upper_.upload(trees.upper, "vertex trees"));
+  const bool are_trees_descended =
+      std::ranges::any_of(cells.headers, [](const NearCells& shape) { return shape.count_x == 0; });
+  tree_upper_count_ = are_trees_descended ? static_cast<std::uint32_t>(trees.upper.size()) : 0;
   BROADSIDE_TRY(tree_vertices_.upload(trees.vertices, "vertices"));
   BROADSIDE_TRY(near_cells_.upload(cells.headers, "cells of near vertices"));
   BROADSIDE_TRY(near_lower_.upload(cells.lower, "cells of near vertices"));
@@ -121,10 +125,10 @@ core::Status DeviceScene::load_springs(const core::Scene& scene) {
 }
 
 void DeviceScene::fill(FrameView& view) const {
-  view.shapes = {shape_count_,       octree_.data(),     level2_.data(),        level2_count_.data(),
-                 trees_.data(),      tree_nodes_.data(), tree_vertices_.data(), near_cells_.data(),
-                 near_lower_.data(), near_lists_.data(), near_entries_.data(),  quantized_.data(),
-                 extent_m_};
+  view.shapes = {shape_count_,          octree_.data(),     level2_.data(),     level2_count_.data(),
+                 trees_.data(),         tree_nodes_.data(), tree_upper_.data(), tree_upper_count_,
+                 tree_vertices_.data(), near_cells_.data(), near_lower_.data(), near_lists_.data(),
+                 near_entries_.data(),  quantized_.data(),  extent_m_};
   view.shape_of_body = shape_of_body_.data();
   view.material = material_.data();
   view.springs = has_springs_ ? springs_.data() : nullptr;
@@ -133,8 +137,8 @@ void DeviceScene::fill(FrameView& view) const {
 
 std::uint64_t DeviceScene::shape_bytes() const {
   return octree_.bytes() + level2_.bytes() + level2_count_.bytes() + trees_.bytes() + tree_nodes_.bytes() +
-         tree_vertices_.bytes() + near_cells_.bytes() + near_lower_.bytes() + near_lists_.bytes() +
-         near_entries_.bytes() + quantized_.bytes();
+         tree_upper_.bytes() + tree_vertices_.bytes() + near_cells_.bytes() + near_lower_.bytes() +
+         near_lists_.bytes() + near_entries_.bytes() + quantized_.bytes();
 }
 
 std::uint64_t DeviceScene::body_bytes() const {

@@ -41,6 +41,7 @@ class DeviceScene {
   DeviceBuffer<std::uint32_t> level2_count_;
   DeviceBuffer<TreeHeader> trees_;
   DeviceBuffer<PackedBox> tree_nodes_;
+  DeviceBuffer<PackedBox> tree_upper_;
   DeviceBuffer<PackedVec3> tree_vertices_;
   DeviceBuffer<NearCells> near_cells_;
   DeviceBuffer<std::uint8_t> near_lower_;
@@ -48,6 +49,7 @@ class DeviceScene {
   DeviceBuffer<NearEntry> near_entries_;
   DeviceBuffer<QuantizedVertex> quantized_;
   std::uint32_t shape_count_ = 0;
+  std::uint32_t tree_upper_count_ = 0;
   float extent_m_ = 0.0F;
   DeviceBuffer<std::uint32_t> shape_of_body_;
   DeviceBuffer<core::Material> material_;

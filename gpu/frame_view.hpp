@@ -38,6 +38,8 @@ struct ShapesView {
   const std::uint32_t* level2_count = nullptr;  // [shapes]
   const TreeHeader* trees = nullptr;            // [shapes]
   const PackedBox* tree_nodes = nullptr;
+  const PackedBox* tree_upper = nullptr;
+  std::uint32_t tree_upper_count = 0;  // of all shapes; 0: no trees are descended but where a body is far outside
   const PackedVec3* tree_vertices = nullptr;
   const NearCells* near_cells = nullptr;  // [shapes]
   const std::uint8_t* near_lower = nullptr;

@@ -50,6 +50,7 @@ void append_tree(ShapeTrees& trees, std::span<const Vec3> vertices, std::span<co
   TreeHeader header;
   header.mean_edge_m = mean_edge_m;
   header.vertex_begin = static_cast<std::uint32_t>(trees.vertices.size());
+  header.upper_begin = static_cast<std::uint32_t>(trees.upper.size());
   std::vector<Box> level;
   for (const std::uint32_t k : order) {
     if ((trees.vertices.size() - header.vertex_begin) % kLeafVertices == 0) level.push_back(core::empty_box());
@@ -65,11 +66,17 @@ void append_tree(ShapeTrees& trees, std::span<const Vec3> vertices, std::span<co
     header.node_begin[depth] = static_cast<std::uint32_t>(trees.nodes.size());
     header.node_count[depth] = static_cast<std::uint32_t>(level.size());
     for (const Box& box : level) trees.nodes.push_back(pack(box));
+    if (header.upper_count == 0 && (level.size() <= 1 || (depth > 0 && level.size() <= kMostUpperNodes))) {
+      header.upper_level = depth;
+      header.upper_count = header.node_count[depth];
+      for (const Box& box : level) trees.upper.push_back(pack(box));
+    }
     if (level.size() <= 1) break;
     std::vector<Box> parents((level.size() + kFanOut - 1) / kFanOut, core::empty_box());
     for (std::size_t n = 0; n < level.size(); ++n) parents[n / kFanOut] = joined(parents[n / kFanOut], level[n]);
     level = std::move(parents);
   }
+  trees.upper.push_back(trees.nodes.back());
   trees.headers.push_back(header);
 }
 

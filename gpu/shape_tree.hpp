@@ -22,6 +22,11 @@ constexpr std::uint32_t stack_entries_of(std::uint32_t levels) {
   return 64 * levels;
 }
 
+// A search of two trees by several warps begins on the lowest level that has so few nodes, and is not that of the
+// leaves unless that is the root's. Of either tree it takes those that are near the other's root, and tries all pairs
+// of them.
+constexpr std::uint32_t kMostUpperNodes = 128;
+
 // Where one shape's tree lies in the arrays shared by all shapes. Level 0 holds the leaves; level `top` is the root,
 // one node. Children of node n are 8 n .. 8 n + 7 of the level below, as far as they exist; leaf n holds vertices
 // 8 n .. 8 n + 7, the last leaf being filled up with vertices at infinity, which are near nothing.
@@ -30,12 +35,16 @@ struct TreeHeader {
   std::uint32_t node_begin[kMaxTreeLevels] = {};
   std::uint32_t node_count[kMaxTreeLevels] = {};
   std::uint32_t vertex_begin = 0;
+  std::uint32_t upper_level = 0;
+  std::uint32_t upper_count = 0;
+  std::uint32_t upper_begin = 0;  // of the nodes of that level, and behind them the root, in an array of their own
   float mean_edge_m = 0.0F;
 };
 
 struct ShapeTrees {
   std::vector<TreeHeader> headers;   // one per shape
   std::vector<PackedBox> nodes;      // body coordinates
+  std::vector<PackedBox> upper;      // likewise: of each shape its upper nodes, then its root
   std::vector<PackedVec3> vertices;  // body coordinates; w holds the bits of the index in the mesh
 };
 

@@ -115,6 +115,7 @@ __device__ inline bool integrate_and_find_few(const GridTeam& team, const FrameV
   }
   if (team.rank() == 0) *f.counters = Counters{};
   mark(team, f, 1);
+  shapes.begin_upper(f);
   // Those who ask for shapes have begun to.
   if (f.are_levels_first) __syncthreads();
   while (item.exists()) {

@@ -128,7 +128,8 @@ __device__ void resolve_by_grid(const FrameView& f, const MeetingPairs& pairs, c
 // What a block has in shared memory beside `shared`.
 struct BlockScratch {
   ProximityScratch proximity;
-  BlockCopy copy;
+  BlockCopy octree_copy;
+  BlockCopy upper_copy;
   unsigned long long tally;
   Counters counters;
   std::uint32_t listed;
@@ -141,7 +142,8 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   constexpr bool kIsFew = kKind == FrameKind::kFew;
   const GridTeam grid(f.barrier);
   mark(grid, f, 0);
-  const ShapesInBlock shapes(f, shared, scratch.copy);  // of few bodies
+  scratch.proximity.clear();
+  const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);  // of few bodies
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
     shapes.begin(f);
@@ -163,6 +165,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   }
   FewCounts few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
   mark(grid, f, 2);
+  if constexpr (kIsFew) shapes.end_upper();
   const std::uint64_t pairs = kIsFew ? few.pairs : f.counters->pairs;
   if (pairs > f.pairs.capacity) return report_aborted<kKind>(f, few);
 
@@ -193,7 +196,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
         return few.rests;
       });
     } else {
-      const ShapeHeaders headers{f.shapes.trees, f.shapes.near_cells};
+      const ShapeHeaders headers{f.shapes.trees, f.shapes.near_cells, f.shapes.tree_upper, nullptr};
       ProximityStage(f, headers, NoLevels{}, meeting, scratch.proximity, shared).run();
       grid.sync();
     }

@@ -9,6 +9,7 @@
 #include "gpu/stages/search_stack.cuh"
 #include "gpu/stages/team.cuh"
 #include "gpu/stages/tree_search.cuh"
+#include "gpu/stages/tree_start.cuh"
 
 namespace broadside::gpu {
 
@@ -16,10 +17,21 @@ constexpr std::uint32_t kMaxBlockWarps = 16;  // so that each of their teams has
 
 // Shared memory of a block: what the warps of one pair share.
 struct ProximityScratch {
+  static constexpr unsigned long long kNoVertices = ~0ULL;
+
   std::uint32_t bound[kMaxBlockWarps];
   unsigned long long nearest[kMaxBlockWarps];
   TeamCounts counts[kMaxBlockWarps][2];
   std::uint32_t place[kMaxBlockWarps];
+
+  // By all threads, long before the stage: the block meets in between.
+  __device__ void clear() {
+    const std::uint32_t warp = threadIdx.x / 32;
+    if (lane() != 0) return;
+    bound[warp] = __float_as_uint(INFINITY);
+    nearest[warp] = kNoVertices;
+    counts[warp][0] = counts[warp][1] = {};
+  }
 };
 
 // Of so many warps side by side.
@@ -116,12 +128,6 @@ class ProximityStage {
     const std::uint32_t team = warp / members;
     const WarpShare share{warp % members, members};
     const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
-    if (lane() == 0) {
-      scratch_.bound[warp] = __float_as_uint(INFINITY);
-      scratch_.nearest[warp] = kNoVertices;
-      scratch_.counts[warp][0] = {};
-    }
-    __syncthreads();
     if (k < pairs_.count) {
       const PlacedPair bodies = pairs_.bodies(f_, k);
       const CellRoles roles = cell_roles(f_, headers_, bodies);
@@ -147,15 +153,15 @@ class ProximityStage {
     const SearchRest& rest = part.rest();
     if (threadIdx.x == 0) {
       scratch_.bound[0] = __float_as_uint(rest.bound_m2);
-      scratch_.nearest[0] = kNoVertices;
+      scratch_.nearest[0] = ProximityScratch::kNoVertices;
     }
     __syncthreads();
     if (part.counts().any()) {
-      RestOfPair<kRoundsOfBlock> next(f_, to, before, rest.bodies, rest.k, &scratch_.place[0]);
+      RestOfPair next(f_, to, before, rest.bodies, rest.k, kRoundsOfBlock, &scratch_.place[0]);
       tell_team(0, nearest_by_trees(TreePair(f_, headers_, rest.bodies, &scratch_.bound[0]), all, part.counts(), next));
     }
     __syncthreads();
-    if (threadIdx.x == 0 && scratch_.nearest[0] != kNoVertices)
+    if (threadIdx.x == 0 && scratch_.nearest[0] != ProximityScratch::kNoVertices)
       improve(f_.measured + rest.k, nearest_of_team(0), rest.bound_m2 == INFINITY);
   }
 
@@ -168,7 +174,7 @@ class ProximityStage {
   // When all have told and the block has met.
   __device__ core::Proximity nearest_of_team(std::uint32_t team) const {
     const unsigned long long vertices = scratch_.nearest[team];
-    if (vertices == kNoVertices) return {};
+    if (vertices == ProximityScratch::kNoVertices) return {};
     return {__uint_as_float(scratch_.bound[team]), static_cast<std::uint32_t>(vertices >> 32),
             static_cast<std::uint32_t>(vertices)};
   }
@@ -187,9 +193,10 @@ class ProximityStage {
     const SearchTeam all{share, team, stack_of_warps(f_, stacks_, team * share.members, share.members),
                          scratch_.counts[team]};
     const TreePair trees(f_, headers_, bodies, &scratch_.bound[team]);
-    const TeamCounts left = begin_at_roots(trees, all);
+    if (headers_.upper_copy != nullptr) headers_.upper_copy->wait();
+    const TeamCounts left = TreeStart(trees, all).begin();
     if constexpr (Levels::kAreOfFewBodies) {
-      RestOfPair<kRoundsOfTeam> rest(f_, f_.rests[0], 0, bodies, k, &scratch_.place[team]);
+      RestOfPair rest(f_, f_.rests[0], 0, bodies, k, rounds_of_team(trees), &scratch_.place[team]);
       return nearest_by_trees(trees, all, left, rest);
     } else {
       NoRest rest;
@@ -197,9 +204,9 @@ class ProximityStage {
     }
   }
 
-  static constexpr unsigned long long kNoVertices = ~0ULL;
-  // What a meeting of the grid costs is some four rounds.
-  static constexpr std::uint32_t kRoundsOfTeam = 3;
+  // What a meeting of the grid costs is some four rounds. The more levels are left to go down, the more there may be
+  // to hand over, and the sooner.
+  __device__ static std::uint32_t rounds_of_team(const TreePair& trees) { return trees.upper_level() >= 3 ? 2 : 3; }
   static constexpr std::uint32_t kRoundsOfBlock = 8;
 
   const FrameView& f_;

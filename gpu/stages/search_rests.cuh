@@ -17,24 +17,29 @@ __device__ inline std::uint32_t most_rests() {
   return min(RestsView::kMost, gridDim.x);
 }
 
-// What a team that searches pair k may do with what is left: hand it over. `kRoundsTillLong`: how long it has lasted
-// then, and again after as many rounds. The pair may be rejected by its levels meanwhile, and is searched for nothing
+// What a team that searches pair k may do with what is left: hand it over. `rounds`: how long it has lasted then, and
+// again after as many. The pair may be rejected by its levels meanwhile, and is searched for nothing
 // then: bodies so far apart are soon done.
-template <std::uint32_t kRoundsTillLong>
 class RestOfPair {
  public:
   // `to`: where those of this time go, before which there were so many. `place`: of the team, in shared memory.
   __device__ RestOfPair(const FrameView& f, const RestsView& to, std::uint32_t before, const PlacedPair& bodies,
-                        std::uint64_t k, std::uint32_t* place)
+                        std::uint64_t k, std::uint32_t rounds, std::uint32_t* place)
       : f_(f),
         to_(to),
         before_(before),
         bodies_(bodies),
         k_(k),
+        rounds_(rounds),
+        asked_after_(rounds),
         place_(place),
         is_refused_(before >= FewCounts::kMostRests) {}
 
-  __device__ static bool is_asked_after(std::uint32_t round) { return round % kRoundsTillLong == 0; }
+  __device__ bool is_asked_after(std::uint32_t round) {
+    if (round != asked_after_) return false;
+    asked_after_ += rounds_;
+    return true;
+  }
 
   // By all warps of the team; true: the search ends.
   __device__ bool hand_over(const SearchTeam& team, const TeamCounts& left, float limit) {
@@ -57,6 +62,8 @@ class RestOfPair {
   std::uint32_t before_;
   PlacedPair bodies_;
   std::uint64_t k_;
+  std::uint32_t rounds_;
+  std::uint32_t asked_after_;
   std::uint32_t* place_;
   bool is_refused_;
 };

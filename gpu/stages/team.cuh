@@ -95,6 +95,17 @@ __device__ inline void ask_for_all() {
   __syncwarp();
 }
 
+// Of a whole warp, the first of so many places.
+__device__ inline std::uint32_t room_for_warp(std::uint32_t count, std::uint32_t* taken) {
+  std::uint32_t first = 0;
+  if (lane() == 0) first = atomicAdd(taken, count);
+  return __shfl_sync(kFullWarp, first, 0);
+}
+// The same for one item of these lanes: this lane's.
+__device__ inline std::uint32_t place_in_warp(unsigned lanes, std::uint32_t* taken) {
+  return room_for_warp(__popc(lanes), taken) + __popc(lanes & ((1U << lane()) - 1U));
+}
+
 // Room for the items of one warp in an append buffer: one atomic for all its lanes. Called by whole warps. Returns the
 // place of this lane's first item; places at or past the capacity are counted and not to be written.
 template <typename Count>

@@ -69,6 +69,8 @@ class TreePair {
         vertices_b_(f.shapes.tree_vertices + b_.vertex_begin),
         xa_(bodies.i.x),
         xb_(bodies.j.x),
+        upper_a_(headers.upper + a_.upper_begin),
+        upper_b_(headers.upper + b_.upper_begin),
         bound_(bound) {
     const float theta_m = core::pair_theta_m(f.parameters, a_.mean_edge_m, b_.mean_edge_m);
     theta2_ = theta_m * theta_m;
@@ -79,6 +81,21 @@ class TreePair {
   __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
   // This lane's.
   __device__ core::Proximity best() const { return best_; }
+
+  // Of a body's upper nodes and of its root, and a pair of the former.
+  __device__ std::uint32_t upper_count(bool of_a) const { return (of_a ? a_ : b_).upper_count; }
+  __device__ core::Box upper(bool of_a, std::uint32_t k) const {
+    return core::translated(fetched((of_a ? upper_a_ : upper_b_) + k), of_a ? xa_ : xb_);
+  }
+  __device__ core::Box root(bool of_a) const {
+    return core::translated(fetched((of_a ? upper_a_ : upper_b_) + upper_count(of_a)), of_a ? xa_ : xb_);
+  }
+  __device__ NodePair upper_pair(std::uint32_t a, std::uint32_t b, float gap2) const {
+    return {a_.upper_level << 28 | a, b_.upper_level << 28 | b, gap2};
+  }
+  __device__ bool is_near(float gap2) const { return gap2 < theta2_; }
+  // How many levels there are below these nodes.
+  __device__ std::uint32_t upper_level() const { return max(a_.upper_level, b_.upper_level); }
 
   // By the whole warp: the higher of the two nodes is opened, both when they are level. All boxes are asked for before
   // any of them is looked at: one wait. So a child that there is not is another one, and not near.
@@ -155,6 +172,8 @@ class TreePair {
   const PackedVec3* vertices_b_;
   core::Vec3 xa_;
   core::Vec3 xb_;
+  const PackedBox* upper_a_;
+  const PackedBox* upper_b_;
   std::uint32_t* bound_;
   float theta2_ = 0.0F;
   core::Proximity best_;
@@ -222,40 +241,9 @@ struct SearchTeam : WarpShare {  // of two or more
 __device__ inline void put_for_team(const SearchTeam& team, const NearChildren& near, TeamCounts& counts) {
   const std::uint32_t count = near.count();
   if (count == 0) return;
-  std::uint32_t first = 0;
-  if (lane() == 0) first = atomicAdd(near.are_leaves() ? &counts.leaves : &counts.nodes, count);
-  first = __shfl_sync(kFullWarp, first, 0);
+  const std::uint32_t first = room_for_warp(count, near.are_leaves() ? &counts.leaves : &counts.nodes);
   const SearchStack stack = near.are_leaves() ? team.leaves() : team.nodes();
   near.each([&](std::uint32_t place, const NodePair& pair) { stack.put(first + place, pair); });
-}
-
-// The start of a search, by all warps of a team, whose first counts are zero. Returns what the stack holds.
-//
-// Each warp opens the roots, and then its own of what it finds there: a level less on which all wait for all.
-__device__ inline TeamCounts begin_at_roots(const TreePair& trees, const SearchTeam& team) {
-  TeamCounts& counts = team.counts[0];
-  const NodePair roots = trees.roots();
-  if (roots.are_leaves()) {
-    if (team.member == 0 && lane() == 0) {
-      team.leaves().put(0, roots);
-      counts.leaves = 1;
-    }
-  } else if (const NearChildren upper = trees.open(roots, INFINITY); upper.are_leaves()) {
-    if (team.member == 0) put_for_team(team, upper, counts);
-  } else {
-    if (team.member < upper.count()) put_for_team(team, trees.open(upper.at(team.member), INFINITY), counts);
-    // What is too much for one each waits.
-    if (team.member == 0 && upper.count() > team.members) {
-      std::uint32_t first = 0;
-      if (lane() == 0) first = atomicAdd(&counts.nodes, upper.count() - team.members);
-      first = __shfl_sync(kFullWarp, first, 0);
-      upper.each([&](std::uint32_t place, const NodePair& pair) {
-        if (place >= team.members) team.nodes().put(first + place - team.members, pair);
-      });
-    }
-  }
-  team.sync();
-  return counts;
 }
 
 // By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.

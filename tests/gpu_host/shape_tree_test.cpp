@@ -68,6 +68,25 @@ TEST(ShapeTree, BoxesAreTheBoundsOfTheirLeaves) {
   }
 }
 
+// Of a single leaf, of a leaf's parent, and of the lowest level that has so few nodes.
+TEST(ShapeTree, NamesTheUpperNodesAndTheRootBehindThem) {
+  const struct {
+    std::uint32_t vertices;
+    std::uint32_t level;
+    std::uint32_t count;
+  } kCases[] = {{5, 0, 1}, {9, 1, 1}, {1000, 1, 16}, {8192, 1, 128}, {8193, 2, 17}, {70000, 3, 18}};
+  for (const auto& expected : kCases) {
+    const ShapeTrees trees = tree_of(spiral(expected.vertices));
+    const TreeHeader& header = trees.headers[0];
+    EXPECT_EQ(header.upper_level, expected.level) << expected.vertices;
+    ASSERT_EQ(header.upper_count, expected.count) << expected.vertices;
+    ASSERT_EQ(trees.upper.size(), header.upper_count + 1U);
+    for (std::uint32_t k = 0; k < header.upper_count; ++k)
+      EXPECT_EQ(unpack(trees.upper[k]), unpack(trees.nodes[header.node_begin[header.upper_level] + k])) << k;
+    EXPECT_EQ(unpack(trees.upper.back()), unpack(trees.nodes[header.node_begin[header.top]]));
+  }
+}
+
 TEST(ShapeTree, KeepsShapesApart) {
   const std::vector<Vec3> first = spiral(100);
   const std::vector<Vec3> second = spiral(40);
@@ -78,6 +97,7 @@ TEST(ShapeTree, KeepsShapesApart) {
   ASSERT_EQ(trees.headers.size(), 2U);
   EXPECT_EQ(trees.headers[1].vertex_begin, 104U);  // 100 filled up to whole leaves of 8
   EXPECT_EQ(trees.headers[1].node_begin[0], trees.headers[0].node_begin[trees.headers[0].top] + 1);
+  EXPECT_EQ(trees.headers[1].upper_begin, trees.headers[0].upper_count + 1);
   EXPECT_EQ(trees.headers[1].mean_edge_m, 2.0F);
 }
 

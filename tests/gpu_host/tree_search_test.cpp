@@ -1,15 +1,16 @@
 // The search of a pair's nearest vertices by several warps: against all vertices, and when it is told to end.
-#include "gpu/stages/tree_search.cuh"
-
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "core/method/proximity.hpp"
 #include "gpu/shape_tree.hpp"
+#include "gpu/stages/tree_start.cuh"
 #include "tests/gpu/small_scenes.hpp"
 
 namespace broadside::gpu {
@@ -24,14 +25,17 @@ struct Ending {
   bool hand_over(const SearchTeam& /*team*/, const TeamCounts& /*left*/, float /*limit*/) { return ++asked >= ends_at; }
 };
 
+using NodeWords = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
 // Two bumpy spheres in each other, searched by one block.
 class TwoBodies {
  public:
-  explicit TwoBodies(std::uint32_t members) : members_(members) {
-    const std::vector<core::Vec3> vertices = bumpy_sphere(20, 0.5F)->vertices;
+  explicit TwoBodies(std::uint32_t members, std::uint32_t rings = 20, float theta_m = 0.08F)
+      : members_(members), theta_m_(theta_m) {
+    const std::vector<core::Vec3> vertices = bumpy_sphere(rings, 0.5F)->vertices;
     std::vector<std::uint32_t> indices(vertices.size());
     std::iota(indices.begin(), indices.end(), 0U);
-    append_tree(trees_, vertices, indices, kThetaM);
+    append_tree(trees_, vertices, indices, theta_m);
     view_.body_count = 2;
     view_.shapes.count = 1;
     view_.shapes.trees = trees_.headers.data();
@@ -46,39 +50,73 @@ class TwoBodies {
       for (const PackedVec3& b : trees_.vertices) {
         const float d2 = core::squared_distance(a.v + positions_[0].v, b.v + positions_[1].v);
         const core::Proximity found{d2, std::bit_cast<std::uint32_t>(a.w), std::bit_cast<std::uint32_t>(b.w)};
-        if (d2 < kThetaM * kThetaM && core::is_nearer(found, nearest)) nearest = found;
+        if (d2 < theta_m_ * theta_m_ && core::is_nearer(found, nearest)) nearest = found;
       }
     }
     return nearest;
   }
 
-  // Ends at the `ends_at`-th time that it asks whether to hand over what is left. The stack has guards behind it.
+  // Ends at the `ends_at`-th time that it asks whether to hand over what is left.
   core::Proximity search(std::uint32_t ends_at) {
     asked_ = 0;
+    core::Proximity nearest;
+    in_block([&](const SearchTeam& team, const TreePair& pair) {
+      Ending ending{ends_at};
+      const core::Proximity own = nearest_by_trees(pair, team, TreeStart(pair, team).begin(), ending);
+      if (threadIdx.x == 0) asked_ = ending.asked;
+      if (core::is_nearer(own, nearest)) nearest = own;
+    });
+    return nearest;
+  }
+
+  // What is on the stack when a search begins, as the nodes' words.
+  NodeWords start() {
+    NodeWords found;
+    in_block([&](const SearchTeam& team, const TreePair& pair) {
+      const TeamCounts left = TreeStart(pair, team).begin();
+      if (threadIdx.x != 0) return;
+      EXPECT_EQ(left.leaves, 0U);
+      for (std::uint32_t k = 0; k < left.nodes; ++k) found.emplace(team.at(left, k).a, team.at(left, k).b);
+      EXPECT_EQ(found.size(), left.nodes) << "each once";
+    });
+    return found;
+  }
+  NodeWords near_upper_nodes() const {
+    const TreeHeader& tree = trees_.headers[0];
+    NodeWords near;
+    for (std::uint32_t a = 0; a < tree.upper_count; ++a) {
+      for (std::uint32_t b = 0; b < tree.upper_count; ++b) {
+        const core::Box box_a = core::translated(unpack(trees_.upper[a]), positions_[0].v);
+        const core::Box box_b = core::translated(unpack(trees_.upper[b]), positions_[1].v);
+        if (squared_gap(box_a, box_b) < theta_m_ * theta_m_)
+          near.emplace(tree.upper_level << 28 | a, tree.upper_level << 28 | b);
+      }
+    }
+    return near;
+  }
+  NodeWords roots() const { return {{trees_.headers[0].top << 28, trees_.headers[0].top << 28}}; }
+  std::uint32_t asked() const { return asked_; }
+
+ private:
+  // The stack has guards behind it.
+  template <typename Body>
+  void in_block(const Body& body) {
     constexpr std::uint32_t kGuard = 0xA5A5A5A5U;
     const std::uint32_t entries = members_ * stack_entries_of(trees_.headers[0].top + 1);
     std::vector<std::uint32_t> stack(4 * std::size_t{entries}, kGuard);
     TeamCounts counts[2] = {};
     std::uint32_t bound = std::bit_cast<std::uint32_t>(INFINITY);
-    core::Proximity nearest;
     on_host::run({{1}, {32 * members_}, 0}, 0, [&](unsigned char*) {
       const WarpShare share{threadIdx.x / 32, members_};
       const SearchTeam team{share, 0, {stack.data(), entries, entries}, counts};
-      TreePair pair(view_, {trees_.headers.data(), nullptr}, {{positions_[0].v, 0}, {positions_[1].v, 0}}, &bound);
-      Ending ending{ends_at};
-      const core::Proximity own = nearest_by_trees(pair, team, begin_at_roots(pair, team), ending);
-      if (threadIdx.x == 0) asked_ = ending.asked;
-      if (core::is_nearer(own, nearest)) nearest = own;
+      body(team, TreePair(view_, {trees_.headers.data(), nullptr, trees_.upper.data(), nullptr},
+                          {{positions_[0].v, 0}, {positions_[1].v, 0}}, &bound));
     });
     for (std::size_t k = 3 * std::size_t{entries}; k < stack.size(); ++k) EXPECT_EQ(stack[k], kGuard) << k;
-    return nearest;
   }
-  std::uint32_t asked() const { return asked_; }
-
- private:
-  static constexpr float kThetaM = 0.08F;
 
   std::uint32_t members_;  // warps
+  float theta_m_;
   ShapeTrees trees_;
   PackedVec3 positions_[2] = {{{0.1F, 0.0F, 0.0F}, 1.0F}, {{0.85F, 0.2F, -0.1F}, 1.0F}};
   FrameView view_;
@@ -102,6 +140,21 @@ TEST_P(TreeSearch, OfATeamFindsTheNearestOfAll) {
   EXPECT_TRUE(nearest.is_touching());
   EXPECT_EQ(nearest, bodies.nearest_of_all());
   EXPECT_GT(bodies.asked(), 0U) << "a long search";
+}
+
+TEST_P(TreeSearch, BeginsAtAllUpperNodesNearEachOther) {
+  TwoBodies bodies(GetParam());
+  EXPECT_GT(bodies.near_upper_nodes().size(), 1U);
+  EXPECT_EQ(bodies.start(), bodies.near_upper_nodes());
+}
+
+// Where everything is near everything.
+TEST_P(TreeSearch, BeginsAtTheRootsWhereTheStackIsTooSmall) {
+  TwoBodies bodies(GetParam(), 40, 5.0F);
+  EXPECT_EQ(bodies.near_upper_nodes().size(), 2500U);
+  const bool has_room = GetParam() == 16;
+  EXPECT_EQ(bodies.start(), has_room ? bodies.near_upper_nodes() : bodies.roots());
+  EXPECT_EQ(bodies.search(1000000), bodies.nearest_of_all());
 }
 
 TEST_P(TreeSearch, OfATeamEndsWhenWhatIsLeftIsHandedOver) {
