@@ -142,10 +142,10 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   constexpr bool kIsFew = kKind == FrameKind::kFew;
   const GridTeam grid(f.barrier);
   mark(grid, f, 0);
-  scratch.proximity.clear();
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);  // of few bodies
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
+    scratch.proximity.clear();
     shapes.begin(f);
     const bool is_needed = integrate_and_find_few(grid, f, shapes);
     shapes.end(f);
