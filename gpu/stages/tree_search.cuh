@@ -33,16 +33,6 @@ class NearChildren {
     if (is_second_near()) put(second_place(), second());
   }
 
-  // The one of this place, by the whole warp.
-  __device__ NodePair at(std::uint32_t place) const {
-    const unsigned as_first = __ballot_sync(kFullWarp, is_first_near() && first_place() == place);
-    const unsigned as_second = __ballot_sync(kFullWarp, is_second_near() && second_place() == place);
-    const NodePair own = as_first != 0 ? first_ : second();
-    const int source = __ffs(static_cast<int>(as_first | as_second)) - 1;
-    return {__shfl_sync(kFullWarp, own.a, source), __shfl_sync(kFullWarp, own.b, source),
-            __shfl_sync(kFullWarp, own.gap2, source)};
-  }
-
  private:
   __device__ static unsigned lanes_before() { return (1U << lane()) - 1U; }
   __device__ bool is_first_near() const { return (first_near_ >> lane() & 1U) != 0; }
