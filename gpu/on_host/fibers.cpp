@@ -100,6 +100,16 @@ void schedule() {
   }
 }
 
+// getcontext() may return twice as far as the compiler knows: not in a loop, whose variables it would not trust then.
+[[gnu::noinline]] void prepare(Fiber& fiber) {
+  fiber.stack = std::make_unique<unsigned char[]>(kStackBytes);
+  getcontext(&fiber.context);
+  fiber.context.uc_stack.ss_sp = fiber.stack.get();
+  fiber.context.uc_stack.ss_size = kStackBytes;
+  fiber.context.uc_link = nullptr;
+  makecontext(&fiber.context, enter, 0);
+}
+
 }  // namespace
 
 void run(const Launch& launch, std::size_t shared_bytes, const std::function<void(unsigned char*)>& body) {
@@ -119,12 +129,7 @@ void run(const Launch& launch, std::size_t shared_bytes, const std::function<voi
   for (unsigned k = 0; k < threads; ++k) {
     Fiber& fiber = own.fibers[k];
     fiber.place = {{k % launch.block_size.x}, {k / launch.block_size.x}};
-    fiber.stack = std::make_unique<unsigned char[]>(kStackBytes);
-    getcontext(&fiber.context);
-    fiber.context.uc_stack.ss_sp = fiber.stack.get();
-    fiber.context.uc_stack.ss_size = kStackBytes;
-    fiber.context.uc_link = nullptr;
-    makecontext(&fiber.context, enter, 0);
+    prepare(fiber);
   }
   schedule();
   grid = nullptr;
