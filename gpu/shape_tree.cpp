@@ -76,7 +76,7 @@ void append_tree(ShapeTrees& trees, std::span<const Vec3> vertices, std::span<co
     for (std::size_t n = 0; n < level.size(); ++n) parents[n / kFanOut] = joined(parents[n / kFanOut], level[n]);
     level = std::move(parents);
   }
-  trees.upper.push_back(trees.nodes.back());
+  for (const Box& root : level) trees.upper.push_back(pack(root));
   trees.headers.push_back(header);
 }
 

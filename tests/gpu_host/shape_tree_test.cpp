@@ -87,6 +87,13 @@ TEST(ShapeTree, NamesTheUpperNodesAndTheRootBehindThem) {
   }
 }
 
+TEST(ShapeTree, OfNoVerticesIsEmpty) {
+  const ShapeTrees trees = tree_of({});
+  EXPECT_TRUE(trees.nodes.empty());
+  EXPECT_TRUE(trees.upper.empty());
+  EXPECT_EQ(trees.headers[0].upper_count, 0U);
+}
+
 TEST(ShapeTree, KeepsShapesApart) {
   const std::vector<Vec3> first = spiral(100);
   const std::vector<Vec3> second = spiral(40);
