@@ -44,7 +44,7 @@ struct alignas(8) QuantizedVertex {
 static_assert(sizeof(QuantizedVertex) == 8, "two are read in one word of 16 bytes");
 
 // Cells of one shape, in body coordinates. Places are looked up in whole quanta, the same of all shapes of a scene; a
-// cell is 2^shift of them. No cells: count_x is 0.
+// cell is 2^shift of them. No cells: count_x is 0, and no coordinate is within the range.
 struct NearCells {
   core::Vec3 low;
   float quanta_per_m = 0.0F;
@@ -56,7 +56,7 @@ struct NearCells {
   std::uint32_t stride_y = 0;  // of cell_index
   std::uint32_t stride_z = 0;
   float lower_step_m = 0.0F;      // of `lower`
-  float range_m = 0.0F;           // lists are right where no world coordinate of the vertices is larger
+  float range_m = -1.0F;          // lists are right where no world coordinate of the vertices is larger
   std::uint32_t first_lower = 0;  // where the shape's words begin in the arrays shared by all shapes
   std::uint32_t first_list = 0;
   std::uint32_t first_entry = 0;

@@ -5,16 +5,17 @@
 
 #include "core/attributes.hpp"
 #include "gpu/placed_shape.hpp"
+#include "gpu/shape_tree.hpp"
 
 namespace broadside::gpu {
 
-// A node of each body's tree, level << 28 | index, and the squared gap of their boxes.
+// A node of each body's tree, by its word (shape_tree.hpp), and the squared gap of their boxes.
 struct NodePair {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   float gap2 = 0.0F;
 
-  BROADSIDE_HD bool are_leaves() const { return (a | b) >> 28 == 0; }
+  BROADSIDE_HD bool are_leaves() const { return level_of(a | b) == 0; }
 };
 
 struct SearchRest {

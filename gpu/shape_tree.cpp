@@ -61,22 +61,31 @@ void append_tree(ShapeTrees& trees, std::span<const Vec3> vertices, std::span<co
   while (trees.vertices.size() % kLeafVertices != 0)
     trees.vertices.push_back({{kFar, kFar, kFar}, std::bit_cast<float>(0xFFFFFFFFU)});
 
+  static_assert(kLeafVertices == kFanOut, "a block is as many vertices as nodes");
+  std::uint32_t below = header.vertex_begin / kLeafVertices;
+  header.leaf_offset = static_cast<std::uint32_t>(trees.nodes.size()) - below;
   for (std::uint32_t depth = 0;; ++depth) {
     header.top = depth;
+    header.root = node_word(depth, below);  // where this is the last
     header.node_begin[depth] = static_cast<std::uint32_t>(trees.nodes.size());
     header.node_count[depth] = static_cast<std::uint32_t>(level.size());
-    for (const Box& box : level) trees.nodes.push_back(pack(box));
+    for (const Box& box : level) trees.nodes.push_back(pack(box, node_word(depth, below++)));
+    while (trees.nodes.size() % kFanOut != 0) trees.nodes.push_back(pack(core::empty_box(), node_word(depth, 0)));
+    const auto nodes = std::span(trees.nodes).subspan(header.node_begin[depth], level.size());
     if (header.upper_count == 0 && (level.size() <= 1 || (depth > 0 && level.size() <= kMostUpperNodes))) {
       header.upper_level = depth;
       header.upper_count = header.node_count[depth];
-      for (const Box& box : level) trees.upper.push_back(pack(box));
+      trees.upper.insert(trees.upper.end(), nodes.begin(), nodes.end());
     }
-    if (level.size() <= 1) break;
+    if (level.size() <= 1) {
+      trees.upper.insert(trees.upper.end(), nodes.begin(), nodes.end());
+      break;
+    }
+    below = header.node_begin[depth] / kFanOut;
     std::vector<Box> parents((level.size() + kFanOut - 1) / kFanOut, core::empty_box());
     for (std::size_t n = 0; n < level.size(); ++n) parents[n / kFanOut] = joined(parents[n / kFanOut], level[n]);
     level = std::move(parents);
   }
-  for (const Box& root : level) trees.upper.push_back(pack(root));
   trees.headers.push_back(header);
 }
 

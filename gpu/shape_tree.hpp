@@ -16,10 +16,22 @@ constexpr std::uint32_t kFanOut = 8;
 // 8 * 8^9 vertices: more than an index of 28 bits can name, so never the limit.
 constexpr std::uint32_t kMaxTreeLevels = 10;
 
-// Node pairs that wait while two trees of so many levels are descended at once: a pair of nodes of equal levels leaves
-// at most 63 more than it was, a lone descent 7 more.
+// Node pairs that wait while two trees of so many levels are descended at once: a pair of nodes leaves at most 63 more
+// than it was, all of a lower level than the higher of the two.
 constexpr std::uint32_t stack_entries_of(std::uint32_t levels) {
   return 64 * levels;
+}
+
+// What a node's box says of what is below it: the node's level, and which block of eight, of `nodes` or, of a leaf, of
+// `vertices`. So who looks at a box knows where its children are.
+BROADSIDE_HD constexpr std::uint32_t node_word(std::uint32_t level, std::uint32_t block) {
+  return level << 28 | block;
+}
+BROADSIDE_HD constexpr std::uint32_t level_of(std::uint32_t word) {
+  return word >> 28;
+}
+BROADSIDE_HD constexpr std::uint32_t block_of(std::uint32_t word) {
+  return word & 0xFFFFFFFU;
 }
 
 // A search of two trees by several warps begins on the lowest level that has so few nodes, and is not that of the
@@ -28,10 +40,12 @@ constexpr std::uint32_t stack_entries_of(std::uint32_t levels) {
 constexpr std::uint32_t kMostUpperNodes = 128;
 
 // Where one shape's tree lies in the arrays shared by all shapes. Level 0 holds the leaves; level `top` is the root,
-// one node. Children of node n are 8 n .. 8 n + 7 of the level below, as far as they exist; leaf n holds vertices
-// 8 n .. 8 n + 7, the last leaf being filled up with vertices at infinity, which are near nothing.
+// one node. Children of node n are 8 n .. 8 n + 7 of the level below, leaf n holds vertices 8 n .. 8 n + 7. Every level
+// is filled up with empty boxes, the last leaf with vertices at infinity: both are near nothing.
 struct TreeHeader {
   std::uint32_t top = 0;
+  std::uint32_t root = 0;         // its word
+  std::uint32_t leaf_offset = 0;  // from the block that a leaf's word names to the leaf's own place among `nodes`
   std::uint32_t node_begin[kMaxTreeLevels] = {};
   std::uint32_t node_count[kMaxTreeLevels] = {};
   std::uint32_t vertex_begin = 0;
@@ -43,7 +57,7 @@ struct TreeHeader {
 
 struct ShapeTrees {
   std::vector<TreeHeader> headers;   // one per shape
-  std::vector<PackedBox> nodes;      // body coordinates
+  std::vector<PackedBox> nodes;      // body coordinates; the low tag is the node's word
   std::vector<PackedBox> upper;      // likewise: of each shape its upper nodes, then its root
   std::vector<PackedVec3> vertices;  // body coordinates; w holds the bits of the index in the mesh
 };

@@ -23,8 +23,8 @@ __device__ inline CellRoles cell_roles(const FrameView& f, const ShapeHeaders& h
   const core::Vec3 xj = bodies.j.x;
   const float far = f.shapes.extent_m + fmaxf(fmaxf(fmaxf(fabsf(xi.x), fabsf(xi.y)), fabsf(xi.z)),
                                               fmaxf(fmaxf(fabsf(xj.x), fabsf(xj.y)), fabsf(xj.z)));
-  const bool i_answers = of_i.count_x != 0 && far <= of_i.range_m;
-  const bool j_answers = of_j.count_x != 0 && far <= of_j.range_m;
+  const bool i_answers = far <= of_i.range_m;
+  const bool j_answers = far <= of_j.range_m;
   // The body of fewer vertices asks.
   const bool is_asked_by_j = i_answers && (!j_answers || headers.trees[bodies.j.shape].node_count[0] <
                                                              headers.trees[bodies.i.shape].node_count[0]);

@@ -26,6 +26,17 @@ __device__ inline core::Box fetched(const PackedBox* from) {
   return box_of(words[0], words[1]);
 }
 
+// A node of a vertex tree, and its word.
+struct FetchedNode {
+  core::Box box;
+  std::uint32_t word = 0;
+};
+__device__ inline FetchedNode fetched_node(const PackedBox* from) {
+  const auto* words = reinterpret_cast<const uint4*>(from);
+  const uint4 low = words[0];
+  return {box_of(low, words[1]), low.w};
+}
+
 __device__ inline MeasuredPair fetched(const MeasuredPair* from) {
   const uint4 word = *reinterpret_cast<const uint4*>(from);
   return {{__uint_as_float(word.x), word.y, word.z}, word.w};

@@ -21,7 +21,7 @@ struct ProximityScratch {
 
   std::uint32_t bound[kMaxBlockWarps];
   unsigned long long nearest[kMaxBlockWarps];
-  TeamCounts counts[kMaxBlockWarps][2];
+  TeamCounts counts[kMaxBlockWarps][kTeamTurns];
   std::uint32_t place[kMaxBlockWarps];
 
   // By all threads; the block meets before teams measure anything.
@@ -30,7 +30,7 @@ struct ProximityScratch {
     if (lane() != 0) return;
     bound[warp] = __float_as_uint(INFINITY);
     nearest[warp] = kNoVertices;
-    counts[warp][0] = counts[warp][1] = {};
+    for (TeamCounts& turn : counts[warp]) turn = {};
   }
 };
 
@@ -64,17 +64,16 @@ class ProximityStage {
     const std::uint32_t all_warps = gridDim.x * warps;
     const auto count = static_cast<std::uint32_t>(min(pairs_.count, std::uint64_t{all_warps}));
     const std::uint32_t besides = pairs_.are_levels_left ? count : 0;
-    std::uint32_t members = 1;
-    std::uint32_t teams = warps;  // of a block
-    for (; teams > 1 && count * members * 2 + besides <= all_warps; teams /= 2) members *= 2;
+    const std::uint32_t shift = shift_of_members(count, all_warps - besides, warps);
+    const std::uint32_t teams = warps >> shift;  // of a block
     // The last of a block's teams has no pair, if any of them has none: its last warp sees to what the others look at.
     const bool looks = pairs_.are_levels_left && threadIdx.x / 32 == warps - 1 &&
-                       (members == 1 || (teams - 1) * gridDim.x + blockIdx.x >= pairs_.count);
+                       (shift == 0 || (teams - 1) * gridDim.x + blockIdx.x >= pairs_.count);
     if (looks) levels_.begin();
-    if (members == 1)
+    if (shift == 0)
       measure_by_warps();
     else
-      measure_by_teams(members);
+      measure_by_teams(shift);
     if (looks) levels_.end();
   }
 
@@ -94,6 +93,16 @@ class ProximityStage {
 
  private:
   using Cells = NearestByCells<Levels::kAreOfFewBodies>;
+
+  // How many warps a pair has, as a power of two: the largest of which there are enough for so many pairs, at most a
+  // block's.
+  __device__ static std::uint32_t shift_of_members(std::uint32_t pairs, std::uint32_t warps,
+                                                   std::uint32_t block_warps) {
+    if (warps < pairs) return 0;
+    std::uint32_t shift = __clz(static_cast<int>(pairs)) - __clz(static_cast<int>(warps));
+    if (pairs << shift > warps) --shift;
+    return min(shift, 31U - __clz(static_cast<int>(block_warps)));
+  }
 
   // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at
   // once where there are very many, because all warps take from one counter.
@@ -123,10 +132,11 @@ class ProximityStage {
   }
 
   // There are as many teams as pairs, or more. Where levels are left, the warps of those that have no pair see to them.
-  __device__ void measure_by_teams(std::uint32_t members) const {
+  __device__ void measure_by_teams(std::uint32_t shift) const {
     const std::uint32_t warp = threadIdx.x / 32;
-    const std::uint32_t team = warp / members;
-    const WarpShare share{warp % members, members};
+    const std::uint32_t team = warp >> shift;
+    const std::uint32_t members = 1U << shift;
+    const WarpShare share{warp & (members - 1), members};
     const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
     // Few bodies' kernel has cleared it when it began: a wait less. So early, in the kernels for more bodies, it makes
     // contacts wait longer, 7 % of a pile's frame.
@@ -141,7 +151,7 @@ class ProximityStage {
                                                    : nearest_by_team(bodies, k, team, share);
       tell_team(team, best);
     } else if (pairs_.are_levels_left) {
-      const std::uint64_t idle = std::uint64_t{gridDim.x} * (blockDim.x / 32 / members) - pairs_.count;
+      const std::uint64_t idle = std::uint64_t{gridDim.x} * (blockDim.x / 32 >> shift) - pairs_.count;
       const std::uint64_t other = share.member * idle + (k - pairs_.count);
       if (other < pairs_.count) levels_.look(pairs_.bodies(f_, other), other);
     }
@@ -160,6 +170,7 @@ class ProximityStage {
     if (threadIdx.x == 0) {
       scratch_.bound[0] = __float_as_uint(rest.bound_m2);
       scratch_.nearest[0] = ProximityScratch::kNoVertices;
+      scratch_.counts[0][1] = {};
     }
     __syncthreads();
     if (part.counts().any()) {

@@ -45,7 +45,10 @@ class RestOfPair {
   __device__ bool hand_over(const SearchTeam& team, const TeamCounts& left, float limit) {
     if (is_refused_ || left.nodes + left.leaves > RestsView::kEntries) return false;
     const bool is_first = team.member == 0 && lane() == 0;
-    if (is_first) *place_ = FewCounts::unpacked(atomicAdd(f_.barrier, FewCounts{0, 0, 1}.packed())).rests - before_;
+    if (team.member == 0) {
+      const unsigned long long tally = add_by_first_lane(f_.barrier, FewCounts{0, 0, 1}.packed());
+      if (is_first) *place_ = FewCounts::unpacked(tally).rests - before_;
+    }
     team.sync();
     const std::uint32_t place = *place_;
     is_refused_ = place >= most_rests();

@@ -10,27 +10,28 @@
 
 namespace broadside::gpu {
 
-// What a warp finds near in a pair of nodes that it opens: of their 64 pairs of children a lane has two, whose nodes of
-// A are four apart.
+// What a warp finds near in a pair of nodes that it opens: of their 64 pairs of children a lane has two, with the same
+// child of B.
 class NearChildren {
  public:
   NearChildren() = default;
   // By the whole warp.
-  __device__ NearChildren(const NodePair& first, float second_gap2, bool is_first_near, bool is_second_near)
+  __device__ NearChildren(const NodePair& first, const NodePair& second, bool is_first_near, bool is_second_near)
       : first_(first),
-        second_gap2_(second_gap2),
+        second_(second),
         first_near_(__ballot_sync(kFullWarp, is_first_near)),
         second_near_(__ballot_sync(kFullWarp, is_second_near)) {}
 
   // The same in all lanes.
   __device__ std::uint32_t count() const { return __popc(first_near_) + __popc(second_near_); }
+  __device__ bool are_any() const { return (first_near_ | second_near_) != 0; }
   __device__ bool are_leaves() const { return first_.are_leaves(); }
 
   // Calls put(place, pair) for this lane's, which have their places among all.
   template <typename Put>
   __device__ void each(const Put& put) const {
     if (is_first_near()) put(first_place(), first_);
-    if (is_second_near()) put(second_place(), second());
+    if (is_second_near()) put(second_place(), second_);
   }
 
  private:
@@ -39,10 +40,9 @@ class NearChildren {
   __device__ bool is_second_near() const { return (second_near_ >> lane() & 1U) != 0; }
   __device__ std::uint32_t first_place() const { return __popc(first_near_ & lanes_before()); }
   __device__ std::uint32_t second_place() const { return __popc(first_near_) + __popc(second_near_ & lanes_before()); }
-  __device__ NodePair second() const { return {first_.a + 4, first_.b, second_gap2_}; }
 
   NodePair first_;
-  float second_gap2_ = 0.0F;
+  NodePair second_;
   unsigned first_near_ = 0;  // of which lanes
   unsigned second_near_ = 0;
 };
@@ -53,72 +53,60 @@ class TreePair {
  public:
   __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies, std::uint32_t* bound)
       : nodes_(f.shapes.tree_nodes),
-        a_(headers.trees[bodies.i.shape]),
-        b_(headers.trees[bodies.j.shape]),
-        vertices_a_(f.shapes.tree_vertices + a_.vertex_begin),
-        vertices_b_(f.shapes.tree_vertices + b_.vertex_begin),
+        vertices_(f.shapes.tree_vertices),
+        a_(headers.trees[bodies.i.shape], headers.upper),
+        b_(headers.trees[bodies.j.shape], headers.upper),
         xa_(bodies.i.x),
         xb_(bodies.j.x),
-        upper_a_(headers.upper + a_.upper_begin),
-        upper_b_(headers.upper + b_.upper_begin),
         bound_(bound) {
-    const float theta_m = core::pair_theta_m(f.parameters, a_.mean_edge_m, b_.mean_edge_m);
+    const float theta_m = core::pair_theta_m(f.parameters, headers.trees[bodies.i.shape].mean_edge_m,
+                                             headers.trees[bodies.j.shape].mean_edge_m);
     theta2_ = theta_m * theta_m;
   }
 
-  __device__ NodePair roots() const { return {a_.top << 28, b_.top << 28, 0.0F}; }
-  __device__ std::uint32_t top() const { return max(a_.top, b_.top); }
+  __device__ NodePair roots() const { return {a_.root, b_.root, 0.0F}; }
+  __device__ std::uint32_t top() const { return max(level_of(a_.root), level_of(b_.root)); }
   __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
   // This lane's.
   __device__ core::Proximity best() const { return best_; }
 
-  // Of a body's upper nodes and of its root, and a pair of the former.
-  __device__ std::uint32_t upper_count(bool of_a) const { return (of_a ? a_ : b_).upper_count; }
-  __device__ core::Box upper(bool of_a, std::uint32_t k) const {
-    return core::translated(fetched((of_a ? upper_a_ : upper_b_) + k), of_a ? xa_ : xb_);
-  }
-  __device__ core::Box root(bool of_a) const {
-    return core::translated(fetched((of_a ? upper_a_ : upper_b_) + upper_count(of_a)), of_a ? xa_ : xb_);
-  }
-  __device__ NodePair upper_pair(std::uint32_t a, std::uint32_t b, float gap2) const {
-    return {a_.upper_level << 28 | a, b_.upper_level << 28 | b, gap2};
+  // Of a body's upper nodes, and of its root, which lies behind them.
+  __device__ std::uint32_t upper_count(bool of_a) const { return of_a ? a_.upper_count : b_.upper_count; }
+  __device__ FetchedNode upper(bool of_a, std::uint32_t k) const {
+    FetchedNode node = fetched_node((of_a ? a_.upper : b_.upper) + k);
+    node.box = core::translated(node.box, of_a ? xa_ : xb_);
+    return node;
   }
   __device__ bool is_near(float gap2) const { return gap2 < theta2_; }
   // How many levels there are below these nodes.
   __device__ std::uint32_t upper_level() const { return max(a_.upper_level, b_.upper_level); }
 
-  // By the whole warp: the higher of the two nodes is opened, both when they are level. All boxes are asked for before
-  // any of them is looked at: one wait. So a child that there is not is another one, and not near.
+  // By the whole warp: both nodes are opened, but a leaf stays as it is. All boxes are asked for before any of them is
+  // looked at: one wait.
   __device__ NearChildren open(const NodePair& parents, float limit) const {
-    const std::uint32_t level_a = parents.a >> 28;
-    const std::uint32_t level_b = parents.b >> 28;
-    const bool opens_a = level_a >= level_b;
-    const bool opens_b = level_b >= level_a;
-    const std::uint32_t child_level_a = opens_a ? level_a - 1 : level_a;
-    const std::uint32_t child_level_b = opens_b ? level_b - 1 : level_b;
-    const std::uint32_t first_a = (parents.a & 0xFFFFFFFU) * (opens_a ? kFanOut : 1U);
-    const std::uint32_t first_b = (parents.b & 0xFFFFFFFU) * (opens_b ? kFanOut : 1U);
-    const std::uint32_t count_a = opens_a ? min(kFanOut, a_.node_count[child_level_a] - first_a) : 1U;
-    const std::uint32_t count_b = opens_b ? min(kFanOut, b_.node_count[child_level_b] - first_b) : 1U;
-
+    const bool opens_a = level_of(parents.a) != 0;
+    const bool opens_b = level_of(parents.b) != 0;
     const std::uint32_t p = lane() / 8;
     const std::uint32_t q = lane() % 8;
-    const PackedBox* of_a = nodes_ + a_.node_begin[child_level_a] + first_a;
-    const PackedBox* of_b = nodes_ + b_.node_begin[child_level_b] + first_b;
-    core::Box low = fetched(of_a + min(p, count_a - 1));
-    core::Box high = fetched(of_a + min(p + 4, count_a - 1));
-    core::Box box_b = fetched(of_b + min(q, count_b - 1));
+    // Of a leaf all lanes have its own box, and the first of them takes it.
+    const auto place = [](bool opens, std::uint32_t word, std::uint32_t child, std::uint32_t leaf_offset) {
+      return opens ? block_of(word) * kFanOut + child : word + leaf_offset;
+    };
+    FetchedNode low = fetched_node(nodes_ + place(opens_a, parents.a, p, a_.leaf_offset));
+    FetchedNode high = fetched_node(nodes_ + place(opens_a, parents.a, p + 4, a_.leaf_offset));
+    FetchedNode of_b = fetched_node(nodes_ + place(opens_b, parents.b, q, b_.leaf_offset));
     ask_for_all();
-    low = core::translated(low, xa_);
-    high = core::translated(high, xa_);
-    box_b = core::translated(box_b, xb_);
-    const float low_gap2 = squared_gap(low, box_b);
-    const float high_gap2 = squared_gap(high, box_b);
+    low.box = core::translated(low.box, xa_);
+    high.box = core::translated(high.box, xa_);
+    of_b.box = core::translated(of_b.box, xb_);
+    const float low_gap2 = squared_gap(low.box, of_b.box);
+    const float high_gap2 = squared_gap(high.box, of_b.box);
     const auto is_near = [&](float gap2) { return gap2 < theta2_ && gap2 <= limit; };
-    return {{child_level_a << 28 | (first_a + p), child_level_b << 28 | (first_b + q), low_gap2},
-            high_gap2,
-            p < count_a && q < count_b && is_near(low_gap2),
-            p + 4 < count_a && q < count_b && is_near(high_gap2)};
+    const bool takes_b = opens_b || q == 0;
+    return {{low.word, of_b.word, low_gap2},
+            {high.word, of_b.word, high_gap2},
+            (opens_a || p == 0) && takes_b && is_near(low_gap2),
+            opens_a && takes_b && is_near(high_gap2)};
   }
 
   // By the whole warp: up to four pairs of leaves, eight lanes a pair: a lane has one vertex of A and meets eight of B.
@@ -127,9 +115,10 @@ class TreePair {
   __device__ void meet(bool has_leaves, const NodePair& leaves, float limit) {
     static_assert(kLeafVertices % kAtOnce == 0);
     const bool meets = has_leaves && leaves.gap2 <= limit;
-    // Where there is nothing to meet, the first leaf is asked for, and not looked at.
-    const PackedVec3* of_b = vertices_b_ + (meets ? leaves.b * kLeafVertices : 0U);
-    const PackedVec3 mine = fetched(vertices_a_ + (meets ? leaves.a * kLeafVertices : 0U) + lane() % 8);
+    // A leaf's word is its block of vertices. Where there is nothing to meet, the first is asked for, and not looked
+    // at.
+    const PackedVec3* of_b = vertices_ + (meets ? leaves.b * kLeafVertices : 0U);
+    const PackedVec3 mine = fetched(vertices_ + (meets ? leaves.a * kLeafVertices : 0U) + lane() % 8);
     const core::Vec3 va = mine.v + xa_;
     core::Proximity nearest{INFINITY, __float_as_uint(mine.w), 0};
 #pragma unroll
@@ -155,15 +144,28 @@ class TreePair {
   }
 
  private:
+  // What a search asks of a tree again and again, read once: headers may lie in either memory.
+  struct Tree {
+    __device__ Tree(const TreeHeader& header, const PackedBox* all_upper)
+        : root(header.root),
+          leaf_offset(header.leaf_offset),
+          upper(all_upper + header.upper_begin),
+          upper_count(header.upper_count),
+          upper_level(header.upper_level) {}
+
+    std::uint32_t root;
+    std::uint32_t leaf_offset;
+    const PackedBox* upper;
+    std::uint32_t upper_count;
+    std::uint32_t upper_level;
+  };
+
   const PackedBox* nodes_;
-  const TreeHeader& a_;
-  const TreeHeader& b_;
-  const PackedVec3* vertices_a_;
-  const PackedVec3* vertices_b_;
+  const PackedVec3* vertices_;
+  Tree a_;
+  Tree b_;
   core::Vec3 xa_;
   core::Vec3 xb_;
-  const PackedBox* upper_a_;
-  const PackedBox* upper_b_;
   std::uint32_t* bound_;
   float theta2_ = 0.0F;
   core::Proximity best_;
@@ -211,7 +213,8 @@ __device__ inline bool is_much(const TeamCounts& left) {
 struct SearchTeam : WarpShare {  // of two or more
   std::uint32_t barrier = 0;     // the team's number in its block
   SearchStack stack;             // of all members together
-  // By turns: how many pairs of nodes and of leaves are left. In shared memory.
+  // [kTeamTurns] how many pairs of nodes and of leaves rounds add. In shared memory; the second is clear when a search
+  // goes on from what the stack holds.
   TeamCounts* counts = nullptr;
 
   __device__ void sync() const { sync_warps(barrier, members); }
@@ -227,11 +230,21 @@ struct SearchTeam : WarpShare {  // of two or more
   }
 };
 
-// By one warp of a team: what is near goes to the stack, and is counted.
-__device__ inline void put_for_team(const SearchTeam& team, const NearChildren& near, TeamCounts& counts) {
-  const std::uint32_t count = near.count();
-  if (count == 0) return;
-  const std::uint32_t first = room_for_warp(count, near.are_leaves() ? &counts.leaves : &counts.nodes);
+// Rounds add to these by turns: what one adds to is clear, being cleared in the round before.
+constexpr std::uint32_t kTeamTurns = 4;
+
+// By one warp of a team: room for what is near among all that this round adds. Returns its place, to the first lane:
+// it is waited for where it is used.
+__device__ inline std::uint32_t room_for_near(const NearChildren& near, TeamCounts& added) {
+  std::uint32_t room = 0;
+  if (near.are_any() && lane() == 0) room = atomicAdd(near.are_leaves() ? &added.leaves : &added.nodes, near.count());
+  return room;
+}
+// And it goes there, behind what is kept.
+__device__ inline void put_for_team(const SearchTeam& team, const NearChildren& near, const TeamCounts& kept,
+                                    std::uint32_t room) {
+  if (!near.are_any()) return;
+  const std::uint32_t first = __shfl_sync(kFullWarp, room, 0) + (near.are_leaves() ? kept.leaves : kept.nodes);
   const SearchStack stack = near.are_leaves() ? team.leaves() : team.nodes();
   near.each([&](std::uint32_t place, const NodePair& pair) { stack.put(first + place, pair); });
 }
@@ -244,14 +257,14 @@ template <typename Rest>
 __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, TeamCounts left, Rest& rest) {
   const SearchStack nodes = team.nodes();
   const SearchStack leaves = team.leaves();
-  // One warp alone, opening one pair after the other, never adds more than this.
+  // One warp alone, opening one pair after the other, never adds more than this. A pair adds 63.
   const std::uint32_t reserve = 63 * trees.top();
   for (std::uint32_t round = 1; left.any(); ++round) {
     // What all members do follows from what is left, so that they agree without a word.
     const std::uint32_t groups = min(team.members, left.nodes > 0 ? left.leaves / 4 : (left.leaves + 3) / 4);
     const std::uint32_t met = min(4 * groups, left.leaves);
     std::uint32_t opened = min(min(team.members - groups, left.nodes), (leaves.entries - (left.leaves - met)) / 64);
-    const std::uint32_t spare = nodes.entries > reserve + left.nodes ? (nodes.entries - reserve - left.nodes) / 63 : 0U;
+    const std::uint32_t spare = nodes.entries > reserve + left.nodes ? (nodes.entries - reserve - left.nodes) / 64 : 0U;
     opened = min(opened, max(spare, 1U));
     const bool meets = team.member < groups;
     const bool opens = !meets && team.member - groups < opened;
@@ -259,17 +272,19 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
     NodePair own;
     if (meets && leaf < met) own = leaves.at(left.leaves - 1 - leaf);
     if (opens) own = nodes.at(left.nodes - 1 - (team.member - groups));
-    TeamCounts& next = team.counts[round % 2];
-    if (team.member == 0 && lane() == 0) next = {left.nodes - opened, left.leaves - met};
+    TeamCounts& added = team.counts[round % kTeamTurns];
+    if (team.member == 0 && lane() == 0) team.counts[(round + 1) % kTeamTurns] = {};
     const float limit = trees.limit();
     NearChildren near;
     if (meets) trees.meet<kLeafVertices>(leaf < met, own, limit);
     if (opens && own.gap2 <= limit) near = trees.open(own, limit);
+    const std::uint32_t room = room_for_near(near, added);
     // By now all have taken their own off the stack.
     team.sync();
-    put_for_team(team, near, next);
+    const TeamCounts kept{left.nodes - opened, left.leaves - met};
+    put_for_team(team, near, kept, room);
     team.sync();
-    left = next;
+    left = {kept.nodes + added.nodes, kept.leaves + added.leaves};
     if (rest.is_asked_after(round) && is_much(left) && rest.hand_over(team, left, trees.limit())) break;
   }
   return trees.best();

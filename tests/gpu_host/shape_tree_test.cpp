@@ -68,6 +68,29 @@ TEST(ShapeTree, BoxesAreTheBoundsOfTheirLeaves) {
   }
 }
 
+// Of a shape behind another one.
+TEST(ShapeTree, EveryNodeNamesTheBlockOfItsChildren) {
+  ShapeTrees trees = tree_of(spiral(100));
+  const std::vector<Vec3> vertices = spiral(2503);
+  const std::vector<std::uint32_t> indices(vertices.size(), 7);
+  append_tree(trees, vertices, indices, 1.0F);
+  const TreeHeader& header = trees.headers[1];
+  for (std::uint32_t level = 0; level <= header.top; ++level) {
+    EXPECT_EQ(header.node_begin[level] % kFanOut, 0U);
+    for (std::uint32_t n = 0; n < (header.node_count[level] + kFanOut - 1) / kFanOut * kFanOut; ++n) {
+      const PackedBox& node = trees.nodes[header.node_begin[level] + n];
+      EXPECT_EQ(level_of(node.low_tag), level);
+      EXPECT_EQ(core::is_empty(unpack(node)), n >= header.node_count[level]);
+      if (n >= header.node_count[level]) continue;
+      const std::uint32_t first = level == 0 ? header.vertex_begin : header.node_begin[level - 1];
+      EXPECT_EQ(block_of(node.low_tag) * kFanOut, first + n * kFanOut) << "level " << level << " node " << n;
+      if (level > 0) continue;
+      EXPECT_EQ(node.low_tag + header.leaf_offset, header.node_begin[0] + n);
+    }
+  }
+  EXPECT_EQ(header.root, trees.nodes[header.node_begin[header.top]].low_tag);
+}
+
 // Of a single leaf, of a leaf's parent, and of the lowest level that has so few nodes.
 TEST(ShapeTree, NamesTheUpperNodesAndTheRootBehindThem) {
   const struct {
@@ -84,6 +107,7 @@ TEST(ShapeTree, NamesTheUpperNodesAndTheRootBehindThem) {
     for (std::uint32_t k = 0; k < header.upper_count; ++k)
       EXPECT_EQ(unpack(trees.upper[k]), unpack(trees.nodes[header.node_begin[header.upper_level] + k])) << k;
     EXPECT_EQ(unpack(trees.upper.back()), unpack(trees.nodes[header.node_begin[header.top]]));
+    EXPECT_EQ(trees.upper.back().low_tag, header.root);
   }
 }
 
@@ -103,7 +127,7 @@ TEST(ShapeTree, KeepsShapesApart) {
   append_tree(trees, second, std::span(indices).first(40), 2.0F);
   ASSERT_EQ(trees.headers.size(), 2U);
   EXPECT_EQ(trees.headers[1].vertex_begin, 104U);  // 100 filled up to whole leaves of 8
-  EXPECT_EQ(trees.headers[1].node_begin[0], trees.headers[0].node_begin[trees.headers[0].top] + 1);
+  EXPECT_EQ(trees.headers[1].node_begin[0], trees.headers[0].node_begin[trees.headers[0].top] + kFanOut);
   EXPECT_EQ(trees.headers[1].upper_begin, trees.headers[0].upper_count + 1);
   EXPECT_EQ(trees.headers[1].mean_edge_m, 2.0F);
 }

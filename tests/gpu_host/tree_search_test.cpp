@@ -1,10 +1,12 @@
 // The search of a pair's nearest vertices by several warps: against all vertices, and when it is told to end.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,17 +29,17 @@ struct Ending {
 
 using NodeWords = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-// Two bumpy spheres in each other, searched by one block.
+// Two bumpy spheres in each other, of so many rings, searched by one block.
 class TwoBodies {
  public:
   explicit TwoBodies(std::uint32_t members, std::uint32_t rings = 20, float theta_m = 0.08F)
+      : TwoBodies(members, {rings, rings}, theta_m) {}
+  TwoBodies(std::uint32_t members, std::pair<std::uint32_t, std::uint32_t> rings, float theta_m)
       : members_(members), theta_m_(theta_m) {
-    const std::vector<core::Vec3> vertices = bumpy_sphere(rings, 0.5F)->vertices;
-    std::vector<std::uint32_t> indices(vertices.size());
-    std::iota(indices.begin(), indices.end(), 0U);
-    append_tree(trees_, vertices, indices, theta_m);
+    append(bumpy_sphere(rings.first, 0.5F)->vertices);
+    append(bumpy_sphere(rings.second, 0.5F)->vertices);
     view_.body_count = 2;
-    view_.shapes.count = 1;
+    view_.shapes.count = 2;
     view_.shapes.trees = trees_.headers.data();
     view_.shapes.tree_nodes = trees_.nodes.data();
     view_.shapes.tree_vertices = trees_.vertices.data();
@@ -46,8 +48,8 @@ class TwoBodies {
 
   core::Proximity nearest_of_all() const {
     core::Proximity nearest;
-    for (const PackedVec3& a : trees_.vertices) {
-      for (const PackedVec3& b : trees_.vertices) {
+    for (const PackedVec3& a : vertices(0)) {
+      for (const PackedVec3& b : vertices(1)) {
         const float d2 = core::squared_distance(a.v + positions_[0].v, b.v + positions_[1].v);
         const core::Proximity found{d2, std::bit_cast<std::uint32_t>(a.w), std::bit_cast<std::uint32_t>(b.w)};
         if (d2 < theta_m_ * theta_m_ && core::is_nearer(found, nearest)) nearest = found;
@@ -82,35 +84,49 @@ class TwoBodies {
     return found;
   }
   NodeWords near_upper_nodes() const {
-    const TreeHeader& tree = trees_.headers[0];
     NodeWords near;
-    for (std::uint32_t a = 0; a < tree.upper_count; ++a) {
-      for (std::uint32_t b = 0; b < tree.upper_count; ++b) {
-        const core::Box box_a = core::translated(unpack(trees_.upper[a]), positions_[0].v);
-        const core::Box box_b = core::translated(unpack(trees_.upper[b]), positions_[1].v);
-        if (squared_gap(box_a, box_b) < theta_m_ * theta_m_)
-          near.emplace(tree.upper_level << 28 | a, tree.upper_level << 28 | b);
+    for (const PackedBox& a : upper(0)) {
+      for (const PackedBox& b : upper(1)) {
+        const core::Box box_a = core::translated(unpack(a), positions_[0].v);
+        const core::Box box_b = core::translated(unpack(b), positions_[1].v);
+        if (squared_gap(box_a, box_b) < theta_m_ * theta_m_) near.emplace(a.low_tag, b.low_tag);
       }
     }
     return near;
   }
-  NodeWords roots() const { return {{trees_.headers[0].top << 28, trees_.headers[0].top << 28}}; }
+  NodeWords roots() const { return {{trees_.headers[0].root, trees_.headers[1].root}}; }
   std::uint32_t asked() const { return asked_; }
 
+  std::uint32_t top(std::uint32_t body) const { return trees_.headers[body].top; }
+
  private:
+  void append(const std::vector<core::Vec3>& vertices) {
+    std::vector<std::uint32_t> indices(vertices.size());
+    std::iota(indices.begin(), indices.end(), 0U);
+    append_tree(trees_, vertices, indices, theta_m_);
+  }
+  std::span<const PackedVec3> vertices(std::uint32_t body) const {
+    const TreeHeader& tree = trees_.headers[body];
+    return std::span(trees_.vertices).subspan(tree.vertex_begin, std::size_t{tree.node_count[0]} * kLeafVertices);
+  }
+  std::span<const PackedBox> upper(std::uint32_t body) const {
+    const TreeHeader& tree = trees_.headers[body];
+    return std::span(trees_.upper).subspan(tree.upper_begin, tree.upper_count);
+  }
+
   // The stack has guards behind it.
   template <typename Body>
   void in_block(const Body& body) {
     constexpr std::uint32_t kGuard = 0xA5A5A5A5U;
-    const std::uint32_t entries = members_ * stack_entries_of(trees_.headers[0].top + 1);
+    const std::uint32_t entries = members_ * stack_entries_of(std::max(top(0), top(1)) + 1);
     std::vector<std::uint32_t> stack(4 * std::size_t{entries}, kGuard);
-    TeamCounts counts[2] = {};
+    TeamCounts counts[kTeamTurns] = {};
     std::uint32_t bound = std::bit_cast<std::uint32_t>(INFINITY);
     on_host::run({{1}, {32 * members_}, 0}, 0, [&](unsigned char*) {
       const WarpShare share{threadIdx.x / 32, members_};
       const SearchTeam team{share, 0, {stack.data(), entries, entries}, counts};
       body(team, TreePair(view_, {trees_.headers.data(), nullptr, trees_.upper.data(), nullptr},
-                          {{positions_[0].v, 0}, {positions_[1].v, 0}}, &bound));
+                          {{positions_[0].v, 0}, {positions_[1].v, 1}}, &bound));
     });
     for (std::size_t k = 3 * std::size_t{entries}; k < stack.size(); ++k) EXPECT_EQ(stack[k], kGuard) << k;
   }
@@ -140,6 +156,20 @@ TEST_P(TreeSearch, OfATeamFindsTheNearestOfAll) {
   EXPECT_TRUE(nearest.is_touching());
   EXPECT_EQ(nearest, bodies.nearest_of_all());
   EXPECT_GT(bodies.asked(), 0U) << "a long search";
+}
+
+// Down to a leaf that waits while the other's tree is descended; of two leaves alone, too.
+TEST_P(TreeSearch, OfTreesOfDifferentHeightsFindsTheNearestOfAll) {
+  const std::pair<std::uint32_t, std::uint32_t> kRings[] = {{3, 66}, {66, 3}, {2, 20}, {20, 2}, {6, 40}, {2, 2}};
+  std::set<std::pair<std::uint32_t, std::uint32_t>> tops;
+  for (const auto& rings : kRings) {
+    TwoBodies bodies(GetParam(), rings, 0.3F);
+    tops.emplace(bodies.top(0), bodies.top(1));
+    EXPECT_TRUE(bodies.nearest_of_all().is_touching()) << rings.first << " " << rings.second;
+    EXPECT_EQ(bodies.search(1000000), bodies.nearest_of_all()) << rings.first << " " << rings.second;
+  }
+  EXPECT_TRUE(tops.contains({1, 4})) << "heights differ";
+  EXPECT_TRUE(tops.contains({4, 1})) << "heights differ";
 }
 
 TEST_P(TreeSearch, BeginsAtAllUpperNodesNearEachOther) {
