@@ -13,7 +13,7 @@ namespace broadside::gpu {
 // 8 children against 8 are 64 tests, 2 a lane; 8 vertices against 8, in groups of 8 lanes, are 8 a lane.
 constexpr std::uint32_t kLeafVertices = 8;
 constexpr std::uint32_t kFanOut = 8;
-// 8 * 8^9 vertices: more than an index of 28 bits can name, so never the limit.
+// 8 * 8^9 vertices, 17 GB of them. The 28 bits that name a block of eight are enough for twice as many.
 constexpr std::uint32_t kMaxTreeLevels = 10;
 
 // Node pairs that wait while two trees of so many levels are descended at once: a pair of nodes leaves at most 63 more

@@ -257,7 +257,8 @@ template <typename Rest>
 __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, TeamCounts left, Rest& rest) {
   const SearchStack nodes = team.nodes();
   const SearchStack leaves = team.leaves();
-  // One warp alone, opening one pair after the other, never adds more than this. A pair adds 63.
+  // One warp alone, opening one pair after the other, never adds more than this. Of others that are
+  // opened at once each may add 63; by 64 is sooner divided.
   const std::uint32_t reserve = 63 * trees.top();
   for (std::uint32_t round = 1; left.any(); ++round) {
     // What all members do follows from what is left, so that they agree without a word.

@@ -35,8 +35,8 @@ class TreeStart {
   static_assert(kMostUpperNodes <= 64 * 2, "so many words has a team of two");
   __device__ std::uint32_t* near_root(bool of_a) const { return of_a ? team_.leaves().a() : team_.leaves().b(); }
 
-  // Two of the counts that the first rounds do not begin with: of pairs, and of what is listed, of A as nodes, of B as
-  // leaves.
+  // Of pairs, and of what is listed, of A as nodes, of B as leaves. Both are cleared by rounds that come later, before
+  // others add to them; the second of the team's counts, to which the first round adds, stays clear.
   __device__ TeamCounts& pairs() const { return team_.counts[0]; }
   __device__ TeamCounts& listed() const { return team_.counts[kTeamTurns - 1]; }
 
