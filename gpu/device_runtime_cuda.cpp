@@ -72,6 +72,11 @@ core::Result<StreamHandle> create_stream() {
   return stream;
 }
 
+core::Result<StreamHandle> frame_stream() {
+  static const core::Result<StreamHandle> stream = create_stream();
+  return stream;
+}
+
 void release_stream(StreamHandle stream) {
   cudaStreamDestroy(stream);
 }

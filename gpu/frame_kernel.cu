@@ -37,6 +37,17 @@ LaunchShape few_shape(LaunchShape shape) {
   return shape;
 }
 
+// Of few bodies' frames, all of whose blocks but one end early. There is no such launch before compute capability 9;
+// and where processes share the GPU side by side (MPS), nobody knows what else waits for its blocks there.
+LaunchBegin few_begin() {
+  static const bool can_be_early = [] {
+    const auto major = attribute(cudaDevAttrComputeCapabilityMajor);
+    const auto shares = attribute(cudaDevAttrMpsEnabled);
+    return major.ok() && major.value() >= 9 && shares.ok() && shares.value() == 0;
+  }();
+  return can_be_early ? LaunchBegin::kEarly : LaunchBegin::kTogether;
+}
+
 }  // namespace
 
 core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
@@ -69,8 +80,9 @@ core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, Stre
   void (*const kernels[])(FrameView) = {frame_kernel<FrameKind::kFew>, frame_kernel<FrameKind::kSome>,
                                         frame_kernel<FrameKind::kMany>};
   const FrameKind kind = kind_of(frame, shape.all_threads());
-  return launch(kernels[static_cast<std::size_t>(kind)], frame, kind == FrameKind::kFew ? few_shape(shape) : shape,
-                stream);
+  const auto kernel = kernels[static_cast<std::size_t>(kind)];
+  if (kind == FrameKind::kFew) return launch(kernel, frame, few_shape(shape), stream, few_begin());
+  return launch(kernel, frame, shape, stream);
 }
 
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {

@@ -28,11 +28,37 @@ inline core::Status fit(const void* kernel, LaunchShape& shape) {
   return core::Done{};
 }
 
+// When a launch's blocks begin.
+enum class LaunchBegin : std::uint8_t {
+  // When all of them are resident at once: CUDA's cooperative launch.
+  kTogether,
+  // While the launch before it in the stream ends, each as soon as there is room: CUDA's programmatic dependent launch.
+  // There is none that is both, so nothing but their number vouches for all of them becoming resident. They do, if what
+  // else runs ends without them: so of launches like this, whose blocks wait for each other, all are in one stream
+  // (frame_stream), where none has a block before all those of the one before are resident.
+  kEarly,
+};
+
 template <typename View>
-core::Status launch(void (*kernel)(View), const View& view, const LaunchShape& shape, StreamHandle stream) {
+core::Status launch(void (*kernel)(View), const View& view, const LaunchShape& shape, StreamHandle stream,
+                    LaunchBegin begin = LaunchBegin::kTogether) {
+  cudaLaunchAttribute attribute = {};
+  if (begin == LaunchBegin::kTogether) {
+    attribute.id = cudaLaunchAttributeCooperative;
+    attribute.val.cooperative = 1;
+  } else {
+    attribute.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+    attribute.val.programmaticStreamSerializationAllowed = 1;
+  }
+  cudaLaunchConfig_t config = {};
+  config.gridDim = dim3(shape.blocks);
+  config.blockDim = dim3(shape.threads);
+  config.dynamicSmemBytes = shape.shared_bytes;
+  config.stream = stream;
+  config.attrs = &attribute;
+  config.numAttrs = 1;
   void* arguments[] = {const_cast<View*>(&view)};
-  return cuda_status(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(kernel), dim3(shape.blocks),
-                                                 dim3(shape.threads), arguments, shape.shared_bytes, stream),
+  return cuda_status(cudaLaunchKernelExC(&config, reinterpret_cast<const void*>(kernel), arguments),
                      "launching a kernel");
 }
 

@@ -50,11 +50,13 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.times = {};
   d.view = {};
   const float hash_cell_m = d.options.hash_cell_m > 0.0F ? d.options.hash_cell_m : scene.parameters.hash_cell_m;
-  BROADSIDE_TRY(d.stream.create());
+  auto stream = frame_stream();
+  if (!stream.ok()) return stream.error();
+  d.stream = stream.value();
   BROADSIDE_TRY(d.copy_stream.create());
   // A digest of the scene before may be under way.
-  BROADSIDE_TRY(d.stream.wait("the end of the scene before"));
-  BROADSIDE_TRY(d.frames.create(d.stream.get()));
+  BROADSIDE_TRY(wait_for_stream(d.stream, "the end of the scene before"));
+  BROADSIDE_TRY(d.frames.create(d.stream));
   BROADSIDE_TRY(d.digests.allocate());
   SceneNeeds needs{hash_cell_m, d.options.least_for_cells};
   if (!d.options.has_vertex_stage) needs.least_for_cells = std::numeric_limits<std::uint32_t>::max();

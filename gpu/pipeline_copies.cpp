@@ -14,7 +14,7 @@ core::Status Pipeline::Impl::start_digest(const StateView& state, std::uint64_t 
   digest.face_contacts = buffers.face_contacts().data();
   digest.counters = view.counters;
   digest.digest = digests.device(step % 2);
-  return launch_digest(digest, launch.multiprocessors, stream.get());
+  return launch_digest(digest, launch.multiprocessors, stream);
 }
 
 // For copies under way whose digests are done.
@@ -54,7 +54,7 @@ core::Status Pipeline::start_copy(core::RecordLevel level) {
   copy.has_digest = false;
   copy.is_full = level == core::RecordLevel::kFull;
   if (copy.is_full)
-    BROADSIDE_TRY(copy.start(d.buffers, counts, d.is_confirmed_by_level0(), d.stream.get(), d.copy_stream.get()));
+    BROADSIDE_TRY(copy.start(d.buffers, counts, d.is_confirmed_by_level0(), d.stream, d.copy_stream.get()));
   ++d.copies_started;
   return core::Done{};
 }
@@ -65,7 +65,7 @@ core::Status Pipeline::finish_copy(core::FrameRecord& frame) {
     return core::Error{"no copy of a frame is under way", "octree-gpu", "start one first", core::Exit::kInternal};
   FrameCopy& copy = d.copies[d.copies_finished % d.copies.size()];
   if (!copy.has_digest) {
-    BROADSIDE_TRY(d.stream.wait("the digest of a frame"));
+    BROADSIDE_TRY(wait_for_stream(d.stream, "the digest of a frame"));
     d.take_digests();
   }
   ++d.copies_finished;

@@ -19,7 +19,7 @@ namespace broadside::gpu {
 struct Pipeline::Impl {
   PipelineOptions options;
   const core::Scene* scene = nullptr;
-  Stream stream;
+  StreamHandle stream = nullptr;  // frame_stream()
   Stream copy_stream;
   Mapped<unsigned long long, 2> digests;  // of frames whose step is even, and odd
   FrameQueue frames;

@@ -49,7 +49,7 @@ core::Status Pipeline::Impl::launch_frame() {
 core::Status Pipeline::Impl::wait_for_frame() {
   if (!has_digest) return frames.wait();
   // The digest is added up while the host sees to its next launch: only the frame is waited for.
-  BROADSIDE_TRY(frame_end.set(stream.get()));
+  BROADSIDE_TRY(frame_end.set(stream));
   BROADSIDE_TRY(start_digest(view.next, steps + 1));
   return frame_end.wait("a frame");
 }
@@ -138,9 +138,9 @@ core::Status Pipeline::Impl::run_ahead(std::uint64_t steps_asked, const StepDone
 // Of the frame that was just computed; nothing where nobody asked.
 core::Status Pipeline::Impl::count_work() {
   const BroadWorkView of_broad{view.broad, {}, view.boxes, view.body_count, view.counters};
-  BROADSIDE_TRY(work.count_broad(of_broad, launch.multiprocessors, stream.get()));
+  BROADSIDE_TRY(work.count_broad(of_broad, launch.multiprocessors, stream));
   if (is_confirmed_by_level0()) return core::Done{};
-  return work.count_levels(view, launch.multiprocessors, stream.get());
+  return work.count_levels(view, launch.multiprocessors, stream);
 }
 
 }  // namespace broadside::gpu

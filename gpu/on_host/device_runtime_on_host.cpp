@@ -45,6 +45,10 @@ void release_mapped_bytes(const MappedMemory& memory) {
   std::free(memory.host);
 }
 
+core::Result<StreamHandle> frame_stream() {
+  return StreamHandle{nullptr};
+}
+
 core::Result<StreamHandle> create_stream() {
   return StreamHandle{nullptr};
 }

@@ -140,13 +140,17 @@ struct BlockScratch {
 template <FrameKind kKind>
 __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scratch, unsigned char* shared) {
   constexpr bool kIsFew = kKind == FrameKind::kFew;
-  const GridTeam grid(f.barrier);
-  mark(grid, f, 0);
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);  // of few bodies
-  const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
+    // While the frame before ends.
     scratch.proximity.clear();
     shapes.begin(f);
+    wait_for_launch_before();
+  }
+  const GridTeam grid(f.barrier);
+  mark(grid, f, 0);
+  const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
+  if constexpr (kIsFew) {
     const bool is_needed = integrate_and_find_few(grid, f, shapes);
     shapes.end(f);
     if (!is_needed) return;
@@ -202,6 +206,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
     }
   }
   mark(grid, f, 4);
+  if constexpr (kIsFew) let_next_launch_begin();
 
   if (kIsFew && f.has_vertex_stage && blockIdx.x == gridDim.x - 1) list_measured(f, meeting, &scratch.listed);
   if constexpr (kKind != FrameKind::kMany) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <thread>
 
 #include "gpu/engines_on_cuda.hpp"
 #include "gpu/pipeline.hpp"
@@ -59,6 +60,14 @@ TEST_F(FramesAhead, BuffersGrowInTheMiddle) {
   EXPECT_GT(expect_same_steps(flying_out(400, 6.0F), boxes_alone(), 16), 0U);
 }
 
+TEST_F(FramesAhead, BuffersOfMeasuredPairsGrowInTheMiddle) {
+  for (const core::Levels levels : {core::Levels::kFlat, core::Levels::kC}) {
+    PipelineOptions options;
+    options.levels = levels;
+    EXPECT_GT(expect_same_steps(flying_together(110, 6.0F), options, 16), 0U);
+  }
+}
+
 TEST_F(FramesAhead, BuffersOfMoreBodiesGrowInTheMiddle) {
   expect_growth(700);
   expect_growth(2500);
@@ -83,6 +92,28 @@ TEST_F(FramesAhead, EndWhereTheyAreToldTo) {
     EXPECT_GE(frame.step, told);
     step_by_step(one_by_one, scene.dt_s, frame.step);
     expect_same_frame(subject, one_by_one);
+  }
+}
+
+// Two at once, of few bodies: blocks of either wait for all of theirs, and none may wait for room that the other has.
+TEST_F(FramesAhead, OfTwoPipelinesAtOnce) {
+  const core::Scene scene = spheres(60, 4.0F);
+  constexpr std::uint64_t kFrames = 3000;
+  Pipeline subjects[2] = {Pipeline(PipelineOptions{}), Pipeline(PipelineOptions{})};
+  bool are_done[2] = {false, false};
+  const auto run = [&](int k) {
+    const auto goes_on = [] { return true; };
+    are_done[k] = subjects[k].load(scene).ok() && subjects[k].run(scene.dt_s, kFrames, goes_on).ok();
+  };
+  std::thread other(run, 1);
+  run(0);
+  other.join();
+  Pipeline one_by_one(PipelineOptions{});
+  ASSERT_TRUE(one_by_one.load(scene).ok());
+  step_by_step(one_by_one, scene.dt_s, kFrames);
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_TRUE(are_done[k]) << k;
+    expect_same_frame(subjects[k], one_by_one);
   }
 }
 
