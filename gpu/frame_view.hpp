@@ -145,14 +145,16 @@ struct FrameView {
   std::uint32_t* list_begin = nullptr;  // [bodies]
   LiveBody* live = nullptr;             // [bodies]
 
-  Counters* counters = nullptr;           // until this frame begins, those of the frame before it
-  unsigned long long* barrier = nullptr;  // the word where the grid meets
+  Counters* counters = nullptr;  // until this frame begins, those of the frame before it
+  // The word where the grid meets; and, behind it, few bodies' FewCounts::marked, zero between frames.
+  unsigned long long* barrier = nullptr;
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;
-  MeasuredPair* measured = nullptr;  // few bodies: one per pair that is measured
-  PlacedPair* placed = nullptr;      // likewise
-  RestsView rests[2];                // few bodies
+  MeasuredPair* measured = nullptr;         // few bodies: one per pair that is measured
+  PlacedPair* placed = nullptr;             // likewise; between frames none is there
+  unsigned long long* given_out = nullptr;  // few bodies: pairs, to warps that measure them; zero between frames
+  RestsView rests[2];                       // few bodies
 };
 
 // Few bodies: whether the vertex stage is given pairs whose levels are still to be gone down.

@@ -19,4 +19,10 @@ struct GridWord {
   }
 };
 
+// What whoever has met knows, of one moment: the lowest bits of the word, and the word behind it.
+struct GridTally {
+  unsigned long long tally = 0;
+  unsigned long long behind = 0;
+};
+
 }  // namespace broadside::gpu

@@ -30,6 +30,8 @@ static_assert(sizeof(SearchRest) == 48, "read in words of 16 bytes");
 // Of one time that the grid shares. What it hands over again goes to the other of two.
 struct RestsView {
   static constexpr std::uint32_t kMost = 128;
+  // Of so few pairs each has a place of its own.
+  static constexpr std::uint32_t kMostMarked = 64;
   static constexpr std::uint32_t kEntries = 256;  // of each
 
   SearchRest* items = nullptr;  // [kMost]

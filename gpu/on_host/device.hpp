@@ -52,9 +52,9 @@ class GridBarrier {
     if (threadIdx.x == 0) *word_ += GridWord::share(blockIdx.x, gridDim.x);
     on_host::meet_grid();
   }
-  unsigned long long meet_and_ask(unsigned long long* /*in_block*/) {
+  GridTally meet_and_ask(GridTally* /*in_block*/, bool /*is_loose*/) {
     meet();
-    const unsigned long long tally = *word_ & GridWord::kTally;
+    const GridTally tally{word_[0] & GridWord::kTally, word_[1]};
     // Nobody goes on to change it before all have seen it.
     on_host::meet_grid();
     return tally;
@@ -145,10 +145,16 @@ T atomicOr(T* to, T value) {
   return old;
 }
 
+inline void set_bits(unsigned long long* of, unsigned long long bits) {
+  *of |= bits;
+}
 inline unsigned long long add_by_first_lane(unsigned long long* to, unsigned long long value) {
   return threadIdx.x % 32 == 0 ? atomicAdd(to, value) : 0;
 }
 
+inline int __popcll(unsigned long long v) {
+  return std::popcount(v);
+}
 inline int __popc(unsigned v) {
   return std::popcount(v);
 }

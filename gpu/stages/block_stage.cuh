@@ -93,10 +93,12 @@ __device__ void resolve_in_block(const FrameView& f, const MeetingPairs& pairs, 
   PackedVec3 x;
   PackedVec3 v;
   ContactSide side;
+  core::Material material;  // whoever resolves a contact of this body asks for it too, and finds it near
   if (is_body) {
     x = f.detected.position[body];
     v = f.detected.velocity[body];
     side = contact_side(f, body);
+    material = f.material[body];
     room.degree[body] = BlockDegree::zero(is_written(f, body));
   }
   if (threadIdx.x == 0) *room.counts = {};
@@ -121,7 +123,8 @@ __device__ void resolve_in_block(const FrameView& f, const MeetingPairs& pairs, 
   }
   ended();
   const bool moves = is_body && x.w > 0.0F;
-  const core::Kinematics after = settled_at_faces(f, body, moves, side.local_box, x.w, state, &room.counts->faces);
+  const core::Kinematics after = settled_at_faces(
+      f, body, moves, side.local_box, x.w, [&] { return material; }, state, &room.counts->faces);
   if (is_body) {
     f.next.position[body] = {after.x, x.w};
     f.next.velocity[body] = {after.v, v.w};

@@ -118,10 +118,11 @@ __device__ inline unsigned faces_before(const FrameView& f, const core::Box& loc
 
 // A moving body at the six half-spaces of the domain, in their order, then P(23); the state that this leaves. By whole
 // warps, whoever has no body to move with them: each lane looks for its next face, so that lanes whose faces differ are
-// resolved together.
-template <typename Count>
+// resolved together. `material`: called for the body's.
+template <typename Count, typename Material>
 __device__ core::Kinematics settled_at_faces(const FrameView& f, std::uint32_t body, bool moves, const core::Box& local,
-                                             float inverse_mass, core::Kinematics state, Count* demanded) {
+                                             float inverse_mass, const Material& material, core::Kinematics state,
+                                             Count* demanded) {
   unsigned left = moves ? (1U << core::kFaceCount) - 1U : 0U;  // faces that are not behind us
   for (;;) {
     const unsigned faces = left == 0 ? 0U : faces_before(f, local, state.x) & left;
@@ -138,7 +139,7 @@ __device__ core::Kinematics settled_at_faces(const FrameView& f, std::uint32_t b
     contact.pre_a = state;
     contact.pre_b = {};
     core::respond(contact, core::face_contact(core::translated(local, state.x), f.domain, face), inverse_mass, 0.0F,
-                  core::combine(f.material[body], f.face_material), f.parameters, core::face_variant(f.variant));
+                  core::combine(material(), f.face_material), f.parameters, core::face_variant(f.variant));
     state = contact.post_a;
     if (place < f.face_contacts.capacity) store_contact(f.face_contacts.items + place, contact);
   }
@@ -161,7 +162,9 @@ __device__ void resolve_faces(const Team& team, const FrameView& f) {
       local = local_box(f, body);
     }
     const bool moves = x.w > 0.0F;
-    const core::Kinematics after = settled_at_faces(f, body, moves, local, x.w, {x.v, v.v}, &f.counters->faces);
+    const auto material = [&] { return f.material[body]; };
+    const core::Kinematics after =
+        settled_at_faces(f, body, moves, local, x.w, material, {x.v, v.v}, &f.counters->faces);
     if (!moves) continue;
     f.next.position[i] = {after.x, x.w};
     f.next.velocity[i] = {after.v, v.w};

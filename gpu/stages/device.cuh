@@ -55,25 +55,37 @@ class GridBarrier {
   }
 
   // Orders memory over the grid. By all threads.
-  __device__ void meet() { arrive_and_wait_for_all(nullptr); }
-  // The same, and returns the tally. `in_block`: of the block's shared memory, used by nobody else.
-  __device__ unsigned long long meet_and_ask(unsigned long long* in_block) {
-    arrive_and_wait_for_all(in_block);
+  __device__ void meet() { arrive_and_wait_for_all(nullptr, false); }
+  // The same, and returns the tally and the word behind it. `in_block`: of the block's shared memory, used by nobody
+  // else. If `is_loose`, of what was written before, nothing but these two words need be there yet, which spares the
+  // wait until it is: until a later meeting others may look at words alone that say so themselves (GridWords).
+  __device__ GridTally meet_and_ask(GridTally* in_block, bool is_loose) {
+    arrive_and_wait_for_all(in_block, is_loose);
     return *in_block;
   }
 
  private:
-  __device__ __forceinline__ void arrive_and_wait_for_all(unsigned long long* tally) {
+  __device__ __forceinline__ void arrive_and_wait_for_all(GridTally* tally, bool is_loose) {
     __syncthreads();
     if (threadIdx.x == 0) {
       const unsigned long long share = GridWord::share(blockIdx.x, gridDim.x);
-      asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
+      if (is_loose)
+        asm volatile("red.relaxed.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
+      else
+        asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
       unsigned long long now = 0;
+      unsigned long long behind = 0;
       do {
-        asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
+        if (tally == nullptr)
+          asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
+        else
+          asm volatile("{ .reg .b128 w; ld.acquire.gpu.global.b128 w, [%2]; mov.b128 {%0, %1}, w; }"
+                       : "=l"(now), "=l"(behind)
+                       : "l"(word_)
+                       : "memory");
       } while (((now ^ seen_) & GridWord::kFlipped) == 0);
       seen_ = now;
-      if (tally != nullptr) *tally = now & GridWord::kTally;
+      if (tally != nullptr) *tally = {now & GridWord::kTally, behind};
     }
     __syncthreads();
   }
@@ -81,6 +93,11 @@ class GridBarrier {
   unsigned long long* word_;
   unsigned long long seen_ = 0;
 };
+
+// Sets bits of a word of global memory. Nothing is waited for.
+__device__ inline void set_bits(unsigned long long* of, unsigned long long bits) {
+  asm volatile("red.relaxed.gpu.global.or.b64 [%0], %1;" ::"l"(of), "l"(bits) : "memory");
+}
 
 // Adds to a word of global memory, by the first lane of a whole warp, to whom it returns what was there. That is waited
 // for where it is used: behind an if it would be waited for at the end of the if.

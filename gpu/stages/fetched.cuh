@@ -50,6 +50,32 @@ __device__ inline PlacedPair fetched(const PlacedPair* from) {
   return {fetched(&from->i), fetched(&from->j)};
 }
 
+// A pair that others may look at before the grid has met so that writes are visible: two words, each whole, that are
+// none until then. Whoever has put it is known to have.
+__device__ inline void put(PlacedPair* to, const PlacedPair& pair) {
+  const auto word = [](const PlacedShape& s) {
+    return uint4{__float_as_uint(s.x.x), __float_as_uint(s.x.y), __float_as_uint(s.x.z), s.shape};
+  };
+  GridWords::store_whole(reinterpret_cast<uint4*>(&to->i), word(pair.i));
+  GridWords::store_whole(reinterpret_cast<uint4*>(&to->j), word(pair.j));
+}
+__device__ inline PlacedPair awaited(const PlacedPair* from) {
+  uint4 words[2];
+  for (;;) {
+    GridWords::load_two_whole(reinterpret_cast<const uint4*>(from), words);
+    if (words[0].w != PlacedShape::kNone && words[1].w != PlacedShape::kNone) break;
+    relax();
+  }
+  const auto shape = [](const uint4& w) {
+    return PlacedShape{{__uint_as_float(w.x), __uint_as_float(w.y), __uint_as_float(w.z)}, w.w};
+  };
+  return {shape(words[0]), shape(words[1])};
+}
+// When nobody looks at it any more.
+__device__ inline void take_away(PlacedPair* pair) {
+  pair->i.shape = pair->j.shape = PlacedShape::kNone;
+}
+
 __device__ inline SearchRest fetched(const SearchRest* from) {
   const uint4 last = reinterpret_cast<const uint4*>(from)[2];
   return {fetched(&from->bodies), last.x, __uint_as_float(last.y), last.z, last.w};

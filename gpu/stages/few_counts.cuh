@@ -18,6 +18,8 @@ struct FewCounts {
   std::uint32_t pairs = 0;
   std::uint32_t judged = 0;  // of them by their levels: confirmed where levels come first, rejected where they are left
   std::uint32_t rests = 0;   // how often a team asked to hand over what is left of its search
+  // Bit k: that of pair k was handed over, without asking, as its place is its own.
+  unsigned long long marked = 0;
 
   // By levels below 0: of flat levels, none.
   __device__ std::uint32_t confirmed(const FrameView& f) const { return are_levels_left(f) ? pairs - judged : judged; }
@@ -29,7 +31,12 @@ struct FewCounts {
   __device__ static FewCounts unpacked(unsigned long long word) {
     const unsigned long long tally = word & GridWord::kTally;
     return {static_cast<std::uint32_t>(tally) & kMostPairs, static_cast<std::uint32_t>(tally >> kPairBits) & kMostPairs,
-            static_cast<std::uint32_t>(tally >> 2 * kPairBits)};
+            static_cast<std::uint32_t>(tally >> 2 * kPairBits), 0};
+  }
+  __device__ static FewCounts unpacked(const GridTally& met) {
+    FewCounts counts = unpacked(met.tally);
+    counts.marked = met.behind;
+    return counts;
   }
 
  private:

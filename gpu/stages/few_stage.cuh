@@ -18,7 +18,7 @@ constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 // A warp's item of the ring at a time: a body and those that it may meet there, a lane each.
 class FewItem {
  public:
-  __device__ FewItem(const GridTeam& team, const FrameView& f)
+  __device__ FewItem(const GridPlaces& team, const FrameView& f)
       : ring_(f.body_count, f.ring_share, f.ring_shares),
         item_(static_cast<std::uint32_t>(team.spread_rank() / 32)),
         stride_(static_cast<std::uint32_t>(warp_count(team))) {
@@ -82,19 +82,19 @@ __device__ inline void find_few(const FrameView& f, const ShapesInBlock& shapes,
   };
   const std::uint32_t place = place_among(found, first.pairs);
   if (place < f.pairs.capacity) f.pairs.items[place] = pair;
-  if (are_levels_left(f) && place < f.confirmed.capacity) f.measured[place] = MeasuredPair{};
   const std::uint32_t confirmed_place = place_among(confirmed, first.judged);
   if (confirmed_place < f.confirmed.capacity) f.confirmed.items[confirmed_place] = pair;
   const std::uint32_t measured_place = f.are_levels_first ? confirmed_place : place;
-  if (measured_place < f.confirmed.capacity)
-    f.placed[measured_place] = at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i};
+  if (f.has_vertex_stage && measured_place < f.confirmed.capacity)
+    put(f.placed + measured_place, at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i});
 }
 
 // Bodies are integrated, and pairs found without waiting for that: where there are few, whoever looks at two of them
 // works out for itself where they are. Returns false, and has done nothing, behind an aborted frame.
-__device__ inline bool integrate_and_find_few(const GridTeam& team, const FrameView& f, const ShapesInBlock& shapes) {
+// `item`: the warp's first.
+__device__ inline bool integrate_and_find_few(const GridTeam& team, const FrameView& f, const ShapesInBlock& shapes,
+                                              FewItem item) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
-  FewItem item(team, f);
   const std::uint64_t first = first_body(team);
   // All of it is asked for before any of it is looked at.
   BodyBefore own;
@@ -141,13 +141,11 @@ class FewLevels {
   __device__ void begin() const { shapes_.begin_octrees(f_); }
   __device__ void end() const { shapes_.end_octrees(); }
 
-  // By a warp: pair k is told to be rejected if it is. Returns whether it is not.
+  // By a warp: tells whether pair k is rejected. Returns whether it is not.
   __device__ bool look(const PlacedPair& bodies, std::uint64_t k) const {
     const bool is_kept = is_confirmed_few(f_, shapes_, bodies.i, bodies.j);
-    if (!is_kept && lane() == 0) {
-      f_.measured[k].is_rejected = 1;
-      atomicAdd(f_.barrier, FewCounts{0, 1}.packed());
-    }
+    if (lane() == 0) f_.measured[k].is_rejected = is_kept ? 0 : 1;
+    if (!is_kept && lane() == 0) atomicAdd(f_.barrier, FewCounts{0, 1}.packed());
     return is_kept;
   }
 

@@ -1,6 +1,8 @@
 // A whole frame, as the threads of one launch run it. Counts are read after barriers, so all threads decide alike.
 #pragma once
 
+#include <variant>
+
 #include "gpu/frame_kernel.hpp"
 #include "gpu/frame_view.hpp"
 #include "gpu/stages/arrival_stage.cuh"
@@ -32,6 +34,8 @@ inline FrameKind kind_of(const FrameView& f, std::uint64_t threads) {
 
 // By one thread, when nobody adds to the tally any more, which is cleared for the next frame.
 __device__ inline void report(const FrameView& f, Counters counters, const FewCounts& few, bool is_aborted) {
+  f.barrier[1] = 0;
+  *f.given_out = 0;
   counters.is_aborted = is_aborted ? 1 : 0;
   *f.counters = counters;
   f.outcome->counters = counters;
@@ -51,9 +55,12 @@ __device__ Counters counters_of(const FrameView& f, const FewCounts& few) {
   }
 }
 
-// For want of room for so many confirmed pairs, if that is known.
+// For want of room for so many confirmed pairs, if that is known. By all threads.
 template <FrameKind kKind>
-__device__ void report_aborted(const FrameView& f, const FewCounts& few = {}, std::uint64_t confirmed = 0) {
+__device__ void report_aborted(const GridTeam& grid, const FrameView& f, const FewCounts& few = {},
+                               std::uint64_t confirmed = 0) {
+  // The tally is cleared when all have seen it: who did not would go on, and wait for the others.
+  if constexpr (kKind == FrameKind::kFew) grid.sync();
   if (blockIdx.x != 0 || threadIdx.x != 0) return;
   Counters counters = counters_of<kKind>(f, few);
   counters.confirmed = max(std::uint64_t{counters.confirmed}, confirmed);
@@ -130,10 +137,24 @@ struct BlockScratch {
   ProximityScratch proximity;
   BlockCopy octree_copy;
   BlockCopy upper_copy;
-  unsigned long long tally;
+  GridTally tally;
   Counters counters;
   std::uint32_t listed;
 };
+
+// What can be done while the frame before ends. Returns a warp's first FewItem, of few bodies.
+template <FrameKind kKind>
+__device__ auto begin(const FrameView& f, const ShapesInBlock& shapes, ProximityScratch& scratch) {
+  if constexpr (kKind == FrameKind::kFew) {
+    scratch.clear();
+    shapes.begin(f);
+    const FewItem first(GridPlaces{}, f);
+    wait_for_launch_before();
+    return first;
+  } else {
+    return std::monostate{};
+  }
+}
 
 // `shared`: what LaunchShape says, a block's own. Each kind is a kernel of its own, because what is left out there
 // leaves registers and instruction cache to the rest. Always inlined: a call would take the view through memory.
@@ -141,17 +162,12 @@ template <FrameKind kKind>
 __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scratch, unsigned char* shared) {
   constexpr bool kIsFew = kKind == FrameKind::kFew;
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);  // of few bodies
-  if constexpr (kIsFew) {
-    // While the frame before ends.
-    scratch.proximity.clear();
-    shapes.begin(f);
-    wait_for_launch_before();
-  }
+  const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
+  const auto first = begin<kKind>(f, shapes, scratch.proximity);
   const GridTeam grid(f.barrier);
   mark(grid, f, 0);
-  const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   if constexpr (kIsFew) {
-    const bool is_needed = integrate_and_find_few(grid, f, shapes);
+    const bool is_needed = integrate_and_find_few(grid, f, shapes, first);
     shapes.end(f);
     if (!is_needed) return;
   } else {
@@ -161,17 +177,23 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
     if (starts_at_level0) {
       PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
       if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
-        return report_aborted<kKind>(f);
+        return report_aborted<kKind>(grid, f);
     } else {
       Uncounted work;
       confirm_by_brute_force(grid, f, work);
     }
   }
-  FewCounts few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
+  FewCounts few;
+  if constexpr (kIsFew) {
+    // With a vertex stage they meet again before anything else of this is looked at than where a pair's bodies are.
+    few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally, f.has_vertex_stage));
+  } else {
+    grid.sync();
+  }
   mark(grid, f, 2);
   if constexpr (kIsFew) shapes.end_upper();
   const std::uint64_t pairs = kIsFew ? few.pairs : f.counters->pairs;
-  if (pairs > f.pairs.capacity) return report_aborted<kKind>(f, few);
+  if (pairs > f.pairs.capacity) return report_aborted<kKind>(grid, f, few);
 
   // From level 0 alone, what was found is what is confirmed.
   const bool is_confirmed_by_level0 = starts_at_level0 && f.levels == core::Levels::kFlat;
@@ -186,18 +208,18 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
                                       ? pairs
                                       : (kIsFew ? std::uint64_t{few.confirmed(f)} : f.counters->confirmed);
   mark(grid, f, 3);
-  if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(f, few, confirmed);
+  if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(grid, f, few, confirmed);
 
   const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
                              kIsFew && f.has_vertex_stage ? f.measured : nullptr, kIsFew ? f.placed : nullptr};
-  if (f.has_vertex_stage && confirmed > 0) {
+  if (f.has_vertex_stage && (kIsFew || confirmed > 0)) {
     if constexpr (kIsFew) {
       const FewLevels levels(f, shapes);
       const ProximityStage stage(f, shapes.headers(f), levels, meeting, scratch.proximity, shared);
-      stage.run();
+      if (confirmed > 0) stage.run();
       stage.share_rests([&] {
         few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
-        return few.rests;
+        return few;
       });
     } else {
       const ShapeHeaders headers{f.shapes.trees, f.shapes.near_cells, f.shapes.tree_upper, nullptr};

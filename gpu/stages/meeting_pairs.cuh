@@ -18,10 +18,10 @@ struct MeetingPairs {
   bool are_levels_left = false;
   // Of few bodies, where they are measured: what came of each. The others have f.proximity.
   MeasuredPair* measured = nullptr;
-  const PlacedPair* placed = nullptr;  // likewise: where their bodies are
+  PlacedPair* placed = nullptr;  // likewise: where their bodies are; of many, none
 
   __device__ PlacedPair bodies(const FrameView& f, std::uint64_t k) const {
-    if (placed != nullptr) return fetched(placed + k);
+    if (placed != nullptr) return awaited(placed + k);
     const core::Pair pair = items[k];
     return {placed_shape(f, pair.i), placed_shape(f, pair.j)};
   }
@@ -71,6 +71,7 @@ __device__ inline void list_measured(const FrameView& f, const MeetingPairs& pai
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
     const std::uint64_t k = base + threadIdx.x;
     const Meeting meeting(f, pairs, k);
+    if (k < pairs.count) take_away(pairs.placed + k);
     std::uint64_t place = k;
     if (pairs.are_levels_left) place = warp_append_one(meeting.is_confirmed(), listed);
     if (!meeting.is_confirmed()) continue;

@@ -78,16 +78,18 @@ class ProximityStage {
   }
 
   // Of few bodies, what teams handed over, shared by the whole grid, until nothing is handed over any more. `meet`: the
-  // grid does; returns how often somebody asked to hand over since the frame began.
+  // grid does; returns FewCounts since the frame began.
   template <typename Meet>
   __device__ void share_rests(const Meet& meet) const {
     std::uint32_t before = 0;
     std::uint32_t turn = 0;
-    for (std::uint32_t asked = meet(); asked > before; ++turn) {
-      const std::uint32_t count = min(asked - before, most_rests());
-      before = asked;
-      search_part(f_.rests[turn % 2], count, f_.rests[(turn + 1) % 2], before);
-      asked = meet();
+    FewCounts met = meet();
+    for (bool is_marked = met.marked != 0; is_marked || met.rests > before; ++turn) {
+      const std::uint32_t count = is_marked ? __popcll(met.marked) : min(met.rests - before, most_rests());
+      before = met.rests;
+      search_part(f_.rests[turn % 2], count, is_marked ? met.marked : 0, f_.rests[(turn + 1) % 2], before);
+      is_marked = false;
+      met = meet();
     }
   }
 
@@ -113,7 +115,7 @@ class ProximityStage {
     const SearchStack stack = stack_of_warps(f_, stacks_, threadIdx.x / 32, 1);
     for (;;) {
       unsigned long long first = 0;
-      if (lane() == 0) first = atomicAdd(&f_.counters->measured, static_cast<unsigned long long>(share));
+      if (lane() == 0) first = atomicAdd(given_out(), static_cast<unsigned long long>(share));
       first = __shfl_sync(kFullWarp, first, 0);
       if (first >= pairs_.count) return;
       for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, pairs_.count); ++k) {
@@ -129,6 +131,11 @@ class ProximityStage {
         __syncwarp();
       }
     }
+  }
+
+  // How many pairs were given out to warps.
+  __device__ unsigned long long* given_out() const {
+    return Levels::kAreOfFewBodies ? f_.given_out : &f_.counters->measured;
   }
 
   // There are as many teams as pairs, or more. Where levels are left, the warps of those that have no pair see to them.
@@ -160,12 +167,12 @@ class ProximityStage {
   }
 
   // This block's part of what was handed over: all its warps are one team.
-  __device__ void search_part(const RestsView& rests, std::uint32_t count, const RestsView& to,
-                              std::uint32_t before) const {
+  __device__ void search_part(const RestsView& rests, std::uint32_t count, unsigned long long marked,
+                              const RestsView& to, std::uint32_t before) const {
     const std::uint32_t warp = threadIdx.x / 32;
     const std::uint32_t warps = blockDim.x / 32;
     const SearchTeam all{{warp, warps}, 0, stack_of_warps(f_, stacks_, 0, warps), scratch_.counts[0]};
-    const RestPart part(rests, count, all);
+    const RestPart part(rests, count, marked, all);
     const SearchRest& rest = part.rest();
     if (threadIdx.x == 0) {
       scratch_.bound[0] = __float_as_uint(rest.bound_m2);
@@ -174,7 +181,7 @@ class ProximityStage {
     }
     __syncthreads();
     if (part.counts().any()) {
-      RestOfPair next(f_, to, before, rest.bodies, rest.k, kRoundsOfBlock, &scratch_.place[0]);
+      RestOfPair next(f_, to, false, before, rest.bodies, rest.k, kRoundsOfBlock, &scratch_.place[0]);
       tell_team(0, nearest_by_trees(TreePair(f_, headers_, rest.bodies, &scratch_.bound[0]), all, part.counts(), next));
     }
     __syncthreads();
@@ -213,13 +220,16 @@ class ProximityStage {
     if (headers_.upper_copy != nullptr) headers_.upper_copy->wait();
     const TeamCounts left = TreeStart(trees, all).begin();
     if constexpr (Levels::kAreOfFewBodies) {
-      RestOfPair rest(f_, f_.rests[0], 0, bodies, k, rounds_of_team(trees), &scratch_.place[team]);
+      RestOfPair rest(f_, f_.rests[0], has_marks(), 0, bodies, k, rounds_of_team(trees), &scratch_.place[team]);
       return nearest_by_trees(trees, all, left, rest);
     } else {
       NoRest rest;
       return nearest_by_trees(trees, all, left, rest);
     }
   }
+
+  // Whether there are as few pairs as FewCounts::marked has bits, and each has a block or more to be shared by.
+  __device__ bool has_marks() const { return pairs_.count <= min(RestsView::kMostMarked, gridDim.x); }
 
   // What a meeting of the grid costs is some four rounds. The more levels are left to go down, the more there may be
   // to hand over, and the sooner.

@@ -22,11 +22,13 @@ __device__ inline std::uint32_t most_rests() {
 // then: bodies so far apart are soon done.
 class RestOfPair {
  public:
-  // `to`: where those of this time go, before which there were so many. `place`: of the team, in shared memory.
-  __device__ RestOfPair(const FrameView& f, const RestsView& to, std::uint32_t before, const PlacedPair& bodies,
-                        std::uint64_t k, std::uint32_t rounds, std::uint32_t* place)
+  // `to`: where those of this time go, before which there were so many. `is_marked`: pair k's place there is its own;
+  // otherwise one is asked for. `place`: of the team, in shared memory.
+  __device__ RestOfPair(const FrameView& f, const RestsView& to, bool is_marked, std::uint32_t before,
+                        const PlacedPair& bodies, std::uint64_t k, std::uint32_t rounds, std::uint32_t* place)
       : f_(f),
         to_(to),
+        is_marked_(is_marked),
         before_(before),
         bodies_(bodies),
         k_(k),
@@ -45,14 +47,14 @@ class RestOfPair {
   __device__ bool hand_over(const SearchTeam& team, const TeamCounts& left, float limit) {
     if (is_refused_ || left.nodes + left.leaves > RestsView::kEntries) return false;
     const bool is_first = team.member == 0 && lane() == 0;
-    if (team.member == 0) {
-      const unsigned long long tally = add_by_first_lane(f_.barrier, FewCounts{0, 0, 1}.packed());
-      if (is_first) *place_ = FewCounts::unpacked(tally).rests - before_;
+    auto place = static_cast<std::uint32_t>(k_);
+    if (is_marked_) {
+      if (is_first) set_bits(f_.barrier + 1, 1ULL << k_);
+    } else {
+      place = asked_place(team);
+      is_refused_ = place >= most_rests();
+      if (is_refused_) return false;
     }
-    team.sync();
-    const std::uint32_t place = *place_;
-    is_refused_ = place >= most_rests();
-    if (is_refused_) return false;
     for (std::uint32_t e = team.member * 32 + lane(); e < left.nodes + left.leaves; e += team.members * 32)
       to_.entries[place * RestsView::kEntries + e] = team.at(left, e);
     if (is_first) to_.items[place] = {bodies_, static_cast<std::uint32_t>(k_), limit, left.nodes, left.leaves};
@@ -60,8 +62,18 @@ class RestOfPair {
   }
 
  private:
+  __device__ std::uint32_t asked_place(const SearchTeam& team) const {
+    if (team.member == 0) {
+      const unsigned long long tally = add_by_first_lane(f_.barrier, FewCounts{0, 0, 1}.packed());
+      if (lane() == 0) *place_ = FewCounts::unpacked(tally).rests - before_;
+    }
+    team.sync();
+    return *place_;
+  }
+
   const FrameView& f_;
   const RestsView& to_;
+  bool is_marked_;
   std::uint32_t before_;
   PlacedPair bodies_;
   std::uint64_t k_;
@@ -82,12 +94,14 @@ struct NoRest {
 // A block's part of one of so many rests: every so-manieth entry, those that were opened last at the end.
 class RestPart {
  public:
-  // By all threads of a block, which are the team and meet afterwards.
-  __device__ RestPart(const RestsView& rests, std::uint32_t count, const SearchTeam& team) {
+  // By all threads of a block, which are the team and meet afterwards. `marked`: the places of the rests, or 0: the
+  // first ones.
+  __device__ RestPart(const RestsView& rests, std::uint32_t count, unsigned long long marked, const SearchTeam& team) {
     const SmallDivisor by_count(count);
     const std::uint32_t part = by_count.quotient(blockIdx.x);
-    const std::uint32_t place = blockIdx.x - part * count;
-    const std::uint32_t parts = by_count.rounded_up(gridDim.x - place);
+    const std::uint32_t rank = blockIdx.x - part * count;
+    const std::uint32_t parts = by_count.rounded_up(gridDim.x - rank);
+    const std::uint32_t place = marked != 0 ? bit_of_rank(marked, rank) : rank;
     const SmallDivisor by_parts(parts);
     const auto up_to = [&](std::uint32_t end) { return end > part ? by_parts.rounded_up(end - part) : 0U; };
     const NodePair* entries = rests.entries + place * RestsView::kEntries;
@@ -109,6 +123,19 @@ class RestPart {
   __device__ const TeamCounts& counts() const { return own_; }
 
  private:
+  // The bit that has so many set ones below it. By whole warps.
+  __device__ static std::uint32_t bit_of_rank(unsigned long long bits, std::uint32_t rank) {
+    const auto low = static_cast<std::uint32_t>(bits);
+    const auto high = static_cast<std::uint32_t>(bits >> 32U);
+    const unsigned below = (1U << lane()) - 1U;
+    const auto ours = [&](std::uint32_t half, std::uint32_t before) {
+      return __ballot_sync(kFullWarp, (half >> lane() & 1U) != 0 && before + __popc(half & below) == rank);
+    };
+    const unsigned in_low = ours(low, 0);
+    const unsigned in_high = ours(high, __popc(low));
+    return in_low != 0 ? __ffs(static_cast<int>(in_low)) - 1 : 31 + __ffs(static_cast<int>(in_high));
+  }
+
   SearchRest rest_;
   TeamCounts own_;
 };

@@ -25,9 +25,9 @@ class GridTeam : public GridPlaces {
   // `barrier`: the word of GridBarrier.
   __device__ explicit GridTeam(unsigned long long* barrier) : barrier_(barrier) {}
   __device__ void sync() const { barrier_.meet(); }
-  // The same; returns what was added up beside the barrier.
-  __device__ unsigned long long sync_and_ask(unsigned long long* in_block) const {
-    return barrier_.meet_and_ask(in_block);
+  // The same; returns what was told beside the barrier. `is_loose`: without making writes visible.
+  __device__ GridTally sync_and_ask(GridTally* in_block, bool is_loose = false) const {
+    return barrier_.meet_and_ask(in_block, is_loose);
   }
 
  private:

@@ -265,6 +265,22 @@ TEST(PipelineOnHost, BuffersGrow) {
   EXPECT_GE(subject.repeated_frames(), 1U);
 }
 
+// The same where pairs are measured: what the aborted frame has put, the repeated one puts again.
+TEST(PipelineOnHost, BuffersOfMeasuredPairsGrow) {
+  SceneShape shape;
+  shape.bodies = 90;
+  shape.cube_m = 0.3F;
+  const core::Scene scene = thrown({box_mesh({0.5F, 0.5F, 0.5F})}, shape);
+  for (const std::string levels : {"flat", "C"}) {
+    SCOPED_TRACE(levels);
+    PipelineOptions options;
+    options.levels = *core::levels_named(levels);
+    Pipeline subject(options);
+    EXPECT_GT(compare_pipelines(scene, subject, *twin_of({{"levels", levels}}), 3, 1), 0U);
+    EXPECT_GE(subject.repeated_frames(), 1U);
+  }
+}
+
 using Counts = std::map<std::string_view, std::uint64_t>;
 Counts counts_of(const core::Dynamics& dynamics) {
   Counts counts;
