@@ -37,13 +37,17 @@ LaunchShape few_shape(LaunchShape shape) {
   return shape;
 }
 
-// Of few bodies' frames, all of whose blocks but one end early. There is no such launch before compute capability 9;
-// and where processes share the GPU side by side (MPS), nobody knows what else waits for its blocks there.
+// Of few bodies' frames, all of whose blocks but one end early. Not where processes share the GPU side by side (MPS):
+// nobody knows what else waits for its blocks there. And only if the kernel waits for the one before, which is a matter
+// of what it was compiled for, not of the GPU: this may have made its code of what was meant for an older one.
 LaunchBegin few_begin() {
   static const bool can_be_early = [] {
-    const auto major = attribute(cudaDevAttrComputeCapabilityMajor);
+    cudaFuncAttributes kernel = {};
     const auto shares = attribute(cudaDevAttrMpsEnabled);
-    return major.ok() && major.value() >= 9 && shares.ok() && shares.value() == 0;
+    return shares.ok() && shares.value() == 0 &&
+           cudaFuncGetAttributes(&kernel, reinterpret_cast<const void*>(frame_kernel<FrameKind::kFew>)) ==
+               cudaSuccess &&
+           kernel.ptxVersion >= 90;
   }();
   return can_be_early ? LaunchBegin::kEarly : LaunchBegin::kTogether;
 }
