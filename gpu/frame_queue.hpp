@@ -17,7 +17,7 @@ class FrameQueue {
   // One runs and one waits. With a third nothing is faster, and more has to be done again after an abort.
   static constexpr std::uint64_t kMost = 2;
 
-  // Empty. The stream has nothing to do, and outlives this object's use.
+  // Empty. The stream, which others may use too, outlives this object's use.
   core::Status create(StreamHandle stream);
   // Behind those under way, fewer than kMost; `frame` is complete but for its outcomes. Returns at once.
   core::Status launch(FrameView frame, const LaunchShape& shape);

@@ -144,7 +144,7 @@ struct BlockScratch {
 
 // What can be done while the frame before ends. Returns a warp's first FewItem, of few bodies.
 template <FrameKind kKind>
-__device__ auto begin(const FrameView& f, const ShapesInBlock& shapes, ProximityScratch& scratch) {
+__device__ auto begin_frame(const FrameView& f, const ShapesInBlock& shapes, ProximityScratch& scratch) {
   if constexpr (kKind == FrameKind::kFew) {
     scratch.clear();
     shapes.begin(f);
@@ -163,7 +163,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   constexpr bool kIsFew = kKind == FrameKind::kFew;
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);  // of few bodies
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
-  const auto first = begin<kKind>(f, shapes, scratch.proximity);
+  const auto first = begin_frame<kKind>(f, shapes, scratch.proximity);
   const GridTeam grid(f.barrier);
   mark(grid, f, 0);
   if constexpr (kIsFew) {
