@@ -1,5 +1,5 @@
 // The program: subcommands and their exit codes.
-#include "bench/command_line.hpp"
+#include "bench/cli/command_line.hpp"
 
 int main(int argc, char** argv) {
   return broadside::bench::run_command_line(argc, argv);

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bench/child.hpp"
+#include "bench/process/child.hpp"
 #include "gpu/device_space.hpp"
 #include "reference/plugin/plugin_engine.hpp"
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/frame_taker.hpp"
+#include "bench/record/frame_taker.hpp"
 #include "core/engine/engine.hpp"
 #include "core/trace/trace_stream.hpp"
 #include "datasets/scenes.hpp"

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/build_facts.hpp"
-#include "bench/cell_spec.hpp"
+#include "bench/cell/cell_spec.hpp"
+#include "bench/cell/scene_arguments.hpp"
 #include "bench/paper/paper_scene.hpp"
-#include "bench/scene_arguments.hpp"
+#include "bench/process/build_facts.hpp"
 #include "core/pair.hpp"
 #include "core/whole_file.hpp"
 

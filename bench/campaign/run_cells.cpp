@@ -11,12 +11,12 @@
 #include <system_error>
 #include <vector>
 
-#include "bench/build_facts.hpp"
 #include "bench/campaign/cell_lock.hpp"
-#include "bench/child.hpp"
-#include "bench/interrupt.hpp"
 #include "bench/paper/cell_cost.hpp"
 #include "bench/paper/measure_group.hpp"
+#include "bench/process/build_facts.hpp"
+#include "bench/process/child.hpp"
+#include "bench/process/interrupt.hpp"
 #include "core/rows.hpp"
 
 namespace broadside::bench::campaign {

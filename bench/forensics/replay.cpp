@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "bench/child.hpp"
 #include "bench/forensics/replay_rule.hpp"
-#include "bench/record.hpp"
+#include "bench/process/child.hpp"
+#include "bench/record/record.hpp"
 #include "validation/subject_facts.hpp"
 
 namespace broadside::bench {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/cell_spec.hpp"
+#include "bench/cell/cell_spec.hpp"
 #include "bench/forensics/trace_difference.hpp"
 #include "core/result.hpp"
 #include "core/trace/trace_reader.hpp"

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
-#include "bench/cell_spec.hpp"
-#include "bench/interrupt.hpp"
+#include "bench/cell/cell_spec.hpp"
 #include "bench/mutants/specimen.hpp"
 #include "bench/mutants/specimen_scenes.hpp"
 #include "bench/mutants/tamperings.hpp"
+#include "bench/process/interrupt.hpp"
 #include "core/nearest_name.hpp"
 #include "core/scene/transformed_scene.hpp"
 #include "reference/mutants/mutants.hpp"

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "bench/campaign/run_cells.hpp"
-#include "bench/interrupt.hpp"
 #include "bench/paper/cell_cost.hpp"
 #include "bench/paper/cell_files.hpp"
+#include "bench/process/interrupt.hpp"
 
 namespace broadside::bench::paper {
 namespace {

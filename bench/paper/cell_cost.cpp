@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "bench/timing.hpp"
+#include "bench/timing/timing.hpp"
 
 namespace broadside::bench::paper {
 namespace {

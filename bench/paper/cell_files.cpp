@@ -3,7 +3,7 @@
 #include <system_error>
 #include <utility>
 
-#include "bench/run_plan.hpp"
+#include "bench/record/run_plan.hpp"
 
 namespace broadside::bench::paper {
 namespace {

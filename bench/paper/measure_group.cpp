@@ -5,15 +5,15 @@
 #include <optional>
 #include <utility>
 
-#include "bench/cell_request.hpp"
-#include "bench/interrupt.hpp"
-#include "bench/judging.hpp"
+#include "bench/cell/cell_request.hpp"
 #include "bench/paper/beyond_forecast.hpp"
 #include "bench/paper/cell_files.hpp"
 #include "bench/paper/measure_memory.hpp"
 #include "bench/paper/paper_scene.hpp"
-#include "bench/run_plan.hpp"
-#include "bench/timing.hpp"
+#include "bench/process/interrupt.hpp"
+#include "bench/record/judging.hpp"
+#include "bench/record/run_plan.hpp"
+#include "bench/timing/timing.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "reports/timing.hpp"
 #include "reports/wording.hpp"

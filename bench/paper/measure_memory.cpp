@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bench/interrupt.hpp"
 #include "bench/paper/memory_in_use.hpp"
+#include "bench/process/interrupt.hpp"
 
 namespace broadside::bench::paper {
 namespace {

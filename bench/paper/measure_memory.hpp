@@ -1,8 +1,8 @@
 // What the published memory figures are compared with: bytes that an engine holds, sampled over a run.
 #pragma once
 
-#include "bench/cell_spec.hpp"
-#include "bench/run_plan.hpp"
+#include "bench/cell/cell_spec.hpp"
+#include "bench/record/run_plan.hpp"
 #include "core/result.hpp"
 
 namespace broadside::bench::paper {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "bench/cell/scene_meshes.hpp"
 #include "bench/paper/sections.hpp"
-#include "bench/scene_meshes.hpp"
 #include "core/scene/body_octree.hpp"
 #include "reports/plots/model_picture.hpp"
 

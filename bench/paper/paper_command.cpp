@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/build_facts.hpp"
-#include "bench/commands.hpp"
-#include "bench/more_than_zero.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/more_than_zero.hpp"
 #include "bench/paper/campaign.hpp"
 #include "bench/paper/paper_plan.hpp"
 #include "bench/paper/sections.hpp"
-#include "bench/run_plan.hpp"
+#include "bench/process/build_facts.hpp"
+#include "bench/record/run_plan.hpp"
 #include "core/whole_file.hpp"
 
 namespace broadside::bench {

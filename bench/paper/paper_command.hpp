@@ -1,5 +1,5 @@
-// The subcommand `paper`. Its declaration is not in bench/commands.hpp, so that the other subcommands do not depend on
-// it.
+// The subcommand `paper`. Its declaration is not in bench/cli/commands.hpp, so that the other subcommands do not depend
+// on it.
 #pragma once
 
 #include "core/result.hpp"

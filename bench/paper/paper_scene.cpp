@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/scene_meshes.hpp"
+#include "bench/cell/scene_meshes.hpp"
 
 namespace broadside::bench::paper {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/cell_request.hpp"
+#include "bench/cell/cell_request.hpp"
 #include "bench/engines.hpp"
-#include "bench/near_pairs.hpp"
+#include "bench/record/near_pairs.hpp"
 
 namespace broadside::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "bench/cell_spec.hpp"
+#include "bench/cell/cell_spec.hpp"
 #include "core/engine/engine.hpp"
 #include "core/result.hpp"
 #include "core/scene/scene.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "bench/interrupt.hpp"
+#include "bench/process/interrupt.hpp"
 #include "bench/shrink/minimal_subset.hpp"
 #include "bench/shrink/simpler_scene.hpp"
 #include "validation/overlap_join.hpp"

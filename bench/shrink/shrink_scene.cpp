@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/interrupt.hpp"
+#include "bench/process/interrupt.hpp"
 #include "bench/shrink/minimal_subset.hpp"
 #include "bench/shrink/simpler_scene.hpp"
 #include "core/contact.hpp"

@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "bench/child.hpp"
 #include "bench/engines.hpp"
-#include "bench/record.hpp"
-#include "bench/scratch_folder.hpp"
+#include "bench/process/child.hpp"
+#include "bench/process/scratch_folder.hpp"
+#include "bench/record/record.hpp"
 #include "bench/shrink/engine_stream.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "core/trace/trace_writer.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/cell_spec.hpp"
+#include "bench/cell/cell_spec.hpp"
 #include "core/result.hpp"
 #include "core/scene/scene.hpp"
 #include "core/verdict.hpp"

@@ -1,5 +1,5 @@
 // How an engine that runs ahead is timed: in one call, each frame's time the interval between two completions.
-#include "bench/timing.hpp"
+#include "bench/timing/timing.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

@@ -1,5 +1,5 @@
 // Two that take turns: never both at once, never far from each other, and nobody waits for one that is gone.
-#include "bench/turns.hpp"
+#include "bench/timing/turns.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

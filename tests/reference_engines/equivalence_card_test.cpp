@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/cell/equivalence.hpp"
 #include "bench/engines.hpp"
-#include "bench/equivalence.hpp"
 #include "datasets/shapes/box_mesh.hpp"
 
 namespace broadside {

@@ -1,0 +1,47 @@
+// An engine's answers about many pairs, each asked in a process that may die of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/agree/pairs.hpp"
+#include "bench/cell/cell_spec.hpp"
+#include "core/engine/engine.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+enum class Asked : std::uint8_t { kNothing, kAnswered, kThrew, kAborted, kCrashed, kTimedOut };
+
+struct Answer {
+  Asked asked = Asked::kNothing;
+  float seconds = 0.0F;  // of this one query, the adapter's conversions with it; elapsed or processor's, the lesser
+  core::Separation separation;
+  std::array<char, 96> thrown{};  // what the library threw, cut short
+};
+
+struct Answers {
+  std::vector<Answer> of_pair;
+  // Last words of processes that died, and what was thrown -> how often.
+  std::map<std::string, std::uint64_t> words;
+  std::string build;                         // of the engine
+  std::map<std::string, std::string> notes;  // its equivalence card
+};
+
+struct AskLimits {
+  double seconds_per_query = 1.0;   // of processor time: others on the machine do not count
+  std::uint64_t memory_mib = 4096;  // of address space beyond what this program has
+  std::uint32_t processes = 1;      // side by side
+};
+
+// One query at a time in each process. A process starts again behind the pair that it died of. Must be called before
+// this process has started a thread: the children are forks of it. Errors: the engine cannot be made, has no narrow
+// phase, or refuses the shapes. progress is called with pairs done.
+core::Result<Answers> ask(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs,
+                          const AskLimits& limits, const std::function<void(std::uint64_t)>& progress);
+
+}  // namespace broadside::bench

@@ -1,0 +1,84 @@
+#include "bench/agree/case.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/whole_file.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kFormat = "broadside-pair";
+
+json body_of(const core::Mesh& mesh, const core::Pose& pose) {
+  json vertices = json::array();
+  for (const core::Vec3 v : mesh.vertices) vertices.push_back({v.x, v.y, v.z});
+  const core::Quat q = pose.orientation;
+  return {{"mesh", mesh.name},
+          {"vertices", std::move(vertices)},
+          {"triangles", mesh.triangles},
+          {"position", {pose.position.x, pose.position.y, pose.position.z}},
+          {"orientation", {q.w, q.x, q.y, q.z}}};
+}
+
+core::Vec3 vector_of(const json& v) {
+  return {v.at(0).get<float>(), v.at(1).get<float>(), v.at(2).get<float>()};
+}
+
+std::shared_ptr<const core::Mesh> mesh_of(const json& body) {
+  core::Mesh mesh;
+  mesh.name = body.at("mesh").get<std::string>();
+  mesh.source = "a saved pair";
+  for (const json& v : body.at("vertices")) mesh.vertices.push_back(vector_of(v));
+  for (const json& t : body.at("triangles")) {
+    mesh.triangles.push_back(t.get<core::Triangle>());
+    for (const std::uint32_t v : mesh.triangles.back())
+      if (v >= mesh.vertices.size()) throw std::out_of_range("a triangle names a vertex that is not there");
+  }
+  if (mesh.triangles.empty()) throw std::out_of_range("a mesh has no triangles");
+  return std::make_shared<const core::Mesh>(std::move(mesh));
+}
+
+core::Pose pose_of(const json& body) {
+  const json& q = body.at("orientation");
+  return {vector_of(body.at("position")),
+          {q.at(0).get<float>(), q.at(1).get<float>(), q.at(2).get<float>(), q.at(3).get<float>()}};
+}
+
+}  // namespace
+
+core::Status write_case(const PairSource& source, const TestPair& pair, const std::filesystem::path& file) {
+  const json out{{"format", kFormat},
+                 {"version", 1},
+                 {"is_convex", source.has_depth()},
+                 {"distance_m", pair.distance_m},
+                 {"a", body_of(*source.meshes()[pair.mesh_a], pair.pose_a)},
+                 {"b", body_of(*source.meshes()[pair.mesh_b], pair.pose_b)}};
+  return core::write_whole_file(file, out.dump() + "\n");
+}
+
+core::Result<Case> read_case(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) return core::Error{"cannot be read", file.string(), "give a file that agree saved"};
+  try {
+    const json saved = json::parse(in);
+    if (saved.at("format") != kFormat || saved.at("version") != 1)
+      return core::Error{"it is no saved pair of version 1", file.string(), "give a file that agree saved"};
+    auto source = PairSource::of_case({mesh_of(saved.at("a")), mesh_of(saved.at("b"))}, saved.at("is_convex"));
+    if (!source) return source.error();
+    TestPair pair;
+    pair.mesh_a = 0;
+    pair.mesh_b = 1;
+    pair.pose_a = pose_of(saved.at("a"));
+    pair.pose_b = pose_of(saved.at("b"));
+    source.value().arbitrate(pair);
+    return Case{std::move(source).value(), pair};
+  } catch (const std::exception& e) {
+    return core::Error{std::string("it is damaged: ") + e.what(), file.string(), "give a file that agree saved"};
+  }
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,25 @@
+// One pair of bodies as a file, so that what a library did with it can be seen again.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "bench/agree/pairs.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+// JSON: meshes with vertices (m, body coordinates) and triangles, positions, orientations w x y z. Floats are written
+// with the digits that bring them back. The file appears whole or not at all.
+core::Status write_case(const PairSource& source, const TestPair& pair, const std::filesystem::path& file);
+
+struct Case {
+  PairSource source;
+  TestPair pair;
+};
+
+// Errors name the file and what is missing in it.
+core::Result<Case> read_case(const std::filesystem::path& file);
+
+}  // namespace broadside::bench

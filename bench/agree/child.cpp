@@ -1,0 +1,144 @@
+#include "bench/agree/child.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include "bench/cell/equivalence.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Bodies of one scene. A measure call takes a pose for every body of it, so few are cheap; but meshes that take long to
+// load are better loaded seldom.
+constexpr std::size_t kPairsPerScene = 64;
+constexpr std::size_t kMeshPairsPerScene = 1024;
+
+core::Scene scene_of(const PairSource& source, std::span<const TestPair> pairs) {
+  core::Scene scene;
+  scene.name = "agree";
+  scene.meshes = source.meshes();
+  scene.domain = {{-100.0F, -100.0F, -100.0F}, {100.0F, 100.0F, 100.0F}};
+  for (const TestPair& p : pairs) {
+    for (const auto& [mesh, pose] : {std::pair{p.mesh_a, p.pose_a}, std::pair{p.mesh_b, p.pose_b}}) {
+      core::Body body;
+      body.mesh = mesh;
+      body.position = pose.position;
+      body.orientation = pose.orientation;
+      scene.bodies.push_back(body);
+    }
+  }
+  return scene;
+}
+
+core::Result<core::Engine> make_engine(const CellSpec& cell) {
+  auto settings = core::Settings::parse(cell.row->id, cell.row->settings, cell.settings);
+  if (!settings) return settings.error();
+  auto engine = cell.row->create(settings.value());
+  if (engine.ok() && engine.value().narrow_phase == nullptr)
+    return core::Error{"it has no narrow phase", std::string(cell.row->id), "see 'broadside list engines'"};
+  return engine;
+}
+
+// Another process reads these while they change: no compiler may keep them back.
+void begin(ChildReport& report, std::size_t at, bool is_querying) {
+  volatile ChildReport& seen = report;
+  seen.at = at;
+  seen.is_querying = is_querying;
+  seen.begun = seen.begun + 1;
+}
+
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// The lesser of elapsed and processor time: a query that the machine interrupted for others took no longer for it, and
+// one that several threads worked on is done when it is done.
+template <typename Query>
+float seconds_of(Query&& query) {
+  const double used = processor_seconds();
+  const auto start = Clock::now();
+  query();
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+  return static_cast<float>(std::min(elapsed, processor_seconds() - used));
+}
+
+void ask_one(core::NarrowPhase& narrow, core::Pair pair, const std::vector<core::Pose>& poses, Answer& answer) {
+  core::Status measured = core::Done{};
+  answer.seconds = seconds_of([&] { measured = narrow.measure({&pair, 1}, poses); });
+  auto found = narrow.read_back();
+  const bool is_answered = measured.ok() && found.ok() && found.value().size() == 1;
+  if (is_answered) answer.separation = found.value()[0];
+  const std::string what = measured.ok() ? "no answer" : measured.error().what;
+  if (!is_answered) what.copy(answer.thrown.data(), answer.thrown.size() - 1);
+  answer.asked = is_answered ? Asked::kAnswered : Asked::kThrew;
+}
+
+}  // namespace
+
+void ChildReport::say(const std::string& words) {
+  const auto size = static_cast<std::uint32_t>(std::min(words.size(), text.size()));
+  std::memcpy(text.data(), words.data(), size);
+  text_size = size;
+}
+
+int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs, std::size_t first,
+              std::size_t last, std::span<Answer> answers, ChildReport& report) {
+  begin(report, first, false);
+  auto engine = make_engine(cell);
+  if (!engine) return kRefused;
+  core::NarrowPhase& narrow = *engine.value().narrow_phase;
+  const std::size_t most = source.has_depth() ? kPairsPerScene : kMeshPairsPerScene;
+  for (std::size_t k = first; k < last; k += most) {
+    const std::size_t count = std::min(most, last - k);
+    begin(report, k, false);
+    const core::Scene scene = scene_of(source, std::span(pairs).subspan(k, count));
+    if (core::Status s = narrow.load(scene); !s) {
+      report.say(s.error().line());
+      return kRefused;
+    }
+    std::vector<core::Pose> poses;
+    for (const core::Body& body : scene.bodies) poses.push_back({body.position, body.orientation});
+    for (std::uint32_t p = 0; p < count; ++p) {
+      begin(report, k + p, true);
+      ask_one(narrow, {2 * p, 2 * p + 1}, poses, answers[k + p]);
+    }
+  }
+  return kAllAsked;
+}
+
+int describe_engine(const CellSpec& cell, const PairSource& source, ChildReport& report) {
+  begin(report, 0, false);
+  auto engine = make_engine(cell);
+  if (!engine) {
+    report.say(engine.error().line());
+    return kRefused;
+  }
+  std::map<std::string, std::string> notes;
+  core::add_notes(equivalence_of(engine.value(), scene_of(source, {})), notes);
+  std::string text = engine.value().build + "\n";
+  for (const auto& [key, value] : notes) text += key + "\t" + value + "\n";
+  report.say(text);
+  return kAllAsked;
+}
+
+EngineWords engine_words(const std::string& said) {
+  EngineWords words;
+  words.build = said.substr(0, said.find('\n'));
+  for (std::size_t at = words.build.size() + 1; at < said.size();) {
+    const std::size_t end = std::min(said.find('\n', at), said.size());
+    const std::string line = said.substr(at, end - at);
+    const std::size_t tab = line.find('\t');
+    if (tab != std::string::npos) words.notes[line.substr(0, tab)] = line.substr(tab + 1);
+    at = end + 1;
+  }
+  return words;
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,17 @@
+// Many pairs with the arbiter's answers, drawn by several processes: each pair follows from its index alone.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "bench/agree/pairs.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+// Pairs 0 to count - 1. Must be called before this process has started a thread. progress is called with pairs done.
+core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t count, std::uint32_t processes,
+                                               const std::function<void(std::uint64_t)>& progress);
+
+}  // namespace broadside::bench

@@ -1,0 +1,68 @@
+// What an engine's answer is worth beside the arbiter's, and sums of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/agree/answers.hpp"
+#include "bench/agree/pairs.hpp"
+#include "core/engine/equivalence.hpp"
+
+namespace broadside::bench {
+
+// Bodies in the touching band are judged for nothing but an answer: the sign is noise there.
+enum class Agreement {
+  kAgree,
+  kTouchingBand,
+  kDistanceOff,  // apart, by more than kTouchingBand_m
+  kDepthOff,     // overlapping: the depth is not the least one
+  kNormalOff,    // bodies overlap along it by more than the least depth; or it is not the direction between them
+  kConvention,   // the same normal turned round
+  kMissed,       // says apart where they overlap
+  kExtra,        // says touching where they are apart
+  kNoNumber,     // NaN, or touching without depth and direction
+  kThrew,
+  kAborted,
+  kCrashed,
+  kTimedOut,
+};
+inline constexpr std::array<std::string_view, 13> kAgreements{
+    "agree", "touching band", "distance off", "depth off", "normal off", "convention", "missed",
+    "extra", "no number",     "exception",    "abort",     "crash",      "time-out"};
+
+// |answer - arbiter| by decades: below 1e-8 m, ..., at or above 1e-2 m. Angles: below 1e-6 rad, ..., at or above 1 rad.
+inline constexpr int kErrorDecades = 8;
+inline constexpr int kAngleDecades = 8;
+
+struct AgreementBin {
+  std::array<std::uint64_t, kAgreements.size()> count{};
+  std::array<std::uint64_t, kErrorDecades> error{};
+  std::array<std::uint64_t, kAngleDecades> angle{};
+  std::vector<float> seconds;  // of queries that were answered
+
+  [[nodiscard]] std::uint64_t pairs() const;
+  [[nodiscard]] double median_s() const;  // NaN when none was answered
+};
+
+struct AgreementTable {
+  std::array<AgreementBin, std::size(kSeparations)> by_separation;
+  std::array<AgreementBin, std::size(kDegeneracies)> by_degeneracy;
+};
+
+Agreement judge(const PairSource& source, const TestPair& pair, const Answer& answer);
+
+// One verdict a pair in `verdicts`.
+AgreementTable tabulate(const PairSource& source, const std::vector<TestPair>& pairs,
+                        const std::vector<Answer>& answers, std::vector<Agreement>& verdicts);
+
+// Which known defects of its library an engine met, from these verdicts.
+std::vector<core::DefectHits> defects_met(std::string_view engine_label, PairKind kind,
+                                          const std::vector<Agreement>& verdicts);
+
+// "19876 agree, 3 abort; median 1.2 us": what is not zero.
+std::string agreement_text(const AgreementBin& bin);
+
+}  // namespace broadside::bench

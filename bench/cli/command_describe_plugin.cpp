@@ -1,0 +1,35 @@
+// What plugin_row asks a child process: load the library and print what it says of itself.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bench/cli/commands.hpp"
+#include "reference/plugin/plugin_engine.hpp"
+
+namespace broadside::bench {
+
+void add_describe_plugin(CLI::App& program, core::Exit& exit) {
+  // A group of no name is not listed: people have `broadside list --engine FILE`.
+  CLI::App* command = program.add_subcommand("describe-plugin", "Prints what a plug-in says of itself, as JSON");
+  command->group("");
+  auto file = std::make_shared<std::string>();
+  command->add_option("FILE", *file, "shared library")->required();
+  command->callback([file, &exit] {
+    const auto description = reference::describe_plugin(*file);
+    if (!description) {
+      exit = complain(description.error());
+      return;
+    }
+    const reference::PluginDescription& d = description.value();
+    nlohmann::json json{{"id", d.id},     {"capabilities", d.capabilities}, {"build", d.build},
+                        {"what", d.what}, {"on_device", d.on_device},       {"settings", nlohmann::json::array()}};
+    for (const auto& s : d.settings)
+      json["settings"].push_back({{"key", s.key}, {"default", s.default_value}, {"what", s.what}});
+    fmt::print("{}\n", json.dump());
+  });
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,125 @@
+#include "bench/cli/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/paper/paper_command.hpp"
+#include "bench/process/build_facts.hpp"
+#include "bench/process/interrupt.hpp"
+#include "core/nearest_name.hpp"
+
+namespace broadside::bench {
+namespace {
+
+// One a line, so that two people can add one each.
+constexpr AddCommand kCommands[] = {
+    add_list,             //
+    add_run,              //
+    add_agree,            //
+    add_pairs,            //
+    add_check,            //
+    add_time,             //
+    add_report,           //
+    add_compare,          //
+    add_history,          //
+    add_demo,             //
+    add_fetch,            //
+    add_recover,          //
+    add_describe_plugin,  //
+    add_diff,             //
+    add_replay,           //
+    add_shrink,           //
+    add_plan,             //
+    add_merge,            //
+    add_mutants,          //
+    add_view,             //
+    add_paper,            //
+    add_mesh,             //
+    add_scene,            //
+    add_export,           //
+};
+
+std::vector<std::string> subcommands(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+bool knows_subcommand(const CLI::App& program, const std::string& name) {
+  const std::vector<std::string> names = subcommands(program);
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+core::Error unknown_subcommand(const CLI::App& program, const std::string& typed) {
+  const std::vector<std::string> names = subcommands(program);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return {"unknown subcommand '" + typed + "'", "command line", core::advise_name(typed, views)};
+}
+
+core::Exit parse_and_run(int argc, char** argv) {
+  CLI::App program{
+      "Runs collision engines side by side on identical scenes, proves what each got right, and times only "
+      "what it proved.",
+      "broadside"};
+  program.require_subcommand(1);
+  program.set_version_flag("--version", build_line);
+  program.footer(
+      "Exit codes: 0 good; 1 a validator failed or a regression; 2 bad usage or bad input; 3 inconclusive or a\n"
+      "cell that was asked for is missing; 4 internal. 'broadside SUBCOMMAND --help' explains each.");
+  core::Exit exit = core::Exit::kGood;
+  for (const AddCommand add : kCommands) add(program, exit);
+  if (argc > 1 && argv[1][0] != '-' && !knows_subcommand(program, argv[1]))
+    return complain(unknown_subcommand(program, argv[1]));
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    program.exit(help);
+  } catch (const CLI::CallForAllHelp& help) {
+    program.exit(help);
+  } catch (const CLI::CallForVersion& version) {
+    program.exit(version);
+  } catch (const CLI::ParseError& error) {
+    return complain({error.what(), "command line", "see broadside --help"});
+  }
+  return exit;
+}
+
+}  // namespace
+
+core::Exit complain(const core::Error& error) {
+  fmt::print(stderr, "broadside: {}\n", error.line());
+  return error.exit;
+}
+
+int run_command_line(int argc, char** argv) {
+  watch_for_interrupt();
+  const auto gave_up = [](const char* what, const char* where, const char* advice) {
+    return static_cast<int>(complain({what, where, advice, core::Exit::kInternal}));
+  };
+  constexpr const char* kLess = "fewer bodies or frames, or a larger machine";
+  try {
+    return static_cast<int>(parse_and_run(argc, argv));
+  } catch (const std::bad_alloc&) {
+    return gave_up("out of memory", "this run", kLess);
+  } catch (const std::system_error& error) {
+    // What a thread says that finds no room for its stack.
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return gave_up("out of memory: no room for another thread", "this run", kLess);
+    return gave_up(error.what(), "internal error", "please report it with the command");
+  } catch (const std::exception& error) {
+    return gave_up(error.what(), "internal error", "please report it with the command");
+  }
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,36 @@
+// Where a run that was cut short can go on: the trace that it left, and the scene with the states of its last frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "bench/cell/cell_request.hpp"
+#include "core/result.hpp"
+#include "core/scene/scene.hpp"
+#include "core/trace/trace_header.hpp"
+#include "core/trace/trace_reader.hpp"
+
+namespace broadside::bench {
+
+struct ResumePoint {
+  core::TraceReader trace;  // its frames are part of the whole run
+  core::Scene scene;        // the request's, but for the bodies' positions and velocities
+  std::uint64_t step = 0;   // of the trace's last frame
+  bool is_complete = false;
+};
+
+// Looks for NAME.h5.part, for NAME.h5.interrupted and for NAME.h5 (recovered, or complete) in the request's folder and
+// takes the one that got farthest; none = nothing to go on from. A .part is renamed to .interrupted first, so that a
+// kill while its frames are copied loses nothing. Errors: a trace of another stamp, level or choice of steps; an engine
+// with more state than its bodies'; a file whose writer is still at work.
+core::Result<std::optional<ResumePoint>> find_resume_point(const CellRequest& request, const core::TraceHeader& wanted);
+
+// The windows of steps that a trace was recorded in; empty = all steps.
+std::string windows_of(const core::TraceHeader& header);
+
+// What find_resume_point set aside, for the end of the run, which has all of it.
+std::filesystem::path set_aside_path(const CellRequest& request, const core::Stamp& stamp);
+
+}  // namespace broadside::bench

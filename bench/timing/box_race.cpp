@@ -1,0 +1,159 @@
+#include "bench/timing/box_race.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bench/engines.hpp"
+#include "bench/plugin_engines.hpp"
+#include "datasets/box_streams/box_stream.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+core::Status run_frame(core::BroadPhase& broad, const std::vector<core::Box>& boxes, std::uint64_t frame,
+                       RaceRow& row) {
+  const auto start = Clock::now();
+  if (core::Status s = broad.update(boxes); !s) return s;
+  const auto updated = Clock::now();
+  if (core::Status s = broad.find(); !s) return s;
+  const auto found = Clock::now();
+  auto pairs = broad.read_back();
+  if (!pairs) return pairs.error();
+  const auto read = Clock::now();
+  const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };
+  row.update_s += seconds(start, updated);
+  row.find_s += seconds(updated, found);
+  row.read_back_s += seconds(found, read);
+  row.filter_s += pairs.value().filter_s;
+  row.pairs += pairs.value().pairs.size();
+  row.raw += pairs.value().raw;
+  // One frame's digest is that of DESIGN; further frames are told apart by their number.
+  const std::uint64_t digest = core::pair_digest(pairs.value().pairs);
+  row.digest += frame == 0 ? digest : core::splitmix64(digest + frame);
+  ++row.frames;
+  return core::Done{};
+}
+
+core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell, std::uint32_t frames) {
+  const std::string reason = why_absent(*cell.row);
+  if (!reason.empty())
+    return core::Error{"not measured: " + reason, std::string(cell.row->id), "leave it out", core::Exit::kMissing};
+  auto settings = core::Settings::parse(cell.row->id, cell.row->settings, cell.settings);
+  if (!settings) return settings.error();
+  auto engine = cell.row->create(settings.value());
+  if (!engine) return engine.error();
+  core::BroadPhase* broad = engine.value().broad_phase.get();
+  if (broad == nullptr)
+    return core::Error{"it offers no broad phase with these settings", std::string(cell.row->id),
+                       "see 'broadside list engines'"};
+  auto made = datasets::make_box_stream(stream_name);
+  if (!made) return made.error();
+  datasets::BoxStream& stream = made.value();
+
+  RaceRow row;
+  row.label = label_of(cell);
+  row.boxes = stream.boxes.size();
+  const std::vector<std::uint8_t> is_static(stream.boxes.size());
+  if (core::Status s = broad->load(stream.boxes, is_static); !s) return s.error();
+  const std::uint32_t count = frames > 0 ? std::min(frames, stream.frames) : stream.frames;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (k > 0)
+      if (core::Status s = stream.advance(stream.boxes); !s) return s.error();
+    if (core::Status s = run_frame(*broad, stream.boxes, k, row); !s) return s.error();
+  }
+  return row;
+}
+
+core::Result<RaceRow> row_of_json(const std::string& text) {
+  try {
+    const auto out = nlohmann::json::parse(text).at(0);
+    RaceRow row;
+    row.label = out.at("engine");
+    row.frames = out.at("frames");
+    row.boxes = out.at("boxes");
+    row.pairs = out.at("pairs");
+    row.raw = out.at("raw_pairs");
+    row.digest = std::stoull(out.at("digest").get<std::string>(), nullptr, 16);
+    row.update_s = out.at("update_s");
+    row.find_s = out.at("find_s");
+    row.filter_s = out.at("filter_s");
+    row.read_back_s = out.at("read_back_s");
+    return row;
+  } catch (const std::exception& e) {
+    return core::Error{std::string("its answer cannot be read: ") + e.what(), "child process", "",
+                       core::Exit::kInternal};
+  }
+}
+
+core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& cell, std::uint32_t frames,
+                                    const ChildLimits& limits) {
+  std::vector<std::string> args{"pairs", stream, "--engine", engine_argument(*cell.row), "--json", "--in-process"};
+  for (const auto& [key, value] : cell.settings) {
+    args.emplace_back("--set");
+    args.push_back(key + "=" + value);
+  }
+  if (frames > 0) {
+    args.emplace_back("--frames");
+    args.push_back(std::to_string(frames));
+  }
+  append_memory_limit(args, limits);
+  auto ended = run_self(args, limits, Keeps::kOutput);
+  if (!ended) return ended.error();
+  if (ended.value().is_good) return row_of_json(ended.value().output);
+  if (ended.value().exit_code == static_cast<int>(core::Exit::kBadInput)) {
+    std::string_view line = ended.value().last_line;
+    constexpr std::string_view kName = "broadside: ";
+    if (line.starts_with(kName)) line.remove_prefix(kName.size());
+    return core::Error{std::string(line)};
+  }
+  RaceRow row;
+  row.label = label_of(cell);
+  row.absent = ended.value().words;
+  row.verdict = class_of(ended.value());
+  row.repeat = command_line(args);
+  return row;
+}
+
+}  // namespace
+
+core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const std::vector<CellSpec>& cells,
+                                              std::uint32_t frames, const ChildLimits& limits, bool here) {
+  std::vector<RaceRow> rows;
+  for (const CellSpec& cell : cells) {
+    const bool is_apart = cell.row->is_reference && !here && why_absent(*cell.row).empty();
+    auto row = is_apart ? race_in_child(stream, cell, frames, limits) : race(stream, cell, frames);
+    if (!row) return row.error();
+    rows.push_back(std::move(row).value());
+  }
+  return rows;
+}
+
+std::string race_json(const std::vector<RaceRow>& rows) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const RaceRow& r : rows) {
+    if (!r.absent.empty()) {
+      out.push_back({{"engine", r.label}, {"absent", r.absent}, {"verdict", r.verdict}, {"repeat", r.repeat}});
+      continue;
+    }
+    out.push_back({{"engine", r.label},
+                   {"frames", r.frames},
+                   {"boxes", r.boxes},
+                   {"pairs", r.pairs},
+                   {"raw_pairs", r.raw},
+                   {"digest", fmt::format("{:#018x}", r.digest)},
+                   {"update_s", r.update_s},
+                   {"find_s", r.find_s},
+                   {"filter_s", r.filter_s},
+                   {"read_back_s", r.read_back_s}});
+  }
+  return out.dump(2);
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,40 @@
+// Broad phases side by side on a stream of boxes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/cell/cell_spec.hpp"
+#include "bench/process/child.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+// Sums over the frames; digest: the sum modulo 2^64 of the frames' pair digests, each mixed with its frame's number.
+struct RaceRow {
+  std::string label;
+  std::uint64_t frames = 0;
+  std::uint64_t boxes = 0;
+  std::uint64_t pairs = 0;
+  std::uint64_t raw = 0;
+  std::uint64_t digest = 0;
+  double update_s = 0.0;
+  double find_s = 0.0;
+  double filter_s = 0.0;     // of read_back_s: the engine's raw pairs filtered on the given boxes
+  double read_back_s = 0.0;  // copies, the engine's own filter, canonical order
+  std::string absent;        // why a reference's process left no answer; empty when it did
+  std::string verdict;       // then: "abort", "time-out", ... (class_of in bench/process/child.hpp)
+  std::string repeat;        // and the command that repeats it; the boxes follow from their name, or are its file
+};
+
+// frames: at most so many; 0 = all of the stream. References run in processes of their own, unless `here`. Errors:
+// unknown or malformed boxes, an engine without a broad phase or without its device, an engine that fails in this
+// process. One that dies in its own leaves a row that says so.
+core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const std::vector<CellSpec>& cells,
+                                              std::uint32_t frames, const ChildLimits& limits, bool here);
+
+// A row as JSON, as the command prints it and as a child process tells its parent.
+std::string race_json(const std::vector<RaceRow>& rows);
+
+}  // namespace broadside::bench
