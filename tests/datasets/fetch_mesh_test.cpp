@@ -16,7 +16,7 @@
 #include "datasets/mesh/mesh_catalogue.hpp"
 #include "datasets/mesh/write_ply.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
-#include "tests/datasets/mesh_topology.hpp"
+#include "tests/core/mesh/mesh_topology.hpp"
 #include "tests/datasets/temporary_folder.hpp"
 
 namespace broadside {

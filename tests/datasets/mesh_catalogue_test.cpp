@@ -13,7 +13,7 @@
 #include "core/mesh/topology.hpp"
 #include "datasets/mesh/acquire_mesh.hpp"
 #include "datasets/mesh/sha256.hpp"
-#include "tests/datasets/mesh_topology.hpp"
+#include "tests/core/mesh/mesh_topology.hpp"
 #include "tests/datasets/temporary_folder.hpp"
 
 namespace broadside {

@@ -6,7 +6,7 @@
 
 #include "datasets/shapes/box_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
-#include "tests/datasets/mesh_topology.hpp"
+#include "tests/core/mesh/mesh_topology.hpp"
 
 namespace broadside {
 namespace {
