@@ -11,6 +11,7 @@ import unittest
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 RACE = os.path.join(ROOT, "bench", "benchmarks", "measure")
 REFERENCES = os.path.join(ROOT, "reference", "results", "measure")
+GPU = os.path.join(ROOT, "gpu")
 
 # Google Benchmark as far as the script looks at it: names that the filter takes, with these times in ms.
 PRETENDED_RACE = """
@@ -126,6 +127,59 @@ class References(unittest.TestCase):
             with open(os.path.join(folder, "README.md"), encoding="utf-8") as made, \
                     open(os.path.join(here, "README.md"), encoding="utf-8") as kept:
                 self.assertEqual(made.read(), kept.read())
+
+
+class GpuPage(unittest.TestCase):
+    def page_of(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, result in files.items():
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    json.dump(result, file)
+            out = os.path.join(folder, "page.md")
+            run(os.path.join(GPU, "measured"), "--results", folder, "--out", out)
+            with open(out, encoding="utf-8") as file:
+                return file.read()
+
+    def test_the_page_that_is_kept_is_that_of_the_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "page.md")
+            run(os.path.join(GPU, "measured"), "--out", out)
+            with open(out, encoding="utf-8") as made, open(os.path.join(GPU, "MEASURED.md"), encoding="utf-8") as kept:
+                self.assertEqual(made.read(), kept.read(), "run gpu/measured and commit gpu/MEASURED.md")
+
+    def test_a_figure_stands_beside_its_gpu_its_date_and_its_command(self):
+        row = {"scene": "freefall:bunny:50", "label": "tree", "fps_median": 64390.0, "fps_least": 64000.0,
+               "fps_most": 65000.0, "fps_last_quarter": 64215.0, "frames": 3000, "repetitions": 5,
+               "median_stage_us": {"vertices": 6.08, "frame": 15.4}}
+        page = self.page_of({"t4.json": {"when": "2001-02-03", "gpu": {"name": "NVIDIA T4", "driver_version": "1.2"},
+                                         "command": "gpu/measure broadside t4.json", "rows": [row]}})
+        for said in ("NVIDIA T4, driver 1.2", "2001-02-03", "`gpu/measure broadside t4.json`", "| 6.08 |", "| 64 215 |"):
+            self.assertIn(said, page)
+
+    def test_what_failed_or_was_not_measured_is_named(self):
+        page = self.page_of({
+            "t4.json": {"rows": [{"scene": "freefall:bunny:50", "not_measured": "out of memory"}]},
+            "t4_agreement.json": {"rows": [
+                {"scene": "a", "label": "flat", "engines": "octree", "outcome": "pass", "frames_compared": 600},
+                {"scene": "b", "label": "flat", "engines": "octree", "outcome": "fail", "why": "frame 7 differs"}]},
+            "t4_sanitizer.json": {"rows": [{"tool": "racecheck", "name": "pile", "exit": 9, "summary": "3 hazards"}]}})
+        self.assertIn("- freefall:bunny:50: not measured: out of memory", page)
+        self.assertIn("1 of 2 cells are equal", page)
+        self.assertIn("- b flat: fail frame 7 differs", page)
+        self.assertIn("- racecheck, pile: exit 9: 3 hazards", page)
+        self.assertIn("Date: not recorded", page)
+
+    def test_a_results_file_names_its_command_without_folders(self):
+        with tempfile.TemporaryDirectory() as folder:
+            row, out = os.path.join(folder, "a.row"), os.path.join(folder, "out.json")
+            with open(row, "w", encoding="utf-8") as file:
+                json.dump({"tool": "memcheck"}, file)
+            run(os.path.join(GPU, "result_file.py"), out, row, "--", "/somewhere/gpu/sanitize", "/elsewhere/broadside")
+            with open(out, encoding="utf-8") as file:
+                kept = json.load(file)
+        self.assertEqual(kept["command"], "gpu/sanitize broadside")
+        self.assertEqual(kept["rows"], [{"tool": "memcheck"}])
+        self.assertRegex(kept["when"], r"^\d{4}-\d\d-\d\d$")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,55 @@
+"""The results files of gpu/results: every script that measures here writes one, and `gpu/measured` makes a page of them.
+
+A file says when it was made, on which GPU and by which command; its rows are the script's own. The command is without
+folders, which differ from machine to machine.
+
+As a program, for scripts that are not Python:  gpu/result_file.py OUT.json ROW_FILE... -- COMMAND...
+"""
+import datetime
+import json
+import os
+import subprocess
+import sys
+
+GPU_FACTS = "name,driver_version,memory.total,clocks.max.sm,clocks.max.memory,power.limit"
+
+
+def gpu_facts():
+    """What nvidia-smi says of the first GPU; empty where there is none."""
+    try:
+        line = subprocess.run(["nvidia-smi", f"--query-gpu={GPU_FACTS}", "--format=csv,noheader"], check=True,
+                              capture_output=True, text=True).stdout.splitlines()[0]
+    except (OSError, subprocess.CalledProcessError, IndexError):
+        return {}
+    return dict(zip(GPU_FACTS.split(","), (part.strip() for part in line.split(","))))
+
+
+def without_folder(argument):
+    return os.path.basename(argument.rstrip("/")) if argument.startswith("/") else argument
+
+
+def head(arguments):
+    """What every file says of itself. `arguments`: of the script, its own name first."""
+    words = ["gpu/" + os.path.basename(arguments[0]), *(without_folder(word) for word in arguments[1:])]
+    return {"when": datetime.date.today().isoformat(), "gpu": gpu_facts(), "command": " ".join(words)}
+
+
+def write(path, result):
+    """The file appears whole or not at all."""
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        json.dump(result, file, indent=1)
+        file.write("\n")
+    os.replace(path + ".part", path)
+
+
+def main(out, *arguments):
+    files, command = arguments[:arguments.index("--")], arguments[arguments.index("--") + 1:]
+    rows = []
+    for name in files:
+        with open(name, encoding="utf-8") as file:
+            rows.append(json.load(file))
+    write(out, {**head(command), "rows": rows})
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
