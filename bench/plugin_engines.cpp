@@ -17,7 +17,7 @@ constexpr double kDescribeLimit_s = 10.0;
 // The setting that carries the path into create(), which is a plain function like every row's.
 constexpr std::string_view kLibraryKey = "library";
 
-// What a row's views point to.
+// Owns the strings that a row's views point to.
 struct Plugin {
   std::string path;
   std::string name;  // "libmine.so": what stamps and settings say
@@ -27,7 +27,7 @@ struct Plugin {
   core::EngineRow row;
 };
 
-// A deque: rows are pointed to.
+// A deque keeps addresses, and others hold pointers to rows.
 std::deque<Plugin>& plugins() {
   static std::deque<Plugin> all;
   return all;
@@ -39,7 +39,7 @@ const Plugin* plugin_named(std::string_view library) {
   return nullptr;
 }
 
-// Content, not only name: a library that was built again is another engine.
+// By content, not only by name: a library that was built again is another engine.
 std::string content_digest(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::uint64_t digest = 0;
@@ -110,7 +110,7 @@ void fill_row(Plugin& plugin) {
   plugin.row.capabilities = d.capabilities;
   plugin.row.what = d.what;
   plugin.row.settings = plugin.settings;
-  plugin.row.is_reference = true;  // in a child process, like every engine that is not ours
+  plugin.row.is_reference = true;  // in a child process, like every engine made of other people's code
   plugin.row.create = create;
   plugin.row.absent = d.on_device ? gpu::device_absent : nullptr;
 }

@@ -37,7 +37,7 @@ std::string_view nearest_name(std::string_view typed, std::span<const std::strin
 
 std::string advise_name(std::string_view typed, std::span<const std::string_view> known) {
   const std::string_view best = nearest_name(typed, known);
-  // A third of the longer word wrong still reads as a slip of the finger; more does not.
+  // Up to a third of the longer word may be wrong for it to be taken as a typing error.
   if (!best.empty() && edit_distance(typed, best) * 3 <= std::max(typed.size(), best.size()))
     return "did you mean '" + std::string(best) + "'?";
   std::string text = "one of:";

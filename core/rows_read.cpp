@@ -108,7 +108,7 @@ class Node {
   std::string path_;
 };
 
-// The value whose word it is.
+// The enumerator with this name.
 template <typename Enum, std::size_t N>
 Enum word_of(const Node& node, const std::array<Enum, N>& values, std::string_view (*word)(Enum)) {
   const std::string text = node.text();

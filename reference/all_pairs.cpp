@@ -88,7 +88,7 @@ class AllPairs final : public core::BroadPhase {
     PairSet set;
     for (const std::vector<Pair>& block : rows_) set.raw += block.size();
     set.pairs.reserve(set.raw);
-    // Blocks are in order of i, and a block is sorted: the whole is, whatever thread did which.
+    // Blocks are in order of i and each is sorted, so the joined list is sorted whatever thread made which block.
     for (const std::vector<Pair>& block : rows_) set.pairs.insert(set.pairs.end(), block.begin(), block.end());
     set.demanded = set.raw;
     return set;
@@ -122,7 +122,7 @@ class AllPairs final : public core::BroadPhase {
       if (hit[k] != 0 && (is_static[i] == 0 || is_static[first + k] == 0)) out.push_back({i, first + k});
     };
     std::uint32_t k = 0;
-    // Hits are rare: eight flags are skipped at a time.
+    // Hits are rare: eight flags that are all 0 are skipped at a time.
     for (; k + 8 <= count; k += 8) {
       std::uint64_t eight;
       std::memcpy(&eight, hit + k, sizeof(eight));

@@ -22,7 +22,7 @@ using core::Status;
 
 constexpr std::string_view kId = "bullet-dbvt";
 
-// gDbvtMargin is a global that setAabb reads: it is ours for the length of one call and then what it was before.
+// setAabb reads the global gDbvtMargin: this sets it for the length of one call and then restores it.
 class MarginScope {
  public:
   explicit MarginScope(btScalar margin) : before_(gDbvtMargin) { gDbvtMargin = margin; }
@@ -59,7 +59,7 @@ class BulletDbvt final : public core::BroadPhase {
       broad_phase_ = std::make_unique<btDbvtBroadphase>();
       broad_phase_->m_deferedcollide = is_deferred_;
       for (std::uint32_t i = 0; i < given_.count(); ++i) {
-        // As btCollisionWorld does: static bodies are filtered against each other, and against nothing else.
+        // As btCollisionWorld does it: two static bodies are no pair; all other pairs pass.
         const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
         const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
                                            : static_cast<int>(btBroadphaseProxy::AllFilter);
@@ -107,8 +107,8 @@ class BulletDbvt final : public core::BroadPhase {
   ~BulletDbvt() override { destroy_proxies(); }
 
  private:
-  // Bullet leaves proxies to their creator. Its destroyProxy looks through all pairs for each of them, minutes for
-  // 100,000 boxes; where everything goes, the memory is all that has to be given back, as createProxy took it.
+  // Bullet leaves proxies to their creator. Its destroyProxy looks through all pairs for each proxy, minutes for
+  // 100,000 boxes. Here all of them go at once, so it is enough to give the memory back, which createProxy allocated.
   void destroy_proxies() {
     broad_phase_.reset();
     for (btBroadphaseProxy* proxy : proxies_) btAlignedFree(proxy);
@@ -139,7 +139,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = bullet_build();
   engine.settings = settings;
-  // Nobody leaves gDbvtMargin changed, so this is the value that the loaded library ships: 0.05 m in 3.24.
+  // Everybody who changes gDbvtMargin restores it, so this is the value that the loaded library ships: 0.05 m in 3.24.
   const btScalar margin = margin_m_of(settings, gDbvtMargin);
   const auto stale = std::make_shared<DefectCounter>(Defect::kBulletStalePairs);
   engine.broad_phase = std::make_unique<BulletDbvt>(margin, settings.text("deferred") == "on", stale);

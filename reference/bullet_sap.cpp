@@ -26,8 +26,9 @@ std::uint32_t body_of(const btBroadphaseProxy* proxy) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
 }
 
-// End points are quantized within a world that is fixed when it is made, and clamped to it. The world is the loaded
-// boxes' with its own size added on every side, and at least 1 m, since a world without extent divides by zero.
+// End points are quantized within a world that is fixed when it is made, and clamped to it. The world is the bounds of
+// the loaded boxes with their own size added on every side, at least 1 m, because a world without extent divides by
+// zero.
 core::Box sweep_world(std::span<const core::Box> boxes) {
   core::Box all{{0, 0, 0}, {0, 0, 0}};
   if (!boxes.empty()) {
@@ -46,8 +47,8 @@ class BulletSap final : public core::BroadPhase {
  public:
   ~BulletSap() override { destroy_proxies(); }
 
-  // One step of the quantization is the world's extent over 2^31, but boxes are in float, so what counts is float's
-  // spacing; the rounding is monotone, and clamping is too: no pair is lost, some are added.
+  // One step of the quantization is the world's extent over 2^31, finer than the float spacing of the boxes. Rounding
+  // and clamping are monotone, so no pair is lost, and some are added.
   [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
 
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
@@ -55,7 +56,7 @@ class BulletSap final : public core::BroadPhase {
     return vendor_call("bullet-sap: load", [&]() -> Status {
       destroy_proxies();
       const core::Box world = sweep_world(boxes);
-      // No ray casting here: its extra tree would be updated in the timed zone for nothing.
+      // Nothing casts rays here, and the tree for rays would be updated in the timed zone.
       sweep_ = std::make_unique<bt32BitAxisSweep3>(bullet(world.min), bullet(world.max), given_.count() + 1, nullptr,
                                                    /*disableRaycastAccelerator=*/true);
       for (std::uint32_t i = 0; i < given_.count(); ++i) {

@@ -42,7 +42,7 @@ btTransform transform(const core::Pose& pose) {
   return btTransform(btQuaternion(q.x, q.y, q.z, q.w), bullet(pose.position));
 }
 
-// Which of its ways btGjkPairDetector took, by the numbers in its source.
+// Which branch btGjkPairDetector took, by the numbers in its source.
 constexpr int kNormalOfDistance = 6;
 constexpr int kNormalOfDistanceTurnedRound = 10;
 

@@ -117,7 +117,7 @@ Separation measure_one(const Placed& a, const Placed& b, bool is_mpr, DefectCoun
     return out;
   }
   out.is_touching = true;
-  // Known to happen with GJK (issue 25): then only that they meet is known.
+  // Known to happen with GJK (issue 25 of libccd): then it is only known that the bodies meet.
   const bool is_number = std::isfinite(depth) && is_finite(direction) && is_finite(at);
   not_numbers.note(is_number ? 0 : 1, 1);
   if (!is_number) return out;
@@ -125,7 +125,7 @@ Separation measure_one(const Placed& a, const Placed& b, bool is_mpr, DefectCoun
   // libccd's direction moves B away from A: ours points from B to A.
   ccdVec3Scale(&direction, -CCD_ONE);
   out.normal = to_core(direction);
-  // One point is all that libccd tells: it stands for both witnesses.
+  // libccd gives one point only: it stands for both witnesses.
   out.witness_a = out.witness_b = to_core(at);
   return out;
 }

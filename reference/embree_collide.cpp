@@ -146,7 +146,7 @@ RTCBuildQuality quality_of(const core::Settings& settings) {
   return word == "medium" ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW;
 }
 
-// The widest packets that this build of Embree takes as they are on this processor.
+// The widest packets that this build of Embree supports on this processor.
 std::string simd_of(RTCDevice device) {
   const auto has = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device, property) != 0; };
   const char* lanes = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)  ? "16"
@@ -165,7 +165,7 @@ core::EquivalenceCard card_of(RTCDevice device, const std::string& build, int th
 }
 
 std::string build_of(RTCDevice device) {
-  const auto version = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION);  // 31305 is 3.13.5
+  const auto version = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION);  // 31305 means 3.13.5
   return "Embree " + std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
          std::to_string(version % 100) + " (" + loaded_library(reinterpret_cast<const void*>(&rtcCollide)) + "), float";
 }
@@ -181,7 +181,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = build_of(device.get());
   engine.settings = settings;
-  // The card outlives no device: what it says of it is asked here.
+  // The card may be asked for when the device is gone, so its facts are read here.
   engine.equivalence = [card = card_of(device.get(), engine.build, workers, settings.text("quality"))](
                            const core::Scene&) { return card; };
   engine.broad_phase = std::make_unique<EmbreeCollide>(std::move(device), quality_of(settings));

@@ -48,7 +48,7 @@ Separation measure_one(const core::Box& box_a, const core::Box& box_b) {
   const PlacedBox a(box_a);
   const PlacedBox b(box_b);
   Separation out;
-  // Eight contacts are the most that two boxes make; the deepest is the answer.
+  // Two boxes make at most eight contacts; the deepest is the answer.
   const fcl::CollisionRequest<double> collision_request(/*num_max_contacts_=*/8, /*enable_contact_=*/true);
   fcl::CollisionResult<double> touch;
   out.is_touching = fcl::collide(&a.shape, a.pose, &b.shape, b.pose, collision_request, touch) > 0;

@@ -80,7 +80,7 @@ class BoxObjects {
   std::vector<Object*> pointers_;
 };
 
-// A manager for these boxes. Only the spatial hash looks at them: its grid spans the boxes that were loaded (others go
+// A manager for these boxes. Only the spatial hash uses the boxes: its grid spans the boxes that were loaded (others go
 // to a list that it searches linearly), with cells as large as the mean longest side.
 std::unique_ptr<Manager> make_manager(std::string_view name, std::span<const core::Box> boxes) {
   if (name == "tree") return std::make_unique<fcl::DynamicAABBTreeCollisionManager<double>>();

@@ -64,7 +64,7 @@ Separation measure_one(const Model& a, const fcl::Transform3<double>& pose_a, co
   fcl::DistanceRequest<double> distance_request(/*enable_nearest_points_=*/true);
   fcl::DistanceResult<double> near;
   fcl::distance(&a, pose_a, &b, pose_b, distance_request, near);
-  // Meshes give no penetration depth: whatever FCL says below zero is 0, "overlap of unknown depth".
+  // FCL has no penetration depth for meshes: any value below zero becomes 0, "overlap of unknown depth".
   out.distance_m = std::max(0.0, near.min_distance);
   out.witness_a = to_core(near.nearest_points[0]);
   out.witness_b = to_core(near.nearest_points[1]);

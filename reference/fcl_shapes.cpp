@@ -97,7 +97,7 @@ struct Placed {
 };
 
 struct Query {
-  bool is_signed = true;  // fcl::distance also where bodies overlap; otherwise fcl::collide answers there
+  bool is_signed = true;  // fcl::distance also where bodies overlap; without it, fcl::collide answers there
   fcl::GJKSolverType solver = fcl::GST_LIBCCD;
 };
 
@@ -132,8 +132,8 @@ Separation measure_one(const Placed& a, const Placed& b, const Query& query) {
   out.witness_b = to_core(near.nearest_points[1]);
   out.is_touching = near.min_distance <= 0.0;
   Vector from_b_to_a = near.nearest_points[0] - near.nearest_points[1];
-  // In overlap the nearest points have passed each other; the independent solver's are not on the surfaces then, and
-  // its direction is that of its contact.
+  // In overlap the nearest points have passed each other. With the independent solver they do not lie on the surfaces
+  // then, and its direction is that of its contact.
   if (out.is_touching && query.solver == fcl::GST_INDEP) {
     Separation contact;
     if (collide(a, b, query, contact)) out.normal = contact.normal;

@@ -25,7 +25,7 @@ std::string build_of(const void* address) {
 }  // namespace
 
 std::string bullet_build() {
-  const int version = btGetVersion();  // 324 is 3.24
+  const int version = btGetVersion();  // 324 means 3.24
   const int minor = version % 100;
   return "Bullet " + std::to_string(version / 100) + (minor < 10 ? ".0" : ".") + std::to_string(minor) + " (" +
          loaded_library(&gDbvtMargin) + "), " + (sizeof(btScalar) == sizeof(float) ? "float" : "double");
@@ -37,7 +37,7 @@ std::string fcl_build() {
 }
 
 std::string ccd_build() {
-  // Its headers carry no version; the file that was loaded does.
+  // The headers carry no version; the name of the loaded file does.
   return "libccd (" + loaded_library(reinterpret_cast<const void*>(&ccdGJKIntersect)) + "), " +
          (sizeof(ccd_real_t) == sizeof(float) ? "float" : "double");
 }

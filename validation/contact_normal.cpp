@@ -99,7 +99,7 @@ class ContactNormal final : public Validator {
     tally_.require(least > 0.0, "METHOD 4: no contact unless the boxes overlap on every axis", at(c, "contact.depth"));
     judge_depth(c, o.depth[axis]);
 
-    // Rounding decides about epsilon only within its own error.
+    // Within its own error, rounding decides which side of epsilon a distance is on.
     const double apart =
         std::sqrt(o.between[0] * o.between[0] + o.between[1] * o.between[1] + o.between[2] * o.between[2]);
     const double error = o.between_rounding[0] + o.between_rounding[1] + o.between_rounding[2] + rounding(3) * apart +

@@ -40,8 +40,8 @@ class Contraction final : public Validator {
       return;
     }
     const double corrected = static_cast<double>(parameters_.alpha) * parameters_.beta * (depth - delta);
-    // Axis by axis: what it moved too far or too little, and how much rounding explains there. The axis that is nearest
-    // to its limit, or farthest beyond it, stands for the contact.
+    // Axis by axis: by how much the contact was moved too far or too little, and how much of that rounding explains.
+    // The axis nearest to its limit, or farthest beyond it, stands for the contact.
     double off = 0.0;
     double limit = 0.0;
     double worst = -1.0;

@@ -62,7 +62,7 @@ void EnergyLedger::add(EnergyRow& row, double magnitude) {
   row.terms += 1.0;
 }
 
-// Each term from its operations, and then every term from each of the additions that follow it.
+// The rounding of each term by its operations, and of each addition by all terms before it.
 double EnergyLedger::double_rounding(const EnergyRow& row) const {
   return 0x1p-53 * (kEnergyOperations + kSpringOperations * most_springs_ + row.terms) * row.summed;
 }
@@ -120,7 +120,7 @@ void EnergyLedger::apply(const Application& app, EnergyRow& row) const {
                app.w_sum * (std::abs(j_n) + std::abs(j_t)) * (std::abs(j_n) + std::abs(j_t)));
 }
 
-// From the velocities that the last contact of each body left.
+// From the velocities after the last contact of each body.
 void EnergyLedger::clip(const core::FrameRecord& frame, EnergyRow& row) const {
   std::vector<core::Vec3> left = frame.detected_velocity;
   for (const core::Contact& c : frame.contacts) {

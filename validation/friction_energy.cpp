@@ -87,7 +87,7 @@ class FrictionEnergy final : public Validator {
     const bool may_stick = stop <= cone + stop_error + rounding(3) * cone;
     const bool may_slide = stop >= cone - stop_error - rounding(3) * cone;
     ++(may_slide ? sliding_ : sticking_);
-    // The answer that the record is nearest to, of those that rounding leaves open.
+    // Of the answers that rounding leaves open, the one nearest to the record.
     double off = std::numeric_limits<double>::infinity();
     double limit = 0.0;
     const auto allow = [&](double expected, double error) {
@@ -98,7 +98,8 @@ class FrictionEnergy final : public Validator {
     };
     if (may_stick) allow(-stop, stop_error);
     if (may_slide) allow(-app.surface.mu_kinetic * normal, rounding(3) * app.surface.mu_kinetic * normal + kSubnormal);
-    // Sliding that is all rounding error, or a contact that may have counted as separating: no friction is right too.
+    // The sliding may be all rounding error, or the contact may have counted as separating: then no friction is right
+    // too.
     if (speed <= slide || app.approach_before >= -band) allow(0.0, 0.0);
     if (std::isnan(recorded) || std::isnan(speed)) off = std::numeric_limits<double>::quiet_NaN();
     tally_.check(

@@ -14,10 +14,10 @@
 namespace broadside::validation {
 namespace {
 
-// How often progress is told: often enough for a live estimate, too seldom to cost time.
+// How often progress is reported: often enough for a live estimate, too seldom to cost time.
 constexpr std::uint64_t kFramesPerReport = 50;
 
-// One row of the pass: a running validator, or the verdict that says why it does not run.
+// One row of the pass: a running validator, or the verdict that says why it did not run.
 struct Entry {
   bool compares_scenes = false;
   std::unique_ptr<Validator> validator;
@@ -39,7 +39,7 @@ std::string hex(std::uint64_t digest) {
   return text;
 }
 
-// One scene, or one that follows from the other.
+// True for one scene, or for a scene that follows from the other.
 core::Status check_scenes(const core::TraceHeader& a, const core::TraceHeader& b) {
   if (a.stamp.scene_digest == b.stamp.scene_digest || relation_of(a.scene, b.scene)) return core::Done{};
   return core::Error{
@@ -51,7 +51,7 @@ core::Status check_scenes(const core::TraceHeader& a, const core::TraceHeader& b
 
 std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& options, std::uint32_t& groups,
                                 std::uint32_t& baseline_groups) {
-  // What a validator that compares runs of one scene is told where the baseline's is another.
+  // What a validator that compares runs of one scene says when the baseline is of another scene.
   Subject alone = subject;
   const bool is_transformed =
       subject.baseline != nullptr && subject.baseline->stamp.scene_digest != subject.header.stamp.scene_digest;

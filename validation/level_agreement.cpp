@@ -99,14 +99,14 @@ class LevelAgreement final : public Validator {
       return;
     }
     ++compared_;
-    // A shallower last level confirms at least as many.
+    // A setting with a shallower last level confirms at least as many pairs.
     if (*level_ >= *baseline_level_)
       judge(frame.confirmed, baseline.confirmed, frame.step, "confirmed: not in the baseline");
     if (*level_ <= *baseline_level_)
       judge(baseline.confirmed, frame.confirmed, frame.step, "confirmed: only in the baseline");
   }
 
-  // Everything in `inner` is in `outer`.
+  // Every pair of `inner` is in `outer`.
   void judge(const std::vector<core::Pair>& inner, const std::vector<core::Pair>& outer, std::uint64_t step,
              std::string_view field) {
     difference_.clear();

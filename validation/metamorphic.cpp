@@ -75,7 +75,7 @@ class Metamorphic final : public Validator {
     for (std::uint32_t i = 0; i < scene_.body_count(); ++i) {
       const core::Box& in = frame_->boxes[i];
       const core::Box& out = other_->boxes[i];
-      // Only boxes around the body's origin grow on every side.
+      // Only boxes that contain the body's origin grow on every side.
       for (int k = 0; k < 3; ++k)
         if (out.min[k] > in.min[k] || out.max[k] < in.max[k]) return part("a box did not grow on every side");
     }
@@ -87,7 +87,7 @@ class Metamorphic final : public Validator {
                                        : Where::pair(step_, lost.front().i, lost.front().j, "pairs: lost by growing"));
   }
 
-  // Were the detection states equal before, these follow from what happened since.
+  // When the detection states were equal before, these follow from what happened since.
   bool judge_detection() {
     for (std::uint32_t i = 0; i < scene_.body_count(); ++i) {
       const std::uint32_t j = relation_.body(i);
@@ -128,7 +128,7 @@ class Metamorphic final : public Validator {
     require(same, same ? Where::frame(step_, field) : Where::pair(step_, first.i, first.j, field));
   }
 
-  // False when there is nothing to compare after it.
+  // False when nothing after it can be compared.
   bool judge_confirmed() {
     Pair first;
     const bool same = is_same_set(frame_->confirmed, other_->confirmed, first);
@@ -151,7 +151,7 @@ class Metamorphic final : public Validator {
     return true;
   }
 
-  // The contact as the baseline should have it. Its bodies may change places.
+  // The contact as the baseline should have it; its bodies may be swapped.
   [[nodiscard]] Contact mapped(const Contact& c) const {
     Contact out = c;
     const auto state = [this](const core::Kinematics& k) {
@@ -179,9 +179,9 @@ class Metamorphic final : public Validator {
            a.pre_a == b.pre_a && a.pre_b == b.pre_b && a.post_a == b.post_a && a.post_b == b.post_b;
   }
 
-  // Busy: bodies that met more than one other body, in both runs together: applying one contact can move a body out of
-  // another, which then is none, so two orders may have recorded different ones of them. Whom a busy body met has
-  // another state after it as well, and meets faces with that.
+  // Busy: bodies that met more than one other body, in both runs together. Applying one contact can move a body out of
+  // another, which is then no contact, so two orders may have recorded different contacts. A body that met a busy one
+  // has another state after it too, and meets faces with that state.
   void find_busy() {
     std::map<std::uint32_t, std::set<std::uint32_t>> partners;
     const auto meet = [&partners](std::uint32_t a, std::uint32_t b) { partners[a].insert(b), partners[b].insert(a); };
@@ -221,12 +221,12 @@ class Metamorphic final : public Validator {
     require(found == theirs.size(), Where::frame(step_, "contacts: only in the baseline"));
   }
 
-  // Whether the order of contacts may show in this one. As the baseline numbers bodies.
+  // Whether the order of contacts may show in this contact. Bodies as the baseline numbers them.
   [[nodiscard]] bool depends_on_order(const Contact& c) const {
     return core::is_face(c.b) ? disturbed_.contains(c.a) : busy_.contains(c.a) || busy_.contains(c.b);
   }
 
-  // Pairs whose boxes' centers, the bodies' places moved by their boxes' own centers, are equal on the normal's axis.
+  // Pairs whose boxes' centers, moved with the bodies, are equal on the normal's axis.
   [[nodiscard]] bool has_no_side(const Contact& c) const {
     if (core::is_face(c.b) || relation_.kind == Kind::kScaled) return false;
     int axis = 0;

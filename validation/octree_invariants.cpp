@@ -134,7 +134,7 @@ class OctreeInvariants final : public Validator {
     tally_.check(deepest, {band(lower->box, box), "m", kCellOrigin}, where);
   }
 
-  // The least distance of the box from the cell's faces; negative when it sticks out. A face that is the domain's holds
+  // The least distance of the box from the cell's faces; negative when the box sticks out. A face of the domain holds
   // what touches it, so it does not count.
   [[nodiscard]] double room_in(const Box& cell, const Box& box) const {
     double room = std::numeric_limits<double>::infinity();
@@ -164,7 +164,7 @@ class OctreeInvariants final : public Validator {
     const Where where = Where::frame(step_, "body_octree.shape");
     if (!tally_.require(frame.shape_of_body.size() == scene_.bodies.size(), "one shape per body of the scene", where))
       return;
-    // The first body of each shape stands for it.
+    // The first body of each shape is checked for all of them.
     std::vector<std::uint32_t> first;
     for (std::uint32_t i = 0; i < scene_.body_count(); ++i) {
       const std::uint32_t shape = frame.shape_of_body[i];

@@ -15,9 +15,9 @@ using core::Box;
 using core::Vec3;
 
 constexpr std::uint32_t kArity = 8;
-// From here on a join is worth waking threads for.
+// From this many boxes on, a join is shared by threads.
 constexpr std::size_t kParallelFrom = 20000;
-// Pieces of a join that threads share: enough that one that is held up does not hold up all.
+// Pieces of a join that threads share: enough that one slow piece does not delay all.
 constexpr std::uint32_t kLeastPieces = 64;
 
 // Spreads the low 21 bits so that two zeros follow each.
@@ -119,7 +119,7 @@ void OverlapJoin::join_self(std::uint32_t level, std::uint32_t index, std::vecto
   }
 }
 
-// The two nodes' bounds meet.
+// Whether the two nodes' bounds overlap.
 void OverlapJoin::join_cross(std::uint32_t level, std::uint32_t p, std::uint32_t q,
                              std::vector<core::Pair>& out) const {
   if (level == 0) return emit(p, q, out);

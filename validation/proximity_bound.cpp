@@ -16,12 +16,12 @@
 namespace broadside::validation {
 namespace {
 
-// Confirmed pairs searched anew of each doubling of their number.
+// How many confirmed pairs are searched again for each doubling of their number.
 constexpr std::uint64_t kPairsPerDoubling = 512;
 
 // One distinct (mesh, orientation).
 struct Surface {
-  std::vector<core::Vec3> vertices;  // turned
+  std::vector<core::Vec3> vertices;  // vertices turned by the orientation
   double mean_edge_m = 0.0;
   double covering_radius_m = 0.0;
 };
@@ -55,7 +55,7 @@ class ProximityBound final : public Validator {
   void look(const Evidence& evidence) override {
     frame_ = &evidence.frame;
     if (frame_->proximity.size() != frame_->confirmed.size()) {
-      if (frame_->proximity.empty()) return;  // the vertex stage was off
+      if (frame_->proximity.empty()) return;  // because the vertex stage was off
       tally_.require(false, "one proximity per confirmed pair", Where::frame(frame_->step, "proximity"));
       return;
     }
@@ -110,7 +110,7 @@ class ProximityBound final : public Validator {
 
   [[nodiscard]] bool is_known(core::Pair p) const { return p.i < scene_.body_count() && p.j < scene_.body_count(); }
 
-  // The witnesses of a touching pair, in the arithmetic of the engine's own vertices.
+  // The witnesses of a touching pair, in the same arithmetic as the engine's vertices.
   void judge_record(core::Pair p, const core::Proximity& proximity) {
     if (!is_known(p) || !proximity.is_touching()) return;
     const auto& a = surface(p.i).vertices;

@@ -15,7 +15,7 @@ namespace {
 using core::Scene;
 using core::Vec3;
 
-// What one factor has made of the other's first length that is not zero; 0 when there is none.
+// The factor by which one scene has scaled the other's first length that is not zero; 0 when there is none.
 float factor_of(Vec3 from, Vec3 to) {
   for (int k = 0; k < 3; ++k)
     if (from[k] != 0.0F) return to[k] / from[k];
@@ -27,7 +27,7 @@ bool is_power_of_two(float factor) {
   return factor > 0.0F && std::isfinite(factor) && std::frexp(factor, &exponent) == 0.5F;
 }
 
-// Any fixed order of bodies by what they are.
+// A fixed order of bodies by their properties.
 bool comes_before(const core::Body& a, const core::Body& b) {
   return std::memcmp(&a, &b, sizeof a) < 0;
 }

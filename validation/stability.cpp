@@ -33,7 +33,7 @@ class Stability final : public Validator {
         judge_frame(track, Vec3d(before->position[i]), Vec3d(before->velocity[i]), frame);
       else
         track.is_running = false;
-      // A contact or the velocity cap changed the state on its way to the end: the amplitude starts anew from there.
+      // A contact or the velocity cap changed the state before the frame's end: the amplitude starts anew from there.
       const bool is_left_alone = frame.position.size() == n && frame.velocity.size() == n &&
                                  frame.position[i] == frame.detected_position[i] &&
                                  frame.velocity[i] == frame.detected_velocity[i];
@@ -52,7 +52,7 @@ class Stability final : public Validator {
     StepPowers powers;
     bool is_running = false;
     double start = 0.0;     // amplitude, m/s
-    double rounding = 0.0;  // of all steps since, m/s
+    double rounding = 0.0;  // over all steps since, m/s
   };
 
   void judge_step(const Track& track, std::uint64_t step) {
@@ -90,7 +90,7 @@ class Stability final : public Validator {
       track.is_running = true;
       track.start = o.amplitude(x0, v0);
       track.rounding = 0.0;
-      // Above the limit the powers have no bound, and 1 is what the true motion keeps.
+      // Above the limit the powers have no bound; 1 is the bound of the true motion.
       track.powers = dt_ < o.step_limit() ? StepPowers(o.w0(), o.g(), dt_) : StepPowers(0.0, 0.0, 0.0);
     }
     track.powers.advance();

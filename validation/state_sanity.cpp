@@ -143,7 +143,7 @@ class StateSanity final : public Validator {
         const double move = is_static ? 0.0 : dt * v1[k];
         const double v_limit = is_static ? 0.0 : rounding(1) * (std::abs(v1[k]) + std::abs(pull)) + 2.0 * kSubnormal;
         const double x_limit = is_static ? 0.0 : rounding(1) * (std::abs(x1[k]) + std::abs(move)) + 2.0 * kSubnormal;
-        // What springs add to gravity is stability's law.
+        // What springs add to gravity is checked by stability.
         if (has_spring_[i] == 0)
           tally_.check(std::abs(v1[k] - (v0[k] + pull)), {v_limit, "m/s", kIntegration},
                        Where::body(step_, i, "detection.velocity"));
@@ -171,7 +171,7 @@ class StateSanity final : public Validator {
       if (!core::is_face(c.b)) link(c.pre_b, c.post_b, c.b);
     }
     for (std::uint32_t i = 0; i < scene_.body_count(); ++i) {
-      // Whether a static body may move at all is center-of-mass's law.
+      // Whether a static body may move at all is checked by center-of-mass.
       if (!(scene_.bodies[i].inverse_mass > 0.0F)) continue;
       const double v_max = scene_.parameters.v_max_m_s;
       const Vec3d clipped{std::clamp<double>(state_[i].v.x, -v_max, v_max),

@@ -75,7 +75,7 @@ core::Verdict Tally::conclude(std::string_view nothing, const std::string& notes
   verdict.measured = worst_measured_;
   verdict.limit = worst_limit_.value;
   verdict.unit = worst_limit_.unit;
-  // Where nothing stood out, the law's own origin says more than that of the first thing judged.
+  // When nothing stood out, the law's own origin says more than the origin of the first limit.
   if (worst_ratio_ > 0.0 && !worst_limit_.origin.empty()) verdict.origin = worst_limit_.origin;
   verdict.worst.step = static_cast<std::int64_t>(worst_where_.step);
   verdict.worst.bodies.assign(worst_where_.bodies, worst_where_.bodies + worst_where_.body_count);

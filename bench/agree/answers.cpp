@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 // Processor seconds for making an engine and its shapes: trees of 700,000 triangles take some ten.
 constexpr double kLoad_s = 600.0;
-// A query that waits for ever uses no processor time; this much elapsed time ends it too.
+// A query that waits forever uses no processor time; this much elapsed time ends it too.
 constexpr double kAsleep_s = 60.0;
 
 double processor_seconds_of(pid_t process) {
@@ -37,7 +37,7 @@ double processor_seconds_of(pid_t process) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// An assertion names its file by the whole path of the machine that built the library, which says nothing.
+// An assertion names its source file by the path on the machine that built the library; that path is cut off.
 std::string without_path(const std::string& line) {
   const auto colon = line.find(": ");
   const auto slash = line.rfind('/', line.find(".h:") == std::string::npos ? line.find(".c") : line.find(".h:"));
@@ -45,7 +45,8 @@ std::string without_path(const std::string& line) {
   return line.substr(slash + 1);
 }
 
-// A process of its own that works on a range of pairs, and another one after it when it died.
+// A process of its own that works on a range of pairs. When it dies, another one goes on behind the pair at which it
+// died.
 class Lane {
  public:
   Lane(std::size_t first, std::size_t last) : next_(first), last_(last), report_(1) {}
@@ -84,7 +85,7 @@ class Lane {
     return core::Done{};
   }
 
-  // Ends the child when what it is at takes too long.
+  // Ends the child when its current step takes too long.
   void watch(double seconds_per_query) {
     if (report().begun != begun_) mark();
     if (timed_out_) return;
@@ -95,7 +96,7 @@ class Lane {
     kill(child_, SIGKILL);
   }
 
-  // Reads what the child says; true when it has ended, and then ending() tells how.
+  // Reads what the child reports. True when it has ended; then ending() says how.
   bool listen() {
     std::array<char, 4096> buffer;
     const ssize_t got = read(pipe_end_, buffer.data(), buffer.size());
@@ -112,7 +113,7 @@ class Lane {
   [[nodiscard]] bool ended_with(int exit_code) const { return WIFEXITED(status_) && WEXITSTATUS(status_) == exit_code; }
   [[nodiscard]] bool died_in_a_query() { return report().is_querying; }
 
-  // Of a child that died: what became of the pair that it was at.
+  // Records for a child that died what became of the pair that it was at.
   [[nodiscard]] Asked fate() const {
     if (timed_out_) return Asked::kTimedOut;
     return WIFSIGNALED(status_) && WTERMSIG(status_) == SIGABRT ? Asked::kAborted : Asked::kCrashed;
@@ -132,7 +133,7 @@ class Lane {
   [[nodiscard]] int pipe_end() const { return pipe_end_; }
 
  private:
-  // Another process writes it: no compiler may believe that it knows it.
+  // Written by another process: volatile keeps the compiler from caching it.
   volatile ChildReport& report() { return report_[0]; }
 
   void mark() {
@@ -158,7 +159,7 @@ class Lane {
   std::string said_;
 };
 
-// Waits until some lane's child says something or ends, but not so long that a query runs far beyond its limit.
+// Waits until some child reports something or ends, but never so long that a query runs far beyond its limit.
 std::vector<Lane*> wait_for(std::vector<std::unique_ptr<Lane>>& lanes, double seconds_per_query) {
   std::vector<pollfd> waiting;
   for (const auto& lane : lanes)

@@ -13,8 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Bodies of one scene. A measure call takes a pose for every body of it, so few are cheap; but meshes that take long to
-// load are better loaded seldom.
+// Bodies of one scene. A measure call takes a pose for every body of the scene, so few are cheap; but meshes that take
+// long to load should be loaded seldom.
 constexpr std::size_t kPairsPerScene = 64;
 constexpr std::size_t kMeshPairsPerScene = 1024;
 
@@ -44,7 +44,7 @@ core::Result<core::Engine> make_engine(const CellSpec& cell) {
   return engine;
 }
 
-// Another process reads these while they change: no compiler may keep them back.
+// Other processes read these while they change, so they are volatile.
 void begin(ChildReport& report, std::size_t at, bool is_querying) {
   volatile ChildReport& seen = report;
   seen.at = at;
@@ -58,8 +58,8 @@ double processor_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// The lesser of elapsed and processor time: a query that the machine interrupted for others took no longer for it, and
-// one that several threads worked on is done when it is done.
+// The lesser of elapsed and processor time. Elapsed time counts a query that the machine interrupted for too long;
+// processor time counts one that several threads shared for too long.
 template <typename Query>
 float seconds_of(Query&& query) {
   const double used = processor_seconds();

@@ -15,7 +15,7 @@
 namespace broadside::bench {
 namespace {
 
-// How many pairs a process has drawn; another one reads it meanwhile.
+// How many pairs a process has drawn; the parent reads it meanwhile.
 struct Drawn {
   volatile std::uint64_t count = 0;
 };
@@ -45,7 +45,7 @@ core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t
     }
     if (child == 0) {
       die_with(parent);
-      // In turns, so that slow separations are shared out.
+      // Dealt out in turns, so that slow separations are spread over all processes.
       for (std::uint64_t k = first; k < count; k += step) {
         pairs[k] = source.pair(k);
         drawn[first].count = drawn[first].count + 1;

@@ -23,7 +23,8 @@ using reference::Point;
 
 constexpr int kShapes = 24;       // of each kind; plates and needles have a third as many
 constexpr int kOrientations = 8;  // of meshes
-// Sides of plates and needles against their others: thinner is a matter of float's resolution and no longer of shape.
+// Sides of plates and needles against their others. Below this ratio a float's resolution decides, and no longer the
+// shape.
 constexpr double kThin = 0.02;
 
 Vec3 to_core(Point p) {
@@ -199,7 +200,7 @@ TestPair PairSource::pair(std::uint64_t index) {
   return pair;
 }
 
-// B goes out from A along a random direction, or across a face of A, until it is as far as the pair's lot says.
+// B moves away from A along a random direction, or across a face of A, until it is at the separation that was drawn.
 void PairSource::place(TestPair& pair, Draw& draw, std::uint64_t index) {
   pair.pose_b.position = pair.pose_a.position;
   if (pair.degeneracy == Degeneracy::kCoincidentCenters) return;
@@ -238,18 +239,18 @@ void PairSource::place(TestPair& pair, Draw& draw, std::uint64_t index) {
     offset = reference::to_point(core::rotate(pair.pose_a.orientation, beside));
   }
   const double t = move_to(pair, along, offset, target);
-  // Parallel to the axes, all is on the grid (or on half of it: middles) but for what rounding left of t: such boxes
+  // Bodies parallel to the axes lie on the grid (middles on half of it), but for what rounding left of t: such boxes
   // touch exactly.
   if (kind_ == PairKind::kKissing && index % 3 == 0)
     pair.pose_b.position = to_core(reference::to_point(pair.pose_a.position) + offset + 0.5 * on_grid(2.0 * t) * along);
 }
 
-// Newton's method from outside: along a line the signed distance of convex bodies is convex, so no step goes too far;
-// for meshes it is a way to come near the target, and what comes out is measured afterwards.
+// Newton's method from outside. Along a line the signed distance of convex bodies is convex, so no step goes too far.
+// For meshes it only comes near the target, so the separation reached is measured afterwards.
 double PairSource::move_to(TestPair& pair, Point along, Point offset, double target) {
   double t = reach_m_[pair.mesh_a] + reach_m_[pair.mesh_b] + std::max(0.0, target);
   const Point origin = reference::to_point(pair.pose_a.position);
-  // Meshes are asked about wherever they come to lie; each step costs a search of two trees.
+  // Meshes are used at whatever separation they reach, because each step costs a search of two trees.
   const double near_enough = is_convex_ ? 1e-8 : 0.1 * std::abs(target);
   for (int step = 0; step < 16; ++step) {
     pair.pose_b.position = to_core(origin + offset + t * along);
@@ -286,7 +287,7 @@ void PairSource::arbitrate(TestPair& pair) {
   }
   const double s = std::min(least_half_m_[pair.mesh_a], least_half_m_[pair.mesh_b]);
   const double d = pair.distance_m;
-  // Meshes that meet have no depth that could tell deep from shallow.
+  // Meshes that meet have no depth, so deep and shallow cannot be told apart.
   if (!is_convex_ && d == 0.0) {
     pair.separation = Separated::kDeep;
     return;

@@ -30,8 +30,9 @@ double angle_between(core::Vec3 n, Point truth) {
   return std::atan2(std::sqrt(dot(c, c)), dot(p, truth));
 }
 
-// A direction is as good as the gap that it shows: bodies that are d apart are d cos(t) apart along a direction that is
-// off by t, at least. Of convex bodies the gap along a direction is known; of meshes the angle bounds it.
+// A wrong direction costs as much as the gap that it shows is too small: bodies d apart are at least d cos(t) apart
+// along a direction that is off by t. For convex bodies the gap along a direction is known; for meshes the angle bounds
+// it.
 bool shows_the_gap(const PairSource& source, const TestPair& pair, Point n) {
   const double least = pair.distance_m - kTouchingBand_m;
   if (source.has_depth()) return -source.overlap_along(pair, n) >= least;
@@ -54,7 +55,7 @@ Agreement judge_overlap(const PairSource& source, const TestPair& pair, const co
   if (!source.has_depth()) return Agreement::kAgree;
   if (!is_number(s) || is_zero(s.normal)) return Agreement::kNoNumber;
   if (std::abs(s.distance_m - pair.distance_m) > kTouchingBand_m) return Agreement::kDepthOff;
-  // Several directions may be equally short: any of them will do.
+  // Several directions may be equally short; any of them is right.
   const Point n = reference::to_point(s.normal);
   const double most = -pair.distance_m + kTouchingBand_m;
   if (source.overlap_along(pair, n) <= most) return Agreement::kAgree;

@@ -42,7 +42,7 @@ core::Result<core::PairSet> pairs_of(core::BroadPhase& broad, const Boxes& boxes
   return broad.read_back();
 }
 
-// The digest of an engine that has nothing in common with the one that is timed.
+// The digest by an engine that shares no code with the one that is timed.
 std::uint64_t expected_digest(const BoxSet& set, bool is_for_octree) {
   static std::map<std::pair<std::string, bool>, std::uint64_t> known;
   const auto [at, is_new] = known.try_emplace({set.path, is_for_octree}, 0);
@@ -71,7 +71,7 @@ bool is_right(core::BroadPhase& broad, const Racer& racer, const BoxSet& set) {
 
 enum class Work { kScratch, kMoving };
 
-// Frame after frame to and fro, so that every step is a small one.
+// Frames forward and then backward, so that every step is a small one.
 std::vector<Boxes> moving_frames(const Boxes& boxes) {
   constexpr std::size_t kFrames = 4;
   std::vector<Boxes> frames{boxes};
@@ -101,7 +101,7 @@ void race(benchmark::State& state, const Racer& racer, const BoxSet& set, Work w
     return;
   }
   const std::vector<std::uint8_t> is_static(boxes.size(), 0);
-  // On a GPU the first find of a set may have too little memory for its pairs, and is done again with more.
+  // On a GPU the first find of a set may have too little memory for its pairs and is repeated with more.
   const bool is_on_gpu = racer.engine.ends_with("-gpu");
   if ((work == Work::kMoving || is_on_gpu) && (!broad->load(boxes, is_static).ok() || !broad->find().ok())) {
     state.SkipWithError("failed");

@@ -54,7 +54,8 @@ class Race {
     for (int block = 0; block < 2 * blocks; ++block) {
       const bool records = block % 2 == 1;
       std::vector<double>& frame_us = records ? recorded_us_ : plain_us_;
-      // The first two frames of a block are not counted: nobody knew yet that their digests would be asked for.
+      // The first two frames of a block are not counted: the engine did not know yet that their digests would be asked
+      // for.
       for (int k = 0; k < kBlockFrames + 2; ++k) {
         const Clock::time_point start = Clock::now();
         if (core::Status s = pipeline_.step(scene_.dt_s); !s) return s;
@@ -79,7 +80,7 @@ class Race {
   }
 
   void tell(const std::string& name) const {
-    // Of neighboring blocks: bodies change little from one to the next.
+    // Ratios of neighboring blocks, because bodies change little from one to the next.
     std::vector<double> extra;
     for (std::size_t k = 0; k + kBlockFrames <= plain_us_.size(); k += kBlockFrames) {
       const auto of = [k](const std::vector<double>& all) {

@@ -25,7 +25,7 @@ bool complain(const core::Error& error) {
   return false;
 }
 
-// A GPU that was idle takes some tenths of a second to come to its clock.
+// A GPU that was idle takes some tenths of a second to reach its clock rate.
 constexpr double kWarmUpS = 0.3;
 
 bool race(const std::string& kind, std::uint32_t n, int repetitions) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kMostBoxes = 1'000'000;
 
-// An engine of the table takes part as it is; these rows say what differs from that.
+// An engine of the table takes part with its defaults; these rows list the exceptions.
 std::vector<Racer> exceptions() {
   return {
       {"all-pairs", "all-pairs", {}, 20'000},

@@ -111,13 +111,13 @@ std::vector<CellWork> expanded(const Wanted& wanted) {
         CellWork work = wanted.each;
         work.scene = replaced(scene, choice);
         work.engine = replaced(engine, choice);
-        // A value that this scene and engine do not use would give the same cell again.
+        // A value that this scene and engine do not use would give the same cell twice.
         if (std::find(cells.begin(), cells.end(), work) == cells.end()) cells.push_back(work);
       }
   return cells;
 }
 
-// The rest of a file that names experiments of the paper.
+// The remaining keys of a file that names experiments of the paper.
 core::Status read_paper(TableReader& table, paper::PaperRequest& request, FileErrors& errors) {
   std::string engine;
   table.text("engine", engine);

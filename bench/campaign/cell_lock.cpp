@@ -20,7 +20,7 @@ std::optional<CellLock> CellLock::take(const std::filesystem::path& file) {
 
 CellLock::CellLock(CellLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-// The file stays: removing it would let a third process lock a new one while a second still holds the old.
+// The file is not removed: otherwise a third process could lock a new file while a second still holds the old one.
 CellLock::~CellLock() {
   if (descriptor_ >= 0) close(descriptor_);
 }

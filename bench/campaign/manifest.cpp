@@ -34,7 +34,7 @@ core::Result<std::uint64_t> digest_of_scene(const CellWork& work) {
   return core::scene_digest(scene.value());
 }
 
-// `beside`: what else tells such cells apart.
+// `beside`: other facts that make two such cells different.
 core::Result<ManifestCell> planned(const CellWork& work, std::uint64_t scene_digest, const std::string& beside) {
   auto spec = parse_cell_spec(work.engine);
   if (!spec) return spec.error();
@@ -52,7 +52,7 @@ core::Result<ManifestCell> planned(const CellWork& work, std::uint64_t scene_dig
   return cell;
 }
 
-// A scene that cannot be made here has no digest: its name stands in, and its cells will say why.
+// A scene that cannot be made here has no digest: its name takes that place, and its cells will say why.
 std::uint64_t digest_of_paper_scene(const paper::PaperCell& cell, bool allow_stand_in) {
   const auto scene = paper::make_paper_scene(cell, allow_stand_in);
   return scene ? core::scene_digest(scene.value()) : hashed(cell.scene);

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using core::Error;
 
-// What must be equal for two cells to be one.
+// What must be equal for two rows to be one cell.
 using Key = std::tuple<std::uint64_t, std::string, std::string, std::string, std::string>;
 
 Key key_of(const core::Stamp& s) {
@@ -30,7 +30,7 @@ class Merger {
 
   core::Result<MergeSummary> merge() {
     summary_.cells = static_cast<std::uint32_t>(manifest_.cells.size());
-    std::set<std::string> taken;  // the paper shows some cells twice
+    std::set<std::string> taken;  // the paper shows some cells more than once
     for (const ManifestCell& cell : manifest_.cells)
       if (taken.insert(cell.id).second)
         if (core::Status s = take(cell); !s) return s.error();
@@ -63,7 +63,7 @@ class Merger {
       if (!kept) return kept.error();
       is_kept[trace] = kept.value();
     }
-    // Engines that do not simulate bring their driver along; its rows are wanted once.
+    // Engines that do not simulate record their driver too; its rows are kept once.
     for (core::CellVerdicts& verdicts : rows.value().verdicts) {
       if (!is_kept[fs::path(verdicts.trace_file).filename().string()]) continue;
       for (const core::Verdict& verdict : verdicts.verdicts)
@@ -94,7 +94,7 @@ class Merger {
                    "run it again with the program that planned the campaign"};
     if (cell.state != core::CellState::kRecorded)
       note(planned, std::string(core::cell_state_word(cell.state)) + ": " + cell.reason);
-    // Only what was recorded has a digest to be known by.
+    // Only recorded cells have a digest to compare.
     if (cell.state == core::CellState::kRecorded) {
       const auto [at, is_new] = first_.try_emplace(key_of(cell.stamp), rows_.cells.size());
       if (core::Status s = same_digests(rows_.cells, is_new ? rows_.cells.size() : at->second, cell, planned, folder);

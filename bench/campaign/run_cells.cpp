@@ -38,7 +38,7 @@ std::vector<std::string> command(std::string name, const CellWork& work, std::in
   return arguments;
 }
 
-// Judged good, judged bad, something is missing: results all three. Other exit codes are bad input or a full disk.
+// Judged good, judged bad, or incomplete: all three are results. Other exit codes are bad input or a full disk.
 bool is_result(const ChildEnding& ending) {
   return ending.exit_code == 0 || ending.exit_code == 1 || ending.exit_code == 3;
 }
@@ -61,7 +61,7 @@ std::string trace_of(const fs::path& folder, const std::string& engine) {
   return "";
 }
 
-// A crash or time-out of the harness's own child, written as the cell's row: it happened, and it is the result.
+// A crash or time-out of the child process, written as the cell's row, because it is the cell's result.
 core::Status write_ended_badly(const fs::path& part, const CellWork& work, const ChildEnding& ending) {
   core::Cell cell;
   cell.stamp.scene_name = work.scene;
@@ -73,10 +73,10 @@ core::Status write_ended_badly(const fs::path& part, const CellWork& work, const
   return core::write_cells(part / "cells.json", {cell});
 }
 
-// How the last part of a cell ended, or the first that gave no result.
+// How the last part of a cell ended, or the first part that gave no result.
 core::Result<ChildEnding> record_judge_time(const fs::path& part, const CellWork& work) {
-  // Each part has the limit for itself. Recording ends a hanging engine on its own: that is a result, and only a
-  // harness that hangs too is ended from here.
+  // Each part has the full limit. Recording ends a hanging engine itself, and that is a result; only a harness that
+  // hangs too is ended from here.
   constexpr double kGrace_s = 30.0;
   const std::string limit = fmt::format("{}", work.time_limit_s);
   std::vector<std::string> record = command("run", work, {"--out", part.string(), "--time-limit", limit});
@@ -98,7 +98,7 @@ core::Result<ChildEnding> record_judge_time(const fs::path& part, const CellWork
                   {work.time_limit_s}, Keeps::kOutputAndErrors);
 }
 
-// Done when its folder is there; bad input, a full disk or an interrupt leave it unfinished.
+// Done when its folder exists; bad input, a full disk or an interrupt leave the cell unfinished.
 core::Status run_cell(const fs::path& folder, const ManifestCell& cell) {
   const fs::path final = cell_folder(folder, cell.id);
   const fs::path part = final.string() + ".part";
@@ -110,7 +110,7 @@ core::Status run_cell(const fs::path& folder, const ManifestCell& cell) {
   if (!ended) return ended.error();
   if (is_interrupted()) return core::Done{};
   if (ended.value().exit_code >= 0 && !is_result(ended.value())) {
-    // Bad input and a full disk are not this engine's doing: the cell stays missing and says why.
+    // Bad input and a full disk say nothing about the engine: the cell stays missing, with the reason.
     fmt::print(stderr, "{} {}: {}\n", cell.id, cell.work.engine, ended.value().words);
     return core::Done{};
   }
@@ -175,7 +175,7 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
   std::vector<std::size_t> order(groups.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (manifest.paper) {
-    // Many results early: who interrupts it has most of the report.
+    // Cheap cells first: after an interrupt the report has as many results as possible.
     std::vector<double> ranks(groups.size());
     for (std::size_t place = 0; place < groups.size(); ++place)
       ranks[place] =
@@ -188,7 +188,7 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
     if (!selection.includes(place, group)) continue;
     const std::size_t first = first_of(place);
     const auto lock = CellLock::take(folder / "cells" / (group.front().turns + ".lock"));
-    // Counted when the lock is ours: what another process finished while we came here is there.
+    // Counted after taking the lock, so that cells which another process finished meanwhile are counted.
     const std::uint32_t before = finished(group);
     const auto missing = static_cast<std::uint32_t>(group.size()) - before;
     tally.there += before;

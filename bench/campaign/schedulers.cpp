@@ -10,14 +10,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In single quotes a shell takes everything as it is but the quote itself.
+// Inside single quotes a shell takes everything literally except the quote itself.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
 
-// What a cell asks of a node.
+// The resources that a cell needs on a node.
 struct Needs {
   std::string_view name;
   bool timed;
@@ -36,7 +36,7 @@ bool needs_gpu(std::span<const ManifestCell> group) {
   return std::any_of(group.begin(), group.end(), [](const ManifestCell& c) { return c.needs_gpu; });
 }
 
-// One id does its whole group.
+// One id per group, because it does the whole group.
 std::vector<std::string> ids_of(const Manifest& manifest, const Needs& needs) {
   std::vector<std::string> ids;
   for (const std::span<const ManifestCell> group : groups_of(manifest))

@@ -18,7 +18,7 @@ std::string threads_of(const core::Engine& engine) {
   return std::to_string(reference::worker_count(engine.settings.number("threads")));
 }
 
-// The pipeline is what a scene describes, so nothing differs but what somebody set otherwise.
+// A scene describes the pipeline, so the pipeline differs from it only where settings were changed.
 core::EquivalenceCard pipeline_card(const core::Engine& engine) {
   const bool is_on_gpu = engine.id.ends_with("-gpu");
   core::EquivalenceCard card{

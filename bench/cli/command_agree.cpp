@@ -24,7 +24,7 @@
 namespace broadside::bench {
 namespace {
 
-// Cases of one class that are kept as files; thousands of the same abort teach no more than a few.
+// Cases of one class that are kept as files: thousands of the same abort teach no more than a few.
 constexpr std::uint64_t kCasesPerClass = 4;
 
 struct AgreeArguments {
@@ -57,7 +57,7 @@ PairKind kind_named(const std::string& name) {
 core::Stamp stamp_of_study(const CellSpec& cell, const std::string& scene, const std::string& build) {
   core::Stamp stamp;
   stamp.scene_name = scene;
-  // Names the draw of pairs, which follows from the words alone; there is no scene to hash.
+  // A digest of the words that the draw of pairs follows from; there is no scene to hash.
   for (const char c : scene) stamp.scene_digest = core::splitmix64(stamp.scene_digest ^ static_cast<unsigned char>(c));
   stamp.engine = cell.row->id;
   auto settings = core::Settings::parse(cell.row->id, cell.row->settings, cell.settings);
@@ -71,7 +71,7 @@ core::Stamp stamp_of_study(const CellSpec& cell, const std::string& scene, const
   return stamp;
 }
 
-// Inputs of answers that are none, or blame the engine plainly.
+// Verdicts whose input is kept: no answer was given, or the engine is plainly at fault.
 bool is_worth_a_file(Agreement verdict) {
   return verdict != Agreement::kAgree && verdict != Agreement::kTouchingBand;
 }
@@ -125,7 +125,7 @@ core::Result<EngineStudy> study_engine(const CellSpec& cell, const PairSource& s
   return study;
 }
 
-// What one saved pair is, and what each engine makes of it.
+// What one saved pair is, and how each engine answers it.
 core::Exit repeat_case(const AgreeArguments& a) {
   auto read = read_case(a.case_file);
   if (!read) return complain(read.error());

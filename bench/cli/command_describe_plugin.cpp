@@ -1,4 +1,4 @@
-// What plugin_row asks a child process: load the library and print what it says of itself.
+// plugin_row runs this in a child process: it loads the library and prints the library's description.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 namespace broadside::bench {
 
 void add_describe_plugin(CLI::App& program, core::Exit& exit) {
-  // A group of no name is not listed: people have `broadside list --engine FILE`.
+  // A command without a group is not listed in the help; for people there is `broadside list --engine FILE`.
   CLI::App* command = program.add_subcommand("describe-plugin", "Prints what a plug-in says of itself, as JSON");
   command->group("");
   auto file = std::make_shared<std::string>();

@@ -21,7 +21,7 @@
 namespace broadside::bench {
 namespace {
 
-// One a line, so that two people can add one each.
+// One a line, so that two changes that add one each do not conflict.
 constexpr AddCommand kCommands[] = {
     add_list,             //
     add_run,              //
@@ -113,7 +113,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return gave_up("out of memory", "this run", kLess);
   } catch (const std::system_error& error) {
-    // What a thread says that finds no room for its stack.
+    // The system's message when a thread finds no room for its stack.
     if (error.code() == std::errc::resource_unavailable_try_again)
       return gave_up("out of memory: no room for another thread", "this run", kLess);
     return gave_up(error.what(), "internal error", "please report it with the command");

@@ -13,7 +13,7 @@
 namespace broadside::bench {
 namespace {
 
-// Sound random scenes of a reduced run: what a few seconds allow.
+// Sound random scenes of a reduced run: as many as a few seconds allow.
 constexpr std::uint32_t kReducedScenes = 8;
 
 struct MutantArguments {

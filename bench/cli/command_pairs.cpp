@@ -36,7 +36,7 @@ void print_table(const std::vector<RaceRow>& rows) {
   }
 }
 
-// Those that answered must agree; exit 3 when one did not answer.
+// The engines that answered must agree; exit 3 when one did not answer.
 core::Exit verdict_of(const std::vector<RaceRow>& rows) {
   const RaceRow* first = nullptr;
   core::Exit exit = core::Exit::kGood;

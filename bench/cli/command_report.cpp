@@ -35,7 +35,7 @@ void append(std::vector<T>& to, std::vector<T>&& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-// The paper's experiments of a folder, where there are any.
+// The paper's experiments in a folder, when there are any.
 core::Result<bool> add_paper(const std::string& folder, reports::ReportOptions& options) {
   auto part =
       paper::report_part(folder, options.guests.empty() ? "paper" : fmt::format("paper{}", options.guests.size() + 1));
@@ -44,7 +44,7 @@ core::Result<bool> add_paper(const std::string& folder, reports::ReportOptions& 
   return part.value().has_value();
 }
 
-// Rows of all folders; what the page shows beside them comes from the traces there.
+// Rows of all folders, and what the page shows from the traces there.
 core::Result<core::RunRows> gather(const ReportArguments& a, reports::ReportOptions& options) {
   core::RunRows all;
   for (const std::string& folder : a.folders) {

@@ -66,14 +66,14 @@ core::Result<RunPlan> make_plan(const RunArguments& a) {
   return plan;
 }
 
-// One cell, here: what a child process of record_cell_in_child does.
+// One cell in this process: record_cell_in_child starts it.
 core::Exit run_in_process(const RunArguments& a, const RunPlan& plan) {
   const CellSpec& spec = plan.cells.front();
   const CellRequest request{plan.source,    &plan.scene,       spec.row,    spec.settings, plan.frames, plan.level,
                             plan.selection, plan.narrow_every, plan.folder, a.driver,      plan.resume};
   auto cell = record_cell(request);
   if (!cell) return complain(cell.error());
-  // It is there unless somebody repeats what a parent, which made it, has cleared away.
+  // The parent made this folder. It is missing only when a command is repeated by hand after the parent removed it.
   if (core::Status s = prepare_folder(a.in_process); !s) return complain(s.error());
   if (core::Status s = core::write_cells(std::filesystem::path(a.in_process) / "cells.json", {cell.value()}); !s)
     return complain(s.error());

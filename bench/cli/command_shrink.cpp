@@ -51,7 +51,7 @@ core::Result<CellSpec> one_engine(const ShrinkArguments& a) {
   return std::move(cells.value().front());
 }
 
-// An HDF5 file can hold boxes alone, or a trace; without a validator its boxes are meant.
+// An HDF5 file can hold boxes alone or a trace; without a validator its boxes are used.
 bool is_box_set(const ShrinkArguments& a) {
   const std::string& spec = a.scene.spec;
   return spec.starts_with("boxes:") || spec.ends_with(".boxes") || spec.ends_with(".bin") ||
@@ -94,7 +94,7 @@ core::Exit shrink_box_set(const ShrinkArguments& a, const CellSpec& engine) {
   datasets::BoxStream& stream = made.value();
   if (auto first = pairs_of(engine, {}); !first) return complain(first.error());
   const PairFinder find = [&engine](const std::vector<core::Box>& boxes) { return pairs_of(engine, boxes); };
-  // Of a moving stream, the first frame whose boxes alone are enough.
+  // Of a moving stream, takes the first frame whose boxes alone show the fault.
   for (std::uint32_t k = 0; k < stream.frames; ++k) {
     if (k > 0)
       if (core::Status s = stream.advance(stream.boxes); !s) return complain(s.error());

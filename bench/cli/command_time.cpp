@@ -43,7 +43,7 @@ core::Exit exit_of(const RunPlan& plan, const std::vector<core::Sample>& samples
   return core::Exit::kGood;
 }
 
-// What a child process is told: everything but the number of processes and the file.
+// Arguments of a child process: everything but the number of processes and the file.
 std::vector<std::string> own_arguments(const TimeArguments& a) {
   std::vector<std::string> arguments{a.scene.spec, "--repetitions", std::to_string(a.repetitions)};
   for (const std::string& engine : a.engines.engines) arguments.insert(arguments.end(), {"--engine", engine});
@@ -87,7 +87,8 @@ core::Exit time(const TimeArguments& a) {
       return complain(s.error());
     return exit_of(plan, samples.value());
   }
-  // Beside recorded cells and their verdicts a time is admitted or struck out; alone it is a number without a proof.
+  // In a folder with recorded cells and verdicts a time is admitted or struck out; without them it is a number without
+  // proof.
   auto rows = core::read_rows(plan.folder);
   if (!rows) return complain(rows.error());
   rows.value().samples = samples.value();

@@ -18,7 +18,7 @@
 namespace broadside::bench {
 namespace {
 
-// What is run, and what each is compared with beside being judged alone.
+// The cells that run, and what each is compared with after it was judged alone.
 struct JobRow {
   std::string_view cell;
   std::array<std::string_view, 3> against;  // labels; empty = no more
@@ -98,7 +98,7 @@ core::Status judge_all(const MainJob& job, core::RunRows& rows) {
 
 core::Status time_all(const MainJob& job, const RunPlan& plan, core::RunRows& rows) {
   RunPlan timed = plan;
-  // Only what was recorded has an answer to hold the time against.
+  // Only a recorded cell has a digest that a time can be checked against.
   std::vector<CellSpec> cells;
   for (std::size_t k = 0; k < std::size(kJob); ++k)
     if (recorded(rows.cells, kJob[k].cell) != nullptr) cells.push_back(plan.cells[k]);
@@ -110,7 +110,7 @@ core::Status time_all(const MainJob& job, const RunPlan& plan, core::RunRows& ro
   return core::write_samples(job.folder / "samples.json", rows.samples);
 }
 
-// Made by this very program?
+// Whether this very program recorded it.
 template <typename Row>
 bool is_current(const std::vector<Row>& rows) {
   const std::string build = build_line();

@@ -18,7 +18,7 @@ using reports::plots::Projected;
 constexpr double kPanel = 320.0;
 constexpr double kHead = 44.0;
 constexpr double kEdge = 8.0;
-// From above the right front: the faces toward +x, +y and +z are seen.
+// The view is from above, in front and to the right, so the faces toward +x, +y and +z are visible.
 constexpr reports::plots::View kView{28.0, 20.0};
 
 // A corner of a box: bit k set = max on axis k.
@@ -28,7 +28,7 @@ Projected corner(const core::Box& box, unsigned bits) {
   return reports::plots::project(p, kView);
 }
 
-// Corners around each face that is seen, and around all three together.
+// Corners around each visible face, and around all three together.
 constexpr std::array<unsigned, 4> kRight{1, 3, 7, 5};
 constexpr std::array<unsigned, 4> kTop{2, 6, 7, 3};
 constexpr std::array<unsigned, 6> kOutline{0, 1, 5, 4, 6, 2};
@@ -68,7 +68,7 @@ core::Box box_around(std::span<const std::vector<core::Box>> panels) {
   return all;
 }
 
-// What of the domain is drawn: all of it where the bodies fill it, else the floor under them.
+// Which part of the domain is drawn: all of it where the bodies fill it, else the floor under them.
 core::Box drawn_domain(const core::Scene& scene, const core::Box& bodies) {
   core::Box d = scene.domain;
   float longest = 0.0F;
@@ -90,7 +90,7 @@ Frame frame_for(const core::Box& shown) {
   }
   const double room = kPanel - 2.0 * kEdge;
   const double scale = room / std::max({right - left, top - low, 1e-9});
-  // In the middle of the panel.
+  // Centered in the panel.
   return {0.5 * (left + right) - 0.5 * kPanel / scale, 0.5 * (low + top) + 0.5 * kPanel / scale, scale};
 }
 

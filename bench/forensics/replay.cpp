@@ -33,7 +33,7 @@ bool has(const core::TraceReader& trace, std::uint32_t groups) {
   return (trace.header().groups & groups) == groups;
 }
 
-// Of a simulation: states, or digests alone, and not the work of an engine that was fed.
+// True for a simulation: the trace has states, or digests alone, and its engine was not fed.
 bool is_simulation(const core::TraceReader& trace) {
   return trace.header().driver.empty() && (trace.header().groups == 0 || has(trace, bit(Group::kBodies)));
 }
@@ -76,8 +76,8 @@ core::Result<std::filesystem::path> record_again(const core::TraceReader& trace,
   return folder / cell.value().trace_file;
 }
 
-// Steps that only the replay has say nothing: it records every step. It has none for the initial state, which is the
-// scene's.
+// Steps that only the replay has are no difference, because it records every step. It has no initial state, which is
+// the scene's.
 core::Status compare_by(DifferenceRule& rule, const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
   auto found = compare_traces(a, b, &rule);
   if (!found) return found.error();

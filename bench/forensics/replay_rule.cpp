@@ -16,7 +16,7 @@ using validation::kSubnormal;
 using validation::rounding;
 
 constexpr double kTwoEngines = 2.0;
-// Operations on dt g: in our engines, and in one that goes by forces.
+// Rounded operations behind dt g: in our engines, and in an engine that computes forces first.
 constexpr int kOurPull = 1;
 constexpr int kTheirPull = 5;
 const double kDiagonal = std::sqrt(3.0);
@@ -25,8 +25,8 @@ double largest(core::Vec3 v) {
   return std::max({std::abs(double{v.x}), std::abs(double{v.y}), std::abs(double{v.z})});
 }
 
-// Two steps that follow each other tell, or the first: are the detection states those that the step began with? Bodies
-// that do not move say nothing.
+// Two consecutive steps decide it, or the first one: are the detection states those at the beginning of the step?
+// Bodies that do not move decide nothing.
 bool looked_before_moving(const core::TraceReader& trace) {
   constexpr std::uint32_t kBoth = bit(Group::kBodies) | bit(Group::kDetection);
   const auto& steps = trace.steps();
@@ -38,7 +38,7 @@ bool looked_before_moving(const core::TraceReader& trace) {
   for (const core::Body& body : trace.header().scene.bodies) began.push_back(body.position);
   if (at > 0) {
     auto before = trace.read(at - 1, bit(Group::kBodies));
-    if (!before) return false;  // the comparison reads it again, and says why not
+    if (!before) return false;  // the comparison reads it again and reports why not
     began = std::move(before).value().position;
   }
   const auto frame = trace.read(at, kBoth);
@@ -106,8 +106,8 @@ FlightRule::FlightRule(const core::TraceReader& recorded, const core::TraceReade
   is_one_moment_ = looked_before_moving(replayed) == detects_first_;
 }
 
-// Adds one step's rounding; the magnitudes are those of our own frames, which a body in free flight shares to a few
-// ulps.
+// Adds one step's rounding. The magnitudes are those of our own frames, which agree with the recorder's to a few ulps
+// while a body flies freely.
 void FlightRule::advance(const core::FrameRecord& ours) {
   const double dt = scene_.dt_s;
   const double pull = dt * largest(scene_.gravity_m_s2);
@@ -171,7 +171,7 @@ bool FlightRule::passes(const core::FrameDifference& d) {
   const double off = std::abs(d.a.value() - d.b.value());
   if (d.field.ends_with("/velocity")) return off <= velocity_bound_m_s_[body];
   if (d.field.ends_with("/position")) return off <= position_bound_m_[body];
-  // A bound is a position plus a number of the mesh: one more addition in each engine.
+  // A bound is a position plus a number from the mesh, so each engine makes one more addition.
   if (d.field.ends_with("/boxes"))
     return has_margin_ || off <= position_bound_m_[body] + kTwoEngines * rounding(1) * std::abs(d.a.value());
   return off == 0.0;

@@ -25,8 +25,8 @@ core::Status check_same_scene(const core::TraceReader& a, const core::TraceReade
       a.path().string() + " and " + b.path().string(), "record both from one scene"};
 }
 
-// A digest is a function of what an engine makes: it means the same in two traces that hold the same groups and were
-// both fed or both simulated. Traces of other programs may leave it at zero.
+// Digests can be compared when two traces hold the same groups and both engines simulated, or both were fed. Traces of
+// other programs may leave the digest at zero.
 bool have_one_digest(const core::TraceReader& a, const core::TraceReader& b) {
   const auto is_zero = [](std::uint64_t d) { return d == 0; };
   const auto& p = a.digests();

@@ -42,7 +42,8 @@ constexpr Erratum kErrata[] = {
     {"printed-E7", "P-Alg 1: no octree level below 1", "octree-invariants", "errata:E7"},
     {"printed-E8", "contacts resolved in the order of threads", "determinism", "errata:E8"},
 };
-// A race need not show in one run: two orders may give the same bits. With some hundred contacts a frame that is rare.
+// A race need not show in one run, because two orders may give the same bits. With some hundred contacts a frame that
+// is rare.
 constexpr int kRacingRuns = 5;
 
 core::Scene reversed(const core::Scene& scene) {
@@ -139,7 +140,7 @@ class Scorer {
     if (options_.progress) options_.progress(done_, total_);
   }
 
-  // Who failed; an error is why it could not be judged.
+  // Which validators failed; an error says why it could not be judged.
   static void judge_into(MutationRow& row, const core::Result<Specimen>& subject,
                          const core::Result<Specimen>* baseline) {
     if (!subject || (baseline != nullptr && !*baseline)) {
@@ -211,7 +212,7 @@ class Scorer {
         if (!sound) {
           auto scene = specimen_scene("mixed");
           if (!scene) return scene.error();
-          // Flat: every candidate is confirmed, so that a spoiled list of either is the other's too.
+          // Flat confirms every candidate, so a tampering that spoils one of the two lists spoils both.
           auto recorded = record_engine(scene.value(), {{"levels", "flat"}, {"threads", "1"}});
           if (!recorded) return recorded.error();
           sound = std::move(recorded).value();

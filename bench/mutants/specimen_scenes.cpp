@@ -60,7 +60,7 @@ Scene touching() {
   return scene;
 }
 
-// Corner to corner along a diagonal, in both directions of it: only the first and the last leaves meet.
+// Three boxes along a diagonal that meet corner to corner: only the first and the last leaves meet.
 Scene corner() {
   Scene scene = around_origin("corner", 30);
   scene.bodies = {body_at({-1.0F, -1.0F, -1.0F}, {1, 1, 1}, 1.0F), body_at({0.0F, 0.0F, 0.0F}, {}, 1.0F),
@@ -89,7 +89,7 @@ Scene slow() {
   return scene;
 }
 
-// Two surfaces that have nothing in common meet.
+// Two surfaces with unlike properties meet.
 Scene materials() {
   Scene scene = around_origin("materials", 60);
   scene.bodies = {body_at({-0.75F, 0, 0}, {1, 0.5F, 0}, 1.0F), body_at({0.75F, 0.25F, 0.125F}, {-1, 0, 0}, 2.0F)};
@@ -98,7 +98,7 @@ Scene materials() {
   return scene;
 }
 
-// Over the upper faces of the domain, under no force.
+// Bodies over the upper faces of the domain, without any force.
 Scene leaving() {
   Scene scene = around_origin("leaving", 60);
   scene.bodies = {body_at({3.0F, 0, 0}, {2, 0, 0}, 1.0F), body_at({-3.0F, 0, 0}, {-2, 0, 0}, 1.0F)};

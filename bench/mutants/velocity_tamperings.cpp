@@ -43,7 +43,7 @@ double inverse_masses(const Specimen& r, const Contact& c) {
   return double(w(c.a)) + w(c.b);
 }
 
-// Approaching slower than v_th, so it must not bounce.
+// The approach is slower than v_th, so it must not bounce.
 bool is_slow(const Contact& c) {
   return approach(c) < -0.05 && approach(c) > -0.25;
 }

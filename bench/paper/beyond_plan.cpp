@@ -12,8 +12,8 @@ namespace broadside::bench::paper {
 namespace {
 
 constexpr std::array<std::uint32_t, 5> kFactors{1, 3, 10, 30, 100};
-// The same frames at every count: pairs become more while bodies leave their first places, so frames of another time
-// are other work. Few, so that they can be had at the largest counts.
+// The same few frames at every count. Pairs become more while bodies leave their first places, so other frames are
+// other work, and only a few can be had at the largest counts.
 constexpr std::uint32_t kMostFrames = 20;
 
 // Box tests a second that a cell is expected to do, for the limit alone: measured once for level A (0.2 ns a test on

@@ -1,4 +1,4 @@
-// Beyond the paper: cost against count, fitted, and where one method overtakes another.
+// Beyond the paper: cost against count, fitted, and where one method becomes faster than another.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Family {
   [[nodiscard]] std::string stage_of(const std::string& method) const {
     return is_broad && !is_broad_only(method) ? "broad" : "frame";
   }
-  // A, B and C start from boxes of levels, so their broad stage is not the same work.
+  // A, B and C start from boxes of levels, so their broad stage is other work.
   [[nodiscard]] bool has(const std::string& method) const {
     if (!is_broad) return !is_broad_only(method);
     return is_broad_only(method) || method == "tree" || method == "hash" || method == "flat" ||

@@ -69,7 +69,7 @@ double expected_seconds(const PaperCell& cell, std::uint32_t runs) {
   if (cell.is_timed) loads += 1.0 + runs, timed_frames += static_cast<double>(kWarmUpFrames) + frames * runs;
   if (cell.wants_memory) loads += runs, timed_frames += frames * runs;
   const double judged = frames / cell.every * model.judged_frame_s * cell.count / 50.0;
-  // Five cells share a scene in the tables; two elsewhere are wrong by little.
+  // In the tables five cells share a scene, so each takes a fifth. Elsewhere two do, and the error is small.
   return 0.2 * model.scene_s + loads * model.load_s + model.trace_s + model.judge_s + judged +
          (frames + timed_frames) * frame_seconds(cell);
 }

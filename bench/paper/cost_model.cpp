@@ -83,7 +83,7 @@ std::optional<Change> change_between(double count0, double ratio0, double count1
   return Change{std::exp(std::log(count0) + share * std::log(count1 / count0)), high > low};
 }
 
-// Deterministic draws: the state walks, splitmix64 scrambles it.
+// Draws from a fixed sequence: the state counts up, and splitmix64 scrambles it.
 class Draws {
  public:
   double resampled_mean(const std::vector<double>& values) {
@@ -129,7 +129,7 @@ void add_crossovers(const CostCurve& a, const CostCurve& b, std::vector<Crossove
     const Common &p = common[k], &q = common[k + 1];
     const auto change = change_between(p.count, mean_of(*p.a) / mean_of(*p.b), q.count, mean_of(*q.a) / mean_of(*q.b));
     if (!change) continue;
-    // The ratio a / b rises through 1: a was the cheaper one below.
+    // The ratio a / b rises through 1, so a was the cheaper one below.
     Crossover crossover{change->is_upward ? a.method : b.method,
                         change->is_upward ? b.method : a.method,
                         change->count,
@@ -167,7 +167,7 @@ std::optional<CostFit> fit_cost(const CostCurve& curve) {
       error += relative * relative;
       fit.worst_relative_error = std::max(fit.worst_relative_error, std::abs(relative));
     }
-    // A term more must earn its place: what it takes off below rounding is no reason for it.
+    // A further term is taken only when it lowers the error by more than rounding.
     if (error < best_error - 1e-12) best_error = error, best = fit;
   }
   return best;

@@ -19,7 +19,7 @@ constexpr std::string_view kBlockStyle =
     ".wide tr{display:table-row}.wide th,.wide td{display:table-cell;padding:.3rem .5rem}\n"
     ".wide caption{display:table-caption}}\n";
 
-// What this page has and the report's own style does not.
+// Styles of this page that the report's own style lacks.
 constexpr std::string_view kOwnStyle =
     "nav ul{list-style:none;padding:0;display:flex;flex-wrap:wrap;gap:.2rem 1.4rem;font-size:.875rem}\n"
     "nav a{color:var(--accent)}\n";

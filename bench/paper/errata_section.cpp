@@ -99,7 +99,7 @@ std::string e12() {
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
     const double change = change_percent(t.number(r, "C_mean"), t.number(r, "flat_mean"));
     const double printed = t.number(r, "printed_change_percent");
-    // Printed to one digit: half a digit of it, and a hair for what the decimal figures are in binary.
+    // Printed to one digit: half a digit of it, plus a little because decimal figures are not exact in binary.
     if (std::abs(change - printed) <= 0.05 + 1e-9) continue;
     ++differing;
     text += fmt::format("{} {} {} prints {:.1f} % where its figures give {:.2f} %", text.empty() ? "" : ",",

@@ -21,7 +21,7 @@
 namespace broadside::bench::paper {
 namespace {
 
-// METHOD 9 writes statistics every 100 frames. Shorter runs get thirty windows all the same, so that their curves have
+// METHOD 9 writes statistics every 100 frames. Shorter runs get thirty windows too, so that their curves have
 // points.
 std::uint64_t window_frames_of(std::uint64_t frames) {
   return frames >= 1000 ? core::kStatisticsWindow : std::max<std::uint64_t>(1, frames / 30);
@@ -32,7 +32,7 @@ core::Error interrupted() {
           core::Exit::kMissing};
 }
 
-// Adds the wall time of its life to a cell's.
+// Adds the wall time of its lifetime to a cell's time.
 class Spent {
  public:
   explicit Spent(double& seconds) : seconds_(seconds) {}
@@ -46,7 +46,7 @@ class Spent {
   Clock::time_point start_ = Clock::now();
 };
 
-// A cell on its way from asked for to measured.
+// A cell from the moment it is asked for until it is measured.
 struct Work {
   const PaperCell* cell = nullptr;
   CellSpec spec;
@@ -173,7 +173,7 @@ class Group {
 
   core::Status record() {
     if (core::Status s = prepare_folder(plan_.folder); !s) return s;
-    // One by one: an engine that cannot load the scene (too little memory, say) must not take the others with it.
+    // One by one, so that an engine that cannot load the scene (too little memory, say) does not stop the others.
     for (Work& work : works_) {
       if (work.is_done) continue;
       const Spent spent(work.row.spent_s);
@@ -314,7 +314,7 @@ class Group {
     return own;
   }
 
-  // Without times, what is admitted are the recorded statistics: nothing failed and something was proven.
+  // Without times, the recorded statistics are admitted when no verdict failed and at least one passed.
   void count_verdicts(PaperRow& row) const {
     for (const core::CellVerdicts& verdicts : proof_.verdicts) {
       if (!reports::same_stamp(verdicts.stamp, row.stamp)) continue;

@@ -1,5 +1,5 @@
-// Which of the published orders hold here: the shape of the tables, since absolute figures of two machines cannot
-// agree.
+// Which of the published orders hold here. Orders can be compared between two machines; absolute figures
+// cannot.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ Measured megabytes(const PaperRow* row) {
   return measured(row, row == nullptr ? std::vector<double>{} : row->memory_bytes);
 }
 
-// One statement: what it says in a published row, and in a place of ours.
+// One statement about an order: as published, and in one place of our results.
 struct Statement {
   std::string words;
   std::string_view experiment;

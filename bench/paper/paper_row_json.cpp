@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kVersion = 1;
 constexpr const char* kFormat = "broadside-paper";
 
-// JSON has no word for what is not finite; null is not a number.
+// JSON has no number that is not finite; null stands for it.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -27,7 +27,7 @@ double number_of(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-// Times keep eight digits, more than any clock here has: files stay small.
+// Times keep eight digits, more than any clock here resolves, so files stay small.
 Json time(double seconds) {
   if (!std::isfinite(seconds)) return nullptr;
   std::array<char, 32> text;

@@ -27,7 +27,7 @@
 namespace broadside::bench {
 namespace {
 
-// What every command about one cell takes: scene, engine, settings, frames.
+// Arguments that every command about one cell takes: scene, engine, settings, frames.
 std::vector<std::string> cell_arguments(const char* command, const CellRequest& r) {
   std::vector<std::string> args{command,          r.source.spec,
                                 "--engine",       engine_argument(*r.row),
@@ -57,7 +57,7 @@ std::vector<std::string> run_arguments(const CellRequest& r, const std::filesyst
   return args;
 }
 
-// Keeps the last line of the child's stderr, an assert's message or our own one clear line, and may pass all of it on.
+// Keeps the last line of the child's stderr (an assert's message or our own error line) and may pass all of it on.
 class StderrTail {
  public:
   explicit StderrTail(bool passes_on) : passes_on_(passes_on) {}
@@ -74,7 +74,7 @@ class StderrTail {
       }
     }
   }
-  // Without the codes that clear a line.
+  // The line without the codes that clear it.
   [[nodiscard]] std::string last_line() const {
     const std::string& line = line_.empty() ? last_ : line_;
     constexpr std::string_view kClear = "\033[K";
@@ -166,8 +166,8 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
   nameless.id = std::string(request.row->id);
   if (settings) nameless.settings = settings.value();
   cell.stamp = stamp_of(*request.scene, nameless);
-  // The driver's trace is the input of an engine that does not simulate; together with the arguments it repeats what
-  // happened, in a process that may die of it.
+  // The driver's trace is the input of an engine that does not simulate. Together with the arguments it repeats the
+  // failure, in a process that may crash.
   cell.notes["repeat"] = command_line(args);
   cell.notes["verdict on its process"] = std::string(class_of(ending));
   const std::string part = trace_file_name(cell.stamp) + ".part";
@@ -176,7 +176,7 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
   return cell;
 }
 
-// A folder in the run's folder for what a child leaves, gone with this object.
+// A folder within the run's folder for a child's files; it is removed with this object.
 class CellFolder {
  public:
   explicit CellFolder(const std::filesystem::path& folder) : path_(folder / fmt::format(".cell-{}", getpid())) {
@@ -223,7 +223,7 @@ std::string_view class_of(const ChildEnding& ending) {
   if (ending.is_good) return {};
   if (ending.timed_out) return "time-out";
   if (ending.signal != 0) return ending.signal == SIGABRT ? "abort" : "crash";
-  // vendor_call's word for std::bad_alloc, and the word of an allocation that nobody caught.
+  // vendor_call's text for std::bad_alloc, and the runtime's text for one that was not caught.
   const bool has_no_memory = ending.last_line.find("out of memory") != std::string::npos ||
                              ending.last_line.find("bad_alloc") != std::string::npos;
   return has_no_memory ? "out of memory" : "exception";
@@ -248,8 +248,9 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0) {
-    // Only async-signal-safe calls here: other threads of the parent may hold locks. Nobody goes on writing where a
-    // later try begins: the parent's death is the child's, also when it came before this line.
+    // Only async-signal-safe calls here, because other threads of the parent may hold locks. When the parent dies the
+    // child is ended too, also when the parent died before this line: otherwise it would go on writing where a later
+    // try begins.
     die_with(parent);
     dup2(err.to, STDERR_FILENO);
     if (out.to >= 0) dup2(out.to, STDOUT_FILENO);

@@ -17,7 +17,7 @@ void on_signal(int signal) {
 void watch_for_interrupt() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  // A file that grows past `ulimit -f` is then a write that fails, with its one clear line, and not a death by signal.
+  // A write past `ulimit -f` then fails with an error line instead of ending the process by a signal.
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -11,7 +11,7 @@
 namespace broadside::bench {
 namespace {
 
-// Bytes of address space in use, from /proc/self/statm; 0 when it cannot be told.
+// Bytes of address space in use, from /proc/self/statm; 0 when it cannot be read.
 std::uint64_t address_space_in_use() {
   const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;

@@ -68,7 +68,7 @@ void Progress::at(std::uint64_t done) {
   const std::string text =
       fmt::format("{}: {} of {} ({:.0f} %), about {} left", what_, done, total_,
                   100.0 * static_cast<double>(done) / static_cast<double>(total_), left_text(left));
-  // A line that a terminal breaks cannot be rewritten.
+  // A line that the terminal wraps cannot be rewritten.
   fmt::print(stderr, "{}{}{}", is_terminal_ ? "\r" : "",
              is_terminal_ ? reports::clipped(text, reports::kTerminalColumns - 1) : text,
              is_terminal_ ? "\033[K" : "\n");

@@ -18,7 +18,7 @@ namespace {
 using core::Group;
 using reports::Playback;
 
-constexpr std::uint64_t kMostBytes = 700'000;  // of all playbacks of a report, encoded; with the script under 3 MB
+constexpr std::uint64_t kMostBytes = 700'000;  // for all playbacks of a report, encoded; with the script under 3 MB
 constexpr std::size_t kMostPlaybacks = 4;
 constexpr std::size_t kMostBodies = 20'000;     // 120 kB a frame
 constexpr std::size_t kMostTriangles = 12'000;  // of one mesh; larger ones are shown as their level-2 boxes
@@ -114,7 +114,7 @@ class Taker {
     const std::vector<std::uint64_t>& steps = trace_.steps();
     const std::uint64_t count = steps.size();
     std::set<std::uint64_t> chosen;
-    // What a frame costs is that of the fullest of some.
+    // The cost of a frame is taken from the fullest of a sample.
     std::uint64_t each = 1;
     for (const std::uint64_t k : {std::uint64_t{0}, count / 2, count - 1})
       if (auto frame = frame_at(k); frame) {
@@ -164,7 +164,7 @@ struct Choice {
   std::vector<reports::PlaybackMark> marks;
 };
 
-// What did not pass, then per scene one run to look at.
+// Runs that did not pass, then one run per scene to look at.
 std::vector<Choice> choices(const core::RunRows& rows) {
   std::vector<Choice> chosen;
   for (const core::Cell& cell : rows.cells) {

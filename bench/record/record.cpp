@@ -63,7 +63,7 @@ void note_resume(core::TraceHeader& header, const ResumePoint& point) {
       (earlier == notes.end() ? "after step " : earlier->second + ", ") + std::to_string(point.step);
 }
 
-// Of a trace that has all frames already.
+// The cell of a trace that already has all frames.
 core::Cell complete_cell(const ResumePoint& point) {
   core::Cell cell;
   cell.stamp = point.trace.header().stamp;
@@ -75,7 +75,7 @@ core::Cell complete_cell(const ResumePoint& point) {
   return cell;
 }
 
-// Of engines whose counting takes time. Digests alone are recorded to be cheap.
+// Only engines whose counting takes time offer this. Digests alone are recorded to be cheap, so they are not counted.
 template <typename Capability>
 void ask_for_counts(const CellRequest& request, Capability& capability) {
   auto* counts = dynamic_cast<core::CountsWork*>(&capability);
@@ -121,7 +121,7 @@ core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engin
       return recording.interrupted();
     }
     if (core::Status s = dynamics.step(request.scene->dt_s); !s) return recording.failed(s.error());
-    // The last frame is recorded whatever the rhythm: its digest is what a timed run is held against.
+    // The last frame is always recorded, because timed runs are compared with its digest.
     if (recording.is_due(step) || step == request.frames) {
       auto taken = taker.take();
       if (!taken) return recording.failed(taken.error());
@@ -132,7 +132,7 @@ core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engin
   auto last = taker.rest();
   if (!last) return recording.failed(last.error());
   if (core::Status s = add_taken(std::move(last), recording); !s) return s.error();
-  // Of a run that went on from a trace, the engine counted a part only.
+  // In a run that went on from a trace, the engine counted only a part.
   if (!point) recording.note_work(dynamics.counters());
   auto cell = recording.finish();
   std::error_code ignored;
@@ -199,8 +199,8 @@ core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& 
   return recording.finish();
 }
 
-// Measures, at the poses of detection, the pairs that the driver confirmed or that are near
-// (bench/record/near_pairs.hpp) on a sampled set of frames; where the driver itself measured pairs, those.
+// Measures separations on a sampled set of frames at the poses of detection: of pairs that the driver confirmed and of
+// pairs that are near (bench/record/near_pairs.hpp); where the driver itself measured pairs, of those.
 core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine& engine) {
   auto opened = open_driver(request, bit(Group::kDetection));
   if (!opened) return opened.error();

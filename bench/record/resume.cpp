@@ -14,8 +14,8 @@
 namespace broadside::bench {
 namespace {
 
-// Engines of which the bodies' states are the whole state: a frame depends on the frame before and on nothing else.
-// Others keep what no trace holds, such as contact caches and warm-starting impulses.
+// Engines whose whole state is the states of the bodies: a frame depends on the frame before and on nothing else.
+// Others keep state that no trace holds, such as contact caches and warm-starting impulses.
 constexpr std::array<std::string_view, 4> kStateIsInBodies{"octree-cpu", "octree-gpu", "hash-cpu", "hash-gpu"};
 
 constexpr const char* kStartAnew = "run without --resume to start at the beginning";

@@ -48,7 +48,7 @@ class Runner {
     known_ = std::move(known.value().cells);
 
     std::vector<CellSpec> specs = plan_.cells;
-    // Simulations first, in the order asked for; the others are fed by them.
+    // Simulations first, in the order asked for, because the others are fed by them.
     std::stable_partition(specs.begin(), specs.end(), [](const CellSpec& s) { return offers(*s.row, "dynamics"); });
     for (const CellSpec& spec : specs)
       if (!offers(*spec.row, "dynamics") && !records_a_driver()) return needs_full(*spec.row);

@@ -126,8 +126,8 @@ std::string case_text(const core::Scene& scene, const CaseFacts& facts) {
       "\"core/scene/scene.hpp\"\n\nnamespace broadside::tests {\nnamespace {\n\n";
   text += scene_function(scene);
   const std::string against = facts.against.empty() ? "" : ", " + quoted(facts.against);
-  // What is left of the scene may leave a sound engine nothing to judge, or be one that it rightly refuses, such as too
-  // long a step; both are seen in the test's output.
+  // In the reduced scene a sound engine may have nothing to judge, or may rightly refuse it, for example because of too
+  // long a step; both show in the test's output.
   text += fmt::format(
       "\nTEST(Shrunk, {}Holds) {{\n  const auto verdict = bench::judge_engine(shrunk_scene(), {}, {}{});\n"
       "  if (!verdict.ok() && verdict.error().exit == core::Exit::kBadInput)\n"

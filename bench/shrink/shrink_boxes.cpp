@@ -84,7 +84,7 @@ class Shrinker {
     return wrong;
   }
 
-  // An engine that stops with an error is another fault than one that finds other pairs.
+  // An engine that stops with an error has another fault than one that finds other pairs.
   bool take(const std::vector<Box>& boxes) {
     if (!std::all_of(boxes.begin(), boxes.end(), is_box)) return false;
     std::optional<Wrong> wrong = judge(boxes);

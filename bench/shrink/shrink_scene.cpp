@@ -22,9 +22,9 @@ namespace {
 
 using core::Scene;
 
-// The longest piece of a run between two looks at the verdict.
+// The longest piece of a run between two checks of the verdict.
 constexpr std::uint32_t kLongestPiece = 64;
-// Pieces grow no more once one takes this share of the time limit.
+// Pieces stop growing once one takes this share of the time limit.
 constexpr double kPiecesInTime = 40.0;
 // Nine digits name every float: rounding to fewer is a change.
 constexpr int kAllDigits = 9;
@@ -70,7 +70,7 @@ class Shrinker {
   [[nodiscard]] double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   [[nodiscard]] bool is_spent() const { return elapsed_s() > limits_.time_s || is_interrupted(); }
 
-  // Runs a scene; an error of a smaller scene only means that it does not show the fault.
+  // Runs a scene. An error of a smaller scene only means that the scene does not show the fault.
   std::optional<Answer> ask(const Scene& scene) {
     ++trials_;
     auto answer = oracle_(scene);
@@ -81,8 +81,8 @@ class Shrinker {
     return std::move(answer).value();
   }
 
-  // Takes the scene when it still gets the verdict. A mesh that a file's reader would clean would come back as another:
-  // meshes that were clean stay so.
+  // Takes the scene when it still gets the verdict. Meshes that were clean must stay clean: otherwise a file's reader
+  // would clean them and load another mesh.
   bool take(const Scene& scene) {
     if (!core::check_scene(scene) || (is_clean_ && !has_clean_meshes(scene))) return false;
     auto answer = ask(scene);
@@ -106,8 +106,8 @@ class Shrinker {
     limits_.tell(fmt::format("{} ({} runs, {:.1f} s)", size, trials_, elapsed_s()));
   }
 
-  // Runs on, piece by piece, each from where the last one ended, until a piece gets the verdict. An engine that
-  // remembers more than states may need all frames from the start: then those are run.
+  // Runs piece by piece, each from where the last one ended, until a piece gets the verdict. An engine with more state
+  // than its bodies' may need all frames from the start; then those are run.
   core::Status find_fault(const Scene& scene) {
     Scene piece = scene;
     std::uint32_t length = 1;
@@ -121,7 +121,7 @@ class Shrinker {
       const double began_s = elapsed_s();
       auto answer = ask(piece);
       if (!answer) return *last_error_;
-      // A piece may leave undecided what the whole decides.
+      // A piece may leave undecided what the whole run decides.
       if (answer->verdict.outcome == core::Outcome::kFail) {
         wanted_ = answer->verdict.outcome;
         accept(piece, std::move(*answer));
@@ -129,7 +129,7 @@ class Shrinker {
       }
       piece.bodies = std::move(answer->end);
       done += piece.frames;
-      // A longer piece wastes more: of what follows the fault in it, and of the time that is left.
+      // A longer piece wastes more: the frames after the fault in it, and the time that is left.
       if (elapsed_s() - began_s < limits_.time_s / kPiecesInTime) length = std::min(2 * length, kLongestPiece);
     }
     auto answer = ask(scene);
@@ -236,7 +236,7 @@ class Shrinker {
     return core::scene_digest(scene) != core::scene_digest(best_) && take(scene);
   }
 
-  // Each is taken once at most: rounding digits could undo one, and the two would take turns for ever.
+  // Each edit is taken at most once: rounding digits could undo another edit, and the two would alternate forever.
   void make_plainer() {
     for (int k = 0; k < kPlainerCount && !is_spent(); ++k)
       if (!is_plain_[k]) is_plain_[k] = take_if_other(made_plainer(best_, static_cast<Plainer>(k)));

@@ -51,7 +51,7 @@ Scene with_mesh(const Scene& scene, std::size_t m, core::Mesh mesh) {
   return changed;
 }
 
-// The largest |coordinate| that a body can reach in the scene's frames at its highest speed, and its mesh, with room.
+// An upper bound of the |coordinates| that a body and its mesh can reach in the scene's frames at its highest speed.
 float far_enough(const Scene& scene) {
   double far = 1.0;
   for (const core::Body& b : scene.bodies)

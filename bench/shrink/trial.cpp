@@ -17,14 +17,14 @@
 namespace broadside::bench {
 namespace {
 
-// Seconds for one run of a child: a shrinker that waits longer for one of its hundreds of trials gets nowhere.
+// Seconds for one run of a child: the shrinker makes hundreds of trials, so it cannot wait longer for one.
 constexpr double kChildLimit_s = 30.0;
 
 core::Result<const validation::ValidatorRow*> find_validator(const std::string& name) {
   const auto rows = validation::validators();
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
   if (row != rows.end()) return &*row;
-  // Of the many places that name validators, judge() has the words.
+  // Several tables name validators; judge()'s error lists their names.
   const core::TraceHeader nothing;
   const validation::FrameSource none{nothing, {}, {}};
   return validation::judge(none, nullptr, {{name}, {}}).error();

@@ -34,7 +34,7 @@ core::Status run_frame(core::BroadPhase& broad, const std::vector<core::Box>& bo
   row.filter_s += pairs.value().filter_s;
   row.pairs += pairs.value().pairs.size();
   row.raw += pairs.value().raw;
-  // One frame's digest is that of DESIGN; further frames are told apart by their number.
+  // One frame's digest is that of its pairs; further frames are mixed with their number.
   const std::uint64_t digest = core::pair_digest(pairs.value().pairs);
   row.digest += frame == 0 ? digest : core::splitmix64(digest + frame);
   ++row.frames;

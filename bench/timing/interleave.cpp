@@ -28,13 +28,13 @@ core::Error interrupted() {
   return {"interrupted: times of pairs that did not end are dropped", "compare", "", core::Exit::kMissing};
 }
 
-// One program's part: its folder, and one folder per scene in it.
+// One program's side: its folder, with one folder per scene in it.
 class Side {
  public:
   Side(const InterleavePlan& plan, std::string program, std::filesystem::path folder)
       : plan_(plan), program_(std::move(program)), folder_(std::move(folder)) {}
 
-  // Record and judge a scene: the proof that its times need.
+  // Records and judges a scene: its times are admitted only with this proof.
   core::Status prove(std::size_t scene) {
     const std::filesystem::path at = scene_folder(scene);
     if (core::Status s = prepare_folder(at); !s) return s;
@@ -52,7 +52,7 @@ class Side {
     return call(check, at / "check.log", {0, 1, 3});
   }
 
-  // Does `time` of this program know --turns? One built before turns does not.
+  // Whether `time` of this program knows --turns; older programs do not.
   core::Result<bool> takes_turns() {
     const std::filesystem::path log = folder_ / "help.log";
     if (core::Status s = prepare_folder(folder_); !s) return s.error();
@@ -62,7 +62,7 @@ class Side {
     return help.find("--turns") != std::string::npos;
   }
 
-  // A timed process, alone or with its part in `turns` over the descriptor.
+  // A timed process, alone or as one side of `turns` over the descriptor.
   core::Result<RunningProgram> start_timing(std::size_t scene, const std::string& turns = {}, int descriptor = -1) {
     const std::filesystem::path at = scene_folder(scene);
     Arguments arguments{"time",  plan_.scenes[scene],      "--repetitions", std::to_string(plan_.repetitions),
@@ -72,7 +72,7 @@ class Side {
     return RunningProgram::start(program_, arguments, at / "time.log", descriptor);
   }
 
-  // Waits for it and keeps its samples as those of the pair.
+  // Waits for the process and keeps its samples under the number of the pair.
   core::Status keep_timing(RunningProgram& timing, std::size_t scene, std::uint64_t pair) {
     const std::filesystem::path at = scene_folder(scene);
     const std::filesystem::path file = at / kPairFile;
@@ -88,7 +88,7 @@ class Side {
     return core::Done{};
   }
 
-  // All rows of this side, and its files written.
+  // All rows of this side, and the files that hold them.
   core::Result<core::RunRows> rows() {
     core::RunRows all;
     for (std::size_t k = 0; k < plan_.scenes.size(); ++k) {
@@ -139,7 +139,7 @@ class Side {
                        "see " + log.string(), code.value() == 2 ? core::Exit::kBadInput : core::Exit::kMissing};
   }
 
-  static constexpr const char* kPairFile = "pair.json";  // of the process that runs, in its scene's folder
+  static constexpr const char* kPairFile = "pair.json";  // of the running process, in its scene's folder
 
   const InterleavePlan& plan_;
   std::string program_;
@@ -169,7 +169,7 @@ core::Status time_one_by_one(std::array<Side*, 2> order, std::size_t scene, std:
   return core::Done{};
 }
 
-// Both at once, each working while the other waits.
+// Both at once; each works while the other waits.
 core::Status time_in_turns(std::array<Side*, 2> order, std::size_t scene, std::uint64_t pair, int core) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -181,7 +181,7 @@ core::Status time_in_turns(std::array<Side*, 2> order, std::size_t scene, std::u
     const std::string turns = std::string(kRoles[k]) + ":" + std::to_string(ends[k]) + ":" + std::to_string(core);
     timings.push_back(order[k]->start_timing(scene, turns, ends[k]));
   }
-  // Whoever is left alone sees the end of the connection, once this process holds no end of it.
+  // When one process ends, the other sees the connection end, because this process holds no end of it any more.
   for (const int end : ends) close(end);
   core::Status status = core::Done{};
   for (const std::size_t k : {0U, 1U}) {

@@ -39,7 +39,7 @@ void add_time(core::Sample& sample, std::string_view stage, double seconds) {
   sample.stages.push_back({std::string(stage), {seconds}});
 }
 
-// What the driver's frames give to engines that do not simulate, in memory before any clock runs.
+// Boxes or poses from the driver's frames for engines that do not simulate, in memory before any clock runs.
 struct BakedFrames {
   std::vector<std::uint64_t> steps;
   std::vector<core::FrameRecord> frames;
@@ -68,8 +68,8 @@ void add_step(core::Sample& sample, const core::Dynamics& dynamics, double whole
   add_time(sample, "frame", whole);
 }
 
-// From the end of one step to the end of the next; what is done here in between is in it, so that all of them are the
-// time that all steps took together.
+// A frame's time runs from the end of one step to the end of the next and includes what is done here in between, so
+// that all times add up to the time of all steps.
 core::Status time_ahead(const RunPlan& plan, core::Dynamics& dynamics, core::RunsAhead& ahead, std::uint64_t frames,
                         core::Sample& sample) {
   auto start = Clock::now();
@@ -96,7 +96,7 @@ core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint6
                            core::Sample& sample) {
   core::Dynamics& dynamics = *engine.dynamics;
   if (core::Status s = dynamics.load(plan.scene); !s) return s;
-  // Who takes turns must know when nothing of its own is under way.
+  // Turns may only change hands when none of this engine's steps is under way.
   core::RunsAhead* ahead = turns.are_alone() ? dynamic_cast<core::RunsAhead*>(&dynamics) : nullptr;
   const core::Status ran = ahead != nullptr ? time_ahead(plan, dynamics, *ahead, frames, sample)
                                             : time_steps(plan, dynamics, frames, turns, sample);
@@ -164,7 +164,7 @@ core::Status time_narrow(const RunPlan& plan, core::Engine& engine, const BakedF
   return core::Done{};
 }
 
-// Other processes of this machine and day have another one.
+// A number that no other process of this machine and day has.
 std::uint64_t process_name() {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return core::splitmix64(static_cast<std::uint64_t>(now) ^ (static_cast<std::uint64_t>(getpid()) << 48U)) | 1U;
@@ -197,7 +197,7 @@ class Timer {
     return core::Done{};
   }
 
-  // frames = all: as many as there are for the engine's kind.
+  // frames = all: the usual number of frames for the engine's kind.
   core::Result<core::Sample> time(const CellSpec& spec, std::uint64_t most_frames) {
     auto settings = core::Settings::parse(spec.row->id, spec.row->settings, spec.settings);
     if (!settings) return settings.error();
@@ -241,7 +241,7 @@ core::Result<core::Sample> time_in_child(const RunPlan& plan, const CellSpec& sp
 
 core::Result<core::Sample> time_here(const RunPlan& plan, Timer& timer, const CellSpec& spec, bool is_first) {
   if (is_first) {
-    // A narrow phase measures so much a frame that one frame warms it.
+    // One frame of a narrow phase is so much work that it warms everything up.
     const bool is_narrow = !offers(*spec.row, "dynamics") && !offers(*spec.row, "broad");
     auto warm = timer.time(spec, is_narrow ? 1 : kWarmUpFrames);
     if (!warm) return warm.error();

@@ -15,8 +15,8 @@
 namespace broadside::bench {
 namespace {
 
-// Long beside what handing over costs (some 10 us, and caches that the other one used), short beside the tens of
-// milliseconds in which half of what a core's neighbor does has changed (reports/README.md).
+// Long against the cost of a handover (some 10 us, and caches that the other process used), short against the tens of
+// milliseconds in which half of the load on a neighboring core has changed (reports/README.md).
 constexpr std::chrono::microseconds kTurn{1000};
 
 constexpr std::uint64_t kToTheEnd = std::numeric_limits<std::uint64_t>::max();
@@ -25,7 +25,7 @@ bool send_number(int socket, std::uint64_t number) {
   return send(socket, &number, sizeof number, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof number);
 }
 
-// False when the other process is gone, or this one was told to stop. Eight bytes of one send come in one piece.
+// False when the other process is gone, or this process was told to stop. Eight bytes of one send arrive in one piece.
 bool receive_number(int socket, std::uint64_t& number) {
   ssize_t got = 0;
   do {
@@ -61,14 +61,14 @@ core::Status Turns::join(const std::string& text) {
   int kind = 0;
   socklen_t size = sizeof kind;
   if (getsockopt(socket, SOL_SOCKET, SO_TYPE, &kind, &size) != 0 || kind != SOCK_STREAM) return error;
-  fcntl(socket, F_SETFD, FD_CLOEXEC);  // it is no business of processes that this one starts
+  fcntl(socket, F_SETFD, FD_CLOEXEC);  // processes that this one starts must not inherit it
   socket_ = socket;
   is_first_ = role == "first";
   return core::Done{};
 }
 
-// Moves this thread to the core and lets it go where it likes from there: threads that it starts later inherit what it
-// may use.
+// Moves this thread to the core and then restores its set of allowed cores, because threads that it starts later
+// inherit that set.
 void Turns::sit_down() const {
   if (core_ < 0 || sched_getcpu() == core_) return;
   cpu_set_t before;
@@ -79,7 +79,7 @@ void Turns::sit_down() const {
   if (sched_setaffinity(0, sizeof one, &one) == 0) sched_setaffinity(0, sizeof before, &before);
 }
 
-// Until the turn is back, or the other process is gone: then this one is alone.
+// Waits until the turn is back, or the other process is gone; then this process runs alone.
 void Turns::hand_over() {
   std::uint64_t number = 0;
   if (!send_number(socket_, done_) || !receive_number(socket_, number)) {

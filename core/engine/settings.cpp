@@ -19,8 +19,8 @@ bool is_whole_number(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The shortest text of the same number, so that "0.020" and "0.02" are one setting with one stamp; nothing when it is
-// no length.
+// The shortest text of the same number, so that "0.020" and "0.02" are one setting with one stamp; nothing when the
+// text is no length.
 std::optional<std::string> length_text(const std::string& text) {
   double meters = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), meters);

@@ -12,9 +12,9 @@
 namespace broadside::core {
 namespace {
 
-// assimp cuts lines here, and takes the rest for the next one.
+// assimp cuts longer lines here and reads the rest as the next line.
 constexpr std::size_t kLongestLine = 4000;
-// assimp leaves faces of more corners out.
+// assimp leaves out faces with more corners.
 constexpr std::uint64_t kMostCorners = 9;
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -65,7 +65,7 @@ class OffCheck {
     return {"not a readable mesh: " + what, path_.string(), "check that the file is whole", Exit::kBadInput};
   }
 
-  // The next line with anything in it. False at the end, and at a line that assimp would cut.
+  // The next line that is not empty. False at the end, and at a line that assimp would cut.
   bool next_line() {
     words_.clear();
     while (words_.empty() && at_ < bytes_.size()) {
@@ -78,7 +78,7 @@ class OffCheck {
     return !words_.empty();
   }
 
-  // Comments are lines before the counts; after them assimp takes none.
+  // Comment lines may stand before the counts; behind them assimp accepts none.
   bool next_header_line() {
     do {
       if (!next_line()) return false;

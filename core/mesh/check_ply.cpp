@@ -91,7 +91,7 @@ class PlyCheck {
     std::size_t at = 0;
     for (int number = 1;; ++number) {
       const std::size_t end = bytes_.find('\n', at);
-      // A header of thousands of lines is none.
+      // A header of more lines than this is no PLY header.
       if (end == std::string::npos || number > 10000) return bad("its header has no end_header");
       const std::vector<std::string> words = words_of(bytes_.substr(at, end - at));
       at = end + 1;
@@ -176,7 +176,7 @@ class PlyCheck {
         fixed += p.count != nullptr ? p.count->bytes : p.value->bytes;
         has_list = has_list || p.count != nullptr;
       }
-      // An item without properties takes no bytes, and so may be claimed in any number.
+      // An item without properties takes no bytes, so a header may claim any number of them.
       if (fixed == 0 || element.count > (bytes_.size() - at) / fixed) return cut();
       if (!has_list) at += fixed * element.count;
       for (std::uint64_t n = 0; has_list && n < element.count; ++n)

@@ -107,7 +107,7 @@ Mesh gathered(const aiScene& scene) {
   return mesh;
 }
 
-// assimp's joining leaves vertices out that no face names; they are counted around it.
+// When assimp joins vertices it drops those that no face names; they are counted here.
 std::uint64_t unreferenced_count(const aiScene& scene) {
   std::uint64_t count = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -120,8 +120,8 @@ std::uint64_t unreferenced_count(const aiScene& scene) {
   return count;
 }
 
-// Joining looks vertices up by index unchecked, cutting ends the program on a face without corners, and a scene of
-// points alone fails without a clear word: so this comes before them.
+// Called before assimp's post-processing: joining uses vertex indices unchecked, triangulation aborts on a face without
+// corners, and a scene of points alone fails without a clear message.
 Status check_faces(const std::filesystem::path& path, const aiScene& scene) {
   bool has_area = false;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -200,8 +200,8 @@ struct Imported {
 
 constexpr unsigned kCleaning = aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
 
-// assimp gives a file that the reader of its extension does not want to whichever of its forty others takes it for its
-// own, past the checks above: only the former stays.
+// When the reader for a file's extension refuses it, assimp tries its forty other readers, which nothing above has
+// checked. So only the reader for the extension stays registered.
 void keep_reader_of(Assimp::Importer& importer, const std::filesystem::path& path) {
   const std::string wanted = lower_extension(path).substr(1);
   for (std::size_t k = importer.GetImporterCount(); k-- > 0;) {
@@ -209,7 +209,7 @@ void keep_reader_of(Assimp::Importer& importer, const std::filesystem::path& pat
     std::set<std::string> extensions;
     reader->GetExtensionList(extensions);
     if (extensions.contains(wanted) || importer.UnregisterLoader(reader) != aiReturn_SUCCESS) continue;
-    delete reader;  // who unregisters a reader owns it
+    delete reader;  // UnregisterLoader gives up ownership
   }
 }
 

@@ -36,7 +36,7 @@ double rounded_to_20_bits(double v, double largest) {
 }  // namespace
 
 std::optional<Placement> taken_apart(const Matrix& m) {
-  // Gram and Schmidt on the columns; a mirrored frame has its third axis turned, and the mirroring stays in the rest.
+  // Gram-Schmidt on the columns. Of a mirrored frame the third axis is turned, and the mirroring stays in the rest.
   Matrix rotation{};
   for (unsigned c = 0; c < 3; ++c) {
     std::array<double, 3> axis{m[0][c], m[1][c], m[2][c]};

@@ -94,8 +94,8 @@ double distance_to_axis_segment(Point p, int axis, double half_length) {
   return length(d);
 }
 
-// A ball swept along a segment on an axis: a sphere when the segment has no length. The gap, or nothing when it is
-// none.
+// A ball swept along a segment on an axis; a sphere when the segment has no length. Returns the gap, or nothing when
+// the mesh is no such shape.
 std::optional<double> swept_ball_gap(const Mesh& mesh, int axis, double half_length, double radius) {
   const double size = radius + half_length;
   for (const Vec3 v : mesh.vertices)

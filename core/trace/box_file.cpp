@@ -76,7 +76,7 @@ Status write_frames(PartFile& part, std::uint64_t frames, const NextBoxes& next)
 }  // namespace
 
 struct BoxFile::Impl {
-  // One of the two.
+  // Exactly one of the two is open.
   std::optional<Hdf5Source> source;
   std::optional<TraceReader> trace;
   OpenArray boxes;

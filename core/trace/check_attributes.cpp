@@ -34,7 +34,7 @@ class Bytes {
   explicit Bytes(std::string bytes) : bytes_(std::move(bytes)) {}
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
   [[nodiscard]] bool starts_with(std::string_view text) const { return std::string_view(bytes_).starts_with(text); }
-  // Little-endian number of `count` bytes; 0 past the end, where callers have looked at size().
+  // Little-endian number of `count` bytes; 0 past the end, so callers ask size() first.
   [[nodiscard]] std::uint64_t number(std::size_t at, std::size_t count) const {
     std::uint64_t value = 0;
     if (at + count > bytes_.size()) return 0;
@@ -59,7 +59,7 @@ class Walk {
   Status run() {
     const Bytes head = read(0, 96);
     const std::uint64_t version = head.number(8, 1);
-    // Of other address sizes HDF5 writes none on any machine of today.
+    // HDF5 writes no other size of addresses on machines of today.
     if (head.size() < 96 || !head.starts_with(kSignature) || version > 1 || head.number(13, 2) != 0x0808) return Done{};
     to_do_.push_back(head.number(version == 0 ? 64 : 68, 8));
     while (!to_do_.empty()) {
@@ -72,7 +72,7 @@ class Walk {
   }
 
  private:
-  // Fewer bytes at the file's end; none where it cannot be read, which HDF5 will say.
+  // Fewer bytes at the file's end; none where the file cannot be read, which HDF5 reports later.
   [[nodiscard]] Bytes read(std::uint64_t at, std::size_t count) const {
     std::string bytes(count, '\0');
     if (file_ < 0 || at > static_cast<std::uint64_t>(INT64_MAX)) return Bytes("");

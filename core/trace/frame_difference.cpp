@@ -73,7 +73,7 @@ class Comparison {
   }
 
  private:
-  // False when it may pass.
+  // False when the filter lets this difference pass.
   bool note(FrameDifference d) {
     if (passes_ && passes_(d)) return false;
     found_ = d;
@@ -131,7 +131,7 @@ class Comparison {
         const FieldNumber q = number_at(*c, b, e);
         if (p.bits == q.bits) continue;
         FrameDifference d = about(*c, DifferenceKind::kValue, k);
-        // A contact of other bodies is another contact, whatever its numbers say.
+        // When the bodies differ it is another contact, so its other numbers do not matter.
         if (c->records == Records::kContacts && is_id(*c)) d.kind = kind_of_contact(a_.contacts[k]);
         if (d.kind == DifferenceKind::kOnlyInB) name_bodies(d, *c, b_);
         d.element = e;
@@ -145,7 +145,7 @@ class Comparison {
 
   static bool is_id(const Column& c) { return c.offset == offsetof(Contact, a) || c.offset == offsetof(Contact, b); }
 
-  // When the other frame has this contact too, it is the other frame's one that is new here.
+  // When the other frame has this contact too, the contact at this place of the other frame is the extra one.
   DifferenceKind kind_of_contact(const Contact& c) const {
     const auto same = [&c](const Contact& o) { return o.a == c.a && o.b == c.b; };
     return std::any_of(b_.contacts.begin(), b_.contacts.end(), same) ? DifferenceKind::kOnlyInB

@@ -15,7 +15,7 @@ herr_t take_innermost(unsigned /*n*/, const H5E_error2_t* entry, void* reason) {
   return 1;
 }
 
-// A damaged file may ask for absurd amounts, so it is not said to be whole either.
+// A damaged file may ask for absurd amounts, so the message does not call the file whole.
 herr_t notice_no_memory(unsigned /*n*/, const H5E_error2_t* entry, void* is_out_of_memory) {
   if (entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_NOSPACE || entry->min_num == H5E_CANTALLOC)
     *static_cast<bool*>(is_out_of_memory) = true;

@@ -24,8 +24,8 @@ constexpr std::uint64_t kBestRatio = 1032;
 // A chunk is held in memory as a whole, also to read one row of it. HDF5 writes and recommends about 1 MiB.
 constexpr std::uint64_t kLargestChunk = 256U << 20U;
 
-// Exactly the IEEE or whole-number type, in either byte order: a type of the same size whose bits mean something else
-// is left to nobody's conversion.
+// Exactly the IEEE or whole-number type, in either byte order. A type of the same size with another meaning is refused
+// rather than converted.
 bool is_type(hid_t type, Element element) {
   const hid_t wanted = hdf5_type(element);
   if (H5Tequal(type, wanted) > 0) return true;
@@ -98,11 +98,11 @@ bool has_known_filters(hid_t properties) {
   return count >= 0;
 }
 
-// How a dataset says that it is stored, before a byte of it is read.
+// What a dataset says about its storage, before any of its values is read.
 struct Storage {
   std::string fault;  // empty: it can be read
   std::string advice;
-  // The most bytes that so much stored data can become.
+  // The most bytes that this much stored data can unpack to.
   std::uint64_t most_bytes = 0;
 };
 

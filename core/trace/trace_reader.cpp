@@ -103,7 +103,7 @@ struct TraceReader::Impl {
   void keep_frames() {
     keep_complete(index);
     for (const GroupBlock& g : groups) g.keep_reached(index);
-    // A trace under its final name was finished, so nothing of it may be cut off. Only what a writer left behind may.
+    // A trace under its final name was finished: a missing frame is an error. Only a part file may end in the middle.
     if (index.frame_count() != index.frames_begun && !source.was_left_open() && source.path().extension() != ".part")
       source.fail("/trace",
                   "its datasets end at different frames, " + std::to_string(index.frame_count()) + " to " +
@@ -153,7 +153,7 @@ struct TraceReader::Impl {
     return rows;
   }
 
-  // What work throws when a file asks for more memory than there is becomes one more thing that is wrong with it.
+  // When a file asks for more memory than there is, what work() throws becomes one more fault of the file.
   template <typename Work>
   auto guarded(Work work) -> decltype(work()) {
     const QuietHdf5 quiet;

@@ -14,11 +14,11 @@
 namespace broadside::core {
 namespace {
 
-// How often the writer looks by itself for frames that wait, and whether a flush is due. Much shorter than what passes
+// How often the writer looks for waiting frames and for a due flush without being woken. Much shorter than the time
 // between two flushes, which is what a kill may lose.
 constexpr std::chrono::milliseconds kIdle{25};
-// It is woken for so much: waking a thread takes longer than to queue a frame of a digest alone, and the run would pay
-// that in every frame.
+// The writer is woken when this much waits. Waking a thread takes longer than to queue a frame of a digest alone, and
+// the run would pay that in every frame.
 constexpr std::size_t kWorthWaking = 256U << 10U;
 
 std::size_t bytes_of(const FrameRecord& frame) {
@@ -66,7 +66,7 @@ struct TraceStream::Impl {
   // The frame stays in the queue while it is written, so its bytes count.
   void write_front(std::unique_lock<std::mutex>& lock) {
     writer.hurry(waiting_bytes > queue_bytes / 2);
-    const FrameRecord& frame = queue.front().frame;  // stays where it is while others are queued behind it
+    const FrameRecord& frame = queue.front().frame;  // stays in place while others are queued behind it
     lock.unlock();
     const Status s = error ? Status(*error) : writer.append(frame);
     lock.lock();
@@ -81,7 +81,7 @@ struct TraceStream::Impl {
     return is_ending || (!queue.empty() && (is_awaited || waiting_bytes >= kWorthWaking));
   }
 
-  // For those who wait for the writer.
+  // For callers that wait for the writer.
   template <typename Condition>
   void await(std::unique_lock<std::mutex>& lock, const Condition& condition) {
     is_awaited = true;

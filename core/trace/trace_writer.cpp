@@ -76,7 +76,7 @@ struct TraceWriter::Impl {
 
   ~Impl() {
     const QuietHdf5 quiet;
-    if (part && !failed && !finished) static_cast<void>(flush());  // nobody is left to tell
+    if (part && !failed && !finished) static_cast<void>(flush());  // a destructor can tell nobody
     columns.clear();
     if (file.close() && part) static_cast<void>(part->commit());
   }
@@ -86,7 +86,7 @@ struct TraceWriter::Impl {
     return error;
   }
 
-  // What HDF5 or the disk refused, with what can still be saved.
+  // What HDF5 or the disk refused, and what can still be saved.
   Error stop_writing(const std::string& doing) {
     Error error = part->refused() != 0 ? disk_error(part->refused(), part->path(), doing)
                                        : hdf5_error(doing + " failed", part->path().string(), "choose another folder");
@@ -96,7 +96,7 @@ struct TraceWriter::Impl {
     return stop(std::move(error));
   }
 
-  // Rows to HDF5. Steps wait for flush(): a step in the file says that all else of its frame is there.
+  // Hands rows to HDF5. Steps wait for flush(): a step in the file means that all else of its frame is there.
   bool write_columns() {
     for (ColumnBuffer& c : columns)
       if (c.column().records != Records::kStep && !c.write(packing)) return false;

@@ -7,7 +7,7 @@
 namespace broadside::core {
 namespace {
 
-constexpr const char* kThisFile = ".";  // HDF5's name, in a virtual dataset, for the file that holds it
+constexpr const char* kThisFile = ".";  // in a virtual dataset, HDF5's name for the file itself
 
 Handle space_of(const std::vector<hsize_t>& dims) {
   return {H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose};

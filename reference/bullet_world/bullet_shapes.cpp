@@ -31,7 +31,7 @@ std::string millimeters(double meters) {
   return text;
 }
 
-// Of the least half side: as Bullet's own boxes have it, so that thin ones keep their form.
+// A share of the least half side, as Bullet's own boxes have it, so that thin boxes keep their form.
 constexpr float kLargestBoxMargin = 0.1F;
 
 float least_of(core::Vec3 v) {
@@ -43,7 +43,7 @@ BulletShape primitive_shape(const core::Primitive& p, const BulletShapeOptions& 
   out.what = core::primitive_word(p.kind);
   if (p.kind == core::PrimitiveKind::kBox) {
     auto box = std::make_shared<btBoxShape>(btVector3(p.half_extents.x, p.half_extents.y, p.half_extents.z));
-    // Bullet's margin of a box lies inside it: its size stays, but GJK sees edges and corners rounded by so much.
+    // Bullet's margin of a box lies inside it: the size stays, but to GJK edges and corners are rounded by the margin.
     box->setMargin(std::min(options.margin_m, kLargestBoxMargin * least_of(p.half_extents)));
     if (options.margin_m > 0.0F) out.differs = "sharp edges";
     out.shape = std::move(box);
@@ -82,7 +82,7 @@ struct Triangles {
   explicit Triangles(std::shared_ptr<const Mesh> kept)
       : mesh(std::move(kept)),
         arrays(static_cast<int>(mesh->triangles.size()),
-               // Bullet takes pointers to non-const and writes only when it rescales, which nobody asks for.
+               // Bullet takes pointers to non-const, but writes only when it rescales a mesh, which is never asked for.
                const_cast<int*>(reinterpret_cast<const int*>(mesh->triangles.data())), sizeof(core::Triangle),
                static_cast<int>(mesh->vertices.size()), const_cast<btScalar*>(&mesh->vertices.front().x),
                sizeof(core::Vec3)) {
@@ -106,7 +106,7 @@ BulletShape gimpact_shape(std::shared_ptr<const Mesh> mesh, const BulletShapeOpt
   return out;
 }
 
-// A compound that owns its children, as Bullet's own does not.
+// A compound that owns its children; Bullet's own does not.
 struct OwningCompound {
   std::unique_ptr<btCompoundShape> compound;
 

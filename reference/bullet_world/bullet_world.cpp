@@ -34,8 +34,8 @@ core::Vec3 to_core(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Bullet asks two global functions how surfaces combine. They are ours for the length of one step: the scene's rules
-// (core/material.hpp), on the one coefficient of friction that Bullet has.
+// Bullet calls two global functions to combine surfaces. They are replaced for the length of one step by the scene's
+// rules (core/material.hpp), applied to the one coefficient of friction that Bullet has.
 class SceneRules {
  public:
   explicit SceneRules(bool apply) {
@@ -162,7 +162,7 @@ class BulletWorld final : public core::Dynamics {
     body->setLinearVelocity(bullet(given.velocity));
     if (rotates_) body->setAngularVelocity(bullet(given.angular_velocity));
     if (!rotates_) body->setAngularFactor(0);
-    // The scene knows no sleep: a body at rest is still simulated.
+    // The scene has no sleeping: a body at rest is still simulated.
     body->setActivationState(DISABLE_DEACTIVATION);
     add(std::move(body), given.material, i);
   }

@@ -55,7 +55,7 @@ std::vector<Contact> read_contacts(btDispatcher& dispatcher, const StepStates& s
     const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(k);
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold->getContactPoint(p);
-      // Points within the breaking threshold wait in the manifold without touching.
+      // Points within the breaking threshold stay in the manifold although they do not touch.
       if (point.getDistance() > 0 && point.m_appliedImpulse == 0) continue;
       contacts.push_back(contact_of(point, body_of(manifold->getBody0()), body_of(manifold->getBody1()), states));
     }

@@ -26,7 +26,7 @@ std::string number(double value) {
   return text;
 }
 
-// By mesh: what it became, and where that is not the mesh.
+// What became of each mesh, and where that differs from the mesh.
 void add_shapes(const core::Scene& scene, const BulletWorldOptions& options, core::EquivalenceCard& card) {
   for (const auto& mesh : scene.meshes) {
     const BulletShape shape = make_bullet_shape(mesh, options.shapes);

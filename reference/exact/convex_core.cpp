@@ -9,8 +9,8 @@
 namespace broadside::reference {
 namespace {
 
-// Directions nearer to parallel than this are one direction: the axis between them would be made of rounding alone, and
-// leaving it out changes a depth of 1 m by less than 1e-9 m.
+// Directions closer to parallel than this count as one direction: the axis between them would be made of rounding
+// alone, and leaving it out changes a depth of 1 m by less than 1e-9 m.
 constexpr double kParallel = 1e-9;
 // Below this a direction between nearest points is made of rounding, m.
 constexpr double kNoDirection = 1e-12;
@@ -134,7 +134,7 @@ void keep(Nearest& best, const Nearest& found) {
   if (found.squared_m2 < best.squared_m2) best = found;
 }
 
-// Of the surfaces of two cores, or of what they have instead of one.
+// Nearest points of the surfaces of two cores, or of the segments or points that stand for a surface.
 Nearest nearest_features(const ConvexCore& a, const ConvexCore& b) {
   Nearest best{std::numeric_limits<double>::infinity(), {}, {}};
   for (const Point p : a.vertices) {
@@ -157,7 +157,7 @@ Nearest nearest_features(const ConvexCore& a, const ConvexCore& b) {
   return best;
 }
 
-// Any direction across both: for cores that have no side, where every such direction parts them.
+// Any direction across both segments: cores without faces are parted by every such direction.
 Point across(const ConvexCore& a, const ConvexCore& b) {
   std::vector<Point> along = a.directions;
   along.insert(along.end(), b.directions.begin(), b.directions.end());

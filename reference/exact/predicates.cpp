@@ -36,7 +36,7 @@ Two two_product(double a, double b) {
   return {product, std::fma(a, b, -product)};
 }
 
-// Adding one double keeps an expansion an expansion.
+// Adds one double; the result is again an expansion.
 template <std::size_t N>
 Expansion<N + 1> plus(const Expansion<N>& e, double x) {
   Expansion<N + 1> out;
@@ -148,7 +148,7 @@ bool within(double x, double p, double q) {
   return std::min(p, q) <= x && x <= std::max(p, q);
 }
 
-// c is on the line through a and b as seen along the dropped axis: is it within their box?
+// c lies on the line through a and b as seen along the dropped axis: is it between them?
 bool in_box(Point a, Point b, Point c, int dropped) {
   return (dropped == 0 || within(c.x, a.x, b.x)) && (dropped == 1 || within(c.y, a.y, b.y)) &&
          (dropped == 2 || within(c.z, a.z, b.z));
@@ -164,8 +164,8 @@ bool segments_meet_in_plane(Point p, Point q, Point a, Point b, int dropped) {
          (ap == 0 && in_box(a, b, p, dropped)) || (aq == 0 && in_box(a, b, q, dropped));
 }
 
-// Four points of one plane: in a projection along an axis of the plane's normal the answer is that of space, in others
-// it can only be yes too often. So all three must agree.
+// Four points of one plane. A projection along an axis of the plane's normal gives the answer of space; other
+// projections can only err towards yes. So all three must say yes.
 bool segments_meet(Point p, Point q, Point a, Point b) {
   if (orientation(p, q, a, b) != 0) return false;
   for (int dropped = 0; dropped < 3; ++dropped)
@@ -181,7 +181,7 @@ bool is_in_triangle(Point p, const Corners& t) {
     const int c = turn(t[2], t[0], p, dropped);
     if (std::max({a, b, c}) > 0 && std::min({a, b, c}) < 0) return false;
   }
-  // Inside a triangle that has an area; the edges of one that has none are looked at elsewhere.
+  // Inside a triangle with area. The edges of a triangle without area are tested by the caller.
   for (int dropped = 0; dropped < 3; ++dropped)
     if (turn(t[0], t[1], t[2], dropped) != 0) return true;
   return false;
@@ -196,7 +196,7 @@ bool segment_meets(Point p, Point q, const Corners& t) {
       if (segments_meet(p, q, t[k], t[(k + 1) % 3])) return true;
     return is_in_triangle(p, t) || is_in_triangle(q, t);
   }
-  // The line passes all three edges on one side, or through them.
+  // The line passes all three edges on the same side, or through them.
   int least = 1;
   int most = -1;
   for (int k = 0; k < 3; ++k) {

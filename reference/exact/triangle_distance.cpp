@@ -22,8 +22,8 @@ Point nearest_on_segment(Point p, Point from, Point to) {
   return from + std::clamp(dot(p - from, along) / length2, 0.0, 1.0) * along;
 }
 
-// The foot of p in the triangle's plane, when it lies in the triangle; feet outside are nearest to an edge, which is
-// looked at elsewhere.
+// The foot of p in the triangle's plane, when it lies in the triangle. When it lies outside, an edge is nearest, which
+// the caller tests.
 bool foot_in_triangle(Point p, const Corners& t, Point& foot) {
   const Point normal = cross(t[1] - t[0], t[2] - t[0]);
   const double normal2 = dot(normal, normal);
@@ -34,8 +34,8 @@ bool foot_in_triangle(Point p, const Corners& t, Point& foot) {
   return true;
 }
 
-// Nearest points inside two segments; false when that is at an end of either or they are parallel: those cases are the
-// ends', looked at elsewhere.
+// Nearest points inside two segments. False when the segments are parallel or the nearest point is an end of one, which
+// the caller tests.
 bool nearest_inside_segments(Point p0, Point p1, Point q0, Point q1, Point& on_p, Point& on_q) {
   const Point u = p1 - p0;
   const Point v = q1 - q0;

@@ -39,7 +39,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   options.variant = *core::variant_named(settings.text("variant"));
   const int threads = static_cast<int>(settings.number("threads"));
   std::unique_ptr<core::BroadPhase> alone;
-  // E2 and E7 are faults of the published scene octree: without it there would be nothing to see.
+  // E2 and E7 are faults of the published scene octree, so they need broad=octree.
   const bool needs_octree = options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7;
   if (needs_octree || settings.text("broad") == "octree") {
     options.make_broad_phase = [variant = options.variant](const core::Scene& scene) {

@@ -35,7 +35,7 @@ void LevelStage::confirm_all(const Bodies& bodies, core::Levels levels, std::vec
   rows_.resize(n);
   const bool tests_leaves = levels == core::Levels::kA;
   if (tests_leaves) leaf_boxes_.place(bodies);
-  // One row per body: rows are joined in order, so the result is sorted whatever thread made which row.
+  // One row per body. Rows are joined in order, so the result is sorted whatever thread made which row.
   tbb::parallel_for(std::uint32_t{0}, n, [&](std::uint32_t i) {
     std::vector<Pair>& row = rows_[i];
     row.clear();

@@ -6,7 +6,7 @@
 namespace broadside::reference {
 namespace {
 
-// Hashing so many records takes some ten microseconds, about what handing them to a thread takes.
+// Records per task: hashing this many takes some ten microseconds, about as long as handing them to a thread.
 constexpr std::size_t kRecordsPerTask = 1024;
 
 }  // namespace

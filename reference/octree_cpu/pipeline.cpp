@@ -80,7 +80,7 @@ core::Status Pipeline::run_stages(float dt_s) {
   integrate(dt_s);
   clock.lap("integrate");
   if (core::Status s = find_candidates(); !s) return s;
-  // The published start of level 0 is timed as the broad phase that it is, as on the GPU.
+  // The published start of level 0 is a broad phase, and is timed as one, as on the GPU.
   const bool confirms_all_by_level0 = !broad_phase_ && has_level0();
   if (confirms_all_by_level0) confirm();
   clock.lap("broad");
@@ -177,7 +177,7 @@ std::uint64_t Pipeline::digest() const {
 void Pipeline::tell_octrees(core::FrameRecord& frame) {
   if (const auto* octree = dynamic_cast<const OctreeRecord*>(broad_phase_.get()))
     octree->tell_octree(frame.octree_nodes, frame.octree_node_of_body);
-  // Shapes do not change, so one frame says it all: the first that is recorded, however often it is read.
+  // Shapes do not change, so the first recorded frame has their octrees, however often it is read.
   if (!told_at_) told_at_ = steps_;
   if (*told_at_ != steps_) return;
   frame.shape_of_body = bodies_.shape;

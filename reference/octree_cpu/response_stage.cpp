@@ -127,9 +127,9 @@ void ResponseStage::resolve_jacobi(Bodies& bodies, const ResponseRules& rules, s
   }
 }
 
-// E8: contacts of one body in whatever order the threads come, one's write over the other's. Which contact a thread
-// takes next is drawn anew in each pass: a scheduler promises no order, yet one that has few cores free keeps to the
-// same.
+// E8: the contacts of a body are applied in the order in which threads come, and the last write stays. Which contact a
+// thread takes next is drawn anew in each pass: a scheduler promises no order, but with few free cores it repeats the
+// same one.
 void ResponseStage::resolve_racing(Bodies& bodies, const ResponseRules& rules, std::span<const Pair> touching) {
   std::vector<std::size_t> taken(touching.size());
   std::iota(taken.begin(), taken.end(), std::size_t{0});

@@ -1,4 +1,4 @@
-// Pairs from somebody else's code: nothing about them is believed.
+// Pairs from an untrusted plug-in: each is checked.
 #include "reference/plugin/plugin_broad_phase.hpp"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class PluginBroadPhase final : public core::BroadPhase {
     return {std::move(what), instance_->where("read_pairs"), "", core::Exit::kMissing};
   }
 
-  // What cannot be a pair is the plug-in's fault; what is one, but wrong, is for the validators.
+  // A pair that cannot exist is a plug-in error; a pair that can exist but is wrong is left to the validators.
   core::Result<core::PairSet> checked_set(Read<core::Pair> read) {
     for (std::size_t k = 0; k < read.values.size(); ++k) {
       const core::Pair p = read.values[k];

@@ -1,4 +1,4 @@
-// A simulation by somebody else's code. It is recorded with what it tells: states, and contacts where it has them.
+// A simulation by a plug-in. States are recorded, and contacts where it gives them.
 #include "reference/plugin/plugin_dynamics.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ core::Contact contact_from_c(const broadside_contact& c) {
   core::Contact contact;
   contact.a = c.a;
   contact.b = c.b;
-  // The order of application is all that a plug-in tells: every contact is a color of its own.
+  // A plug-in gives only the order of application: every contact gets a color of its own.
   contact.color = core::is_face(c.b) ? core::kFaceColor : 0;
   contact.depth_m = c.depth_m;
   contact.normal = vec3_from_c(c.normal);
@@ -100,12 +100,12 @@ class PluginDynamics final : public core::Dynamics {
 
   Status read_contacts(core::FrameRecord& frame) {
     if (table().read_contacts == nullptr) return core::Done{};
-    // Contacts stay on the host, whatever the states do.
+    // Contacts are host arrays even when the states are on the device.
     auto read = read_all<broadside_contact>(
         *host_, contact_room_, [&](broadside_contact* out, std::size_t room, std::uint64_t* demanded) -> Status {
           Status status =
               instance_->checked(table().read_contacts(instance_->self(), out, room, demanded), "read_contacts");
-          // 4 GiB of contacts is a wrong count, not a pile.
+          // More than 4 GiB of contacts is taken for a wrong count.
           if (status.ok() && *demanded > (std::uint64_t{1} << 32) / sizeof(broadside_contact))
             return fault("it demands room for " + std::to_string(*demanded) + " contacts");
           return status;

@@ -34,7 +34,7 @@ core::Result<core::Engine> create_plugin_engine(const std::filesystem::path& fil
   engine.id = table.id;
   engine.build = table.build;
   engine.settings = settings;
-  // Each capability has an instance of its own: what one leaves behind cannot help another.
+  // Each capability has its own instance, so that state left by one cannot help another.
   const auto instance = [&]() { return PluginInstance::make(library.value(), values); };
   if (library.value()->offers_broad_phase()) {
     auto made = instance();

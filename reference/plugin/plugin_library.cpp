@@ -23,14 +23,14 @@ bool is_good_key(const char* key) {
                      [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
 }
 
-// All of a group or none of it.
+// All functions of a group are there, or none.
 template <typename... Functions>
 bool is_whole(Functions... functions) {
   const int there = (0 + ... + (functions != nullptr ? 1 : 0));
   return there == 0 || there == sizeof...(functions);
 }
 
-// What is wrong with the table; empty when nothing is.
+// What is wrong with the function table; empty when nothing is.
 std::string fault_of(const broadside_engine& e) {
   if (e.abi != BROADSIDE_ENGINE_ABI)
     return "it speaks version " + std::to_string(e.abi) + " of the engine interface, and this program version " +
@@ -58,7 +58,7 @@ std::string fault_of(const broadside_engine& e) {
 
 core::Result<std::shared_ptr<const PluginLibrary>> PluginLibrary::open(const std::filesystem::path& file) {
   const std::string advice = "core/plugin/README.md shows how to build one";
-  // A path without a slash would be looked for in the system's folders: only the file that was named is loaded.
+  // A path without a slash would be searched in the system's folders; this loads only the file that was named.
   std::error_code failed;
   const std::filesystem::path absolute = std::filesystem::absolute(file, failed);
   void* handle = dlopen(absolute.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -1,4 +1,4 @@
-// Separations from somebody else's code.
+// Separations from an untrusted plug-in.
 #include "reference/plugin/plugin_narrow_phase.hpp"
 
 #include <optional>

@@ -18,7 +18,7 @@ using core::Box;
 constexpr std::uint32_t kBucketBoxes = 2048;
 // Larger ones are split again.
 constexpr std::uint32_t kLargeBucket = 4 * kBucketBoxes;
-// From here on a split is worth all workers.
+// From this size on all workers share one split.
 constexpr std::uint32_t kHugeBucket = 32 * kBucketBoxes;
 // Under this many boxes a chunk, starting workers costs more than they save.
 constexpr std::size_t kChunk = std::size_t{1} << 13U;
@@ -41,7 +41,7 @@ struct Chunks {
   std::size_t size;
 
   Chunks(std::size_t n, bool alone) : count(1), size(n) {
-    // A few for each worker, so that one that is held up does not hold up all.
+    // A few for each worker, so that a delayed worker does not delay all.
     const auto wanted = 4U * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
     if (alone || n < 2U * kChunk) return;
     size = std::max(kChunk, (n + wanted - 1U) / wanted);
@@ -110,11 +110,11 @@ bool BoxBuckets::survey(std::span<const Box> boxes) {
       const Box& box = boxes[i];
       is_sound &= (box.min.x <= box.max.x) & (box.min.y <= box.max.y) & (box.min.z <= box.max.z);
       bounds = united(bounds, box);
-      // The mask keeps the index in range for an unsound box, whose side may have a sign.
+      // The mask keeps the index in range for a box that is not sound, whose side may have a sign.
       ++sizes[i % 4U][static_cast<std::size_t>(core::size_bin(box)) & 255U];
     }
     Survey& survey = surveys_[c];
-    // Any infinity is in the bounds.
+    // An infinite bound of any box shows in the bounds of all.
     survey.is_sound = is_sound && is_sound_box(bounds);
     survey.bounds = bounds;
     for (std::size_t bin = 0; bin < survey.sizes.size(); ++bin)
@@ -137,7 +137,8 @@ void BoxBuckets::deal_all(std::span<const Box> boxes, std::span<const std::uint8
     bounds_m3 *= static_cast<double>(whole_.bounds.max[axis]) - static_cast<double>(whole_.bounds.min[axis]);
   plan_ = plan_size_classes(whole_.sizes, bounds_m3);
 
-  // The bounds of all boxes stand in for those of their centers: where that is coarse, buckets are split again.
+  // The bounds of all boxes are used as the bounds of their centers. Where that makes coarse cells, buckets are split
+  // again.
   const Box half_bounds{0.5F * whole_.bounds.min, 0.5F * whole_.bounds.max};
   const int bits = split_bits(static_cast<std::uint32_t>(n));
   const core::CurveGrid grid = core::make_curve_grid(half_bounds, bits);
@@ -228,7 +229,7 @@ void BoxBuckets::split_large() {
   const auto is_over = [](std::uint32_t most) {
     return [most](const Bucket& b) { return b.count() > most && !b.is_one_point; };
   };
-  // Huge ones one after another, by all workers; centers at opposite ends of a grid part, so each round splits.
+  // Huge buckets one after another, each by all workers. Centers at opposite ends of a grid part, so each round splits.
   while (std::any_of(buckets_.begin(), buckets_.end(), is_over(kHugeBucket))) {
     next_buckets_.clear();
     for (const Bucket& bucket : buckets_) {
@@ -240,14 +241,14 @@ void BoxBuckets::split_large() {
     buckets_.swap(next_buckets_);
   }
   if (std::none_of(buckets_.begin(), buckets_.end(), is_over(kLargeBucket))) return;
-  // The rest each by one worker.
+  // The other buckets each by one worker.
   std::vector<std::vector<Bucket>> parts(buckets_.size());
   tbb::parallel_for(std::size_t{0}, buckets_.size(), [&](std::size_t b) { split_until_small(buckets_[b], parts[b]); });
   buckets_.clear();
   for (const auto& own_parts : parts) buckets_.insert(buckets_.end(), own_parts.begin(), own_parts.end());
 }
 
-// Neighbours become one bucket while they fit: each bucket's last pack may have free lanes.
+// Neighbours become one bucket while they fit, because each bucket's last pack may have free lanes.
 void BoxBuckets::join_small() {
   std::size_t last = 0;
   for (std::size_t b = 1; b < buckets_.size(); ++b) {

@@ -2,7 +2,7 @@
 
 namespace broadside::reference {
 
-// Integers alone: the same bits from every instruction set.
+// Integers alone, so every instruction set gives the same bits.
 #if defined(BROADSIDE_HAS_AVX2_KERNEL)
 __attribute__((target_clones("avx2", "default")))
 #endif

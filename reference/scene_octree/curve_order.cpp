@@ -5,8 +5,8 @@
 namespace broadside::reference {
 namespace {
 
-// More boxes than this in one cell are ordered again in a grid over their own centers; fewer make two packs, which
-// overlap each other whatever their order.
+// More boxes than this in one cell are ordered again in a grid over their own centers. Fewer make two packs, which
+// overlap in any order.
 constexpr std::size_t kLongRun = 16;
 
 }  // namespace

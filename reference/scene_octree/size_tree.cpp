@@ -98,7 +98,7 @@ void SizeTree::lay_out() {
     } while (count > 1U);
   }
   packs_.resize(packs);
-  // Free lanes of the last node of level 1; buckets write all others.
+  // Free lanes of the last node of level 1; all other lanes are written by the buckets.
   for (const TreeClass& tree : classes_)
     for (std::uint32_t lane = tree.packs; lane % kWidth != 0; ++lane)
       put(packs_[tree.level_begin[1] + lane / kWidth], lane % kWidth, core::empty_box());

@@ -106,7 +106,7 @@ void SpatialHash::test_cells(std::size_t begin, std::size_t end, std::vector<Pai
   }
 }
 
-// Against everything; of two oversized bodies the lower one does it.
+// Against all bodies; of two oversized bodies the lower id reports the pair.
 void SpatialHash::test_oversized(std::uint32_t body, std::vector<Pair>& out) const {
   for (std::uint32_t other = 0; other < boxes_.size(); ++other) {
     if (other == body || (is_oversized_[other] != 0 && other < body)) continue;

@@ -99,7 +99,7 @@ int load_boxes(void* self, const broadside_box* boxes, const std::uint8_t* is_st
   return update_boxes(self, boxes, count);
 }
 
-// Counts, grows what was too small, and does it again.
+// Counts the pairs; when the buffers were too small, they grow and it runs again.
 int find_pairs(void* self) {
   auto& t = *static_cast<Tiles*>(self);
   if (const int bad = launch(t)) return bad;
