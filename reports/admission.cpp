@@ -19,7 +19,7 @@ std::vector<std::string> differences(const core::Stamp& a, const core::Stamp& b)
   return names;
 }
 
-// The nearest thing to a proof that there is, for somebody who wonders why it was not taken.
+// The recording that comes nearest to a proof, so that the reason can say what it lacks.
 std::string why_no_cell(const core::Sample& sample, const core::RunRows& rows) {
   for (const core::Cell& cell : rows.cells)
     if (same_stamp(cell.stamp, sample.stamp)) return "the recording of the same stamp is " + state_text(cell);
@@ -81,7 +81,7 @@ Admission admit(const core::Sample& sample, const core::RunRows& rows) {
   if (!has_frame)
     return {.reason = "the recording keeps no digest of step " + step +
                       ", where the timed run ended (its last is of step " + std::to_string(last_step) + ")"};
-  // Also when another recording of the stamp agrees: one stamp with two answers is no proof.
+  // Refused also when another recording of the stamp agrees, because one stamp with two answers proves nothing.
   if (has_other_digest || !has_equal_digest)
     return {.reason = "the timed run's answer differs from the recording's at step " + step + " (digest " +
                       hexadecimal(sample.final_digest) + " against " + hexadecimal(other_digest) + ")"};

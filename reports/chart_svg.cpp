@@ -15,7 +15,7 @@ std::string label_of(const Axis& axis) {
   return axis.unit.empty() ? axis.name : axis.name + ", " + axis.unit;
 }
 
-// A bar's value stands on y, however the chart lies; marks between categories have no place.
+// A bar's value is on y, however the chart lies; a mark between two categories has no place.
 std::vector<plots::CrossLine> lines_of(const Chart& chart, bool values_on_x) {
   std::vector<plots::CrossLine> lines;
   for (const ChartMark& mark : chart.marks) lines.push_back({mark.text, mark.at, mark.is_on_y != values_on_x});

@@ -17,7 +17,7 @@ namespace {
 using core::Exit;
 using core::Outcome;
 
-// Everything that a run says of one (scene name, label).
+// Everything that a run says about one (scene name, label).
 struct Entry {
   std::string scene, label;
   std::uint64_t digest = 0;
@@ -77,7 +77,7 @@ std::string words(const std::optional<Outcome>& outcome) {
   return outcome ? std::string(core::outcome_word(*outcome)) : "no verdict";
 }
 
-// "Not applicable" says as little about the law as no verdict does.
+// "Not applicable" says no more about the law than a missing verdict.
 bool is_silent(const std::optional<Outcome>& outcome) {
   return !outcome || *outcome == Outcome::kNotApplicable;
 }
@@ -132,7 +132,7 @@ class Comparer {
       counters(was, *is);
   }
 
-  // Counters are facts of the program, not of the day: any machine, no tolerance.
+  // Counters do not depend on the machine or the day, so they are compared across machines and without tolerance.
   void counters(const Entry& was, const Entry& is) {
     for (const auto& [name, count] : was.cell->counters) {
       const auto now = is.cell->counters.find(name);
@@ -158,7 +158,7 @@ class Comparer {
       if (*is == Outcome::kFail) ++result_.still_failing;
       return;
     }
-    // New verdicts count by what they say: a pass is good news, a fail is not.
+    // A verdict that is new counts by its outcome: a pass is good news, a fail is not.
     const int before = is_silent(was) ? severity(Outcome::kPass) : severity(*was);
     if (severity(*is) > before) {
       add(where, ChangeKind::kVerdictWorse, name, words(was), words(is),
@@ -225,7 +225,7 @@ Comparison compare(const core::RunRows& base, const core::RunRows& head, const C
   const auto new_stages = stages_of(head);
   for (const auto& [key, stages] : stages_of(base)) {
     const auto now = new_stages.find(key);
-    if (now == new_stages.end()) continue;  // the time itself is lost, which is said below
+    if (now == new_stages.end()) continue;  // the time itself is missing, which is reported below
     for (const std::string& stage : stages)
       if (!now->second.contains(stage))
         comparer.add({.scene = key.first, .label = key.second}, ChangeKind::kSeriesVanished, "times of stage " + stage,

@@ -8,7 +8,7 @@ namespace broadside::reports {
 namespace {
 
 constexpr std::size_t kMostParts = 8;
-constexpr std::size_t kFramesOfPart = 8;  // at least: a median of so many stands one frame in three that is disturbed
+constexpr std::size_t kFramesOfPart = 8;  // fewest: a median of so many ignores one disturbed frame in three
 
 double median_of(std::vector<double>& values) {
   std::sort(values.begin(), values.end());

@@ -23,7 +23,7 @@ std::vector<Finding> findings(const std::vector<SceneView>& scenes, core::Outcom
   return found;
 }
 
-// "on 2 of 9 engines": how far it reaches.
+// "on 2 of 9 engines": how many engines it concerns.
 std::string reach(const std::vector<SceneView>& scenes, const std::vector<Finding>& found) {
   std::vector<std::string> labels;
   for (const Finding& finding : found)

@@ -14,7 +14,7 @@
 namespace broadside::reports {
 namespace {
 
-// "BSHI": says that a database is a history and no other program's.
+// "BSHI": marks a database as a history.
 constexpr int kApplicationId = 0x42534849;
 constexpr int kVersion = 1;
 
@@ -79,7 +79,7 @@ core::Result<Database> open(const std::filesystem::path& file, int flags) {
   const int status = sqlite3_open_v2(file.c_str(), &made, flags, nullptr);
   Database db(made);
   if (status != SQLITE_OK) return error_of(db.get(), file);
-  // Two runs that end at once take turns.
+  // When two runs end at once, one waits for the other.
   sqlite3_busy_timeout(db.get(), 10'000);
   const std::int64_t id = pragma(db.get(), "PRAGMA application_id");
   if (id < 0) return error_of(db.get(), file);
@@ -126,8 +126,8 @@ std::vector<Value> values_of(const core::RunRows& rows, const std::vector<Timing
   return values;
 }
 
-// What makes two appends one: the values themselves, the builds that they came from, and how long each recording took,
-// which no two recordings share.
+// The key by which a run is not appended twice: the values themselves, the builds that they came from, and how long
+// each recording took, which no two recordings share.
 std::string name_of(const core::RunRows& rows, const std::vector<Value>& values) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a, 64 bit
   const auto add = [&](const std::string& text) {
@@ -189,7 +189,7 @@ core::Result<std::vector<HistorySeries>> read_history(const std::filesystem::pat
   auto opened = open(file, SQLITE_OPEN_READONLY);
   if (!opened) return opened.error();
   sqlite3* db = opened.value().get();
-  // A scene under the same name with another digest is another scene: its values start a series of their own.
+  // A scene with the same name and another digest is another scene: its values start a new series.
   Query query(
       db,
       "SELECT v.machine, v.scene, v.digest, v.label, v.metric, v.unit, r.id, r.at, r.build, v.value FROM value v "

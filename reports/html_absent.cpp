@@ -1,10 +1,10 @@
-// Stands in for the HTML page where it was not built; declared in report.hpp.
+// Takes the place of the HTML page where it was not built; declared in report.hpp.
 #include "reports/page_assets.hpp"
 #include "reports/report.hpp"
 
 namespace broadside::reports {
 
-// The paper's own page is written all the same, plain.
+// The paper's own page is still written, without the page's style.
 const std::string_view kPageStyle;
 
 bool has_html_page() {

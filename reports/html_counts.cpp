@@ -1,4 +1,4 @@
-// Pair counts and precision of a scene's engines, and series over steps that recording or judging left.
+// Pair counts and precision of a scene's engines, and series over steps from recording or judging.
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>

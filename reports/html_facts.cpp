@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kPairs = "pairs: ";
 constexpr std::string_view kCommand = "command";
-// Of a process that died: what makes it die again.
+// For a process that died: the command that makes it die again.
 constexpr std::string_view kRepeat = "repeat";
 constexpr std::string_view kStandIn = "stand-in";
 

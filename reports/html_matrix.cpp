@@ -14,7 +14,7 @@ std::string fact(std::string_view name, const std::string& value) {
   return "<div><dt>" + std::string(name) + "</dt><dd>" + html(value) + "</dd></div>";
 }
 
-// Everything that is known of one verdict.
+// Everything known about one verdict.
 std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, const PageParts& page) {
   const std::string& label = trace.label;
   std::string out = "<section class=\"verdict\"><h4>" + outcome_html(verdict.outcome, false) + " <span>" +
@@ -39,7 +39,7 @@ std::string matrix_place(const SceneView& scene, const TraceView& trace, std::si
   if (said.empty()) return "<td class=\"none\" data-name=\"" + name + "\"><span class=\"void\">not judged</span></td>";
   const core::Outcome outcome = said.front()->outcome;
   std::string out = "<td class=\"" + std::string(outcome_class(outcome)) + "\" data-name=\"" + name + "\">";
-  // One name: opening a place closes the one that was open, with scripts off too.
+  // All share one name: opening one closes the one that was open, with scripts off too.
   out += "<details name=\"matrix-" + std::to_string(scene_number) + "\"><summary>" + outcome_html(outcome, true) +
          "<span class=\"unseen\"> <b>" + name + "</b> on " + html(trace.label) + "</span>";
   if (said.size() > 1) out += "<span class=\"unseen\">,</span> <i>\xC3\x97" + std::to_string(said.size()) + "</i>";
@@ -56,7 +56,7 @@ std::string baselines_text(const TraceView& trace) {
   return text;
 }
 
-// What every judged line was judged against, when that is the same; then it is said once.
+// The baseline of every judged line when it is the same for all; then it is printed once.
 std::string shared_baselines(const SceneView& scene) {
   std::string shared;
   std::size_t judged = 0;
@@ -89,7 +89,7 @@ std::string label_html(const core::Stamp& stamp, std::string_view label) {
   if (!label.starts_with(stamp.engine)) return "<span class=\"engine\">" + html(label) + "</span>";
   std::string out = "<span class=\"engine\">" + html(stamp.engine) + "</span>";
   std::string_view rest = label.substr(stamp.engine.size());
-  // The brackets of the label are for plain text; here the weight of the letters says it.
+  // In plain text the label's brackets mark settings; here a lighter weight does.
   std::string shown(rest);
   if (const std::string bracketed = "[" + stamp.settings_short + "]"; rest.starts_with(bracketed))
     shown = stamp.settings_short + std::string(rest.substr(bracketed.size()));
@@ -135,7 +135,7 @@ std::string matrix_section(const SceneView& scene, PageParts& page) {
       "comes from, and the worst place.";
   const std::string shared = shared_baselines(scene);
   if (!shared.empty()) out += " All were judged " + html(shared) + ".";
-  // More than this, and names of two lines no longer fit side by side on a wide screen.
+  // With more columns, two-line names no longer fit side by side on a wide screen.
   constexpr std::size_t kManyColumns = 15;
   out += "</p><table class=\"matrix";
   if (scene.validators.size() > kManyColumns) out += " many";

@@ -58,7 +58,7 @@ Chart stage_chart(const SceneView& scene, const Timing& timing, const core::RunR
   return chart;
 }
 
-// Runs of one process are all that there is to draw from; then the interval says less, and the page says so.
+// When all runs are of one process, the interval covers less, and the page says so.
 std::vector<ProcessRuns> units_of(const core::RunRows& rows, const core::Stamp& stamp) {
   const auto processes = median_frames(rows, stamp);
   std::vector<ProcessRuns> units;

@@ -48,7 +48,7 @@ std::string scene_article(const SceneView& scene, PageParts& page) {
   return out + "</article>\n";
 }
 
-// Ways to the parts, for pages that are longer than a screen.
+// Links to the parts, for pages longer than a screen.
 std::string contents(const PageParts& page, const std::string& body) {
   std::string items;
   const auto add = [&](const std::string& id, const std::string& text) {
@@ -112,7 +112,7 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
 
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      // Nothing is fetched, whatever slips through.
+      // Forbids the page to fetch anything, even if a link were to slip through.
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
       "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

@@ -39,7 +39,7 @@ std::string share(double value, const Scale& scale) {
   return text.data();
 }
 
-// The largest engine sets the axis, so it has a unit of its own.
+// The largest value sets the axis, so the axis has a unit of its own.
 std::string axis(const Scale& scale) {
   const TimeUnit unit = time_unit_for(scale.step_s);
   std::string out = "<svg class=\"axis\" width=\"100%\" height=\"16\" aria-hidden=\"true\">";
@@ -69,7 +69,7 @@ std::string bar(const Timing& timing, const Scale& scale, TimeUnit unit) {
   };
   for (std::size_t k = 0; k < timing.stages.size(); ++k)
     segment(timing.stages[k].stage, timing.stages[k].seconds.mean, "s" + std::to_string(k % kStageColors));
-  // What the stages do not account for, where it is more than the clock's own noise would be.
+  // Time that the stages do not account for, when it is more than the clock's own noise.
   if (timing.frame.mean - left > 0.005 * timing.frame.mean) segment("between stages", timing.frame.mean - left, "rest");
   shapes += "<line class=\"tail\" x1=\"" + share(timing.frame.p5, scale) + "\" x2=\"" + share(timing.frame.p95, scale) +
             "\" y1=\"22\" y2=\"22\"/><line class=\"median\" x1=\"" + share(timing.frame.median, scale) + "\" x2=\"" +

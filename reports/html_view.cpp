@@ -1,4 +1,4 @@
-// The 3-D view's place on the page, and the ways to it.
+// The 3-D view's place on the page, and the links to it.
 #include "reports/escape.hpp"
 #include "reports/html_sections.hpp"
 
@@ -16,7 +16,7 @@ std::string view_section(PageParts& page) {
       "space plays and the arrow keys step. Of a long run, frames around each place that a verdict names are all here, "
       "the others spread evenly.</p><div id=\"view\"><div id=\"view-picture\">" +
       playback_picture(first, first.marks.empty() ? -1 : 0) + "</div></div>";
-  // On paper, and for those who run no script: what the view would fly to.
+  // On paper, and without scripts: a picture of the place that the view would show.
   std::string marks;
   for (const Playback& playback : playbacks)
     for (const PlaybackMark& mark : playback.marks)

@@ -95,7 +95,7 @@ std::string junit_xml(const core::RunRows& rows, const ReportOptions& options) {
   Counts total;
   double total_s = 0.0;
   std::string suites;
-  // Scene views keep one verdict per baseline and leave repetitions out, so names within a suite differ.
+  // Scene views have one verdict per baseline and no repetitions, so names within a suite differ.
   const std::vector<SceneView> scenes = by_scene(rows);
   for (const SceneView& scene : scenes) {
     for (const TraceView& trace : scene.traces) {

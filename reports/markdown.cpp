@@ -11,7 +11,7 @@
 namespace broadside::reports {
 namespace {
 
-// Longer names are cut: they are somebody's mistake or somebody's attack, and the page has them whole.
+// Longer names are cut, because they are a mistake or an attack; the page has them in full.
 constexpr std::size_t kNameColumns = 120;
 // Kept free for the remarks on what was left out.
 constexpr std::size_t kReserve = 2'000;
@@ -113,7 +113,7 @@ void add_matrix(Comment& comment, const SceneView& scene) {
   for (const TraceView& trace : scene.traces) {
     std::vector<std::string> cells{name(trace.label)};
     if (!trace.is_judged()) {
-      // The reason once; the other places point to it with the same word.
+      // The reason is printed once; the other places refer to it by the same word.
       cells.push_back(name(trace.absence()));
       const std::string word = trace.cell == nullptr || trace.cell->state == core::CellState::kRecorded
                                    ? "not judged"

@@ -10,7 +10,7 @@ std::string script_safe(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
   for (const char c : json) {
-    // In JSON these occur inside strings alone, where an escape says the same.
+    // In JSON these occur only inside strings, where an escape means the same.
     if (c == '<')
       safe += "\\u003c";
     else if (c == '>')

@@ -16,13 +16,13 @@ using core::Vec3;
 
 constexpr double kWidth = 720.0;
 constexpr double kHeight = 440.0;
-constexpr std::size_t kMostBodies = 400;  // more than that is a grey heap in a picture of this size
+constexpr std::size_t kMostBodies = 400;  // more bodies are a grey heap in a picture of this size
 
 struct Point {
   double x = 0.0, y = 0.0, depth = 0.0;
 };
 
-// Parallel projection from above and aside; depth grows towards the eye.
+// Parallel projection from above and one side; depth grows towards the eye.
 class Projection {
  public:
   explicit Projection(Vec3 up) : up_(up), side_{up.y, up.z, up.x}, front_{} {
@@ -35,7 +35,7 @@ class Projection {
     const double f = along(front_);
     return {0.94 * s - 0.34 * f, -(0.92 * u - 0.13 * s - 0.37 * f), 0.34 * s + 0.86 * f + 0.39 * u};
   }
-  // From the sides of a box, those that the eye sees: those on its own side along each axis.
+  // The visible sides of a box: on each axis the one on the eye's side.
   [[nodiscard]] bool sees(int axis, bool is_max) const {
     Vec3 outward{};
     outward[axis] = is_max ? 1.0F : -1.0F;

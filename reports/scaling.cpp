@@ -28,7 +28,7 @@ Member member_of(const std::string& scene) {
   return member;
 }
 
-// The t that a share of 5 % lies beyond, by bisection of its own distribution.
+// The t that is exceeded with a chance of 5 %, by bisection of its own distribution.
 double student_95(double degrees) {
   double low = 0.0;
   double high = 1000.0;

@@ -47,7 +47,7 @@ void add_verdicts(SceneView& scene, TraceView& trace, const core::CellVerdicts& 
   }
 }
 
-// What did not apply without a baseline is settled once a baseline was there.
+// "Not applicable" for want of a baseline is dropped once a verdict with a baseline exists.
 void settle(TraceView& trace, std::size_t columns) {
   trace.verdicts.resize(columns);
   for (std::vector<const core::Verdict*>& said : trace.verdicts) {

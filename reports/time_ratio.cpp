@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFalseDiscoveries = 0.025;  // one-sided, as the tail of a 95 % interval
 
-// The runs of one (scene, label), and what decides whether two such sets may be compared.
+// The runs of one (scene, label), and the facts that decide whether two such sets may be compared.
 struct Runs {
   std::map<std::uint64_t, std::vector<std::vector<double>>> by_process;  // run by run the seconds of its frames
   std::uint64_t count = 0;
@@ -70,8 +70,8 @@ std::string why_not(const Runs* base, const Runs* head) {
   return "";
 }
 
-// The same names on both sides, and as many runs: only names that were told make a pair. Too few pairs to show anything
-// are taken as processes, which need fewer.
+// Pairs have the same names on both sides and equally many runs, and only names that were recorded make one. When there
+// are too few pairs to show anything, they are taken as separate processes, which need fewer.
 bool is_paired(const Runs& base, const Runs& head) {
   return enough_processes(base.by_process.size(), head.by_process.size(), true) &&
          base.by_process.size() == head.by_process.size() && !base.by_process.contains(0) &&
@@ -80,7 +80,7 @@ bool is_paired(const Runs& base, const Runs& head) {
              [](const auto& a, const auto& b) { return a.first == b.first && a.second.size() == b.second.size(); });
 }
 
-// Of each pair of processes, run by run, head over base.
+// Head over base, run by run, for each pair of processes.
 std::vector<ProcessRuns> pairs_of(const Runs& base, const Runs& head) {
   std::vector<ProcessRuns> pairs;
   for (const auto& [process, runs] : base.by_process) {

@@ -103,7 +103,7 @@ std::vector<Box> mixed_boxes(std::uint32_t n, std::uint64_t seed) {
 }
 
 BoxStream moving_boxes(std::uint32_t n, std::uint64_t seed, std::uint32_t frames, double teleport_share) {
-  // The draws of uniform_boxes, so that frame 0 is that set.
+  // The same draws as uniform_boxes, so that frame 0 is that set.
   RandomStream places(seed);
   auto state = std::make_shared<MovingState>();
   state->random = RandomStream(core::splitmix64(seed));

@@ -21,9 +21,9 @@ namespace {
 using core::Error;
 using core::Result;
 
-// 24 bytes a box: 2.4 GB, which the machines that such a set is meant for hold many times.
+// 24 bytes a box: 2.4 GB, which machines for such sets have many times over.
 constexpr std::uint32_t kMaxBoxes = 100'000'000;
-// The set's definition: long enough for a coherent engine to settle.
+// Part of the set's definition: long enough for a coherent engine to settle.
 constexpr std::uint32_t kMovingFrames = 100;
 
 BoxStream one_frame(std::vector<core::Box> boxes) {
@@ -57,7 +57,7 @@ BoxStream broadmark(std::uint32_t n, std::uint64_t seed) {
 using enum BroadmarkScene;
 using enum BroadmarkObjects;
 
-// Every pair of identical boxes is in the answer: 450 million of them, 3.6 GB.
+// All pairs of identical boxes overlap: 450 million of them, 3.6 GB.
 constexpr std::uint32_t kMostIdentical = 30'000;
 
 constexpr std::array<BoxSet, 22> kBoxSets{{

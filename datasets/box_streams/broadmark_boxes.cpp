@@ -154,9 +154,9 @@ class BroadmarkWorld {
   std::vector<Turn> turns_;  // of tumbling cubes, and their turn in one step
   std::vector<Turn> spins_;
   std::vector<bool> is_resting_;
-  std::vector<double> heights_;  // of the pile over each unit square of ground
+  std::vector<double> heights_;  // how high the pile is over each unit square of ground
   std::size_t cells_ = 0;
-  std::size_t next_ = 0;  // whose velocity is drawn next
+  std::size_t next_ = 0;  // the next object that gets a new velocity
   Triple axis_{0.0, 1.0, 0.0};
   Triple down_{-1.0, 0.0, 0.0};
 };

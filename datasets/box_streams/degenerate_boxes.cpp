@@ -9,7 +9,7 @@ namespace {
 using core::Box;
 using Boxes = std::vector<Box>;
 
-// uniform_boxes before they are rounded to float, through a map of each coordinate.
+// uniform_boxes before rounding to float, with each coordinate sent through a map.
 template <typename Map>
 Boxes mapped_uniform(std::uint32_t n, std::uint64_t seed, const Map& map) {
   RandomStream random(seed);

@@ -24,7 +24,7 @@ using Surface = CGAL::Surface_mesh<Point>;
 namespace processing = CGAL::Polygon_mesh_processing;
 namespace simplification = CGAL::Surface_mesh_simplification;
 
-// CGAL's own stop rule counts edges, which names a number of triangles only where there is no boundary.
+// CGAL's own stop rule counts edges, which determine the number of triangles only where there is no boundary.
 class AtMostTriangles {
  public:
   explicit AtMostTriangles(std::uint64_t triangles) : triangles_(triangles) {}

@@ -21,7 +21,8 @@ std::string text_of(const Command& command) {
   return text;
 }
 
-// What a program complained about last is usually why it failed; npm's last lines name its log, so "error" lines win.
+// The last message of a program is usually why it failed. npm's last lines only name its log, so "error" lines go
+// first.
 std::string complaint(const std::filesystem::path& messages) {
   std::ifstream file(messages);
   std::string last;
@@ -66,7 +67,7 @@ core::Status run_command(const Command& command) {
   posix_spawn_file_actions_addchdir_np(actions.get(), command.folder.c_str());
 
   std::vector<std::string> words = command.words;
-  std::vector<std::string> environment{"LC_ALL=C"};  // so that messages are the ones known here
+  std::vector<std::string> environment{"LC_ALL=C"};  // so that messages are in the language that is searched for here
   for (char** entry = environ; *entry != nullptr; ++entry)
     if (!std::string(*entry).starts_with("LC_ALL=")) environment.emplace_back(*entry);
   pid_t child = 0;

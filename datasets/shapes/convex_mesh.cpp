@@ -7,8 +7,8 @@
 namespace broadside::datasets {
 namespace {
 
-// Of the parallelepiped of b - a, c - a, d - a: positive when d is in front of the triangle a b c. Of float corners in
-// double; points on an ellipsoid are in one plane by chance alone.
+// Six times the volume of the tetrahedron: positive when d is in front of the triangle a b c. Of float corners in
+// double; points on an ellipsoid lie in one plane only by chance.
 double volume(core::Vec3 a, core::Vec3 b, core::Vec3 c, core::Vec3 d) {
   const auto minus = [](core::Vec3 p, core::Vec3 q) {
     return std::array<double, 3>{double(p.x) - q.x, double(p.y) - q.y, double(p.z) - q.z};

@@ -112,7 +112,7 @@ function tooltip(spec, series) {
   return {
     trigger: spec.y.categories ? "item" : "axis", confine: true,
     backgroundColor: css_color("--paper"), borderColor: css_color("--line"), textStyle: { color: css_color("--ink"), fontSize: 12 },
-    // Plain text: names come from strangers.
+    // Plain text only, because names come from outside.
     renderMode: "richText",
     formatter: (given) => {
       const items = (Array.isArray(given) ? given : [given]).filter((p) => !series[p.seriesIndex].is_aside);
@@ -145,10 +145,10 @@ export function draw_charts(specs) {
   const draw = (place) => {
     const spec = specs[Number(place.dataset.chart)];
     if (!spec || drawn.has(place)) return;
-    // The plain picture makes way; with scripts off it stays.
+    // Hides the plain picture; with scripts off it stays.
     place.replaceChildren();
     place.classList.add("drawn");
-    // Bars side by side need room each; points share a line.
+    // Bars side by side need a row each; points share a row.
     const bars = spec.series.filter((one) => one.kind === "bar").length;
     if (spec.y.categories) place.style.height = `${100 + Math.max(34, 12 * bars + 12) * spec.y.categories.length}px`;
     const chart = echarts.init(place, null, { renderer: "svg" });
@@ -158,7 +158,7 @@ export function draw_charts(specs) {
     drawn.set(place, { chart, spec });
   };
   const places = document.querySelectorAll("[data-chart]");
-  // One after the other, so that the page answers while it draws.
+  // One after the other, so that the page stays responsive while it draws.
   const draw_next = (k) => {
     if (k >= places.length) return;
     draw(places[k]);

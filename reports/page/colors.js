@@ -1,4 +1,4 @@
-// The page's own colors, as the scheme that is in force has them.
+// The page's colors in the color scheme that is active.
 export const css_color = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 export const on_scheme_change = (redraw) => {

@@ -1,9 +1,9 @@
-// Comfort only: everything on the page can be read and opened without it.
+// Conveniences: everything on the page can be read and opened without this script.
 "use strict";
 
 const cards = () => document.querySelectorAll(".matrix details[open]");
 
-// An open place closes on Escape (and gets the focus back) or on a click elsewhere.
+// An open cell closes on Escape (and gets the focus back) or on a click elsewhere.
 document.addEventListener("keydown", (event) => {
   if (event.key !== "Escape") return;
   for (const details of cards()) {
@@ -16,7 +16,7 @@ document.addEventListener("click", (event) => {
   for (const details of cards()) if (!details.contains(event.target)) details.open = false;
 });
 
-// Only one place is open, also in browsers that do not know details with one name; and its card stays on the screen.
+// Keeps only one cell open, also in browsers that do not support named details, and keeps its card on the screen.
 for (const details of document.querySelectorAll(".matrix details")) {
   details.addEventListener("toggle", () => {
     if (!details.open) return;
@@ -33,7 +33,7 @@ for (const details of document.querySelectorAll(".matrix details")) {
   });
 }
 
-// Arrow keys walk over the matrix from place to place.
+// Arrow keys move over the matrix from cell to cell.
 document.addEventListener("keydown", (event) => {
   const step = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[event.key];
   const place = event.target.closest?.(".matrix summary")?.closest("td");
@@ -61,7 +61,7 @@ for (const item of document.querySelectorAll(".commands li")) {
       await navigator.clipboard.writeText(text);
       button.textContent = "Copied";
     } catch {
-      // Pages opened from disk may not reach the clipboard: select the text instead, for the reader's own copy key.
+      // A page opened from disk may not use the clipboard: then the text is selected for the reader's own copy key.
       getSelection().selectAllChildren(item.querySelector("code"));
       button.textContent = "Selected";
     }

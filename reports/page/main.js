@@ -1,9 +1,9 @@
-// Everything that the page does beyond being read.
+// Starts everything on the page that needs a script.
 import "./comfort.js";
 import { draw_charts } from "./charts.js";
 import { open_views } from "./view.js";
 
-// Data lie in blocks of JSON that no browser runs; a block that is absent has nothing to show.
+// Data are in blocks of JSON, which no browser runs; a part without a block shows nothing.
 const block = (id) => JSON.parse(document.getElementById(id)?.textContent ?? "null");
 
 document.documentElement.classList.add("scripted");

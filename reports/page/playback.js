@@ -10,7 +10,7 @@ const words = (text) => new Uint16Array(bytes_of(text));
 const longs = (text) => new Uint32Array(bytes_of(text));
 
 const face_names = ["-x", "+x", "-y", "+y", "-z", "+z"];
-// Faces of the domain follow the last body.
+// Faces of the domain are numbered after the last body.
 export const body_name = (playback, k) => (k < playback.bodies ? `body ${k}` : `face ${face_names[k - playback.bodies]}`);
 
 export class Playback {
@@ -49,7 +49,7 @@ export class Playback {
     return found;
   }
 
-  // Words of a contact: a, b, point (3), normal (3, from -1 to 1), depth.
+  // 16-bit numbers of a contact: a, b, point (3), normal (3, from -1 to 1), depth.
   contacts(frame) {
     const found = [];
     for (let k = this.contact_begin[frame]; k < this.contact_begin[frame + 1]; ++k) {

@@ -35,7 +35,7 @@ export class Stage {
     this.shown = { bodies: true, level0: false, level1: false, level2: false, pairs: true, contacts: true };
     this.frame = 0;
     this.marked = [];
-    // The buffer is kept, so that the page can be copied and printed as it looks.
+    // The drawing buffer is kept, so that the page can be copied and printed as it looks.
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(40, 1, 0.01, 1000);
@@ -84,7 +84,7 @@ export class Stage {
     this.pair_lines = lines(0.8);
     this.contact_lines = lines(1);
     this.mark_lines = lines(1);
-    // What is inside bodies is seen through them: drawn after them, and so among what is transparent, as they are.
+    // Things inside bodies are drawn after them and as transparent, so that they show through.
     for (const object of [this.pair_lines, this.contact_lines, this.mark_lines]) {
       object.material.depthTest = false;
       object.material.transparent = true;
@@ -202,7 +202,7 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  // To the marked bodies; the camera travels unless the reader asked for less motion.
+  // Moves the camera to the marked bodies; it jumps when the reader asked for less motion.
   fly_to(bodies) {
     const own = bodies.filter((b) => b < this.playback.bodies);
     if (!own.length) return;

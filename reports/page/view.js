@@ -1,4 +1,4 @@
-// The 3-D view's controls: which run, which frame, what is shown; and the way from a verdict to its place.
+// The 3-D view's controls: which run, which frame, what is shown; and the links from verdicts to their places.
 import { on_scheme_change } from "./colors.js";
 import { body_name, Playback } from "./playback.js";
 import { Stage } from "./stage.js";
@@ -150,7 +150,7 @@ class View {
 export function open_views(data) {
   const place = document.getElementById("view");
   if (!place || !data.length) return;
-  // Kept for paper; the view takes its place on the screen.
+  // The picture stays for paper; on the screen the view replaces it.
   const picture = document.getElementById("view-picture");
   if (!document.createElement("canvas").getContext("webgl2")) {
     place.append(element("p", { className: "hint no-webgl", textContent: "This browser has no WebGL: a picture of the frame stands in for the 3-D view." }));

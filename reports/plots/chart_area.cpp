@@ -12,9 +12,9 @@ namespace {
 constexpr double kMargin = 12.0;
 constexpr double kLegendLine = 17.0;
 constexpr double kHeadingLine = 17.0;
-constexpr double kHeadingWidth = 1.2;  // of a bold letter at 13 px, over one of a label
+constexpr double kHeadingWidth = 1.2;  // of a bold letter at 13 px, in widths of a label's letter
 
-// The heading in as many lines as it needs; a word that alone is too long is cut by the viewer.
+// The heading in as many lines as it needs; a single word that is too long is cut by the viewer.
 std::vector<std::string> heading_lines(std::string_view title) {
   std::vector<std::string> lines{""};
   while (!title.empty()) {
@@ -76,7 +76,7 @@ void draw_y_axis(Drawing& drawing, const Area& area, const Axis& y, std::string_
 }
 
 void draw_x_axis(Drawing& drawing, const Area& area, const Axis& x, std::string_view label) {
-  double free_from = -1e9;  // labels that would run into each other are left out; their grid lines stay
+  double free_from = -1e9;  // labels that would overlap are left out; their grid lines stay
   for (const Tick& tick : x.ticks()) {
     const double at = area.x(x.share(tick.value));
     drawing.line("grid", {at, area.top}, {at, area.bottom});

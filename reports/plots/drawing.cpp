@@ -23,7 +23,7 @@ std::string styled(std::string_view element, std::string_view style) {
   return "<" + std::string(element) + " class=\"" + std::string(style) + "\"";
 }
 
-// Ends an element that may have a hint, which browsers show at the pointer.
+// Ends an element that may have a hint, which browsers show beside the pointer.
 std::string ended(std::string_view element, std::string_view hint) {
   if (hint.empty()) return "/>\n";
   return "><title>" + xml(hint) + "</title></" + std::string(element) + ">\n";

@@ -10,7 +10,7 @@
 namespace broadside::reports::plots {
 namespace {
 
-// The palette's neighbors are kin, for stacked bars; curves that cross take colors that are far apart.
+// Neighbors in the palette are similar, for stacked bars; curves that cross get colors that are far apart.
 constexpr std::array<int, kSeriesColors> kApart{0, 2, 3, 5, 1, 6, 4, 7};
 
 std::string color_of(int curve) {

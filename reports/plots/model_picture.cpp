@@ -50,7 +50,7 @@ void draw_model(Drawing& drawing, const Raster& raster) {
       const int shade = shade_at(x, y);
       std::uint32_t end = x + 1;
       while (end < raster.side && shade_at(end, y) == shade) ++end;
-      // A hair taller than the row, so that no line of the background shows between rows.
+      // Slightly taller than the row, so that no line of the background shows between rows.
       if (shade >= 0)
         runs[static_cast<std::size_t>(shade)] += "M" + pixels(x * cell) + " " + pixels(kHead + y * cell) + "h" +
                                                  pixels((end - x) * cell) + "v" + pixels(cell + 0.25) + "h" +
