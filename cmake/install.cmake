@@ -3,10 +3,10 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS broadside RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-# Puts the program and the libraries that it needs into one folder for a machine without them.
+# The program and the libraries that it needs, in one folder, for a machine without these libraries.
 install(PROGRAMS gpu/bundle RENAME broadside-bundle DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 
-# For people's own engines: find_package(broadside), then link to broadside::engine. A header and nothing else.
+# For users' own engines: find_package(broadside), then link to broadside::engine, which is a header only.
 add_library(broadside_engine INTERFACE)
 set_target_properties(broadside_engine PROPERTIES EXPORT_NAME engine)
 target_include_directories(broadside_engine INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -30,6 +30,6 @@ set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# Which library packages the program needs is asked of the program.
+# The Debian packages that the program depends on are read from the program itself.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 include(CPack)

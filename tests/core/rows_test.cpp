@@ -1,4 +1,4 @@
-// Rows survive the way to disk and back, bit by bit, and malformed files are refused with the place named.
+// Rows survive writing and reading bit by bit, and malformed files are refused with the place named.
 #include "core/rows.hpp"
 
 #include <gtest/gtest.h>
@@ -178,7 +178,7 @@ TEST_F(RowsTest, AFolderThatIsMissingOrAFileInItsPlaceIsOneClearLine) {
   EXPECT_FALSE(fs::exists(folder_ / "cells.json.part"));
 }
 
-// Linux's device that is always full: write() succeeds nowhere, so the error path of a full disk runs.
+// Linux's device that is always full: every write() fails, so the error path of a full disk runs.
 TEST_F(RowsTest, AFullDiskIsReportedAndNothingStaysUnderTheFinalName) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
   fs::create_symlink("/dev/full", folder_ / "cells.json.part");

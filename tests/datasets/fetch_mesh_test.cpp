@@ -37,7 +37,7 @@ void ignore(std::string_view) {}
 TEST(RunCommand, PassesWordsAsTheyAreAndKeepsTheOutput) {
   const TemporaryFolder folder;
   const auto output = folder.path() / "out";
-  // A shell would expand, split and run parts of this.
+  // Each of these would be expanded, split or run by a shell.
   const std::string nasty = "a  b; $HOME `id` * \"quoted\"";
   const auto status = run_command({{"printf", "%s", nasty}, folder.path(), output});
   ASSERT_TRUE(status.ok()) << status.error().line();
@@ -94,7 +94,7 @@ TEST(FetchMesh, WhatCannotBeFetchedIsOneClearLine) {
   }
 }
 
-// Over a real network, so only where somebody asks for it.
+// Needs a real network, so it runs only when asked for.
 TEST(FetchMesh, TheBunnyComesBackWithItsPublishedSum) {
   if (std::getenv("BROADSIDE_TEST_FETCH") == nullptr)
     GTEST_SKIP() << "BROADSIDE_TEST_FETCH is not set: downloads a package";

@@ -64,7 +64,7 @@ TEST(MeshCatalogue, EveryRowIsWhole) {
     EXPECT_EQ(row.is_procedural, row.files.empty());
     for (const auto& file : row.files) {
       EXPECT_TRUE(file.sha256.empty() || file.sha256.size() == 64U) << file.file;
-      // Without a published sum it must be made here.
+      // A file without a published sum must be one that is made here.
       EXPECT_TRUE(!file.sha256.empty() || file.source != nullptr) << file.file;
       EXPECT_TRUE(file.sha256.empty() || file.covering_radius > 0.0) << file.file;
     }

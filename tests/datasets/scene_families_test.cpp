@@ -1,5 +1,5 @@
-// Every family of scenes: any count, model, size and seed; sound starts; what the twin makes of it; and the way to a
-// file and back.
+// Every family of scenes: any count, model, size and seed; sound starts; what the twin computes for it; and the way to
+// a file and back.
 #include "datasets/generators/scene_families.hpp"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST_P(Family, TakesModelSizeFramesAndSeed) {
   EXPECT_EQ(core::scene_digest(scene), core::scene_digest(made(scene.name)));
 }
 
-// No verdict of the sound pipeline may fail; a scene that shows a limit of the method shows it in what happens.
+// No verdict of the sound pipeline may fail; the limits of the method show only in the motion.
 TEST_P(Family, TheTwinRunsItAndNoVerdictFails) {
   Scene scene = made(name("cube", 12));
   scene.frames = 60;
@@ -106,7 +106,7 @@ TEST_P(Family, ComesBackFromAFileAsTheSameScene) {
   EXPECT_EQ(core::scene_digest(made((folder.path() / "s.toml").string())), core::scene_digest(scene));
 }
 
-// The same family from a file's generator: bodies, parts, gravity and domain, unless the file says them itself.
+// The same family from a file's generator: it brings bodies, parts, gravity and domain, unless the file gives them.
 TEST_P(Family, IsAGeneratorOfSceneFiles) {
   const tests::TemporaryFolder folder;
   const std::string common = "seed = 1\n[[mesh]]\nname = \"cube\"\ncatalogue = \"cube\"\nlongest_side_m = 1.0\n";
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(All, Family, testing::ValuesIn(family_names()), [](cons
   return name;
 });
 
-// The shipped examples are what they say.
+// The shipped examples are as their descriptions say.
 TEST(SceneFiles, AreTheBuiltInsOfTheirNames) {
   int families = 0;
   for (const auto& entry : std::filesystem::directory_iterator(BROADSIDE_SOURCE_DIR "/datasets/scenes")) {

@@ -146,7 +146,7 @@ TEST(SmallScenes, AreFewBodiesInsideTheirDomainThatVertexProximityCanSee) {
     const Scene scene = made(std::string(row.example));
     EXPECT_EQ(scene.name, row.example);
     EXPECT_GE(scene.bodies.size(), 1U);
-    // A race among threads takes a crowd.
+    // Many threads, so that a race would show.
     EXPECT_LE(scene.bodies.size(), scene.name == "errata:E8" ? 125U : 6U);
     EXPECT_LE(scene.frames, 300U);
     for (const Box& box : boxes_of(scene)) EXPECT_TRUE(contains(scene.domain, box));

@@ -71,7 +71,7 @@ TEST(LumpyMesh, IsClosedOutwardSeededAndNotASphere) {
     one.vertices = mesh.vertices;
     one.triangles = {t};
     ASSERT_GT(tests::volume_m3(one), 0.0);
-    if (t[0] > 200) break;  // one triangle copies all vertices: a sample is enough
+    if (t[0] > 200) break;  // one triangle copies all vertices, so a sample is enough
   }
   EXPECT_EQ(lumpy_mesh(4968, 1).value().vertices, mesh.vertices);
   EXPECT_NE(lumpy_mesh(4968, 2).value().vertices, mesh.vertices);

@@ -144,7 +144,7 @@ TEST(TwoBody, AHeavyCubeSinksIntoALightOne) {
   EXPECT_LT(frames[11].position[1].y, 1.5F - 0.1F);
 }
 
-// The other way round it lies still: a light cube takes nothing from a heavy one.
+// The other way round it lies still: a light cube on a heavy one takes nothing from it.
 TEST(TwoBody, ALightCubeLiesOnAHeavyOne) {
   core::Scene scene = scene_of("stack");
   scene.bodies[0].inverse_mass = 0.001F;

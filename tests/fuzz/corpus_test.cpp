@@ -1,5 +1,5 @@
-// Every input that a fuzzer was started from, or that once was a finding, is read to its end; and so is what a short
-// run of plain damage makes of them, which needs no fuzzing compiler.
+// Every input that a fuzzer was started from, or that once was a finding, is read to its end; so are copies with simple
+// damage, which needs no fuzzing compiler.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,8 @@ TEST_P(Corpus, IsReadToItsEnd) {
   EXPECT_GT(count, 3U) << "inputs in " << folder;
 }
 
-// HDF5 1.10 reads past such attributes without a word where no sanitizer looks. Found by fuzzing, in half a minute.
+// HDF5 1.10 reads past the end of such attributes, and without a sanitizer nothing shows. Found by fuzzing within half
+// a minute.
 TEST(Attributes, ThatDoNotFitAreRefusedBeforeHdf5ReadsThem) {
   const std::filesystem::path folder = std::filesystem::path(BROADSIDE_SOURCE_DIR) / "tests/fuzz/corpus/trace";
   for (const char* name : {"attribute-1f267a9a", "attribute-35697804", "attribute-95e294d5"}) {
@@ -76,8 +77,8 @@ void damage(std::vector<char>& bytes, std::mt19937& random) {
   }
 }
 
-// BROADSIDE_FUZZ_SEED and BROADSIDE_FUZZ_RUNS, per input, ask for another run and for a longer one. What was read last
-// when the process dies follows from the seed.
+// BROADSIDE_FUZZ_SEED and BROADSIDE_FUZZ_RUNS (per input) ask for another run or a longer one. The seed determines the
+// input that was read when the process died.
 TEST_P(Corpus, LivesThroughDamage) {
   const auto asked = [](const char* name, unsigned usual) {
     const char* text = std::getenv(name);

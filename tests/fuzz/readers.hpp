@@ -1,5 +1,5 @@
-// The readers of files that strangers wrote, each as a function of bytes: what the fuzzers call, and what the ordinary
-// test of the kept inputs calls. Each must come back, whatever the bytes are.
+// The readers of untrusted files, each as a function of bytes. The fuzzers call them, and so does the ordinary test of
+// the kept inputs. Each must return, whatever the bytes are.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace broadside::fuzz {
 
-// A folder of this process for the file that is read next; it goes away at the end.
+// A folder of this process for the file that is read next; it is removed at the end.
 class Scratch {
  public:
   Scratch() {
@@ -58,8 +58,8 @@ inline void check_refusal(const core::Error& error) {
   if (error.what.empty() || error.line().find('\n') != std::string::npos) __builtin_trap();
 }
 
-// A scene file may ask for ten million bodies; to make them is honest work and no finding. So inputs with a whole
-// number of more than three digits are left out.
+// A scene file may ask for ten million bodies, and to make them takes long without being a fault. So inputs with a
+// whole number of more than three digits are skipped.
 inline bool asks_for_much(std::string_view text) {
   std::size_t run = 0;
   for (const char c : text) {

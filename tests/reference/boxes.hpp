@@ -1,4 +1,4 @@
-// Boxes for the tests of broad phases, and their pairs by ways of our own.
+// Boxes for the tests of broad phases, and their pairs by searches written for the tests.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline std::vector<Pair> brute_force(const std::vector<Box>& boxes, const std::v
   return pairs;
 }
 
-// Sort and sweep along x: the third way to the same set, fast enough for many boxes.
+// Sort and sweep along x: a third way to the same set, fast enough for many boxes.
 inline std::vector<Pair> sweep(const std::vector<Box>& boxes) {
   std::vector<std::uint32_t> order(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) order[i] = i;

@@ -1,4 +1,4 @@
-// One body of tests for every broad-phase engine of the folder: whatever it does inside, read_back must give exactly
+// The tests that every broad-phase engine of the folder must pass: whatever it does inside, read_back must give exactly
 // the pairs whose closed boxes overlap, P(6), save pairs of two static bodies. A new engine is one line in subjects().
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include "tests/reference/boxes.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
-// FCL's tree-array and interval-tree managers leak (reference/README.md); ours is still watched.
+// FCL's tree-array and interval-tree managers leak (reference/README.md); leaks of our code are still reported.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfcl";
 }
@@ -113,7 +113,7 @@ class BroadPhases : public testing::TestWithParam<Subject> {
     return set.ok() ? std::move(set).value() : PairSet{};
   }
 
-  // What a pair set promises whatever the boxes are.
+  // What holds for every set of pairs, whatever the boxes are.
   static void expect_well_formed(const PairSet& set, std::size_t n) {
     EXPECT_TRUE(std::is_sorted(set.pairs.begin(), set.pairs.end()));
     EXPECT_EQ(std::adjacent_find(set.pairs.begin(), set.pairs.end()), set.pairs.end()) << "a pair twice";
@@ -262,7 +262,7 @@ TEST_P(BroadPhases, HundredThousandBoxesSlow) {
     std::erase_if(set.pairs, touches);
     EXPECT_GT(std::erase_if(wanted, touches), 0U) << "nothing to lose: compare them all";
   }
-  // Sets of this size would fill pages.
+  // The message for sets of this size would fill pages.
   EXPECT_EQ(set.pairs.size(), wanted.size());
   EXPECT_TRUE(set.pairs == wanted);
 }
@@ -293,7 +293,7 @@ TEST_P(BroadPhases, MovingTeleportingAndResizingBoxes) {
   }
 }
 
-// Some engines fix their world when they are loaded.
+// Some engines fix their world at load.
 TEST_P(BroadPhases, BoxesThatLeaveTheLoadedWorld) {
   std::vector<Box> boxes{cube(0, 0, 0, 1), cube(2, 2, 2, 1), cube(4, 0.5F, 0.5F, 1)};
   load(boxes, all_moving(3));
@@ -306,7 +306,7 @@ TEST_P(BroadPhases, BoxesThatLeaveTheLoadedWorld) {
   EXPECT_EQ(find().pairs, (std::vector<Pair>{{0, 2}}));
 }
 
-// Bodies that come to rest and start again: engines move them between their structures.
+// Bodies that come to rest and start again: engines move such bodies between their structures.
 TEST_P(BroadPhases, RestThenMoveAgain) {
   std::vector<Box> boxes{cube(0, 0, 0, 1), cube(5, 0, 0, 1), cube(10, 0, 0, 1)};
   load(boxes, all_moving(3));
@@ -322,7 +322,7 @@ TEST_P(BroadPhases, RestThenMoveAgain) {
   EXPECT_EQ(find().pairs, (std::vector<Pair>{{1, 2}}));
 }
 
-// Bullet's margin is one global of the library: an engine that uses it must not change what the next one sees.
+// Bullet's margin is one global of the library: an engine that changes it must restore it for the next one.
 TEST_P(BroadPhases, TwoEnginesAtOnceDoNotDisturbEachOther) {
   core::Engine other = make_engine(subjects().front());
   core::Engine bullet = make_engine({"", reference::bullet_dbvt_row, {{"margin", "0"}}});
@@ -361,7 +361,7 @@ TEST_P(BroadPhases, BadBoxesAreRefusedByName) {
   EXPECT_FALSE(phase().update({}).ok()) << "fewer boxes than were loaded";
 }
 
-// Some engines are optional at build time: what is not there has nothing to test.
+// Some engines are optional at build time: an absent engine has nothing to test.
 std::vector<Subject> subjects_that_are_built() {
   auto built = subjects();
   std::erase_if(built, [](const Subject& s) { return !s.row().absent().empty(); });

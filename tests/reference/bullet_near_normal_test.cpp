@@ -1,5 +1,5 @@
-// Bullet's normals of bodies less than a millimeter apart, in closed form: which of them are wrong, and that ours is
-// not the reading that makes them so.
+// Bullet's normals of bodies less than a millimeter apart, in closed form: which of them are wrong, and that our
+// reading of them is not the cause.
 #include <gtest/gtest.h>
 
 #include <cmath>

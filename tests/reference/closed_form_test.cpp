@@ -29,7 +29,7 @@ struct Subject {
   double least_cosine = 1.0 - 1e-6;
   bool tells_distance = true;
   bool depth_is_least = true;    // otherwise an upper bound, along another direction
-  bool dies_of_overlap = false;  // its library's asserts end the process
+  bool dies_of_overlap = false;  // an assert of its library ends the process
 };
 
 void PrintTo(const Subject& subject, std::ostream* out) {

@@ -1,5 +1,5 @@
-// One body of tests for every engine that simulates: what any of them must do with a scene, whatever solver is inside.
-// A new engine is one line in subjects().
+// The tests that every engine that simulates must pass, whatever its solver. A new engine is one line in
+// subjects().
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -176,8 +176,8 @@ TEST_P(DynamicsEngines, TouchingBodiesAtRestStayAtRest) {
   }
 }
 
-// A small cube wholly inside a large one, off its center: whatever an engine makes of it, states stay finite, momentum
-// is kept, and it is told as a pair.
+// A small cube wholly inside a large one, off its center: whatever an engine does with it, states stay finite, momentum
+// is kept, and the two are reported as a pair.
 TEST_P(DynamicsEngines, AContainedBodyIsAPairAndStaysFinite) {
   core::Scene scene = empty_scene();
   scene.gravity_m_s2 = {};
@@ -208,7 +208,7 @@ TEST_P(DynamicsEngines, FarBodiesDoNotKnowOfEachOther) {
   EXPECT_TRUE(two.contacts.empty());
 }
 
-// A body that was moved elsewhere, or taken away, between two loads leaves nothing behind.
+// Bodies that were moved or removed between two loads leave nothing behind.
 TEST_P(DynamicsEngines, MovedAndRemovedBodiesLeaveNothingBehind) {
   core::Scene scene = empty_scene();
   scene.gravity_m_s2 = {};

@@ -1,5 +1,5 @@
-// `hash-cpu` differs from the pipeline in where candidates come from, and in nothing else: an exact candidate set is
-// one set, so every frame must be the same, bit for bit, whatever the cell and however many threads.
+// `hash-cpu` differs from the pipeline only in where candidates come from. An exact candidate set is unique, so every
+// frame must be the same, bit for bit, for any cell size and number of threads.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -23,8 +23,8 @@ TEST_P(NarrowPhaseCases, OneBodyHasNoPair) {
   EXPECT_FALSE(phase().measure(std::vector<core::Pair>{{0, 1}}, std::vector<Pose>(1)).ok());
 }
 
-// At touch the sign is noise, so nobody is asked for it; but what is said must be near zero, or be no number where that
-// is what the engine says of bodies apart.
+// At touch the sign is noise, so it is not required. But the answer must be near zero, or no number where the engine
+// says that of bodies apart.
 TEST_P(NarrowPhaseCases, TouchingFacesAreNearZero) {
   if (GetParam().name == "fcl_shapes_indep")
     GTEST_SKIP() << "FCL's assert ends the process at touch (reference/README.md)";
@@ -48,7 +48,7 @@ TEST_P(NarrowPhaseCases, FarAwayIsFar) {
   EXPECT_NEAR(s.normal.x, -1.0, 1e-4);
 }
 
-// The poses of a call are those that count, not those of load nor those of the call before.
+// The poses of the call are used, not those of load nor those of the call before.
 TEST_P(NarrowPhaseCases, MovedBodiesAreMeasuredWhereTheyAre) {
   const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
   ASSERT_TRUE(phase().load(scene_of({cube, cube})).ok());

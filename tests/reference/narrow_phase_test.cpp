@@ -1,5 +1,5 @@
-// One body of tests for every narrow-phase engine of the folder, on bodies whose distance is known in closed form.
-// Poses stay out of the touching band: nobody is asked for a verdict at a gap of zero.
+// The tests that every narrow-phase engine of the folder must pass, on bodies whose distance is known in closed form.
+// Poses stay out of the touching band: at a gap of zero no sign is required.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -144,7 +144,7 @@ TEST_P(NarrowPhases, RandomBoxesWithParallelAxes) {
       is_nested = is_nested && offset <= std::abs(static_cast<double>(halves[i][axis]) - halves[j][axis]);
     }
     const Separation& s = found.value()[k];
-    // Within 1e-4 m of touching nobody is judged.
+    // Within 1e-4 m of touching nothing is judged.
     if (squared > 1e-8) {
       ++apart;
       if (GetParam().tells_distance) {

@@ -1,4 +1,4 @@
-// Narrow-phase engines under test, bodies whose distance is known, and what every answer promises. A new engine is one
+// Narrow-phase engines under test, bodies whose distance is known, and what holds for every answer. A new engine is one
 // line in subjects().
 #pragma once
 
@@ -164,7 +164,7 @@ class NarrowPhases : public testing::TestWithParam<Subject> {
     return result.value().at(0);
   }
 
-  // What every answer about bodies apart by `distance` promises.
+  // What holds for every answer about bodies apart by `distance`.
   void expect_apart(const Separation& s, double distance) const {
     EXPECT_FALSE(s.is_touching);
     if (!GetParam().tells_distance) {

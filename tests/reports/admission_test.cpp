@@ -1,4 +1,4 @@
-// A time counts only beside a proof: each way in which the proof can be missing strikes it out and is named.
+// A time counts only with a proof: each way in which the proof can be missing strikes the time out and is named.
 #include "reports/admission.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Change points where they were put, and none where there are none; the test behind them against printed tables.
+// Change points are found where they were put and nowhere else; the test behind them agrees with printed tables.
 #include "reports/change_points.hpp"
 
 #include <gtest/gtest.h>
@@ -82,8 +82,8 @@ TEST(ChangePoints, OneBadNightIsNoChange) {
   EXPECT_TRUE(change_points(std::vector<double>{1, 9}).empty());
 }
 
-// The largest of many splits is tested as if it were one, so more than 0.1 % of pure noise is split; 5 % is the
-// promise.
+// The largest of many splits is tested as if it were the only one, so more than 0.1 % of pure noise is split; at most 5
+// % is what is required.
 TEST(ChangePoints, PureNoiseIsSeldomSplit) {
   int split = 0;
   for (std::uint64_t seed = 100; seed < 300; ++seed) split += change_points(noise(50, 1.0, 0.03, seed)).empty() ? 0 : 1;

@@ -1,4 +1,4 @@
-// Charts as data for the page, as tables, as CSV and as pictures; what strangers named stays text in all of them.
+// Charts as data for the page, as tables, as CSV and as pictures; names from outside stay text in all of them.
 #include "reports/chart.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Other people's formats: what their readers look for is there, and struck-out times are not.
+// Formats of other tools: every field that their readers need is there, and struck-out times are not.
 #include "reports/exchange.hpp"
 
 #include <gtest/gtest.h>

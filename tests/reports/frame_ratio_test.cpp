@@ -27,8 +27,8 @@ TEST(FrameRatio, DisturbedFramesDoNotCount) {
   EXPECT_DOUBLE_EQ(frame_ratio(run_of(150, 1.0), head), 1.1);
 }
 
-// The last quarter of a run of equal frames takes 1.4 times as long: the run takes 1.1 times as long, where the median
-// frame takes what it took.
+// The last quarter of a run of equal frames takes 1.4 times as long: the run takes 1.1 times as long, while the median
+// frame does not change.
 TEST(FrameRatio, AChangeOfAPartOfTheRunCountsByItsShare) {
   const std::vector<double> base(160, 1.0);
   std::vector<double> head = base;
@@ -36,7 +36,7 @@ TEST(FrameRatio, AChangeOfAPartOfTheRunCountsByItsShare) {
   EXPECT_NEAR(frame_ratio(base, head), 1.1, 1e-12);
 }
 
-// A frame that the base's clock did not see has no ratio; where it saw none, nothing is said to have changed.
+// A frame whose base time is zero has no ratio; a run without any ratio counts as unchanged.
 TEST(FrameRatio, FramesWithoutATimeAreLeftOut) {
   std::vector<double> base = run_of(150, 1.0);
   for (std::size_t k = 0; k < 40; ++k) base[k] = 0.0;

@@ -1,4 +1,4 @@
-// The gate against itself: how often it cries wolf, how often it misses one.
+// The gate against itself: how often it gives a false alarm, and how often it misses a slowdown.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +13,7 @@ namespace broadside::reports {
 namespace {
 
 constexpr double kQuiet = 0.015;
-constexpr double kBusy = 0.045;  // as seen on two cores that others use too
+constexpr double kBusy = 0.045;  // as seen on two cores of a shared machine
 
 // Measurements as this kind of program gives them: processes that differ by `spread`, runs by 1 %, a machine that
 // drifts by 6 % in slow waves, and one process in twenty that something disturbs.
@@ -115,7 +115,7 @@ TEST(Gate, LookingAgainDoesNotFindMoreByChance) {
   EXPECT_LE(alarms, kBusyComparisons * 55 / 1000);
 }
 
-// With no delta to hide behind, the interval itself is on trial: 2.5 % beyond each end, and 3 % for the small sample.
+// With a delta of 0 the interval itself is tested: 2.5 % beyond each end, and 3 % for the small sample.
 TEST(Gate, TheIntervalAloneAlarmsAboutAsOftenAsItSays) {
   std::uint64_t outside = 0;
   for (std::uint64_t seed = 2001; seed <= 2000 + kComparisons; ++seed) {
@@ -158,7 +158,7 @@ class SharedCore {
 
   void pass(double ms) { now_ += ms; }
 
-  // What a process has of its own, as where its memory came to lie.
+  // What differs from process to process, such as where its memory came to lie.
   double layout() { return std::exp(0.006 * normal()); }
 
  private:
@@ -247,7 +247,7 @@ TEST(Gate, InTurnsOnASharedCoreExactlyDeltaAlarmsNoMoreThanItMay) {
   EXPECT_LE(alarms, kComparisons * 55 / 1000);
 }
 
-// Why there are turns: over the same machine, whole processes leave intervals several times as wide.
+// The reason for turns: on the same machine, whole processes leave intervals several times as wide.
 TEST(Gate, TurnsMakeTheIntervalSeveralTimesNarrower) {
   double in_turns = 0.0;
   double one_by_one = 0.0;

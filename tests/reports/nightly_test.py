@@ -47,12 +47,12 @@ def main(program):
         for name in ("report.md", "junit.xml", "benchmark.json", "history.sqlite", "last/cells.json"):
             assert (results / name).stat().st_size > 0, name
         assert (tree / "summary").read_text(encoding="utf-8").count("## Broadside: Nightly") == 2
-        # A wrong build under the same name, as a bad change would be one.
+        # A wrong build under the same name, as a bad change would make.
         wrong = tree / "wrong"
         wrong.write_text('#!/bin/bash\ntonight=out/nightly/tonight\n'
                          '[[ $1 != plan ]] || sed -i \'/^engines/s/"octree-cpu"/"octree-cpu[variant=printed-E3]"/\' "$tonight/nightly.toml"\n'
                          f'"{program}" "$@"\ncode=$?\n'
-                         # The label is what compare goes by: here the wrong engine answers to the sound one's.
+                         # compare matches cells by label: here the wrong engine has the sound one's label.
                          'for f in "$tonight"/{cells,verdicts,samples}.json; do\n'
                          '  [[ ! -f $f ]] || sed -i \'s/"settings_short":"variant=printed-E3"/"settings_short":""/g\' "$f"\ndone\n'
                          'exit $code\n', encoding="utf-8")

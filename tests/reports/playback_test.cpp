@@ -1,4 +1,4 @@
-// What the 3-D view gets: positions to within half a cell, faces by name, nothing that could end its element.
+// What the 3-D view gets: positions to within half a cell, faces by name, and nothing that could end its element.
 #include "reports/playback.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// RFC 4648, the other way round than the code that is tested.
+// Base64 of RFC 4648, decoded: the reverse of the code under test.
 std::vector<unsigned> bytes_of(const std::string& text) {
   std::vector<unsigned> bytes;
   unsigned value = 0;

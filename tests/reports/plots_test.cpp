@@ -1,4 +1,4 @@
-// Plots: what is drawn lies where the numbers say, nothing of a stranger's name is markup, and absence is a word.
+// Plots: shapes lie where the numbers say, names from outside are never markup, and absence is a word.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -165,7 +165,7 @@ TEST(Histogram, EveryFiniteValueIsInOneBin) {
   EXPECT_EQ(with_class(markup, "rect", "s0").size(), 4U);
 }
 
-// What every plot owes to who cannot see it and to who chose a hostile name.
+// What every plot needs for readers who cannot see it and for hostile names.
 TEST(Plots, NamesAreEscapedAndTitlesAreThere) {
   const PlotText text{kHostile, kHostile, kHostile, kHostile};
   const std::vector<double> two{1.0, 2.0};

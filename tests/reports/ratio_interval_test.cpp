@@ -42,7 +42,7 @@ TEST(RatioInterval, PairsCancelWhatDriftsForBoth) {
   EXPECT_GT(apart.high, 1.15);
 }
 
-// Where processes differ and the runs of one do not, more runs of them teach nothing: the interval stays as wide.
+// Where processes differ and the runs of one do not, more runs give no more information: the interval stays as wide.
 TEST(RatioInterval, RunsOfOneProcessAreNoSubstituteForProcesses) {
   std::vector<ProcessRuns> few;
   std::vector<ProcessRuns> many;
@@ -68,7 +68,7 @@ TEST(RatioInterval, SmallestPOfSoManyProcesses) {
   EXPECT_TRUE(enough_processes(6, 6, true));
 }
 
-// The example of Benjamini and Hochberg 1995, section 3.3: 15 p-values, of which q = 0.05 believes the first four.
+// The example of Benjamini and Hochberg 1995, section 3.3: 15 p-values, of which q = 0.05 accepts the first four.
 TEST(BenjaminiHochberg, ThePapersOwnExample) {
   const std::vector<double> p{0.0001, 0.0004, 0.0019, 0.0095, 0.0201, 0.0278, 0.0298, 0.0344,
                               0.0459, 0.3240, 0.4262, 0.5719, 0.6528, 0.7590, 1.0000};

@@ -1,4 +1,4 @@
-// The three kinds of report: complete, well-formed, deterministic, and deaf to hostile names.
+// The three kinds of report: complete, well-formed, deterministic, and safe with hostile names.
 #include "reports/report.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using testing_markup::Element;
 using testing_markup::Markup;
 using testing_rows::sample_rows;
 
-// Tests of a page that this build may do without.
+// Tests of the page, which a build may leave out.
 class HtmlReport : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -81,7 +81,7 @@ TEST_F(HtmlReport, IsWellFormedAndSelfContained) {
   EXPECT_EQ(markup.problem, "");
   for (const Element& element : markup.elements) {
     EXPECT_FALSE(element.attributes.contains("src")) << element.name;
-    // Only ways within the page.
+    // Only links within the page.
     if (element.attributes.contains("href")) {
       EXPECT_EQ(element.attributes.at("href")[0], '#') << element.name;
     }
@@ -304,7 +304,7 @@ TEST(HtmlPage, ShowsPartsThatWereMadeElsewhere) {
 }
 
 TEST(Reports, AreWrittenWholeOrNotAtAll) {
-  const char* keep = std::getenv("BROADSIDE_REPORT_PREVIEW");  // a folder: leave the pages there to be looked at
+  const char* keep = std::getenv("BROADSIDE_REPORT_PREVIEW");  // a folder in which the pages are left to be looked at
   const std::filesystem::path folder =
       keep != nullptr ? keep : std::filesystem::temp_directory_path() / ("report_test_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);

@@ -1,4 +1,4 @@
-// The exponent of a power law against laws that are exact.
+// The exponent of a power law against exact laws.
 #include "reports/scaling.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Plain-text tables: within 100 columns, every verdict in words, nothing that a terminal would obey.
+// Plain-text tables: within 100 columns, every verdict in words, no control characters for the terminal.
 #include "reports/terminal_table.hpp"
 
 #include <gtest/gtest.h>

@@ -38,7 +38,7 @@ class Launcher(unittest.TestCase):
             script = self.programs / name
             script.write_text(f'#!/bin/bash\necho "{name} $*" >>"$PLAYED/calls"\n{body}\n', encoding="utf-8")
             script.chmod(0o755)
-        # sudo hands on to what follows it, so that these tests do the same for every user.
+        # This sudo only runs the command that follows it, so that these tests do the same for every user.
         sudo = self.programs / "sudo"
         sudo.write_text('#!/bin/bash\n[[ $1 == -n ]] && shift\nexec "$@"\n', encoding="utf-8")
         sudo.chmod(0o755)

@@ -1,4 +1,4 @@
-// The ledger's terms against closed forms, and the books of whole runs.
+// The ledger's terms against closed forms, and the ledgers of whole runs.
 #include "validation/energy_ledger.hpp"
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(EnergyLedger, FramesThatDoNotFollowEachOtherHaveNoRow) {
   EXPECT_FALSE(ledger.row(bare, nullptr).has_value());
 }
 
-// Work that nobody booked, of every kind.
+// Work of every kind that the ledger does not record.
 TEST(EnergyLedger, UnbookedWorkBreaksTheBooks) {
   EXPECT_EQ(verdict_of("energy", sound()).outcome, core::Outcome::kPass) << line(verdict_of("energy", sound()));
   Recording wrong = sound();

@@ -126,7 +126,7 @@ TEST(ProximityBound, RejectsDistancesThatTheVerticesContradict) {
       if (p.is_touching()) p.squared_distance_m2 = 1.0F;
   set_distance(1e-6);
   EXPECT_EQ(verdict_of("proximity-bound", far, &baseline).outcome, Outcome::kFail);
-  // Other positions say nothing about these vertices.
+  // Distances at other positions say nothing about these vertices.
   set_distance(0.25);
   for (FrameRecord& frame : baseline.frames) frame.detected_position[0].x += 0.5F;
   const core::Verdict elsewhere = verdict_of("proximity-bound", subject, &baseline);

@@ -1,4 +1,4 @@
-// The pass itself: which validators run, how frames are matched, what is refused, and what verdicts lead to.
+// The pass itself: which validators run, how frames are matched, what is refused, and the exit codes of verdicts.
 #include "validation/judge.hpp"
 
 #include <utility>

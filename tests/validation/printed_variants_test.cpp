@@ -1,5 +1,5 @@
-// The paper's printed forms are real, wrong engines (METHOD 10): each must be caught by its own validator, and nobody
-// else may be blamed for it. The sound engine on the same scene is caught by none.
+// The paper's printed forms are real, wrong engines (METHOD 10): each must be rejected by its own validator and by no
+// other. No validator rejects the sound engine on the same scene.
 #include "tests/validation/engine_recording.hpp"
 
 namespace broadside::tests {

@@ -29,7 +29,7 @@ EngineSettings drawn_settings() {
                            EngineSettings{{"levels", "A"}, {"broad", "brute"}}, EngineSettings{{"solver", "jacobi"}});
 }
 
-// "" when nobody is blamed.
+// The validators that failed; "" when none did.
 std::string blame(const Recording& subject, const Recording* baseline) {
   for (const core::Verdict& v : judged(subject, baseline))
     if (v.outcome == core::Outcome::kFail) return line(v);
@@ -45,7 +45,7 @@ void holds_against(const core::Scene& scene, const core::Scene& other, Kind kind
   const Recording baseline = record(other, settings);
   RC_ASSERT(blame(subject, &baseline) == "");
   const core::Verdict v = verdict_of("metamorphic", subject, &baseline);
-  // Engines without a level 0 record no candidate pairs, and growing says nothing about what they do record.
+  // Engines without a level 0 record no candidate pairs, so growing predicts nothing about their records.
   const bool has_pairs = (subject.header.groups & core::bit(core::Group::kPairs)) != 0;
   if (kind == Kind::kGrown && !has_pairs) return;
   if (v.outcome != core::Outcome::kPass) RC_FAIL(line(v));
@@ -76,8 +76,8 @@ RC_GTEST_PROP(Properties, ARenumberedSceneHasTheRenumberedOutcome, ()) {
   holds_against(scene, core::renumbered_scene(scene, order), Kind::kRenumbered);
 }
 
-// Three bodies in a row: the order of the two contacts shows in the one at the end, which then meets a face with
-// another state. Its face contact was once called an error of the engine.
+// Three bodies in a row: the order of the two contacts shows in the last body, which then meets a face with another
+// state. Its face contact was once taken for an error of the engine.
 TEST(Renumbered, FacesAreMetByWhatSeveralContactsLeft) {
   core::Scene scene = bench::random_scene(1124966, -2.0F, 1e4F);
   scene.frames = 12;
@@ -91,7 +91,7 @@ TEST(Renumbered, FacesAreMetByWhatSeveralContactsLeft) {
 }
 
 // A body as deep in one static body as in another: whichever contact comes first moves it out of the other, so each run
-// has one contact alone, and not the same.
+// has only one contact, and not the same one.
 TEST(Renumbered, AContactMayUndoAnother) {
   core::Scene scene;
   scene.name = "between";

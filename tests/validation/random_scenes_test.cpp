@@ -1,5 +1,5 @@
-// No false alarms: the sound engine on random scenes, with masses, materials, parameters and places far apart, is
-// blamed by nobody. What the limits allow must cover every rounding that a right engine makes.
+// No false alarms: no validator rejects the sound engine on random scenes, with masses, materials, parameters and
+// places far apart. The limits must cover every rounding that a right engine makes.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -42,9 +42,9 @@ TEST(RandomScenes, AreNotBlamedForMassesAMillionTimesApart) {
   for (unsigned seed = 300; seed < 320; ++seed) expect_no_blame(random_scene(seed, -2.0F, 1e6F), {}, seed);
 }
 
-// A limit that rounding never comes near would be a guess: of each law whose limit is derived from rounding, some
-// contact of some scene uses a good part of it. (Sums of worst cases, as in energy, are nearer to their limit only in
-// small scenes.)
+// A limit that rounding never comes near would be a guess. So for each law with a derived limit, some contact of
+// some scene must use a good part of it. (Sums of worst cases, as in energy, are near their limit only in small
+// scenes.)
 TEST(RandomScenes, UseAGoodPartOfTheLimits) {
   std::map<std::string, double> most;
   for (unsigned seed = 0; seed < 40; ++seed)

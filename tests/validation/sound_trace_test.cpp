@@ -37,7 +37,7 @@ TEST(SoundTrace, HasEveryKindOfContact) {
 
 TEST(SoundTrace, PassesAlone) {
   for (const core::Verdict& v : judged(sound())) {
-    // Nothing of theirs: no second run, no transformed scene, no spring, no octree recorded.
+    // These do not apply: no second run, no transformed scene, no spring, no octree was recorded.
     const std::set<std::string> without{"determinism", "metamorphic", "stability", "octree-invariants"};
     if (without.contains(v.validator))
       EXPECT_EQ(v.outcome, core::Outcome::kNotApplicable) << line(v);

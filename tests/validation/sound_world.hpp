@@ -68,7 +68,7 @@ inline core::Body body_at(Vec3 x, Vec3 v, float mass) {
   return body;
 }
 
-// The specimen of the tamperings, on a cube that this file made itself.
+// The scene of the tamperings, with a cube made by this file.
 inline core::Scene mixed_scene() {
   return bench::mixed_scene(grid_cube(4));
 }

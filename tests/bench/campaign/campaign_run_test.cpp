@@ -1,4 +1,4 @@
-// Campaigns through the program: shares, broken-off cells, crashes, and the merged result against one process.
+// Campaigns through the program: shares, interrupted cells, crashes, and the merged result against one process.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -38,7 +38,7 @@ Digests digests_in(const std::filesystem::path& folder) {
   return all;
 }
 
-// Processes that were given this text as an argument.
+// Processes that have this text in their command line.
 int processes_about(const std::string& text) {
   int count = 0;
   std::error_code gone;
@@ -100,7 +100,8 @@ TEST(CampaignRun, AKilledCellIsDoneAgain) {
   EXPECT_TRUE(was_begun);
   kill(running, SIGKILL);
   EXPECT_EQ(wait_for(folder, running).exit_code, -1);
-  // Its children went with it, and write nothing where the next try begins. Their own limit would be 2 s and 30 s.
+  // Its children were ended with it and write nothing where the next try begins. Their own limits would be 2 s and 30
+  // s.
   for (int k = 0; k < 100 && processes_about(d) > 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(processes_about(d), 0);
   const Ended merged = run_program({"merge", d});
@@ -124,7 +125,7 @@ TEST(CampaignRun, TimedCellsHaveSamples) {
   EXPECT_EQ(rows.value().verdicts.size(), 2U);
 }
 
-// What `paper` does in one go, two processes and a merge do too: the same rows but for the times.
+// Two processes and a merge give what `paper` gives in one run: the same rows but for the times.
 TEST(CampaignRun, ThePapersExperimentsAreACampaign) {
   const ScratchFolder folder;
   std::ofstream(folder / "p.toml") << "name = \"paper\"\npaper = [\"table5\", \"tableA1\"]\nengine = \"octree-cpu\"\n"
@@ -163,7 +164,7 @@ TEST(CampaignRun, ThePapersExperimentsAreACampaign) {
   EXPECT_NE(read_text(page).find("id=\"paper-table5\""), std::string::npos);
 }
 
-// As the nightly run has it: a baseline beside each cell, and timed processes.
+// As in the nightly run: a baseline beside each cell, and timed processes.
 TEST(CampaignRun, CellsAreHeldAgainstABaselineAndTimedInProcesses) {
   const ScratchFolder folder;
   const std::string d =
@@ -184,7 +185,7 @@ TEST(CampaignRun, OtherBuildsAndUnequalTwinsAreRefused) {
   const ScratchFolder folder;
   const std::string d = planned(folder, R"("octree-cpu", "all-pairs")");
   ASSERT_EQ(run_program({"run", d, "--shard", "1/1"}).exit_code, 0);
-  // all-pairs brought octree-cpu along as its driver: the same stamp twice.
+  // all-pairs recorded octree-cpu as its driver: the same stamp twice.
   const auto refused_with = [&](auto&& change) {
     std::string line = "accepted";
     for (const auto& entry : std::filesystem::directory_iterator(folder / "d/cells")) {

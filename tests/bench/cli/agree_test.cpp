@@ -1,4 +1,4 @@
-// The agreement study as a user runs it: tables, rows, saved inputs that repeat, libraries that die.
+// The agreement study as a user runs it: tables, rows, saved inputs that repeat, libraries that crash.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -38,7 +38,7 @@ TEST(Agree, EveryKindIsAnsweredAndRowed) {
   }
 }
 
-// The arbiter beside itself: nothing but agreement, by construction of the pairs.
+// The arbiter against itself: everything agrees by construction of the pairs.
 TEST(Agree, TheArbiterAgreesWithItself) {
   const ScratchFolder folder;
   const Ended ended = run_program({"agree", "--pairs", "convex", "--n", "80", "--engine", "exact-shapes[threads=1]",
@@ -84,7 +84,7 @@ TEST(Agree, KissingBoxesRunToTheEndWhateverDies) {
   EXPECT_EQ(pairs, 300U);
 }
 
-// Pairs follow from their index and answers from their pairs, however many processes share the work.
+// A pair follows from its index and an answer from its pair, so results do not depend on the number of processes.
 TEST(Agree, TheNumberOfProcessesChangesNoVerdict) {
   std::vector<json> verdicts;
   for (const std::string processes : {"1", "3"}) {
@@ -100,8 +100,8 @@ TEST(Agree, TheNumberOfProcessesChangesNoVerdict) {
   EXPECT_EQ(verdicts[0], verdicts[1]);
 }
 
-// FCL's EPA refines a whole ball where two of them share their center: the query is ended by its processor time,
-// however busy the machine is, and is a verdict like the others.
+// FCL's EPA refines a whole ball where two balls share their center. The limit on processor time ends the query,
+// however busy the machine is, and the time-out is a verdict like the others.
 TEST(Agree, AQueryThatDoesNotComeBackIsATimeOut) {
   const ScratchFolder folder;
   const Ended ended =
@@ -184,8 +184,8 @@ TEST(References, PairsAndTimesComeFromProcessesWithLimits) {
   EXPECT_NE(timed_late.err.find("no end after"), std::string::npos) << timed_late.err;
 }
 
-// The limit is what the engine's process takes for its work, whatever the harness has in use: 50,000 bodies do not fit
-// 16 MiB.
+// The limit counts what the engine's process takes for its work, not what the harness has in use: 50,000 bodies do not
+// fit 16 MiB.
 TEST(References, AMemoryLimitOfARunIsItsEnginesOwn) {
   const ScratchFolder folder;
   const auto run = [&](const char* limit) {

@@ -1,4 +1,4 @@
-// compare, history, time in processes and run's output, as a user meets them.
+// compare, history, time in processes and run's output, as a user sees them.
 #include <gtest/gtest.h>
 #include <pty.h>
 
@@ -16,8 +16,8 @@ std::string program_path() {
   return program == nullptr ? "broadside" : program;
 }
 
-// One build against itself: seven pairs are enough for a claim, and whatever it is, it is not "slower" with so large a
-// delta.
+// One build against itself: seven pairs are enough for a decision, and with so large a delta it cannot be
+// "slower".
 TEST(Compare, TwoBuildsInTurnsLeaveRowsOfBothAndAVerdict) {
   const ScratchFolder folder;
   const std::string out = (folder / "out").string();
@@ -31,14 +31,14 @@ TEST(Compare, TwoBuildsInTurnsLeaveRowsOfBothAndAVerdict) {
   EXPECT_EQ(json["times"][0]["base_processes"], 7);
   EXPECT_EQ(json["times"][0]["paired"], true);
   EXPECT_GT(json["same_counters"], 0);
-  // What was measured stays, and compares again from its files.
+  // The measured files stay and can be compared again.
   const Ended again = run_program({"compare", out + "/base", out + "/head", "--delta", "5"});
   EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
   EXPECT_NE(again.out.find("7 and 7 processes in turns"), std::string::npos) << again.out;
 }
 
-// With a delta of nothing equal builds can hardly be told to be the same: what the first pairs do not tell is tried
-// again.
+// With a delta of 0, equal builds can hardly be shown to be the same, so more pairs are tried after the first
+// ones.
 TEST(Compare, WhatIsNotToldGetsMoreProcesses) {
   const ScratchFolder folder;
   const Ended ended = run_program({"compare", "--interleave", program_path(), program_path(), "errata:E4", "--frames",
@@ -58,7 +58,7 @@ TEST(Compare, WhatIsNotToldGetsMoreProcesses) {
   }
 }
 
-// A build from before turns: its processes run whole, one after the other, and the comparison says so.
+// A build without turns: its processes run whole, one after the other, and the comparison says so.
 TEST(Compare, AProgramThatKnowsNoTurnsIsComparedAllTheSame) {
   const ScratchFolder folder;
   const std::filesystem::path old = folder / "old";
@@ -134,7 +134,7 @@ TEST(Run, JsonIsOnTheOutputAloneAndTheTableFitsAHundredColumns) {
   EXPECT_NE(table.out.find("1 of 1 cell recorded in"), std::string::npos) << table.out;
 }
 
-// What a run writes to a terminal.
+// The output of a run on a terminal.
 std::string on_terminal(const std::vector<std::string>& arguments, bool no_color) {
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);

@@ -1,4 +1,4 @@
-// Each printed error of the paper, run as a user would: its own validator is red, and nothing else is blamed.
+// Each printed error of the paper, run as a user would: its own validator fails, and no other does.
 #include <gtest/gtest.h>
 
 #include "core/rows.hpp"

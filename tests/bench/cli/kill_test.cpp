@@ -1,4 +1,4 @@
-// Runs that are killed at any moment: what they leave is whole, is recovered, and is gone on from, digest by digest.
+// Runs that are killed at any moment leave a whole file that can be recovered and continued, digest by digest.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
@@ -23,7 +23,7 @@ using Digests = std::map<std::uint64_t, std::uint64_t>;  // by step
 constexpr const char* kName = "octree-cpu.h5";
 constexpr std::size_t kBodies = 100;
 constexpr std::uint64_t kFrames = 3000;
-// No wait here is long enough for that: a killed run is always cut short.
+// The full run takes longer than any wait here, so a killed run is always cut short.
 constexpr std::uint64_t kEndless = 4000000;
 
 // Bodies move in every frame, so no two frames have one digest.
@@ -57,7 +57,7 @@ const Digests& unbroken(std::uint64_t frames) {
   return known[frames];
 }
 
-// Both begin alike, bit by bit, as far as the shorter one goes: how long a run shall be changes none of its frames.
+// Both begin alike, bit by bit, as far as the shorter one goes: the length of a run changes none of its frames.
 void expect_same_beginning(const Digests& whole, const Digests& found) {
   auto at = whole.begin();
   for (const auto& [step, digest] : found) {
@@ -74,7 +74,7 @@ struct Tally {
   std::uint64_t frames = 0;
 };
 
-// Starts a run, kills it after so long, recovers what it left and compares.
+// Starts a run, kills it after this time, recovers what it left and compares.
 void kill_and_recover(std::chrono::milliseconds after, Tally& tally) {
   const ScratchFolder folder;
   const pid_t child = start_program(folder, run_of(kEndless, folder / "out"));
@@ -126,8 +126,8 @@ TEST(Kill, SlowTwoHundredRuns) {
   kill_often(200, 5, 2000);
 }
 
-// Killed once a reader sees frames of it, so that there is something to go on from. A run that ends before it is
-// killed, as one may when this process has to wait, is begun again.
+// Killed once a reader sees frames of it, so that there is something to continue. A run that ends before it is killed
+// (this process may have to wait) is started again.
 fs::path kill_when_it_has_frames(const ScratchFolder& folder, const std::vector<std::string>& run) {
   const fs::path whole = folder / "out" / kName;
   const fs::path part = whole.string() + ".part";
@@ -172,7 +172,7 @@ TEST(Resume, SlowThreeKillsAreNoDifferent) {
   resume_after_kills(30000, 3);
 }
 
-// A recovered trace under its final name is gone on from too.
+// A recovered trace under its final name can be continued too.
 TEST(Resume, FromARecoveredTraceAndOnlyByItsOwnStamp) {
   const ScratchFolder folder;
   const std::vector<std::string> run = run_of(kFrames, folder / "out");
@@ -244,7 +244,7 @@ TEST(Window, OnlyItsStepsAreRecordedAndTheLast) {
   }
 }
 
-// One clear line and exit code 2, whatever is wrong with the place.
+// One clear line and exit code 2 for every fault of the place.
 TEST(Place, TwoRunsIntoOneNameAreOneClearLine) {
   const ScratchFolder folder;
   const ScratchFolder second;
@@ -275,7 +275,7 @@ TEST(Place, AReadOnlyFolderIsOneClearLine) {
   umount(place.c_str());
 }
 
-// The folder goes while the run writes into it: the file goes on without a name, and cannot get its final one.
+// The folder is removed while the run writes into it: the file goes on without a name, and cannot get its final one.
 TEST(Place, AFolderThatIsRemovedMeanwhileIsOneClearLine) {
   const ScratchFolder folder;
   const pid_t child = start_program(folder, run_of(6000, folder / "out"));

@@ -1,4 +1,4 @@
-// `broadside mutants` as a user runs it: who caught what, and the exit code that it leads to.
+// `broadside mutants` as a user runs it: which validator caught which mutant, and the exit code.
 #include <gtest/gtest.h>
 
 #include <fstream>

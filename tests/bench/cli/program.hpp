@@ -1,4 +1,4 @@
-// Runs the broadside program as a user would, and a folder that goes away with the test.
+// Runs the broadside program as a user would, in a folder that is removed after the test.
 #pragma once
 
 #include <fcntl.h>
@@ -76,7 +76,7 @@ inline Ended run_program(const std::vector<std::string>& arguments) {
   return wait_for(folder, start_program(folder, arguments));
 }
 
-// Text with exactly one line, which names what is asked for.
+// Checks that the text is exactly one line and contains the given word.
 inline bool is_one_line(const std::string& text) {
   return !text.empty() && text.back() == '\n' && text.find('\n') == text.size() - 1;
 }

@@ -1,4 +1,4 @@
-// Runs that go well, runs that are cut short, and what each leaves behind.
+// Runs that end well, runs that are cut short, and what each leaves behind.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -169,7 +169,7 @@ TEST(Pairs, EnginesAgreeOnBoxesAndADifferenceIsAFailure) {
   const Ended agreed = run_program({"pairs", "boxes:heaps:3000", "--engine", "octree-cpu", "--engine", "all-pairs",
                                     "--engine", "bullet-dbvt", "--engine", "fcl-tree"});
   EXPECT_EQ(agreed.exit_code, 0) << agreed.out << agreed.err;
-  // The printed P-Alg 2 loses pairs across cells, and is told so.
+  // The printed P-Alg 2 loses pairs across cells, and the verdict says so.
   const Ended lost = run_program({"pairs", "boxes:uniform:3000", "--engine", "all-pairs", "--engine",
                                   "octree-cpu[variant=printed-E2]", "--digest"});
   EXPECT_EQ(lost.exit_code, 1) << lost.out << lost.err;

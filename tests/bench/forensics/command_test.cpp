@@ -64,7 +64,8 @@ TEST_F(Forensics, ReplayRepeatsOwnTracesBitByBit) {
   EXPECT_NE(wrong.out.find("First difference"), std::string::npos) << wrong.out;
 }
 
-// Bullet looks for contacts before it moves the bodies. Once that alone made every replay differ in step 1, by g dt^2.
+// Bullet looks for contacts before it moves the bodies. Earlier, that alone made every replay differ in step 1, by g
+// dt^2.
 TEST_F(Forensics, ReplayOfBulletsTraceComparesFlightsAndSaysWhatItLeavesOut) {
   const std::string bullet = recorded("freefall:cube:8", "bullet-world", "90", "a");
   const Ended by_us = run_program({"replay", bullet, "--engine", "octree-cpu"});
@@ -111,7 +112,7 @@ TEST_F(Forensics, ShrinkWritesASceneThatShowsTheFault) {
   const Ended wrong =
       run_program({"check", runs + "/octree-cpu+variant=printed-E6.h5", "--validator", "friction-energy"});
   EXPECT_EQ(wrong.exit_code, 1) << wrong.out;
-  // What is left of the scene may leave a sound engine nothing to judge, but never a fault.
+  // In the reduced scene a sound engine may have nothing to judge, but must show no fault.
   const Ended sound = run_program({"check", runs + "/octree-cpu.h5", "--validator", "friction-energy"});
   EXPECT_NE(sound.exit_code, 1) << sound.out;
   const std::string source = read_text(out + "_test.cpp");
@@ -136,7 +137,7 @@ TEST_F(Forensics, ShrinkOfBoxesLeavesALostPair) {
   EXPECT_EQ(raced.exit_code, 1) << raced.out << raced.err;
 }
 
-// bullet-dbvt runs in a process of its own, fed by octree-cpu.
+// bullet-dbvt runs in a child process, fed by octree-cpu.
 TEST_F(Forensics, ShrinkOfARightEngineSaysSo) {
   for (const char* engine : {"octree-cpu", "bullet-dbvt"}) {
     const Ended ended = run_program({"shrink", "randommove:cube:10", "--frames", "3", "--validator", "candidate-set",

@@ -1,5 +1,5 @@
-// Somebody else's trace: the page that says what it needs, the example that writes one, and what the program makes of
-// it.
+// Traces of other programs: the page that lists what they need, the example that writes one, and what the program does
+// with it.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -72,7 +72,7 @@ TEST(ForeignPage, SaysForEachValidatorWhatItReads) {
     // A trace with the needed groups alone is judged; a baseline is the trace itself.
     core::TraceHeader header;
     header.stamp.engine = "foreign";
-    // What laws ask of the settings and of the scene.
+    // What laws need to know about the settings and the scene.
     header.stamp.settings = "levels=C,solver=colored";
     header.scene.bodies.emplace_back();
     header.scene.springs = {{0, {}, 1.0F, 0.0F}};
@@ -152,7 +152,7 @@ TEST_F(ForeignEngine, IsRepeatedByBroadPhasesExactly) {
   EXPECT_NE(ended.out.find("only in B"), std::string::npos) << ended.out;
 }
 
-// Its response is not ours: it is compared until bodies are touched, and flown past nothing.
+// Its response is another one than ours: it is compared until bodies are touched, and not after that.
 TEST_F(ForeignEngine, IsRepeatedBySimulationUntilBodiesAreTouched) {
   const Ended ended = run_program({"replay", written("none"), "--engine", "octree-cpu"});
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;

@@ -1,4 +1,4 @@
-// Two trace files: where they part ways, or why they cannot be compared.
+// Two trace files: where they first differ, or why they cannot be compared.
 #include "bench/forensics/trace_difference.hpp"
 
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ TEST_F(Traces, PartAtTheEarliestStepWithTheHistoryOfItsBodies) {
 TEST_F(Traces, OfUnequalLengthDiffer) {
   const TraceReader a = written("a.h5", frames(20));
   Scene shorter = tetrahedra_scene(kBodies);
-  shorter.frames = 12;  // its length alone does not make another scene
+  shorter.frames = 12;  // another length does not make another scene
   const TraceReader b = written("b.h5", frames(12), shorter);
   const auto found = bench::compare_traces(a, b);
   ASSERT_TRUE(found.ok()) << found.error().line();

@@ -46,7 +46,7 @@ TEST(Mutants, OneByNameAndAnUnknownName) {
   EXPECT_NE(unknown.error().line().find("printed-E3"), std::string::npos) << unknown.error().line();
 }
 
-// The mutants are wrong where they were made wrong and nowhere else: with no stage replaced they are the twin.
+// A mutant is wrong only in the replaced stage: with no stage replaced, the base is the twin.
 TEST(SerialPipeline, WithSoundStagesIsTheTwinBitForBit) {
   for (const char* name : {"mixed", "pile", "balls", "springs:hanging", "errata:E2"}) {
     const auto scene = bench::specimen_scene(name);

@@ -1,5 +1,5 @@
-// Every wrong trace of the catalogue is rejected, whoever made the recording that it spoils: here the world that shares
-// no code with the engines. A validator that cannot fail is a defect.
+// Every tampering of the catalogue is rejected, also on a recording from another source: here a world that shares no
+// code with the engines. A validator that cannot fail is a defect.
 #include <set>
 #include <span>
 #include <string>

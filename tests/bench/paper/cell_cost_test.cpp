@@ -1,4 +1,4 @@
-// What cells are expected to take: no result rests on it, but the order of a campaign and the time that is told do.
+// Estimates of a cell's time: they decide the order of a campaign and the time that it shows, and no result.
 #include "bench/paper/cell_cost.hpp"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(CellCost, CountsBeyondThePaperRise) {
   EXPECT_LT(rank_of(dearest.value(), 5), rank(few)) << "the paper comes before what is beyond it";
 }
 
-// What a method took at three counts predicts a fourth: 70 us of each pair of numbers are 70 s at 1000 bodies.
+// Times at three counts predict the fourth: 70 us for each pair of bodies are 70 s at 1000 bodies.
 TEST(Forecast, ACellThatIsTooLongByWhatSmallerOnesTookIsLeftOutAndSaysWhy) {
   const tests::TemporaryFolder folder;
   const CellFiles files(folder.path());

@@ -1,4 +1,4 @@
-// Measuring cells: finished ones are files, a second call takes them over, and what cannot run says why.
+// Measuring cells: a finished cell is a file, a second call reuses it, and a cell that cannot run says why.
 #include <gtest/gtest.h>
 
 #include <algorithm>

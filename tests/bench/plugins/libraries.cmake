@@ -16,7 +16,7 @@ foreach(area bench_plugins reference)
   target_compile_definitions(tests_${area} PRIVATE BROADSIDE_PLUGIN_DIR="${plugin_folder}")
 endforeach()
 
-# The examples as a project of somebody who installed Broadside.
+# The examples, built as the project of a user who installed Broadside.
 add_test(NAME bench.plugins.examples_build_against_an_installed_tree
   COMMAND ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D FOLDER=${CMAKE_CURRENT_BINARY_DIR}/installed
     -P ${CMAKE_CURRENT_SOURCE_DIR}/bench/plugins/installed_examples.cmake)

@@ -1,4 +1,4 @@
-// Plug-ins through the program, as a user would name them: the harness lives on whatever they do.
+// Plug-ins through the program, as a user would name them: the harness survives whatever they do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,8 +51,8 @@ TEST(PluginRun, TheExampleIsRecordedAndJudged) {
   EXPECT_EQ(verdict_of("candidate-set", both.check.out), "pass") << both.check.out;
 }
 
-// The four commands of the walk-through as they stand there, with the example and a small scene: the page proves the
-// times.
+// The four commands of the walk-through as written there, with the example and a small scene: its times are
+// admitted.
 TEST(PluginRun, TheWalkThroughEndsInAProvenReport) {
   const ScratchFolder folder;
   const std::string text = read_text(std::string(BROADSIDE_SOURCE_DIR) + "/core/plugin/README.md");
@@ -115,7 +115,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-// What became of an engine's process, in the same words from each command, with the command that does it again.
+// How an engine's process ended, in the same words from each command, with the command that repeats it.
 struct Fault {
   int number;
   std::string verdict;

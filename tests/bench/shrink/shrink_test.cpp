@@ -89,7 +89,7 @@ TEST(ShrinkScene, EndsAtTheTwoBodiesThatMatter) {
   EXPECT_EQ(shrunk.value().scene.meshes[0]->triangles.size(), 1U) << "no mesh matters, and a body needs a triangle";
   EXPECT_FALSE(shrunk.value().is_out_of_time);
   EXPECT_TRUE(core::check_scene(shrunk.value().scene).ok());
-  // Once the digits of a single triangle were rounded until it had no area, and no file could hold it.
+  // Once, digits of a single triangle were rounded until it had no area, and then no file could hold it.
   core::Mesh mesh = *shrunk.value().scene.meshes[0];
   EXPECT_TRUE(core::clean_mesh(mesh).is_nothing());
 }
@@ -124,7 +124,7 @@ TEST(ShrinkScene, TurnsAPrintedFormIntoACaseThatRepeatsIt) {
   EXPECT_EQ(shrunk.value().verdict.outcome, core::Outcome::kFail);
 }
 
-// Bodies were once dropped and their springs left to others.
+// Once, bodies were dropped and their springs went to other bodies.
 TEST(WithBodies, KeepsTheSpringsOfThoseThatStay) {
   const core::Scene scene = named("springs:hanging");
   const core::Scene last = bench::with_bodies(scene, std::vector<std::uint32_t>{2});
@@ -166,7 +166,7 @@ TEST(ShrinkScene, SaysWhenTimeIsUpBeforeAFaultIsFound) {
 TEST(ShrinkScene, FindsAFaultOfAComparisonOfTwoEngines) {
   const core::EngineRow* octree = bench::find_engine("octree-cpu").value();
   const bench::Question question{"determinism", {octree, {{"variant", "printed-E3"}}}, bench::CellSpec{octree, {}}};
-  // Two settings are two stamps: the law does not apply, and says so.
+  // Two settings are two stamps: the law does not apply, and the verdict says so.
   const auto answer = bench::ask(question, named("errata:E3"));
   ASSERT_TRUE(answer.ok()) << answer.error().line();
   EXPECT_EQ(answer.value().verdict.outcome, core::Outcome::kNotApplicable);

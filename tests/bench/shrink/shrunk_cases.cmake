@@ -23,7 +23,7 @@ foreach(row "E1 stability" "E6 friction-energy")  # with springs, and without
     add_test(NAME bench.shrink.${target} COMMAND ${target})
     set_tests_properties(bench.shrink.${target} PROPERTIES LABELS slow FIXTURES_REQUIRED shrunk_cases)
   endforeach()
-  # A crash is no failing case.
+  # A crash does not count as a failing case.
   set_tests_properties(bench.shrink.shrunk_${form} PROPERTIES PASS_REGULAR_EXPRESSION "FAILED  . Shrunk[.]")
 endforeach()
 add_test(NAME bench.shrink.shrunk_cases_compile

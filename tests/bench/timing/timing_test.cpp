@@ -23,7 +23,7 @@ double seconds_between(Clock::time_point a, Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
 }
 
-// What the engines below did: a row's create() is a plain function, so they tell it here.
+// The engines below record here what they did, because a row's create() is a plain function.
 struct Told {
   std::uint64_t steps = 0;
   std::vector<std::uint64_t> runs;  // how many steps each was asked for
@@ -31,7 +31,7 @@ struct Told {
 };
 Told told;
 
-// Steps are begun two at a time and told of one by one.
+// Steps begin two at a time and are reported one by one.
 class Ahead final : public core::Dynamics, public core::RunsAhead {
  public:
   core::Status load(const core::Scene& /*scene*/) override { return core::Done{}; }

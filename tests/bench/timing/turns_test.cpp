@@ -1,4 +1,4 @@
-// Two that take turns: never both at once, never far from each other, and nobody waits for one that is gone.
+// Two processes in turns: never both at once, never far from each other, and none waits for one that is gone.
 #include "bench/timing/turns.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Settings that are lengths in meters: what is taken, what is refused, and that one length has one text.
+// Settings that are lengths in meters: what is accepted, what is refused, and that one length has one text.
 #include "core/engine/length_setting.hpp"
 
 #include <gtest/gtest.h>

@@ -182,8 +182,8 @@ TEST(LoadMesh, ADamagedPlyIsRefused) {
             "");
 }
 
-// assimp tries all of its readers on a file that the one of its extension refuses; a damaged PLY file under another
-// name was read past the check, and hung. Found by fuzzing.
+// assimp tries all of its readers on a file that the reader for its extension refuses. A damaged PLY file under another
+// name was so read without the check, and hung. Found by fuzzing.
 TEST(LoadMesh, AFileIsReadAsWhatItsNameSays) {
   const TemporaryFolder folder;
   const std::string ply =
@@ -193,8 +193,8 @@ TEST(LoadMesh, AFileIsReadAsWhatItsNameSays) {
   for (const char* name : {"t.glb", "t.gltf", "t.stl", "t.off"}) error_line(folder.file(name, ply));
 }
 
-// assimp leaves out faces of more than nine corners, counts them off, and reads on: more of them than there are faces
-// made the count huge, and the list was walked off its end. Found by fuzzing.
+// assimp leaves out faces of more than nine corners, subtracts them from its count, and reads on: with more of them
+// than faces the count became huge, and it read past the end of the list. Found by fuzzing.
 TEST(LoadMesh, AnOffFileThatIsNotWholeIsRefused) {
   const TemporaryFolder folder;
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
@@ -230,10 +230,10 @@ TEST(LoadMesh, APlyDamagedAnywhereIsRefusedOrReadButNeverCrashes) {
     ply.append(reinterpret_cast<const char*>(t.data()), sizeof t);
   }
   ASSERT_TRUE(load_mesh(folder.file("whole.ply", ply)).ok());
-  // Cut anywhere: always an error.
+  // Cut at any place: always an error.
   for (std::size_t size = 0; size < ply.size(); size += size < body ? 7 : 3)
     error_line(folder.file("cut.ply", ply.substr(0, size)));
-  // One byte changed anywhere in the header, or in the lists' lengths: whatever comes back, the process lives.
+  // One byte changed anywhere in the header, or in the lists' lengths: any result will do, but the process survives.
   for (std::size_t at = 0; at < ply.size(); ++at) {
     std::string damaged = ply;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x15);

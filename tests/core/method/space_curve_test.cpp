@@ -1,4 +1,4 @@
-// What makes Hilbert's order worth its price: it visits every cell once, and each step is to a neighbouring cell.
+// The property for which Hilbert's order is used: it visits every cell once, and each step is to a neighbouring cell.
 #include "core/method/space_curve.hpp"
 
 #include <gtest/gtest.h>

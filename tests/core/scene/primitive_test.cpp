@@ -1,4 +1,4 @@
-// Which meshes count as primitives: those that draw one, and nothing that merely resembles one.
+// Which meshes count as primitives: those that draw one, and none that only resembles one.
 #include "core/scene/primitive.hpp"
 
 #include <gtest/gtest.h>

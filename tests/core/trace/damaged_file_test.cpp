@@ -37,7 +37,7 @@ class DamagedFile : public testing::Test {
     f.contacts = {random_contact(bits, 4)};
   }
 
-  // The line with which opening it, or reading any frame, is refused; "" when all is read.
+  // The error line of opening it or of reading any frame; "" when all can be read.
   std::string fault() const {
     const auto reader = TraceReader::open(path_);
     if (!reader) return reader.error().line();
@@ -91,7 +91,7 @@ TEST_F(DamagedFile, ThatWasCutShort) {
   }
 }
 
-// Once HDF5 tried again and again, for ever, to read such a superblock as a writer's that is just changing.
+// Once, HDF5 retried such a superblock forever, as one that a writer is just changing.
 TEST_F(DamagedFile, WhoseSuperblockIsSpoiled) {
   const std::string good = bytes();
   for (std::size_t at = 8; at < 48; ++at) {

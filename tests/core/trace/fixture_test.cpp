@@ -1,5 +1,5 @@
-// Files of every format version that ever was are read as they were written. Each frame of a fixture carries, as its
-// digest, a sum over all that it holds, so the file itself says what a reader must find.
+// Files of every earlier format version are read as they were written. Each frame of a fixture has, as its digest, a
+// sum over all that it holds, so the file itself says what a reader must find.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -31,7 +31,7 @@ std::uint64_t content_digest(const FrameRecord& frame) {
   for (const auto& [path, column] : sorted) {
     const RecordSpan<const std::byte> records = records_of(frame, column->records);
     for (std::size_t i = 0; i < records.count; ++i) {
-      // A hash of this test's own: the file outlives changes of the frame digest.
+      // A hash of this test's own, because the file outlives changes of the frame digest.
       std::uint64_t hash = splitmix64(1 ^ splitmix64(++place));
       const std::byte* at = records.data + i * records.stride + column->offset;
       for (std::size_t b = 0; b < row_bytes(*column); ++b) hash = splitmix64(hash ^ static_cast<std::uint64_t>(at[b]));

@@ -1,4 +1,4 @@
-// The first difference of two frames: each number of each dataset that is changed is the one that is named.
+// The first difference of two frames: whichever number of any dataset is changed, that number is named.
 #include "core/trace/frame_difference.hpp"
 
 #include <gtest/gtest.h>

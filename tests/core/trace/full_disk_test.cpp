@@ -1,4 +1,4 @@
-// A disk that takes no more gives one clear error, no file under the final name, and a process that ends as it should.
+// A full disk gives one clear error, no file under the final name, and a process that ends normally.
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <signal.h>
@@ -31,7 +31,7 @@ std::string write_too_much(const std::filesystem::path& path, bool flushes) {
     Status s = writer.value().append(random_frame(bits, k, kBodies, kAllGroups));
     if (s.ok() && flushes && k % 50 == 0) s = writer.value().flush();
     if (s.ok()) continue;
-    // Once it failed it stays failed, with the same words.
+    // After a failure every call fails with the same words.
     const Status again = writer.value().append(random_frame(bits, k + 1, kBodies, kAllGroups));
     const Status end = writer.value().finish();
     return again.ok() || end.ok() || end.error().line() != s.error().line() ? "it forgot its failure"
@@ -41,7 +41,7 @@ std::string write_too_much(const std::filesystem::path& path, bool flushes) {
   return end ? "" : end.error().line();
 }
 
-// In a child process whose exit handlers run, HDF5's among them: says what it saw and exits.
+// Runs in a child process whose exit handlers run, HDF5's among them; it prints what it saw and exits.
 [[noreturn]] void report(const std::string& line, const std::filesystem::path& path) {
   std::cerr << line << '\n';
   if (std::filesystem::exists(path)) std::cerr << "the final name exists\n";
@@ -68,7 +68,7 @@ std::string write_too_much(const std::filesystem::path& path, bool flushes) {
   report(write_too_much(path, flushes), path);
 }
 
-// A file system of that size that only this process sees.
+// A file system of that size, visible only to this process.
 bool mount_small(const std::filesystem::path& folder, const char* size) {
   return unshare(CLONE_NEWNS) == 0 && mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
          mount("tmpfs", folder.c_str(), "tmpfs", 0, size) == 0;

@@ -1,4 +1,4 @@
-// Files made to hurt: each is refused in one line, without more memory than its size explains, or read as what it is.
+// Files made to do harm: each is refused in one line, without more memory than its size explains, or read correctly.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -19,11 +19,11 @@ namespace {
 
 using namespace core;
 
-// What a process may take beside what it has before it opens a trace of some 100 KiB: room for its largest honest
-// content, a thousandfold inflation, and for HDF5's own tables.
+// Memory that a process may take for opening a trace of some 100 KiB: enough for its largest honest content, a
+// thousandfold inflation, and for HDF5's own tables.
 constexpr std::uint64_t kRoom = 512U << 20U;
 
-// Under a sanitizer the address space is taken from the start, and a limit means nothing.
+// Under a sanitizer the address space is taken from the start, so a limit would mean nothing.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kHasLimit = false;
 #else
@@ -40,7 +40,7 @@ class HostileFile : public testing::Test {
     ASSERT_TRUE(writer.value().finish().ok());
   }
 
-  // Opens it and reads all of it, in a process of limited memory: its line, "" when all is read.
+  // Opens it and reads all of it, in a process of limited memory; the error line, or "" when all is read.
   std::string fault() const {
     std::array<int, 2> ends{};
     EXPECT_EQ(pipe(ends.data()), 0);
@@ -142,7 +142,8 @@ TEST_F(HostileFile, OfSoftLinksThatGoRoundInACircleIsRefused) {
   expect_refused({"/trace/time", "missing"});
 }
 
-// A link into another file would show that file's content as this one's: a group of a path counts as well as its end.
+// A link into another file would show that file's content as this one's. A group on the path is tested as well as its
+// end.
 TEST_F(HostileFile, WithLinksOutOfItselfIsRefused) {
   std::filesystem::copy_file(path_, folder_ / "other.h5");
   raw_remove(path_, "/scene");
@@ -182,7 +183,7 @@ TEST_F(HostileFile, OfHugeExtentIsRefused) {
   replace("/trace/pairs/pairs", H5T_STD_U32LE, extent({much, 2}), chunked({1024, 2}));
   expect_refused({"/trace/pairs/pairs", "cannot come from a file of"});
   again();
-  // Contiguous: what is claimed is not there.
+  // Contiguous: the claimed values are not in the file.
   replace("/scene/body/position", H5T_IEEE_F32LE, extent({1U << 28U, 3}), plain());
   expect_refused({"/scene/body/position", "cannot come from a file of"});
   again();
@@ -294,7 +295,7 @@ TEST_F(HostileFile, ThroughAFilterThatIsNotHereIsRefused) {
   expect_refused({"/trace/digest", "filter"});
 }
 
-// Shrinks whole numbers to their significant bits: a decoder of its own, which a trace has no use for.
+// Shrinks whole numbers to their significant bits. It has a decoder of its own, which traces never need.
 TEST_F(HostileFile, ThroughAnotherFilterOfHdf5IsRefused) {
   const Handle filtered = chunked({5});
   H5Pset_scaleoffset(filtered.get(), H5Z_SO_INT, 0);

@@ -19,7 +19,7 @@ using namespace core;
 constexpr std::uint32_t kBodies = 20;
 constexpr std::uint64_t kFrames = 2000;
 
-// Tells through the pipe, one byte per flush, how many frames are safe: flush k comes after frame 10 k.
+// Reports through the pipe, one byte per flush, how many frames are safe: flush k comes after frame 10 k.
 [[noreturn]] void write_until_killed(const std::filesystem::path& path, int flushed) {
   auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kBodies), kAllGroups));
   if (!writer) _exit(1);
@@ -50,7 +50,7 @@ void expect_frames(const TraceReader& reader) {
   }
 }
 
-// Kills a writer after so long; the frames that a reader then finds.
+// Kills a writer after this time; returns the frames that a reader then finds.
 std::uint64_t kill_and_read(const Folder& folder, std::chrono::microseconds after) {
   const std::filesystem::path path = folder / "t.h5";
   int ends[2];
@@ -84,7 +84,7 @@ void kill_often(int tries, std::uint32_t seed) {
     const Folder folder;
     frames += kill_and_read(folder, std::chrono::microseconds(random() % 300000));
   }
-  // On a crowded machine none may have lived long enough to flush anything.
+  // On a crowded machine perhaps none lived long enough to flush anything.
   for (int ms = 300; frames == 0 && ms < 20000 && !testing::Test::HasFailure(); ms *= 2) {
     const Folder folder;
     frames = kill_and_read(folder, std::chrono::milliseconds(ms));

@@ -21,7 +21,7 @@ constexpr std::uint32_t kSignalingNan = 0xFF812345U;  // negative, with a payloa
 constexpr std::uint32_t kMinusZero = 0x80000000U;
 constexpr std::uint32_t kSubnormal = 0x00000001U;
 
-// Any 32 bits, the delicate ones often.
+// Any 32 bits; special values often.
 rc::Gen<float> any_float() {
   return rc::gen::map(
       rc::gen::oneOf(rc::gen::arbitrary<std::uint32_t>(),
@@ -134,7 +134,7 @@ TEST(Property, AStreamWithAQueueOfAnySizeWritesTheSame) {
   }));
 }
 
-// A big-endian reader's view: the file says that it is little-endian, and the bytes in it are.
+// As a big-endian reader sees it: the file says that it is little-endian, and its bytes are.
 TEST(Property, NumbersLieLittleEndianInTheFile) {
   const Folder folder;
   auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(1), bit(Group::kBodies)));

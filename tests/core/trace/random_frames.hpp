@@ -220,7 +220,7 @@ inline std::string first_difference(const core::FrameRecord& p, const core::Fram
   return "";
 }
 
-// An empty folder of its own that goes when it goes out of scope.
+// An empty folder that is removed when it goes out of scope.
 class Folder {
  public:
   Folder() {

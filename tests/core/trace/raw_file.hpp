@@ -1,4 +1,4 @@
-// Reaches into a trace with HDF5 itself, to spoil it or to see what is there, past the code under test.
+// Accesses a trace with HDF5 itself, to damage it or to see its content without the code under test.
 #pragma once
 
 #include <gtest/gtest.h>

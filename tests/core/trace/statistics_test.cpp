@@ -1,4 +1,4 @@
-// METHOD 9's statistics, against sums that were done by hand.
+// METHOD 9's statistics, against sums that were worked out by hand.
 #include "core/trace/statistics.hpp"
 
 #include <gtest/gtest.h>

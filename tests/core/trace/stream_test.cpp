@@ -79,7 +79,7 @@ TEST(Stream, OneThatGoesOutOfScopeKeepsWhatWasQueued) {
   expect_frames(folder / "t.h5.part", frames);
 }
 
-// The disk refuses on the other thread; the run hears of it from append or finish, as one and the same line.
+// The disk refuses on the other thread; append or finish returns that error as one and the same line.
 TEST(Stream, AnErrorOfTheThreadReachesTheRun) {
   const Folder folder;
   const auto write_with_limit = [&folder] {

@@ -1,6 +1,6 @@
 // The arbiter's own law: two points are the nearest of two convex bodies exactly when each lies in its body and the
-// plane through it, across the line between them, has its whole body behind it. That certificate needs no other code to
-// compare with. Meshes are then least over their triangles.
+// plane through it, across the line between them, has its whole body behind it. This certificate needs no second
+// implementation. Meshes: the least distance over their triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ double distance_to_segment(Point p, Point a, Point b) {
   return length(p - (a + t * u));
 }
 
-// By barycentric coordinates, and by its sides where it has no area to speak of.
+// By barycentric coordinates; by its sides where its area is nearly zero.
 bool lies_in(Point p, const Corners& t) {
   for (int k = 0; k < 3; ++k)
     if (distance_to_segment(p, t[k], t[(k + 1) % 3]) < kTolerance) return true;
@@ -47,7 +47,7 @@ testing::AssertionResult is_certified(const Corners& a, const Corners& b, const 
   if (!lies_in(found.on_b, b)) return testing::AssertionFailure() << "the second point is not in its triangle";
   const double d = length(found.on_a - found.on_b);
   if (std::abs(d * d - found.squared_m2) > kTolerance) return testing::AssertionFailure() << "not their distance";
-  if (d < 1e-5) return testing::AssertionSuccess();  // no direction to speak of
+  if (d < 1e-5) return testing::AssertionSuccess();  // too short to have a direction
   const Point n = (1.0 / d) * (found.on_a - found.on_b);
   for (int k = 0; k < 3; ++k) {
     if (dot(n, a[k] - found.on_a) < -kTolerance / d) return testing::AssertionFailure() << "a corner of A is nearer";
@@ -113,7 +113,7 @@ TEST(TriangleDistance, KnownCases) {
   EXPECT_DOUBLE_EQ(nearest_of_triangles(floor, {{{1, 1, 0}, {1.5, 1, 0}, {1, 1.5, 0}}}).squared_m2, 0.0);
 }
 
-// A soup of unrelated triangles: no structure for the tree to be lucky with.
+// A soup of unrelated triangles, so that no structure helps the tree.
 core::Mesh soup(std::mt19937& random, int triangles, float size) {
   std::uniform_real_distribution<float> at(-1.0F, 1.0F);
   core::Mesh mesh;

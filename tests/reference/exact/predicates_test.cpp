@@ -35,7 +35,7 @@ Point point(Whole w, double scale = 1.0) {
   return {scale * static_cast<double>(w[0]), scale * static_cast<double>(w[1]), scale * static_cast<double>(w[2])};
 }
 
-// d is a whole combination of a, b and c plus at most a unit: on their plane or a hair off it, far from the origin.
+// d is a whole combination of a, b and c plus at most a unit: on their plane or very near it, far from the origin.
 TEST(Predicates, OrientationNearAPlaneIsThatOfWholeNumbers) {
   std::mt19937_64 random(3);
   std::uniform_int_distribution<std::int64_t> at(-(1LL << 38), 1LL << 38);

@@ -1,5 +1,5 @@
 // Engines from shared libraries: sound ones give what all-pairs gives, wrong ones give an error or a wrong answer, and
-// those that break the rules of memory die. What becomes of a dead one is the harness's part (tests/command_line).
+// those that break the rules of memory crash. What the harness does about a crash is tested in tests/bench/plugins.
 #include "reference/plugin/plugin_engine.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ std::vector<core::Pair> all_pairs(const std::vector<core::Box>& boxes) {
   return pairs_of(engine.value(), boxes).value().pairs;
 }
 
-// Enough pairs that the first room for them is too little.
+// Enough pairs that the first buffer for them is too small.
 const std::vector<core::Box>& boxes() {
   static const std::vector<core::Box> made = datasets::uniform_boxes(2000, 5);
   return made;
