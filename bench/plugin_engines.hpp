@@ -9,7 +9,7 @@
 
 namespace broadside::bench {
 
-// A path, not an id: it has a slash or ends in .so. Nothing is searched for, and nothing but this file is loaded.
+// A path, not an id: it has a slash or ends in .so. Only this file is loaded; no folders are searched.
 bool is_plugin_path(std::string_view text);
 
 // The row of the engine in that file. A child process loads the library and describes it: this process never runs code

@@ -11,8 +11,8 @@ namespace broadside::reference {
 // "unknown" when the loader cannot tell.
 std::string loaded_library(const void* address);
 
-// Does the file of that library hold this text, such as the name of a symbol that it imports? Nothing when it cannot be
-// read.
+// Does that library's file contain this text, such as the name of a symbol that it imports? Nothing when the file
+// cannot be read.
 std::optional<bool> library_mentions(const void* address, std::string_view text);
 
 }  // namespace broadside::reference

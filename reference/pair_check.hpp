@@ -13,7 +13,7 @@ namespace broadside::reference {
 core::Status check_pairs(std::string_view engine, std::span<const core::Pair> pairs, std::span<const core::Pose> poses,
                          std::size_t body_count);
 
-// The error of an engine of convex shapes that was given a mesh which is none.
+// The error of an engine of convex shapes when the scene has a mesh that is not convex.
 core::Error no_shape(std::string_view engine, const core::Mesh& mesh);
 
 }  // namespace broadside::reference

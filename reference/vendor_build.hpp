@@ -11,12 +11,12 @@ std::string bullet_build();  // "Bullet 3.24 (libBulletCollision.so.3.24), float
 std::string fcl_build();     // "FCL 0.7.0 (libfcl.so.0.7.0), double"
 std::string ccd_build();     // "libccd 2.1 (libccd.so.2.0), double"
 
-// The facts of a library that hold for every engine made of it: file loaded, its build as far as it shows, precision,
-// SIMD, threads. `threads` is what the adapter uses.
-// The same of any library that `address` lies in.
+// Facts that hold for every engine made of a library: file loaded, its build as far as it shows, precision, SIMD,
+// threads. `threads` is what the adapter uses.
+// The same for any library that `address` lies in.
 core::EquivalenceCard library_card(std::string loaded, const void* address, const char* precision, std::string simd,
                                    int threads);
-// Of an engine that is compiled into this program.
+// The same for an engine that is compiled into this program.
 core::EquivalenceCard own_card(std::string build, const char* precision, std::string simd, int threads);
 core::EquivalenceCard bullet_card();
 core::EquivalenceFact bullet_margin_fact(float margin_m);  // of a broad phase with leaves fattened by so much

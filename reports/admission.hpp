@@ -1,5 +1,5 @@
-// Which times count. A time is a result only beside a proof that the timed work was done right; otherwise it is struck
-// out, and this file says why.
+// Which times count. A time is a result only when there is a proof that the timed work was done right; otherwise it is
+// struck out, with the reason from here.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@ struct Admission {
   std::string caveat;  // admitted although some verdict is inconclusive: which; empty otherwise
 };
 
-// Equal in everything but the names: scene digest, engine, settings, both builds and the machine.
+// Equal in everything but names: scene digest, engine, settings, both builds and the machine.
 bool same_stamp(const core::Stamp& a, const core::Stamp& b);
 
 // Admitted when, in these rows, (1) a cell of the same stamp was recorded, (2) at least one verdict on that stamp
 // passed and none failed, and (3) the digest of the cell's recorded frame at sample.final_step equals
-// sample.final_digest, so the timed run reached the very state that was judged. The reason names the first that does
-// not hold.
+// sample.final_digest, so that the timed run reached the very state that was judged. The reason names the first of
+// these that does not hold.
 Admission admit(const core::Sample& sample, const core::RunRows& rows);
 
 }  // namespace broadside::reports

@@ -15,8 +15,8 @@ struct ChangePoint {
 };
 
 struct ChangePointOptions {
-  // A change is believed below this. A nightly history tests every place of every series again each night, so the usual
-  // 5 % would cry wolf weekly; 0.1 % is what Fleming and others use for the same purpose (ICPE 2023).
+  // The largest p of a change that is reported. A nightly history tests every place of every series again each night,
+  // so the usual 5 % would give false alarms every week; Fleming and others use 0.1 % for the same purpose (ICPE 2023).
   double most_p = 0.001;
   std::size_t least_values = 3;  // of a regime; fewer have no spread worth testing
 };

@@ -38,7 +38,7 @@ struct ChartMark {
 
 struct Chart {
   std::string title;
-  std::string description;  // what is to be seen, for those who cannot see it; one or two sentences
+  std::string description;  // what the chart shows, for readers who cannot see it; one or two sentences
   Axis x, y;
   std::vector<Series> series;
   std::vector<ChartMark> marks = {};
@@ -48,12 +48,12 @@ struct Chart {
 // Charts of one page, in the order in which they were added.
 class ChartBook {
  public:
-  // The place of a chart on the page, a plain picture until a script draws it, with a table of its figures beside it.
-  // Long series are thinned in the table, which says so. Empty for a chart without points.
+  // The place of a chart on the page: a plain picture until a script draws it, and a table of its figures. Long series
+  // are thinned in the table, which says so. Empty for a chart without points.
   std::string figure(Chart chart);
 
   [[nodiscard]] const std::vector<Chart>& charts() const { return charts_; }
-  // For <script type="application/json">: no character of it can end the element.
+  // For <script type="application/json">: escaped so that nothing in it can end the element.
   [[nodiscard]] std::string json() const;
 
  private:

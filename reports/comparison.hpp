@@ -32,7 +32,7 @@ struct Change {
   std::string subject;  // "candidate-set against all-pairs", "cell", "time"
   std::string was;
   std::string is;
-  // What it does to the exit code: kFailed for a fail, kMissing for what can no longer be told, kGood for good news.
+  // Its effect on the exit code: kFailed for a fail, kMissing for what can no longer be decided, kGood for good news.
   core::Exit exit = core::Exit::kGood;
 };
 
@@ -42,7 +42,7 @@ struct ComparisonOptions {
   // and Sweeney, ASPLOS 2009), so less than that says more about the linker than about the edit. Smaller finds smaller
   // changes and blames layouts; 0 asks only whether there is any difference.
   double delta = 0.05;
-  // At how many moments the times may be looked at, measuring on in between (ratio_interval).
+  // How often the times may be looked at while measuring goes on (ratio_interval).
   std::uint32_t looks = 1;
 };
 
@@ -52,13 +52,13 @@ struct Comparison {
   std::uint64_t same_verdicts = 0;  // judged in both with one outcome
   std::uint64_t still_failing = 0;  // of those: fail in both
   std::uint64_t same_counters = 0;
-  double delta = 0.0;                // that times were held against
+  double delta = 0.0;                // against which times were compared
   std::uint32_t looks = 1;           // that the intervals allow for
-  std::vector<std::string> remarks;  // what a reader must know before the rest: other machines
+  std::vector<std::string> remarks;  // what a reader must know first, such as other machines
 
-  // kFailed when a verdict fails that did not, a counter went up, or a time is slower; otherwise kMissing when
-  // something can no longer be told or a time is inconclusive; otherwise kGood. What failed before and still fails is
-  // no change. A time that only one side ever had, or of another machine, is no comparison and no fault.
+  // kFailed when a verdict fails that did not fail before, a counter went up, or a time is slower; otherwise kMissing
+  // when something can no longer be decided or a time is inconclusive; otherwise kGood. What failed before and still
+  // fails is no change. A time that only one side has, or one of another machine, is not compared and no fault.
   [[nodiscard]] core::Exit exit() const;
 };
 

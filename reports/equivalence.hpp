@@ -1,5 +1,5 @@
-// What cells say about how their engine's world differs from the scene, which known defects of libraries were met, and
-// how far narrow phases agree: notes that have a section of their own.
+// Notes of cells that have a section of their own: how the engine's world differs from the scene, which known defects
+// of libraries were met, and how far narrow phases agree.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ std::vector<DefectRow> defects_of(const SceneView& scene);
 
 struct AgreementGrid {
   std::vector<std::string> columns;  // "deep", "shallow", ..., "thin plate"
-  // Label and one text per column, empty where the cell says nothing.
+  // Label and one text per column, empty where the cell has none.
   std::vector<std::pair<std::string, std::vector<std::string>>> rows;
 };
 
@@ -51,7 +51,7 @@ struct AgreementHistograms {
   std::size_t bins = 0;
   std::vector<std::pair<std::string, std::vector<double>>> rows = {};  // label, counts
 };
-// "distance" and "normal"; what no cell speaks of is left out.
+// "distance" and "normal"; empty for the one that no cell has.
 std::vector<std::pair<std::string, AgreementHistograms>> agreement_histograms_of(const SceneView& scene);
 
 // Cards and defects as escaped HTML; empty when no cell of the scene says anything of the kind.

@@ -1,4 +1,4 @@
-// Names that somebody else chose, made safe to print in HTML, XML, Markdown and on a terminal.
+// Makes names from outside safe to print in HTML, XML, Markdown and on a terminal.
 #pragma once
 
 #include <string>

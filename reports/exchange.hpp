@@ -1,4 +1,4 @@
-// Times in the formats of other people's tools. Only admitted times: those tools know no struck-out ones.
+// Times in the formats of other people's tools. Only admitted times, because those tools cannot strike one out.
 #pragma once
 
 #include <string>

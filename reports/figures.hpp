@@ -14,7 +14,7 @@ std::string figure(double value, int digits = 3);
 // unit gives the bare number. Units that count things ("pairs", "bodies") print whole numbers whole.
 std::string quantity(double value, std::string_view unit, int digits = 3);
 
-// Two quantities that were compared, with as many digits as it takes to tell them apart when they differ.
+// Two compared quantities, with as many digits as are needed to see that they differ.
 struct Compared {
   std::string measured;
   std::string limit;
@@ -27,7 +27,7 @@ struct TimeUnit {
   std::string_view name;  // "ms"
 };
 TimeUnit time_unit_for(double typical_s);
-std::string time_in(TimeUnit unit, double seconds);  // the number alone; "<0.001" rather than a zero that is none
+std::string time_in(TimeUnit unit, double seconds);  // the number alone; "<0.001" for what would print as 0
 
 std::string counted(std::uint64_t count);  // thousands apart: "12 345", narrow no-break spaces
 std::string counted(std::uint64_t count, std::string_view singular);  // "1 cell", "3 cells"

@@ -1,14 +1,14 @@
-// How much longer did one run take than another run of the same frames, disturbed frames aside?
+// How much longer one run took than another run of the same frames, without disturbed frames.
 #pragma once
 
 #include <vector>
 
 namespace broadside::reports {
 
-// Head over base, of equally many frames (s), at least one: frame k of the one is divided by frame k of the other, so
+// Head over base, of equally many frames (s), at least one. Frame k of one is divided by frame k of the other, so that
 // what slowed both at that moment cancels where they ran in turns. The run is cut into up to eight parts of at least
-// eight frames; a part counts by the median of its frames' ratios, and the run by the mean of its parts, weighted with
-// what they take in the base: a change that touches an eighth of the run is seen, and single disturbed frames are not.
+// eight frames. A part counts by the median of its frames' ratios, the run by the mean of its parts weighted with their
+// time in the base: so a change in an eighth of the run shows, and single disturbed frames do not.
 double frame_ratio(const std::vector<double>& base, const std::vector<double>& head);
 
 }  // namespace broadside::reports

@@ -1,4 +1,4 @@
-// Runs over days: the file that they are appended to, and the series that it holds.
+// Runs over days: the file to which they are appended, and the series in it.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct HistoryPoint {
   double value = 0.0;
 };
 
-// One figure of one cell on one machine, run by run: only such values are of one kind.
+// One figure of one cell on one machine, run by run: only such values can be compared.
 struct HistorySeries {
   std::string machine, scene, label;
   std::string metric;  // "median frame", "counter box tests", "verdicts failed"
@@ -35,8 +35,8 @@ struct Appended {
 };
 
 // Appends what the rows measured: of each recorded cell its counters and failed verdicts, of each admitted time its
-// median frame and stages. The file is SQLite 3, made when it is absent; a run is appended whole or not at all, also
-// when the program dies. at: when the run was made, UTC, ISO 8601. A file that is no history is an error.
+// median frame and stages. The file is SQLite 3, created when absent; a run is appended whole or not at all, also when
+// the program dies. at: when the run was made, UTC, ISO 8601. A file that is no history is an error.
 core::Result<Appended> append_to_history(const std::filesystem::path& file, const core::RunRows& rows,
                                          const std::string& at);
 

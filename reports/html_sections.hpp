@@ -11,7 +11,7 @@
 
 namespace broadside::reports {
 
-// What every part may look at, and the charts that they add.
+// What every part can read, and the charts that it adds.
 struct PageParts {
   const core::RunRows& rows;
   const ReportOptions& options;
@@ -19,7 +19,7 @@ struct PageParts {
   ChartBook charts = {};
 };
 
-// A part of the page about one scene, or about the whole run; empty when it has nothing to say. The two tables that
+// A part of the page about one scene, or about the whole run; empty when it has nothing to show. The two tables that
 // list them, in the order of the page, are in html_page.cpp: a new part is one file and one line.
 using ScenePart = std::string (*)(const SceneView& scene, PageParts& page);
 using RunPart = std::string (*)(PageParts& page);
@@ -28,11 +28,11 @@ using RunPart = std::string (*)(PageParts& page);
 std::string findings_section(PageParts& page);
 // The 3-D view, with a picture for paper and for browsers without WebGL.
 std::string view_section(PageParts& page);
-// Parts that were made elsewhere, such as the paper's tables.
+// Parts made elsewhere, such as the paper's tables.
 std::string guest_sections(PageParts& page);
 // Cost against the number of bodies, over scenes of one family.
 std::string scaling_section(PageParts& page);
-// Where each run's energy went, for runs whose ledger is there.
+// Where each run's energy went, for runs that have an energy ledger.
 std::string energy_section(PageParts& page);
 // Earlier runs of the same cells, with change points.
 std::string history_section(PageParts& page);
@@ -59,13 +59,13 @@ std::string agreement_section(const SceneView& scene, PageParts& page);
 std::string cells_section(const SceneView& scene, PageParts& page);
 std::string facts_section(const SceneView& scene, PageParts& page);
 
-// "octree-cpu" and its settings, told apart by weight.
+// "octree-cpu" and its settings, distinguished by weight.
 std::string label_html(const core::Stamp& stamp, std::string_view label);
 // The symbol and the word of an outcome; `is_short` where a column is narrow.
 std::string outcome_html(core::Outcome outcome, bool is_short);
 // "pass", "fail", "open", "none": the style of an outcome.
 std::string_view outcome_class(core::Outcome outcome);
-// The way from a verdict to its place in the 3-D view; empty when no playback shows it.
+// The link from a verdict to its place in the 3-D view; empty when no playback shows it.
 std::string to_view_button(const PageParts& page, const core::Stamp& stamp, const std::string& trace_file,
                            const core::Verdict& verdict);
 

@@ -13,10 +13,10 @@
 
 namespace broadside::reports {
 
-// In body coordinates, m. Bodies translate only, so a shape is where its body's position is added.
+// In body coordinates, m. Bodies translate only, so adding the body's position gives its place.
 struct PlaybackShape {
   std::vector<std::vector<core::Box>> levels;  // octree boxes of level 0, 1, 2; level 0 is one box
-  std::vector<core::Vec3> vertices;            // empty with too many for a page: boxes stand in
+  std::vector<core::Vec3> vertices;            // empty when there are too many for a page: then boxes are drawn
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -34,7 +34,7 @@ struct PlaybackFrame {
   std::vector<PlaybackContact> contacts;
 };
 
-// A place that a verdict names: where the view flies to.
+// A place that a verdict names, to which the view can move.
 struct PlaybackMark {
   std::string text;  // "center-of-mass: step 412, bodies 3 and 17"
   std::string validator;
@@ -56,7 +56,7 @@ struct Playback {
   std::vector<PlaybackMark> marks;
 };
 
-// Bytes that a frame takes on the page, so that whoever selects frames can keep to a size.
+// Bytes that a frame takes on the page, for callers that select frames up to a size.
 std::uint64_t playback_bytes(const Playback& playback);
 
 // For <script type="application/json">: positions, pairs and contacts as 16-bit whole numbers in base64.

@@ -1,4 +1,4 @@
-// The ratio of two sets of measured times, and how sure it is: a hierarchical bootstrap.
+// The ratio of two sets of measured times, with its uncertainty: a hierarchical bootstrap.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace broadside::reports {
 
-// One figure (s) per run, run by run of one process. Processes differ by more than runs of one process do, so both are
-// levels of chance; the frames of a run are not: they are the same workload in the same order.
+// One figure (s) per run, run by run of one process. Both processes and runs are levels of chance, because processes
+// differ by more than runs of one process. The frames of a run are not: they are the same work in the same order.
 using ProcessRuns = std::vector<double>;
 
 struct RatioInterval {
@@ -22,19 +22,19 @@ struct RatioInterval {
 // of its runs, a side by the median of its processes (Davison and Hinkley 1997, section 3.8; Efron 1979 for the
 // percentile interval). Deterministic: the same figures give the same interval. Neither side may be empty, no process
 // without runs.
-// looks, at least 1: at how many moments the figures may be looked at, measuring on in between; each has its share of
-// the 5 % (Bonferroni), so that looking more often does not find more by chance.
+// looks, at least 1: how often the figures may be looked at while measuring goes on. Each look gets its share of the 5
+// % (Bonferroni), so that looking more often does not find more by chance.
 RatioInterval ratio_interval(const std::vector<ProcessRuns>& base, const std::vector<ProcessRuns>& head, double delta,
                              std::uint32_t looks = 1);
 
-// The same of processes that ran beside each other, one of the base and one of the head: of each pair, run by run, head
-// over base (frame_ratio). Pairs are drawn, and of each its runs; the median of the pairs counts. What drifts slower
-// than a pair of frames apart cancels in each ratio.
+// The same for processes that ran in turns, one of the base and one of the head: of each pair, run by run, head over
+// base (frame_ratio). Pairs are drawn, and of each its runs; the median of the pairs counts. A drift slower than a pair
+// of frames cancels in each ratio.
 RatioInterval paired_interval(const std::vector<ProcessRuns>& pairs, double delta, std::uint32_t looks = 1);
 
-// The smallest p that so many processes can give. If the builds were equal, every process of one would be slower than
-// every process of the other by mere chance once in C(base + head, base) orders; of pairs, all n have one sign once in
-// 2^n. Below 0.025 from 4 and 4 processes, or from 6 pairs.
+// The smallest p that so many processes can give. If the builds were equal, all processes of one would be slower than
+// all of the other by chance in one of C(base + head, base) orders; all n pairs would have one sign in one of 2^n
+// cases. Below 0.025 from 4 and 4 processes, or from 6 pairs.
 double smallest_p(std::uint64_t base, std::uint64_t head, bool is_paired);
 
 // Which of many tests may be believed together: true where the p-value is among those that the procedure of Benjamini

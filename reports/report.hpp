@@ -29,7 +29,7 @@ struct ReportOptions {
   std::string command;              // the command line that made the rows; empty = not shown
   std::vector<std::string> repeat;  // more commands for "how to repeat", in order
   std::string generated_at;         // as printed; empty = left out, and the same rows give the same bytes
-  // Beside the rows, for the page alone.
+  // Data beside the rows, for the page alone.
   std::vector<core::EnergySeries> energy;
   std::vector<Playback> playbacks;
   std::vector<FrameSeries> series;
@@ -48,7 +48,7 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options);
 // The charts of the page, for files of their own; none where the page was not built.
 std::vector<Chart> page_charts(const core::RunRows& rows, const ReportOptions& options);
 
-// GitHub-flavored Markdown for a comment, at most kMarkdownLimit bytes: what does not fit is left out last things
+// GitHub-flavored Markdown for a comment, at most kMarkdownLimit bytes. What does not fit is left out, the last parts
 // first, and the text says how much.
 constexpr std::size_t kMarkdownLimit = 60'000;
 std::string markdown_text(const core::RunRows& rows, const ReportOptions& options);

@@ -14,15 +14,15 @@ namespace broadside::reports {
 struct TraceView {
   core::Stamp stamp;
   std::string label;                 // the stamp's, with the trace's file name where two would be alike
-  const core::Cell* cell = nullptr;  // null for a trace that was judged without a run
+  const core::Cell* cell = nullptr;  // null for a trace that was judged without a recorded cell
   std::string trace_file;
   std::vector<std::string> baselines;  // labels, in order of appearance
-  // One entry per validator of the scene; each holds what was said about it, worst first, repetitions left out (a trace
-  // that was judged against two baselines has its verdicts of itself alone twice). Empty = no verdict.
+  // One entry per validator of the scene. Each holds its verdicts, worst first, without repetitions (a trace that was
+  // judged against two baselines has its verdicts without a baseline twice). Empty = no verdict.
   std::vector<std::vector<const core::Verdict*>> verdicts;
 
   [[nodiscard]] bool is_judged() const;
-  // Words for the places of a line that has no verdict: "not measured: no device", "recorded, not judged".
+  // Text for the cells of a line that has no verdict: "not measured: no device", "recorded, not judged".
   [[nodiscard]] std::string absence() const;
 };
 
@@ -36,7 +36,7 @@ struct SceneView {
 };
 
 // What the scene's meshes stand in for, from the notes of its cells (a note "stand-in", or one that says "STAND-IN");
-// empty when they are what was asked for.
+// empty when they are the meshes that were asked for.
 std::string stand_in(const SceneView& scene);
 
 // The rows must outlive the views.
@@ -51,7 +51,7 @@ struct Tally {
 };
 Tally tally(const std::vector<SceneView>& scenes);
 
-// The state of things in one sentence, for the top of every report. Plain text, not escaped.
+// The result of the run in one sentence, for the top of every report. Plain text, not escaped.
 std::string headline(const std::vector<SceneView>& scenes);
 
 // Fail, inconclusive or pass over everything; not applicable when nothing was judged.

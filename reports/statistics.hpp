@@ -1,4 +1,4 @@
-// What is said of many measurements: median, quartiles, tails, spread. Nothing is thrown away silently.
+// Summaries of many measurements: median, quartiles, tails, spread. What is left out is counted.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Summary {
   // look exact.
   double deviation = 0.0;
   // (q3 - q1) / median; infinite with fewer than two values. Quartiles, because a few frames that the machine
-  // interrupted must not decide it; the tails p5 and p95 are reported beside it.
+  // interrupted should not decide it; the tails p5 and p95 are reported too.
   double relative_spread = 0.0;
 };
 

@@ -1,4 +1,4 @@
-// The samples of one stamp, pooled: what one line of a table of times says.
+// The samples of one stamp, pooled: one line of a table of times.
 #pragma once
 
 #include <string>
@@ -20,10 +20,10 @@ struct Timing {
   std::uint64_t repetitions = 0;
   std::uint64_t warm_up_frames = 0;  // run before the first timed one; not in the figures
   std::vector<StageTiming> stages;   // in pipeline order, without the whole frame
-  Summary frame;                     // the stage "frame"; where an engine gives none, the sum of its stages
+  Summary frame;                     // the stage "frame", or the sum of the stages for an engine without one
   bool frame_is_sum = false;
   Summary fps;  // one value per repetition: its frames over the sum of their times
-  // Refused when any of its samples is: one stamp with one wrong answer has no trustworthy time.
+  // Not admitted when any of its samples is not: a stamp with one wrong answer has no trustworthy time.
   Admission admission;
 };
 

@@ -1,4 +1,4 @@
-// Which times may be put side by side.
+// Which times may be shown side by side.
 #pragma once
 
 #include <string>

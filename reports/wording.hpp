@@ -1,4 +1,4 @@
-// How outcomes, places and absences are said, in every kind of report alike.
+// The words for outcomes, places and absences, alike in every kind of report.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace broadside::reports {
 
-// Beside the word, never instead of it.
+// Printed beside the word, never instead of it.
 constexpr std::string_view symbol(core::Outcome outcome) {
   switch (outcome) {
     case core::Outcome::kPass:

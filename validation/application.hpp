@@ -43,12 +43,12 @@ struct Application {
   // Bounds of rounding errors in float32, m/s; u = 2^-24.
   // v_n from the pre states: a subtraction, a product, two additions: 4 operations on each |n_k r_k|.
   [[nodiscard]] double approach_rounding() const;
-  // v_t from them: r, and r - v_n n, 2 operations on |v_t| and 6 on what v_n brings in. Its square underflows below
-  // sqrt(3 * 2^-149).
+  // v_t from them: r, and r - v_n n, 2 operations on |v_t| and 6 on what v_n adds. Its square underflows below sqrt(3 *
+  // 2^-149).
   [[nodiscard]] double sliding_rounding() const;
-  // What the velocities after are off along the normal, given the impulses: two additions a body, 3 operations on the
-  // change (two products, and one for what the second addition sees), and what a tangent that is not quite across the
-  // normal leaks into it, as far as rounding explains that tangent.
+  // Error of the velocities after, along the normal, given the impulses: two additions a body, 3 operations on the
+  // change (two products, and one for what the second addition sees), and the part of a tangent along the normal, as
+  // far as rounding explains that the tangent is not quite across it.
   [[nodiscard]] double approach_after_rounding() const;
   // The same across the normal.
   [[nodiscard]] double sliding_after_rounding() const;

@@ -1,13 +1,13 @@
-// capacity: no buffer overflowed in silence.
+// capacity: no buffer overflowed without saying so.
 #pragma once
 
 #include "validation/validator.hpp"
 
 namespace broadside::validation {
 
-// Law: in every frame the pairs stored are as many as the engine demanded room for. An engine that ran out must have
-// said so in `demanded`, and then pairs are missing here; one that claims fewer than it stored is broken too. Counts:
-// limit 0.
+// Law: in every frame the pairs stored are as many as the engine demanded room for. An engine that ran out of room must
+// have said so in `demanded`, and then pairs are missing here. An engine that demands fewer than it stored is broken
+// too. Counts: limit 0.
 ValidatorRow capacity_row();
 
 }  // namespace broadside::validation

@@ -1,4 +1,4 @@
-// energy: the books balance. Every frame's change of energy is the work of its stages.
+// energy: every frame's change of energy is the sum of the work of its stages.
 #pragma once
 
 #include "validation/validator.hpp"
@@ -13,9 +13,9 @@ namespace broadside::validation {
 // m (|v| dv + dv^2 / 2) + F dx + K dx^2 / 2, F the pull of gravity and springs. float32: integration, the operations of
 // spring_motion.hpp on dt A and one addition, one product and one addition for x; an impulse, 2 operations (products
 // with w and with the direction) and one addition, of each of two; a correction, 7 operations (contraction.hpp) and one
-// addition. Clipping rounds nothing. The books themselves are kept in double: 2^-53 of the sum of all magnitudes for
-// each of their terms, and for the operations behind one. So the limit of a frame grows with its bodies and contacts:
-// one stage of one body in a large scene is the other laws' to judge.
+// addition. Clipping rounds nothing. The ledger itself is kept in double: 2^-53 of the sum of all magnitudes for each
+// of its terms, and for the operations behind one. So the limit of a frame grows with its bodies and contacts; one
+// wrong stage of one body in a large scene is found by the other laws.
 ValidatorRow energy_row();
 
 }  // namespace broadside::validation

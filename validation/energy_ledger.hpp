@@ -17,13 +17,13 @@ struct EnergyRow {
   double kinetic = 0.0;  // at the end of the frame
   double potential = 0.0;
   double change = 0.0;  // of their sum since the frame before
-  // What adds up to it:
-  double integration = 0.0;  // the integrator's own: -m dt^2 |g|^2 / 2 a body and step under gravity alone
+  // Terms whose sum is the change:
+  double integration = 0.0;  // the integrator's own error: -m dt^2 |g|^2 / 2 a body and step under gravity alone
   double normal = 0.0;       // J_n (v_n + v_n') / 2
   double friction = 0.0;     // J_t t . (v + v') / 2
   double correction = 0.0;   // lifting and stretching by the position correction
   double clip = 0.0;         // the velocity cap
-  // What rounding may have added or taken: |change - sum| is at most this.
+  // Bound of what rounding may have added or taken: |change - sum| is at most this.
   double rounding = 0.0;
   // Of the float64 sums themselves: how many terms, and the sum of their magnitudes, J.
   double terms = 0.0;
@@ -34,7 +34,7 @@ struct EnergyRow {
 
 // Each term is predicted in float64 from the state before it: the integrator's by P(1) to P(3), a contact's from its
 // recorded normal, tangent, impulses and depth (METHOD 5, 6), the cap's by P(23). So the sum is right only when every
-// stage did what it recorded, and handed on what it did.
+// stage did what it recorded and passed its result on.
 class EnergyLedger {
  public:
   explicit EnergyLedger(const core::Scene& scene);

@@ -1,4 +1,4 @@
-// friction-energy: friction takes energy out of sliding, inside its cone, and keeps a ledger of it.
+// friction-energy: friction takes energy out of sliding, stays inside its cone, and is recorded as it acted.
 #pragma once
 
 #include "validation/validator.hpp"
@@ -10,7 +10,7 @@ namespace broadside::validation {
 //   - J_t = -|v_t| / (wA + wB) when that is at most mu_s J_n (stick), else -mu_k J_n (slide), P(20), P(21) with E6;
 //   - J_t t is what changed v_t, and the recorded tangent is t;
 //   - nothing slides differently after a contact that separates (v_n >= 0).
-// J_n is the recorded impulse, whose truth is normal-energy's.
+// J_n is the recorded impulse; normal-energy checks it.
 //
 // Limits, float32, with S = Application::sliding_rounding of v_t and B = Application::sliding_after_rounding:
 //   - energy: t is off by S / |v_t| and 4 operations (three products and two sums halved by the root, the root, a

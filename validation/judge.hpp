@@ -20,9 +20,9 @@ std::span<const ValidatorRow> validators();
 struct JudgeOptions {
   // Names to run; empty = all. Unknown names are an error with the nearest known one.
   std::vector<std::string> only;
-  // Called now and then with frames done and in all.
+  // Called now and then with the frames done and the frames in all.
   std::function<void(std::uint64_t, std::uint64_t)> progress;
-  // Sees every frame that the pass reads, with these groups beside those of the validators.
+  // Called with every frame that the pass reads; these groups are read beside those of the validators.
   std::function<void(const Evidence&)> observe;
   std::uint32_t observed_groups = 0;
 };

@@ -1,4 +1,4 @@
-// metamorphic: the same experiment told differently has the same outcome, told differently.
+// metamorphic: a transformed scene has the transformed outcome.
 #pragma once
 
 #include "validation/validator.hpp"
@@ -14,8 +14,8 @@ namespace broadside::validation {
 //     open), so from a frame with such a body on trajectories may part;
 //   - grown: where bodies stand at the same places, the candidate pairs contain the subject's.
 // Mirroring moves vertices on an octant's plane to the other octant, so where last-level boxes decide, confirmed pairs
-// may differ; from such a frame on there is nothing to compare. A contact whose centers coincide on its axis has no
-// side that mirroring or renumbering could change, and is left undecided.
+// may differ; nothing is compared from such a frame on. A contact whose centers coincide on its axis has no side that
+// mirroring or renumbering could change, and is left undecided.
 //
 // Limits: 0. Rounding is symmetric in sign, and a power of two only shifts exponents.
 ValidatorRow metamorphic_row();

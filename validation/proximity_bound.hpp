@@ -7,9 +7,9 @@ namespace broadside::validation {
 
 // Laws, METHOD 3, for the pairs that the subject confirmed; x the positions at detection:
 //   - (every frame) the recorded squared distance is that of the two recorded vertices, and below theta^2;
-//   - (the first 512 pairs, then 512 of each doubling of their number) no two vertices are nearer than a touching
-//   pair's
-//     distance, and none are nearer than theta when a pair does not touch;
+//   - (the first 512 pairs, then 512 of each doubling of their number)
+//     no two vertices are nearer than a touching pair's distance,
+//     and none are nearer than theta when a pair does not touch;
 //   - (frames that the baseline measured, at the same positions) with d the distance of the surfaces: d <= d_vv, and
 //     d_vv <= d + rho_A + rho_B where d > 0; d >= theta - rho_A - rho_B where the pair does not touch. rho is the
 //     covering radius of each mesh's vertices.

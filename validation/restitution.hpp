@@ -12,8 +12,8 @@ namespace broadside::validation {
 // Limit, float32: v_n is off by Application::approach_rounding (A), the impulse by 4 more operations (1 + e, product,
 // sum of inverse masses, quotient), and both reach v_n' times 1 + e: (1 + e)(A + 4 u |v_n|). The velocities after add
 // Application::approach_after_rounding. 0 for a contact that separates: nothing is computed. Where A decides whether a
-// contact approaches, on which side of v_th it is, or whether the floor lifts it, either answer holds or, with nothing
-// else to hold, the contact is left undecided.
+// contact approaches, on which side of v_th it is, or whether the floor lifts it, either answer holds; where there is
+// no answer to compare with, the contact is left undecided.
 ValidatorRow restitution_row();
 
 }  // namespace broadside::validation

@@ -8,8 +8,8 @@ namespace broadside::validation {
 // Laws, per frame, each for the groups that the trace has:
 //   - one entry per body, all numbers finite, boxes with min <= max, time = step * dt;
 //   - orientations are unit quaternions;
-//   - the detection state is the previous end state moved by P(1) to P(3), semi-implicit Euler; static bodies
-//   bit-equal;
+//   - the detection state is the previous end state moved by P(1) to P(3), semi-implicit Euler; static bodies are
+//     bit-equal;
 //   - the recorded box is the shape's box at the detected position;
 //   - contacts name two different bodies (or a face) of which one can move; each starts from the state that the body's
 //     previous contact left (colored solver), and the end state is the last one, clipped to v_max;

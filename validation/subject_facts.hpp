@@ -18,8 +18,8 @@ bool has(const core::TraceHeader& header, core::Group group);
 // Value of one key in the stamp's canonical settings "a=1,b=2"; empty when it is not there.
 std::string_view setting(const core::Stamp& stamp, std::string_view key);
 
-// Have both the same settings, apart from these keys? One engine: every key must be equal. Twins may have keys of their
-// own, such as a device's; then only those that both have count.
+// Whether both have the same settings, apart from these keys. Of one engine every key must be equal. Twins may have
+// keys of their own, such as a device's; then only keys that both have are compared.
 bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initializer_list<std::string_view> but);
 
 // octree-cpu and octree-gpu (and hash-cpu and hash-gpu) are twins: one method, bit-identical by design.

@@ -49,9 +49,9 @@ class Tally {
   // Judges that measured <= limit; NaN breaks every limit. The worst is the largest measured / limit, the earliest of
   // equals.
   bool check(double measured, const Limit& limit, const Where& where);
-  // A law that holds or not, without a magnitude.
+  // A law that either holds or not, without a magnitude.
   bool require(bool holds, std::string_view origin, const Where& where);
-  // Something that the law is about, but that rounding alone decides.
+  // The law applies here, but rounding alone decides the answer.
   void leave_undecided() { ++undecided_; }
 
   [[nodiscard]] std::uint64_t checked() const { return checked_; }

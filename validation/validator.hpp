@@ -31,7 +31,7 @@ class Validator {
 struct Subject {
   const core::TraceHeader& header;
   const core::TraceHeader* baseline = nullptr;
-  std::uint64_t frame_count = 0;  // of the subject's recorded frames: validators that sample spread over them
+  std::uint64_t frame_count = 0;  // the subject's recorded frames: validators that sample spread over them
 };
 
 // One row per validator in the one table (validation/table.cpp).
@@ -44,7 +44,7 @@ struct ValidatorRow {
   // Why it does not apply to this subject and baseline; empty when it does.
   std::string (*why_not)(const Subject& subject);
   std::unique_ptr<Validator> (*make)(const Subject& subject);
-  // Its baseline is of a transformed scene (validation/scene_relation.hpp); others never see such a baseline.
+  // Its baseline runs a transformed scene (validation/scene_relation.hpp); other validators never get such a one.
   bool compares_scenes = false;
 };
 

@@ -1,4 +1,4 @@
-// An engine's answers about many pairs, each asked in a process that may die of it.
+// An engine's answers about many pairs, each asked in a child process, because the library may crash.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ enum class Asked : std::uint8_t { kNothing, kAnswered, kThrew, kAborted, kCrashe
 
 struct Answer {
   Asked asked = Asked::kNothing;
-  float seconds = 0.0F;  // of this one query, the adapter's conversions with it; elapsed or processor's, the lesser
+  float seconds = 0.0F;  // of this one query, the adapter's conversions included; elapsed or processor time, the lesser
   core::Separation separation;
-  std::array<char, 96> thrown{};  // what the library threw, cut short
+  std::array<char, 96> thrown{};  // what the library threw, shortened
 };
 
 struct Answers {
   std::vector<Answer> of_pair;
-  // Last words of processes that died, and what was thrown -> how often.
+  // Last words of processes that died, or the text of exceptions -> how often.
   std::map<std::string, std::uint64_t> words;
   std::string build;                         // of the engine
   std::map<std::string, std::string> notes;  // its equivalence card
@@ -38,9 +38,9 @@ struct AskLimits {
   std::uint32_t processes = 1;      // side by side
 };
 
-// One query at a time in each process. A process starts again behind the pair that it died of. Must be called before
-// this process has started a thread: the children are forks of it. Errors: the engine cannot be made, has no narrow
-// phase, or refuses the shapes. progress is called with pairs done.
+// One query at a time in each process. After a crash a new process starts behind the pair that caused it. Must be
+// called before this process has started a thread, because the children are forks of it. Errors: the engine cannot be
+// made, has no narrow phase, or refuses the shapes. progress is called with pairs done.
 core::Result<Answers> ask(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs,
                           const AskLimits& limits, const std::function<void(std::uint64_t)>& progress);
 

@@ -11,7 +11,7 @@
 namespace broadside::bench {
 
 // JSON: meshes with vertices (m, body coordinates) and triangles, positions, orientations w x y z. Floats are written
-// with the digits that bring them back. The file appears whole or not at all.
+// with enough digits to restore their bits. The file appears whole or not at all.
 core::Status write_case(const PairSource& source, const TestPair& pair, const std::filesystem::path& file);
 
 struct Case {

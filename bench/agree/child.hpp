@@ -1,4 +1,4 @@
-// The life of a process that asks an engine about pairs and may die of it. What it leaves lies in shared memory.
+// The child process that asks an engine about pairs and may crash on one. Its answers lie in shared memory.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace broadside::bench {
 
-// What a child says of where it is. Text is written before its size.
+// What a child reports about its state. Text is written before its size.
 struct ChildReport {
   std::uint64_t at = 0;      // the pair that is being asked about, or before which shapes are loaded
   std::uint64_t begun = 0;   // rises with every query and every load
@@ -26,15 +26,15 @@ struct ChildReport {
   [[nodiscard]] std::string said() const { return {text.data(), text_size}; }
 };
 
-// Exit codes of a child that nobody killed.
+// Exit codes of a child that ended by itself.
 inline constexpr int kAllAsked = 0;
 inline constexpr int kRefused = 65;  // the engine or its scene: the report's text says why
 
-// Asks about pairs [first, last); the answers' index is that of the pair. Returns the exit code.
+// Asks about pairs [first, last); an answer has the index of its pair. Returns the exit code.
 int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs, std::size_t first,
               std::size_t last, std::span<Answer> answers, ChildReport& report);
 
-// What an engine says of itself, asked in a child too: making it may start what must not be forked.
+// The engine's own facts, read in a child too: making the engine may start threads, which must not be forked.
 struct EngineWords {
   std::string build;
   std::map<std::string, std::string> notes;  // its equivalence card

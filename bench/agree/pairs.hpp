@@ -29,8 +29,8 @@ inline constexpr std::string_view kDegeneracies[] = {"general", "thin plate", "n
 enum class Separated { kDeep, kShallow, kTouching, kNear, kFar };
 inline constexpr std::string_view kSeparations[] = {"deep", "shallow", "touching band", "near", "far"};
 
-// Half width of the touching band, and by how much an answer may be off: a tenth of the method's slop of 1 mm (P-Table
-// 1), below which no response differs. In m.
+// Half width of the touching band, and by how much an answer may be off, m: a tenth of the method's slop of 1 mm
+// (P-Table 1), below which no response differs.
 inline constexpr double kTouchingBand_m = 1e-4;
 
 struct TestPair {
@@ -39,13 +39,13 @@ struct TestPair {
   core::Pose pose_a;
   core::Pose pose_b;
   Degeneracy degeneracy = Degeneracy::kNone;
-  // The arbiter's: of convex bodies signed, of meshes 0 where surfaces meet.
+  // The arbiter's: signed for convex bodies, 0 where the surfaces of meshes meet.
   double distance_m = 0.0;
   reference::Point normal;  // unit, from B to A; zero where meshes meet
   Separated separation = Separated::kFar;
 };
 
-// The same kind, seed and index give the same pair whatever else is asked for.
+// The same kind, seed and index always give the same pair.
 class PairSource {
  public:
   // mesh: a name of the catalogue for both bodies, with kMeshes alone; empty = lumpy bodies of 320 triangles.
@@ -54,12 +54,12 @@ class PairSource {
   static core::Result<PairSource> of_case(std::vector<std::shared_ptr<const core::Mesh>> meshes, bool is_convex);
 
   TestPair pair(std::uint64_t index);
-  // Sets what the arbiter says about a pair whose poses are set.
+  // Sets the arbiter's answer for a pair whose poses are set.
   void arbitrate(TestPair& pair);
 
   [[nodiscard]] const std::vector<std::shared_ptr<const core::Mesh>>& meshes() const { return meshes_; }
   [[nodiscard]] bool has_depth() const { return is_convex_; }
-  // How far A must move along a unit direction, from B to A, to part from B. Of convex bodies alone.
+  // How far A must move along a unit direction, from B to A, to part from B. For convex bodies only.
   [[nodiscard]] double overlap_along(const TestPair& pair, reference::Point direction) const;
 
  private:

@@ -23,8 +23,8 @@ struct EngineStudy {
   std::vector<std::string> repeats;  // commands that repeat saved cases
 };
 
-// Engines down, separations across: shares that agree with what did not, and median times; then degeneracies and
-// errors.
+// A row for each engine, a column for each separation: shares that agree, disagreements by kind, and median times; then
+// degeneracies and errors.
 std::string agreement_tables(const std::vector<EngineStudy>& studies);
 std::string agreement_json(const std::vector<EngineStudy>& studies, std::string_view kind, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// What an engine's answer is worth beside the arbiter's, and sums of it.
+// How an engine's answer compares with the arbiter's, and sums of these verdicts.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace broadside::bench {
 
-// Bodies in the touching band are judged for nothing but an answer: the sign is noise there.
+// Bodies in the touching band are only required to get an answer: the sign is noise there.
 enum class Agreement {
   kAgree,
   kTouchingBand,
@@ -62,7 +62,7 @@ AgreementTable tabulate(const PairSource& source, const std::vector<TestPair>& p
 std::vector<core::DefectHits> defects_met(std::string_view engine_label, PairKind kind,
                                           const std::vector<Agreement>& verdicts);
 
-// "19876 agree, 3 abort; median 1.2 us": what is not zero.
+// "19876 agree, 3 abort; median 1.2 us": only what is not zero.
 std::string agreement_text(const AgreementBin& bin);
 
 }  // namespace broadside::bench

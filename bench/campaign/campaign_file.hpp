@@ -1,4 +1,4 @@
-// A campaign file: which cells somebody wants, in TOML.
+// A campaign file: the cells of a campaign, in TOML.
 //
 //   name = "nightly"                # letters, digits, - and _
 //   scenes = ["freefall:cube:{n}", "randommove:bunny:{n}"]
@@ -35,7 +35,7 @@
 
 namespace broadside::bench::campaign {
 
-// What a cell runs, with nothing left to replace.
+// One cell after all {keys} are replaced.
 struct CellWork {
   std::string scene;   // "freefall:cube:50"
   std::string engine;  // "bullet-dbvt[deferred=on]"

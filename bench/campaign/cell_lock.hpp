@@ -1,4 +1,4 @@
-// Two processes, perhaps on two machines with one file system, must not do one cell at a time.
+// A lock that keeps two processes, perhaps on two machines with one file system, from doing one cell at a time.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace broadside::bench::campaign {
 class CellLock {
  public:
   // Empty when another process holds it, or the folder cannot be written. The lock ends with the process that holds it,
-  // however that ends (flock; on a network file system it needs lock support, as Slurm's shared folders have).
+  // also when that is killed (flock; on a network file system it needs lock support, as Slurm's shared folders have).
   static std::optional<CellLock> take(const std::filesystem::path& file);
 
   CellLock(CellLock&& other) noexcept;

@@ -19,8 +19,8 @@ struct ManifestCell {
   std::string id;
   CellWork work;
   bool needs_gpu = false;
-  // Cells beside each other with the same text are done by one process, which times them in turns: a machine that
-  // drifts drifts for all. The id itself where a cell is timed alone.
+  // Neighboring cells with the same text are done by one process, which times them in turns, so that a machine that
+  // drifts drifts for all. A cell that is timed alone has its own id here.
   std::string turns;
 };
 
@@ -28,7 +28,7 @@ struct Manifest {
   std::string name;
   std::string build;  // of the program that planned it; only that program may run its cells
   std::vector<ManifestCell> cells;
-  // Of the paper's experiments: what was asked for. Its cells are paper_cells() in the same order, so an id may come
+  // For the paper's experiments: what was asked for. The cells are paper_cells() in the same order, so an id may come
   // twice: one measurement that two experiments show.
   std::optional<paper::PaperRequest> paper;
 };
@@ -39,14 +39,14 @@ std::vector<std::span<const ManifestCell>> groups_of(const Manifest& manifest);
 // The cells of a paper's campaign with their ids.
 core::Result<std::vector<paper::PaperCell>> paper_cells(const Manifest& manifest);
 
-// Makes every scene once, so a scene, engine or setting that does not exist is found here and not on a node at night.
+// Makes every scene once: a scene, engine or setting that does not exist is found here, not on a node at night.
 core::Result<Manifest> make_manifest(const CampaignFile& campaign);
 
 core::Status write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 // Errors: none there, damaged, or a later format.
 core::Result<Manifest> read_manifest(const std::filesystem::path& folder);
 
-// DIR/cells/ID: there = finished. Work in progress is DIR/cells/ID.part, with TURNS.lock held by whoever is at it.
+// DIR/cells/ID exists = finished. Unfinished work is in DIR/cells/ID.part; the process that does it holds TURNS.lock.
 std::filesystem::path cell_folder(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace broadside::bench::campaign

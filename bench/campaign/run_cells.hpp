@@ -12,7 +12,7 @@
 
 namespace broadside::bench::campaign {
 
-// Which groups of cells: that of an id, or those whose place in the manifest is `shard` modulo `shards`.
+// Which groups of cells: the group of an id, or those whose place in the manifest is `shard` modulo `shards`.
 struct Selection {
   std::string id;  // empty = by shard
   std::uint32_t shard = 0;
@@ -25,16 +25,16 @@ struct Selection {
 
 struct Tally {
   std::uint32_t done = 0;        // finished by this call
-  std::uint32_t there = 0;       // finished before
-  std::uint32_t busy = 0;        // another process is at them
+  std::uint32_t there = 0;       // finished earlier
+  std::uint32_t busy = 0;        // another process works on them
   std::uint32_t unfinished = 0;  // broken off: they will be done again
 };
 
-// What became of a group that was not finished before.
+// Why a group is not finished.
 struct GroupEnd {
   std::span<const ManifestCell> cells;
   const char* word;   // "done", "busy", "unfinished"
-  double seconds;     // that it took
+  double seconds;     // time that it took
   std::size_t first;  // its first cell's place in the manifest
 };
 using TellGroup = std::function<void(const GroupEnd&)>;

@@ -1,4 +1,4 @@
-// Files that hand a campaign to what a cluster already has. Thin: each only says how to call `broadside run DIR
+// Files that hand a campaign to a cluster's scheduler. Each only says how to call `broadside run DIR
 // --cell`.
 #pragma once
 

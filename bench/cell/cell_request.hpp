@@ -37,8 +37,8 @@ core::Stamp stamp_of(const core::Scene& scene, const core::Engine& engine);
 // "octree-cpu.h5", "octree-cpu+levels=A+threads=1.h5".
 std::string trace_file_name(const core::Stamp& stamp);
 
-// How many frames apart narrow-phase engines measure when nobody says: about 30 frames of a run, spread evenly, because
-// one mesh distance takes as long as a whole frame of the pipeline.
+// How many frames apart narrow-phase engines measure by default: about 30 frames of a run, spread evenly, because one
+// mesh distance takes as long as a whole frame of the pipeline.
 std::uint32_t default_narrow_every(std::uint64_t frames);
 
 }  // namespace broadside::bench

@@ -1,4 +1,4 @@
-// The equivalence card of a cell: what the engine says of itself, and what holds for every engine of this program.
+// The equivalence card of a cell: what the engine says about itself, and what holds for every engine of this program.
 #pragma once
 
 #include "core/engine/engine.hpp"

@@ -7,9 +7,9 @@
 
 namespace broadside::bench {
 
-// Fetches what can be fetched before a procedural body stands in: offline, the work still goes on, and its report says
-// so. A mesh that could not be fetched is not asked for again by this process. Without wanted.allow_stand_in nothing
-// stands in: the error says what is missing.
+// Tries to fetch a mesh before a procedural body takes its place. Offline the work still goes on, and its report says
+// which meshes were replaced. A mesh that could not be fetched is not tried again by this process. Without
+// wanted.allow_stand_in a missing mesh is an error that names it.
 core::Result<core::Scene> make_scene_with_meshes(const SceneArguments& wanted);
 
 }  // namespace broadside::bench

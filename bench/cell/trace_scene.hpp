@@ -12,7 +12,7 @@ namespace broadside::bench {
 // Whether a command's argument names a trace rather than a scene, by its ending.
 bool is_trace_file(std::string_view spec);
 
-// The scene that a trace carries, whoever recorded it. Errors: those of the trace's reader.
+// The scene that a trace contains, whatever program recorded it. Errors: those of the trace's reader.
 core::Result<core::Scene> scene_of_trace(const std::filesystem::path& trace);
 
 }  // namespace broadside::bench

@@ -1,4 +1,4 @@
-// "two-body:unequal@mirrored-x": a scene and how it is told differently, for runs that metamorphic compares.
+// "two-body:unequal@mirrored-x": a scene and a transformation of it, for runs that metamorphic compares.
 #pragma once
 
 #include <span>

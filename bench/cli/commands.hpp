@@ -1,4 +1,4 @@
-// The subcommands. Each adds itself, with its options, to the program and runs when it was chosen.
+// The subcommands. Each adds itself and its options to the program and runs when it was chosen.
 #pragma once
 
 #include "core/result.hpp"

@@ -17,7 +17,7 @@ struct MainJob {
 };
 
 // Leaves one trace per engine, cells.json, verdicts.json, samples.json, report.html, report.md and junit.xml in the
-// folder. What is there already from the same build and scene is taken over.
+// folder. Results of the same build and scene that are there already are reused.
 core::Result<core::RunRows> run_main_job(const MainJob& job);
 
 // 1 when a verdict failed, 3 when one is inconclusive or a cell is missing that this machine could have run, else 0.

@@ -1,4 +1,4 @@
-// A check of option values that says what it wants: the option library's own names the largest double, all 309 digits.
+// A check of option values with a clear message: the option library's own prints the largest double, all 309 digits.
 #pragma once
 
 #include <string>

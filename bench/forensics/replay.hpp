@@ -17,7 +17,7 @@ struct Replay {
   std::string expectation;     // what had to agree, one sentence
   std::filesystem::path file;  // the engine's own trace
   TraceDifference difference;
-  // Whether there was anything to judge; a simulation in which every body was touched at once has nothing.
+  // Whether anything was judged; in a simulation in which every body was touched at once, nothing is.
   bool has_judged = true;
   std::string remark;  // what was left out, one sentence; empty when nothing was
 };

@@ -53,9 +53,9 @@ class SeparationRule final : public DifferenceRule {
 // velocity's error moves. After a body's first contact in either trace no bound is derived and nothing is judged:
 // contacts double a difference at every bounce. Where the recording has no contacts, a candidate pair counts as one.
 //
-// Ends of steps are compared always. What was found at detection is compared where both look at the same moment: the
-// pipeline's engines look after they moved the bodies; an engine whose detection states are those that the step began
-// with looked before, as Bullet does. Boxes are compared where the recorder adds no margin to them.
+// Ends of steps are always compared. Detection states are compared where both engines look at the same moment: the
+// pipeline's engines look after they moved the bodies; an engine whose detection states equal the states at the
+// beginning of the step looked before, as Bullet does. Boxes are compared where the recorder adds no margin to them.
 class FlightRule final : public DifferenceRule {
  public:
   // Both outlive the rule; replayed has every step.
@@ -64,7 +64,7 @@ class FlightRule final : public DifferenceRule {
     return core::bit(core::Group::kBodies) | (is_one_moment() ? core::bit(core::Group::kDetection) : 0U);
   }
   [[nodiscard]] bool includes_bookkeeping() const override { return false; }
-  // Whether the recorder looked for contacts before it moved the bodies, and whether both engines do it alike.
+  // Whether the recorder looked for contacts before it moved the bodies, and whether both engines agree in that.
   [[nodiscard]] bool detects_first() const { return detects_first_; }
   [[nodiscard]] bool is_one_moment() const { return is_one_moment_; }
   [[nodiscard]] bool has_margin() const { return has_margin_; }

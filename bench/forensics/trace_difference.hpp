@@ -1,4 +1,4 @@
-// The first place at which two traces of one scene part ways, and what the bodies there went through before.
+// The first place where two traces of one scene differ, and the contacts of the bodies there before it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class DifferenceRule {
   virtual ~DifferenceRule() = default;
   // Of these only the groups that both have are compared.
   [[nodiscard]] virtual std::uint32_t groups() const { return ~0U; }
-  // Also the counts beside the pairs, the time, and the digest where both traces mean the same by it.
+  // Also the counts beside the pairs, the time, and the digest where it means the same in both traces.
   [[nodiscard]] virtual bool includes_bookkeeping() const { return true; }
   // Called with each two frames before they are compared.
   virtual void enter(const core::FrameRecord& /*a*/, const core::FrameRecord& /*b*/) {}

@@ -1,4 +1,4 @@
-// Runs wrong engines and spoiled traces past the validators, and counts who noticed.
+// Runs wrong engines and tampered traces past the validators, and counts which of them were rejected.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct MutationRow {
   bool is_caught = false;   // by the validator that it is meant for
 };
 
-// A sound run that somebody blamed.
+// A sound run that a validator rejected.
 struct FalseAlarm {
   std::string scene;
   std::string validator;

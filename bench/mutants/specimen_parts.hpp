@@ -1,5 +1,5 @@
-// Parts of a specimen that a tampering spoils: the first contact, pair or vertex pair of a kind. Each notes in the
-// specimen when there is none.
+// Parts of a specimen that a tampering changes: the first contact, pair or vertex pair of a kind. When there is none,
+// the specimen notes it.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The scenes that mutants and tamperings are shown on: small, and each with what some law needs to be about something.
+// The small scenes on which mutants and tamperings are tried; each has what some law needs to apply.
 #pragma once
 
 #include <cstdint>

@@ -8,11 +8,11 @@
 
 namespace broadside::bench {
 
-// Others than the validator that it is meant for may reject it too: a broken state is broken in many ways.
+// Validators beside the intended one may reject it too, because a broken state breaks several laws.
 struct Tampering {
   std::string_view validator;
   std::string_view what;
-  // Leaves is_spoilable false when the recording has nothing of the kind that it spoils.
+  // Sets is_spoilable to false when the recording has nothing of the kind that it changes.
   void (*apply)(Specimen&);
   bool against_the_sound_one = false;  // judged with the sound recording as its baseline
 };

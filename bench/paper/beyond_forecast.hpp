@@ -1,4 +1,4 @@
-// Whether a cell beyond the paper is worth trying: what it cost at smaller counts says what it will cost.
+// Whether a cell beyond the paper is worth trying: a forecast of its time from its times at smaller counts.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace broadside::bench::paper {
 
-// Empty, or why the cell is left out: a + b N + c N^2 (cost_model.hpp) through what its model's and method's finished
-// cells of smaller counts took, three at least, predicts more than limit_s. What they took is wall time of recording
-// and timing, all loads included: a broad phase that is fast at a frame may take a minute to be loaded. Of cells that
-// are not 'beyond' nothing is said.
+// Empty, or why the cell is left out: a + b N + c N^2 (cost_model.hpp), fitted to at least three finished cells of the
+// same model and method at smaller counts, predicts more than limit_s. Their times are wall times of recording and
+// timing with all loads, because a broad phase that is fast at a frame may take a minute to load. Empty for cells that
+// are not part of 'beyond'.
 std::string why_too_long(const PaperCell& cell, std::span<const PaperCell> campaign, const CellFiles& files,
                          double limit_s);
 

@@ -18,7 +18,7 @@ namespace broadside::bench::paper {
 // on stderr, scene by scene, how far it is and how long the rest will take. An interrupt is an error of exit code 3.
 core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, const std::filesystem::path& folder);
 
-// The rows of a campaign's cells, whoever did them; a cell without a result is a row that says why.
+// The rows of a campaign's cells, whatever machine did them; a cell without a result is a row that says why.
 core::Result<std::vector<PaperRow>> rows_of_campaign(const campaign::Manifest& manifest,
                                                      const std::filesystem::path& folder);
 

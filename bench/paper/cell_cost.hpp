@@ -1,4 +1,4 @@
-// How long a cell will take: for the order of a campaign's cells and the time that is told, never for a result.
+// How long a cell will take: for the order of cells and the progress display, never for a result.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ namespace broadside::bench::paper {
 // DIR/cells/ID is a finished cell: row.json, and cells.json and verdicts.json as every campaign has them. It appears
 // whole, by a rename. DIR/cells/ID.part holds its single runs until then, and row.json where it says why there is no
 // result. TURNS in the folder work of DIR holds the traces of a scene until all its cells are finished.
-// What the plan says of a cell, and no measurement: which experiments show it, and under which name.
+// What the plan says about a cell and no measurement does: which experiments show it, and under which name.
 void describe(const PaperCell& cell, PaperRow& row);
 
 class CellFiles {
@@ -26,7 +26,7 @@ class CellFiles {
 
   // A damaged file counts as absent: the cell is measured again and replaced.
   [[nodiscard]] std::optional<PaperRow> finished(const std::string& id) const;
-  // The row of a cell as its plan names it; where nothing is finished it says why.
+  // The row of a cell as its plan names it; an unfinished cell's row says why.
   [[nodiscard]] PaperRow row(const PaperCell& cell) const;
   [[nodiscard]] core::Status finish(const std::string& id, const PaperRow& row, const core::RunRows& proof) const;
   // Kept for row(), and tried again by the next call.

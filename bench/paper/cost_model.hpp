@@ -24,12 +24,12 @@ struct CostFit {
   double quadratic_s = 0.0;
   double worst_relative_error = 0.0;  // over the fitted counts
   std::size_t points = 0;
-  std::size_t terms = 0;       // that are in use; with as many points the fit is exact and says nothing
+  std::size_t terms = 0;       // terms in use; with as many points as terms the fit is exact and proves nothing
   double largest_count = 0.0;  // that was measured
 
   [[nodiscard]] double at(double count) const { return fixed_s + count * (linear_s + count * quadratic_s); }
   [[nodiscard]] bool is_tested() const { return points > terms; }
-  // Of the cost at the largest count, which part is the quadratic term's?
+  // Which part of the cost at the largest count is the quadratic term's?
   [[nodiscard]] double quadratic_share() const {
     return quadratic_s * largest_count * largest_count / at(largest_count);
   }
@@ -40,7 +40,7 @@ std::optional<CostFit> fit_cost(const CostCurve& curve);
 
 // The L for which the published model explains the quadratic terms of a brute-force method and of one that prunes:
 // quadratic(brute) / quadratic(pruned) = 8^L. Nothing where the term is less than a tenth of either cost at its largest
-// count: what a fit puts there is then noise.
+// count, because the fit is noise there.
 std::optional<double> effective_depth(const CostFit& brute, const CostFit& pruned);
 
 // Where `late` becomes cheaper than `early`, which is the cheaper one below.

@@ -19,10 +19,10 @@ struct MeasureOptions {
   std::uint32_t runs = 5;
   bool allow_stand_in = false;
   bool keeps_traces = false;
-  // Told after every recording and every run how much of a group's work is done, 0 to 1.
+  // Called after every recording and every run with the share of the group's work that is done, 0 to 1.
   std::function<void(double)> progress;
-  // All cells of the campaign: what one of 'beyond' cost at smaller counts predicts what it will take, which may be at
-  // most limit_s.
+  // All cells of the campaign: for cells of 'beyond', times at smaller counts predict the time, which may be at most
+  // limit_s.
   std::span<const PaperCell> campaign = {};
   double limit_s = 0.0;
 };

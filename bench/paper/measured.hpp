@@ -27,7 +27,7 @@ struct Measured {
   [[nodiscard]] bool is_usable() const { return absence.empty() && !is_struck; }
 };
 
-// Over these values, one per run. A null row is a cell that nobody asked for.
+// Over these values, one per run. A null row is a cell that was not asked for.
 Measured measured(const PaperRow* row, const std::vector<double>& values);
 Measured fps_of(const PaperRow* row);
 
@@ -42,12 +42,12 @@ double change_percent(double value, double baseline);
 
 enum class Order { kHolds, kFails, kOpen, kAbsent };
 
-// Is a larger than b? Open when the difference of the means is within the sum of their standard deviations.
+// Is a larger than b? Undecided when the difference of the means is within the sum of their standard deviations.
 Order is_larger(const Measured& a, const Measured& b);
 Order both(Order a, Order b);
 std::string_view order_word(Order order);
 
-// "A < C < B" with "~" where two are not told apart; ascending. Names in the order given; absent ones are left out.
+// "A < C < B", ascending, "~" between two that cannot be told apart. Names in the order given; absent ones left out.
 std::string ascending(std::vector<std::pair<std::string, Measured>> values);
 
 // The rows of one experiment.
@@ -65,7 +65,7 @@ class RowTable {
   std::vector<const PaperRow*> rows_;
 };
 
-// Sentences for what is absent or struck out, each reason once, with the cells that it holds for.
+// Sentences about what is absent or struck out: each reason once, with the cells that it applies to.
 std::vector<std::string> reasons(const RowTable& table);
 
 }  // namespace broadside::bench::paper

@@ -11,7 +11,7 @@
 
 namespace broadside::bench::paper {
 
-// The engines that the experiments run on, and why these.
+// The engines that the experiments run on, and why these were chosen.
 struct Device {
   std::string octree;       // "octree-gpu" or "octree-cpu"
   std::string hash;         // "hash-gpu" or "hash-cpu"
@@ -47,7 +47,7 @@ bool takes_turns(const PaperCell& a, const PaperCell& b);
 
 struct PlanOptions {
   std::vector<std::string> models;    // empty = the paper's four
-  std::vector<std::uint32_t> counts;  // empty = the paper's, which differ by model
+  std::vector<std::uint32_t> counts;  // empty = the paper's counts, which differ by model
   std::uint32_t frames = 3000;
   std::uint32_t runs = 5;
   double limit_s = 60.0;  // a cell beyond the paper that is expected to take longer is left out

@@ -1,4 +1,4 @@
-// What a campaign of the paper's experiments was asked for: its cells follow from this, in the same order every time.
+// The request behind a campaign of the paper's experiments: its cells follow from this, in the same order every time.
 #pragma once
 
 #include <string>

@@ -15,9 +15,9 @@ inline constexpr float kPenetrationDt_s = 0.001F;
 // third of a second of it.
 core::Result<core::Scene> make_paper_scene(const PaperCell& cell, bool allow_stand_in);
 
-// Moves every body on in free flight until the lowest box touches the floor y = domain.min.y, in closed form: nothing
-// may be in touch before, and nothing is after. A scene that has no gravity along -y, or whose lowest box is on the
-// floor already, is left as it is.
+// Moves every body on in free flight, in closed form, until the lowest box touches the floor y = domain.min.y. No
+// bodies may touch before that, and none touch after it. A scene that has no gravity along -y, or whose lowest box is
+// on the floor already, is left as it is.
 void fly_to_floor(core::Scene& scene);
 
 }  // namespace broadside::bench::paper

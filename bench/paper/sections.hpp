@@ -1,4 +1,4 @@
-// The parts of the paper's report, each from the rows that it shows. A part without rows adds nothing.
+// The parts of the paper's report, each made from the rows that it shows. A part without rows adds nothing.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Which program this is and which machine it runs on: the part of a stamp that no scene or engine knows.
+// Which program this is and which machine it runs on: the part of a stamp that neither scene nor engine knows.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// This program again, in a process of its own: a library that aborts, hangs or eats the machine's memory must not take
-// the harness down.
+// Runs this program again as a child process, so that a library that aborts, hangs or uses up the machine's memory
+// cannot take the harness down.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct ChildLimits {
   std::uint64_t memory_mib = 0;  // of address space beyond what the child has when it begins its work; 0 = no limit
 };
 
-// "--memory-limit N" where there is a limit: a child sets it on itself (`limit_this_process`) when its libraries are
-// loaded and before it loads a scene, and the line that repeats a cell repeats its limit too.
+// "--memory-limit N" where there is a limit. The child sets it on itself (`limit_this_process`) after its libraries are
+// loaded and before it loads a scene. The command that repeats a cell contains it too.
 void append_memory_limit(std::vector<std::string>& arguments, const ChildLimits& limits);
 
 struct ChildEnding {
@@ -33,24 +33,24 @@ struct ChildEnding {
   std::string output;     // its stdout, where kept
 };
 
-// The verdict on an ending, in the words of `agree`: "abort", "crash", "time-out", "out of memory", "exception"; empty
-// when it is good.
+// How it ended, in the words of `agree`: "abort", "crash", "time-out", "out of memory", "exception"; empty when it
+// ended well.
 std::string_view class_of(const ChildEnding& ending);
 
-// As somebody types it: arguments with spaces or brackets are quoted.
+// As typed in a shell: arguments with spaces or brackets are quoted.
 std::string command_line(const std::vector<std::string>& arguments);
 
-// What of a child's streams is kept here instead of passed on. Of stderr that is the last line.
+// Which of a child's streams are kept here instead of passed on. Of stderr only the last line is kept.
 enum class Keeps { kNothing, kOutput, kOutputAndErrors };
 
-// Runs `broadside ARGUMENTS...`. Ctrl-C is passed on. A parent that is killed takes its child along.
+// Runs `broadside ARGUMENTS...`. Ctrl-C is passed on. When the parent is killed, the child ends too.
 core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, const ChildLimits& limits, Keeps keeps);
 
-// `broadside run ... --in-process`. Signal, time-out and an unexplained exit become cells that say so, with the command
-// that repeats them; bad input of the child comes back as its error.
+// `broadside run ... --in-process`. A signal, a time-out or an unexplained exit becomes a cell that says so, with the
+// command that repeats it; bad input of the child comes back as its error.
 core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const ChildLimits& limits);
 
-// `broadside time ... --in-process`: warm-up and one repetition. An ending that is not good is an error in those words.
+// `broadside time ... --in-process`: warm-up and one repetition. Any failed ending is an error with that text.
 core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const ChildLimits& limits);
 
 }  // namespace broadside::bench

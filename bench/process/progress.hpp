@@ -1,4 +1,4 @@
-// How far long work is: a line that rewrites itself on a terminal, now and then a plain line otherwise. On stderr.
+// Progress of long work on stderr: a line that rewrites itself on a terminal, otherwise a plain line now and then.
 #pragma once
 
 #include <chrono>
@@ -32,13 +32,13 @@ class Progress {
 
 inline constexpr const char* kLiveVariable = "BROADSIDE_LIVE_PROGRESS";
 
-// Is stderr shown to somebody as it is written?
+// Is stderr a terminal, or shown live by the parent?
 bool is_live();
 // Colors: on a terminal that knows them, unless NO_COLOR is set to anything but nothing (no-color.org).
 bool has_color();
 
-// On a terminal, the line that stays of an engine that is done: "[2 of 5] bullet-dbvt: recorded, 3000 frames in 4.2 s".
-// Elsewhere nothing: the table at the end says it.
+// On a terminal, a line that stays for an engine that is done: "[2 of 5] bullet-dbvt: recorded, 3000 frames in 4.2 s".
+// Elsewhere nothing, because the table at the end has it.
 void say_done(const core::Cell& cell, std::size_t number, std::size_t of);
 
 }  // namespace broadside::bench

@@ -1,4 +1,4 @@
-// An empty folder among the system's temporary files, which goes away with the object.
+// An empty folder among the system's temporary files; it is removed with the object.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// An array that forked children write and their parent reads: what a process that died had written is still there.
+// An array that forked children write and their parent reads: what a child wrote stays readable after it died.
 #pragma once
 
 #include <cstddef>

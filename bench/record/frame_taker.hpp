@@ -1,4 +1,4 @@
-// Takes frames off a simulation as it runs: at once, or one frame behind where the engine copies while it steps on.
+// Takes frames off a running simulation: at once, or one frame late where the engine copies while it steps on.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Traces in, verdicts out: what check and demo share.
+// Traces in, verdicts out: the part that check and demo share.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,10 @@ namespace broadside::bench {
 struct Matter {
   std::filesystem::path trace;
   std::filesystem::path baseline;  // empty = the trace alone
-  // Leave out what does not compare with the baseline: the trace was judged alone already.
+  // Skip laws that do not compare with the baseline, because the trace was already judged alone.
   bool only_against_baseline = false;
   std::vector<std::string> only;  // validators to run; empty = all
-  // Filled with the ledger of the trace where it has what that needs.
+  // Filled with the energy ledger when the trace has the groups that it needs.
   core::EnergySeries* energy = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// What the 3-D view of a report shows, taken from traces: the only part of a report that reads them.
+// What the 3-D view of a report shows, taken from traces; no other part of a report reads traces.
 #pragma once
 
 #include <filesystem>

@@ -25,7 +25,7 @@ class Recording {
   // With level none nothing is written, and the cell has no trace file.
   static core::Result<Recording> start(const CellRequest& request, core::TraceHeader header, std::uint64_t frames);
 
-  // The frame goes to the writer's thread; waits while that is too far behind.
+  // Queues the frame for the writer's thread; waits while that is too far behind.
   core::Status add(core::FrameRecord frame);
   void note_progress(std::uint64_t done) { progress_->at(done); }
   [[nodiscard]] bool is_due(std::uint64_t step) const {
@@ -35,7 +35,7 @@ class Recording {
   // What the engine counted, for the finished cell's row.
   void note_work(const std::vector<core::Counter>& counters);
 
-  // Exactly one of these ends it.
+  // Every recording ends with exactly one of these.
   core::Result<core::Cell> finish();
   core::Result<core::Cell> interrupted();
   core::Result<core::Cell> failed(const core::Error& error);

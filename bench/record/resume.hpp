@@ -1,4 +1,4 @@
-// Where a run that was cut short can go on: the trace that it left, and the scene with the states of its last frame.
+// Where an interrupted run can continue: the trace that it left, and the scene with the states of its last frame.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ struct ResumePoint {
   bool is_complete = false;
 };
 
-// Looks for NAME.h5.part, for NAME.h5.interrupted and for NAME.h5 (recovered, or complete) in the request's folder and
-// takes the one that got farthest; none = nothing to go on from. A .part is renamed to .interrupted first, so that a
-// kill while its frames are copied loses nothing. Errors: a trace of another stamp, level or choice of steps; an engine
-// with more state than its bodies'; a file whose writer is still at work.
+// Looks for NAME.h5.part, NAME.h5.interrupted and NAME.h5 (recovered, or complete) in the request's folder and takes
+// the one with the most frames; none = start anew. A .part is renamed to .interrupted first, so that a kill while its
+// frames are copied loses nothing. Errors: a trace of another stamp, level or choice of steps; an engine with more
+// state than its bodies'; a file whose writer is still at work.
 core::Result<std::optional<ResumePoint>> find_resume_point(const CellRequest& request, const core::TraceHeader& wanted);
 
 // The windows of steps that a trace was recorded in; empty = all steps.
 std::string windows_of(const core::TraceHeader& header);
 
-// What find_resume_point set aside, for the end of the run, which has all of it.
+// The files that find_resume_point set aside; they are removed at the end of the run, whose trace has all their frames.
 std::filesystem::path set_aside_path(const CellRequest& request, const core::Stamp& stamp);
 
 }  // namespace broadside::bench

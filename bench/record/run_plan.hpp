@@ -1,4 +1,4 @@
-// Several cells of one scene, in an order in which each finds what it needs.
+// Several cells of one scene, in an order in which each finds the traces that it needs.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct RunPlan {
   // Go on from traces of the same stamp that are in the folder and not complete.
   bool resume = false;
   ChildLimits limits;  // of a reference's process
-  // Time references here instead of in processes of their own: what such a process does.
+  // Time references in this process instead of a child: set in the child itself.
   bool times_here = false;
 };
 

@@ -1,4 +1,4 @@
-// An engine's frames, one after another, without a file: what a trial of the shrinker judges.
+// An engine's frames, one after another, without a file: a trial of the shrinker judges them.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class EngineStream {
   static core::Result<std::unique_ptr<EngineStream>> start(const core::Scene& scene, const CellSpec& spec);
 
   [[nodiscard]] const core::TraceHeader& header() const { return header_; }
-  // For the judge, who reads in order.
+  // For the judge, which reads in order.
   [[nodiscard]] validation::FrameSource source();
   // The bodies as the last frame that was read left them.
   [[nodiscard]] const std::vector<core::Body>& bodies() const { return bodies_; }

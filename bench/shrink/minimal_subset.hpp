@@ -1,4 +1,4 @@
-// Delta debugging: the smallest part of a list that still shows a fault.
+// Delta debugging: a smallest part of a list that still shows a fault.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Makes a scene in which an engine gets a verdict as small as it can be while the verdict stays.
+// Makes a scene in which an engine gets a verdict as small as possible while the verdict stays.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct ShrunkScene {
   core::Verdict verdict;  // of that scene
   std::uint64_t trials = 0;
   double seconds = 0.0;
-  bool is_out_of_time = false;  // it could perhaps be smaller
+  bool is_out_of_time = false;  // time ran out: it could perhaps be smaller
 };
 
 // Anything that judges a scene: ask() with a question, or a test's own.

@@ -1,4 +1,4 @@
-// Scenes with less in them: the edits that the shrinker tries.
+// The edits that the shrinker tries: scenes with fewer or simpler parts.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Two builds in turns on one machine: what differs between days or drifts differs for both.
+// Times two builds in turns on one machine, so that what differs between days or drifts affects both alike.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct InterleavePlan {
   bool allow_stand_in = false;
   std::uint64_t frames = 0;       // 0 = each scene's own
   std::uint32_t processes = 15;   // of each build; as many pairs
-  std::uint32_t most = 60;        // of each build, where the first ones do not tell; at least `processes`
+  std::uint32_t most = 60;        // of each build, while the first ones do not decide; at least `processes`
   std::uint32_t repetitions = 1;  // runs of one process
   std::filesystem::path folder;   // base/ and head/ in it get the rows of both
 };
@@ -29,20 +29,20 @@ struct InterleavedRows {
   core::RunRows base, head;
 };
 
-// At how many moments run_interleaved asks whether it is told: after `processes` pairs, and after every doubling up to
+// How often run_interleaved asks `untold`: after `processes` pairs, and after every doubling up to
 // `most`.
 std::uint32_t looks_of(const InterleavePlan& plan);
 
 // The names of the scenes of which more pairs are wanted.
 using Untold = std::function<std::set<std::string>(const InterleavedRows&)>;
 
-// Each build records and judges every scene; then pairs of timed processes, one of each build, ABBA, so that neither
-// build always comes second. The process of a sample is the number of its pair: reports::time_ratios compares pairs.
-// Goes on with the scenes that `untold` names, up to `most` pairs: a noisy machine costs time, not an answer.
+// Each build records and judges every scene; then pairs of timed processes run, one of each build, ABBA, so that
+// neither build always comes second. The process of a sample is the number of its pair: reports::time_ratios compares
+// pairs. Scenes that `untold` names get more pairs, up to `most`: a noisy machine costs time, not an answer.
 core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const Untold& untold);
 
-// `processes` timed runs of one program, one after the other, gathered into one list: what one process cannot see, the
-// spread between processes, is in it. The arguments are those of 'time' without --out.
+// `processes` timed runs of one program, one after the other, gathered into one list, so that it contains the spread
+// between processes, which a single process cannot show. The arguments are those of 'time' without --out.
 core::Result<std::vector<core::Sample>> time_in_processes(const std::vector<std::string>& arguments,
                                                           std::uint32_t processes, const std::filesystem::path& folder);
 

@@ -9,35 +9,35 @@
 
 namespace broadside::bench {
 
-// What disturbs a core comes and goes in milliseconds to seconds, and for each core on its own: on a virtual machine it
-// is the neighbor that shares the physical core, which costs up to 1.8 times. Two processes that compute the same
-// frames within some milliseconds on one core see the same of it, and the ratio of their frames does not.
+// Disturbances of a core come and go within milliseconds to seconds, separately for each core: on a virtual machine
+// they come from the neighbor that shares the physical core, and cost up to 1.8 times. Two processes that compute the
+// same frames on one core within some milliseconds are disturbed alike, so the ratio of their frames is not.
 //
 // The first process ends its turn after the first frame past the length of a turn and says how many frames it has done;
 // the second does as many and gives the turn back. So frame k of both is computed within two turns, and where one of
 // them stops or dies the other goes on alone.
 class Turns {
  public:
-  Turns() = default;  // alone: nothing below waits
+  Turns() = default;  // alone: the functions below do not wait
   Turns(const Turns&) = delete;
   Turns& operator=(const Turns&) = delete;
   ~Turns();
 
-  // "first:FD:CORE" or "second:FD:CORE": FD, which this object owns from now on, is one end of a connected pair of
-  // stream sockets that the other process has the other end of; each turn begins on CORE, or where it likes with -1.
+  // "first:FD:CORE" or "second:FD:CORE". This object owns FD from now on, one end of a connected pair of stream
+  // sockets; the other process has the other end. Each turn begins on CORE, or on any core with -1.
   core::Status join(const std::string& text);
 
-  // Whether nothing below waits.
+  // True when the functions below do not wait.
   [[nodiscard]] bool are_alone() const { return socket_ < 0; }
 
-  // Waits until both processes have set up and this one has its turn. No other work may be in between: it would run
-  // beside the other's clock.
+  // Waits until both processes have set up and this one has its turn. Call it directly before the first frame: other
+  // work here would run while the other process's clock runs.
   void begin();
 
-  // A frame, or whatever else both do equally often, was done: hands over where that is due.
+  // Call after each frame (or any other unit that both do equally often): hands over when the turn is up.
   void frame_done();
 
-  // All frames were done. The first one waits for the second, which is still being timed.
+  // Call after the last frame. The first process waits for the second, which is still being timed.
   void end();
 
  private:

@@ -1,5 +1,5 @@
-// How much work an engine did, in things that can be counted: the same on every machine, so a change is a change of the
-// program and not of the weather.
+// How much work an engine did, in things that can be counted. The counts are the same on every machine, so a changed
+// count means a changed program.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 
 namespace broadside::core {
 
-// A class derived from Dynamics may also derive from this; whoever records looks for it. Order of calls: step, start,
+// A class derived from Dynamics may also derive from this; the recorder looks for it. Order of calls: step, start,
 // step, finish, start, step, finish ... : one copy is under way while the next frame is computed, in one of two
 // buffers.
 class FrameCopies {

@@ -8,17 +8,17 @@
 
 namespace broadside::core {
 
-// A class derived from Dynamics may also derive from this; whoever steps without reading anything in between looks for
+// A class derived from Dynamics may also derive from this; callers that read nothing between steps look for
 // it.
 class RunsAhead {
  public:
   virtual ~RunsAhead() = default;
 
-  // Told after each step, in order; stage_times() and counters() are then of that step, and nothing else may be asked.
-  // False: no further step begins; those under way are done all the same, and not told of.
+  // Called after each step, in order; stage_times() and counters() then describe that step, and nothing else may be
+  // asked. Returns false to stop: no further step begins, and steps that are under way end without a call.
   using StepDone = std::function<bool()>;
 
-  // As so many calls of step(dt_s). A step may begin before the one before it is told of. Returns when all is complete.
+  // Like that many step(dt_s), but a step may begin before the last one was reported. Returns when all are complete.
   virtual Status run(float dt_s, std::uint64_t steps, const StepDone& step_done) = 0;
 };
 

@@ -1,15 +1,15 @@
-// What an engine offers beside its capability when counting its work takes time: it counts where it was asked to.
+// What an engine offers beside its capability when counting its work takes time: it counts only when asked to.
 #pragma once
 
 namespace broadside::core {
 
-// A class derived from Dynamics or BroadPhase may also derive from this; whoever records whole frames looks for it, and
-// whoever times does not ask.
+// A class derived from Dynamics or BroadPhase may also derive from this. Recordings of whole frames ask for it; timed
+// runs do not.
 class CountsWork {
  public:
   virtual ~CountsWork() = default;
 
-  // From the next load on, counters() has the work too that takes time to count.
+  // From the next load on, counters() also has the counts that take time to make.
   virtual void count_work() = 0;
 };
 

@@ -1,5 +1,5 @@
-// Is an OFF file whole? Asked before assimp reads it: its OFF reader counts faces that it leaves out below zero, and
-// then walks off its list.
+// Is an OFF file whole? Asked before assimp reads it: when assimp's OFF reader leaves faces out, its count of faces
+// runs below zero and it reads past the end of its list.
 #pragma once
 
 #include <filesystem>

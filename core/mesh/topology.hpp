@@ -15,7 +15,7 @@ struct Topology {
   std::uint64_t misoriented_edges = 0;      // of two triangles that turn opposite ways
   std::uint64_t non_manifold_vertices = 0;  // whose triangles form more than one fan
   std::uint64_t components = 0;             // that share no vertex
-  std::int64_t euler_characteristic = 0;    // V - E + T: 2 for each closed component like a sphere, less 2 a handle
+  std::int64_t euler_characteristic = 0;    // V - E + T: 2 for each closed component like a sphere, minus 2 per handle
 
   [[nodiscard]] bool is_manifold() const { return non_manifold_edges == 0 && non_manifold_vertices == 0; }
   [[nodiscard]] bool is_closed() const { return is_manifold() && boundary_edges == 0; }

@@ -1,4 +1,4 @@
-// The order in which contacts are resolved: METHOD leaves it open and the paper races (E8); this is ours.
+// The order in which contacts are resolved. METHOD leaves it open, the paper's threads race (E8); this order is ours.
 #pragma once
 
 #include <cstdint>

@@ -16,9 +16,9 @@ namespace broadside::core {
 // threads may add their records in any order; each record's hash starts from a seed and its own identity, so equal
 // records of different bodies do not cancel or swap unseen.
 //
-// Two words are taken in by one multiplication to 128 bits whose halves are folded together. With one multiplication of
-// 64 bits and three shifts for each word, hashing took a sixth of the instructions of a sparse CPU frame. A word is
-// lost only beside one of 2^64 values of its neighbour.
+// One multiplication to 128 bits takes in two words, and its halves are folded together. One multiplication of 64 bits
+// and three shifts per word took a sixth of all instructions of a sparse CPU frame. A word can only cancel when its
+// neighbour is one value out of 2^64.
 class RecordHash {
  public:
   BROADSIDE_HD constexpr RecordHash(std::uint64_t seed, std::uint64_t identity)
@@ -29,7 +29,7 @@ class RecordHash {
     return *this;
   }
   BROADSIDE_HD constexpr RecordHash& add(float a, float b, float c, float d) { return add(word(a, b), word(c, d)); }
-  // The sum of records needs each well mixed up to its last word.
+  // A sum of records is only as good as each record's hash, so the last word is mixed as well as the first.
   BROADSIDE_HD constexpr std::uint64_t value() const { return folded(h_ ^ kFirst, kSecond); }
 
  private:
@@ -49,7 +49,7 @@ class RecordHash {
   std::uint64_t h_;
 };
 
-// What of a body's record never changes where nothing turns: engines that only translate hash it once.
+// The part of a body's record that stays the same while no body turns: engines that only translate hash it once.
 BROADSIDE_HD constexpr RecordHash still_body_digest(std::uint32_t body, Quat q, Vec3 omega) {
   return RecordHash(0x626f6479ULL, body).add(q.w, q.x, q.y, q.z).add(omega.x, omega.y, omega.z, 0.0F);
 }

@@ -44,7 +44,7 @@ BROADSIDE_HD bool overlaps_at(const Box& a, Vec3 xa, const Box& b, Vec3 xb) {
   return overlaps(translated(a, xa), translated(b, xb));
 }
 
-// What the functions below do with the number of their box tests when nobody asks: nothing, at no cost.
+// Stands in for `tests` below when nobody counts: it does nothing and costs nothing.
 struct Uncounted {
   BROADSIDE_HD Uncounted& operator++() { return *this; }
 };
@@ -91,8 +91,8 @@ BROADSIDE_HD bool descent_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes&
   return false;
 }
 
-// Are the bodies' boxes of the last level of this setting in contact somewhere? A child box lies inside its parent's
-// box, also after rounding, so A, B and C always agree.
+// True when boxes of this setting's last level overlap somewhere. A child box lies inside its parent's box, also after
+// rounding, so A, B and C always agree.
 template <typename Tests>
 BROADSIDE_HD bool is_confirmed(Levels levels, const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb, Tests& tests) {
   switch (levels) {

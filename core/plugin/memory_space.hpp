@@ -8,7 +8,7 @@
 
 namespace broadside::core {
 
-// A block of bytes that ends at a place behind which nothing can be written, where the space can do so.
+// A block of bytes. Where the space can do it, memory behind the block's end cannot be written.
 class MemoryBlock {
  public:
   virtual ~MemoryBlock() = default;
@@ -31,7 +31,7 @@ class MemorySpace {
   virtual Result<std::unique_ptr<MemoryBlock>> allocate(std::size_t bytes) = 0;
 };
 
-// Pages of their own with one before and one behind that cannot be touched; the block ends where the last one begins.
+// Each block has its own pages between two guard pages that cannot be touched, and ends at the guard page behind it.
 std::unique_ptr<MemorySpace> make_host_space();
 
 }  // namespace broadside::core

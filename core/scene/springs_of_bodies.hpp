@@ -19,8 +19,8 @@ struct SpringsOfBodies {
 
 SpringsOfBodies springs_of_bodies(const Scene& scene);
 
-// A step at or above the limit of P(4) would be simulated, and diverge: the error names the body and its limit.
-// printed-E1 takes P(4) at its word and lets more through.
+// A step at or above the limit of P(4) would diverge: the error names the body and its limit. printed-E1 uses P(4) as
+// printed and lets more through.
 Status check_spring_step(const Scene& scene, Variant variant);
 
 }  // namespace broadside::core

@@ -1,4 +1,4 @@
-// The same experiment told differently: scenes whose outcomes follow from the original's.
+// Scenes derived from another one so that their outcomes follow from its outcomes.
 #pragma once
 
 #include <cstdint>

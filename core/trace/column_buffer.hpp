@@ -27,7 +27,7 @@ class ColumnBuffer {
 
   // One frame (or window): the column's part of each record; for offsets, the number of records so far.
   void add(RecordSpan<const std::byte> records);
-  // Hands what waits to HDF5. False when HDF5 failed; its reason is then on its error stack.
+  // Hands the waiting rows to HDF5. False when HDF5 failed; its reason is then on its error stack.
   bool write(Packing packing);
 
  private:

@@ -1,4 +1,4 @@
-// Where two frames first differ: one definition for whoever compares traces.
+// Where two frames first differ: one definition for everything that compares traces.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@
 
 namespace broadside::core {
 
-// Owns one identifier. A destructor cannot report a failed close, so whoever must know calls close().
+// Owns one identifier. A destructor cannot report a failed close, so callers that must know call close().
 class Handle {
  public:
   using Closer = herr_t (*)(hid_t);
@@ -43,8 +43,8 @@ class Handle {
   Closer closer_ = nullptr;
 };
 
-// Whoever calls HDF5 holds one: while it lives no other thread is inside HDF5, which Debian builds without thread
-// safety, and HDF5 prints nothing of its own. What was set before comes back afterwards. One thread may hold several.
+// Hold one while calling HDF5: no other thread is inside HDF5 then (Debian builds it without thread safety), and HDF5
+// prints nothing. The old settings come back afterwards. One thread may hold several.
 class QuietHdf5 {
  public:
   QuietHdf5();

@@ -1,4 +1,4 @@
-// Reads plain arrays, numbers and fixed-length strings from an HDF5 file that nobody vouches for. Private to
+// Reads plain arrays, numbers and fixed-length strings from an HDF5 file that is not trusted. Private to
 // core/trace/*.cpp.
 #pragma once
 
@@ -86,8 +86,8 @@ class Hdf5Source {
   bool read_into(const OpenArray& array, const std::string& path, std::uint64_t first, std::uint64_t count,
                  std::byte* out);
   void fail_hdf5(const std::string& at, const std::string& what);
-  // Whether the dataset is stored in this file, by means that are known, and in a size that the file can have. Says
-  // which it is not.
+  // Whether the dataset is stored in this file, by means that are known, and in a size that the file can have. When
+  // not, the failure says which of these is wrong.
   bool can_hold(hid_t set, const std::string& path, const std::vector<hsize_t>& dims, std::uint64_t element_bytes);
 
   Handle file_;

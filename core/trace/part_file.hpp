@@ -14,9 +14,9 @@
 namespace broadside::core {
 
 // HDF5 1.10 cannot close a file whose last writes fail: identifiers stay open, and the library trips over them when the
-// process exits. So HDF5 writes through a driver of ours. The first refused write is remembered and freezes the file on
+// process exits. So HDF5 writes through our own driver. The first refused write is remembered and freezes the file on
 // disk as a kill at that moment would; that write and all later ones go to pages in memory, which HDF5 reads back as if
-// they had been written, so that it always closes cleanly. Whoever writes asks refused() after every commit.
+// they had been written, so that it always closes cleanly. The caller asks refused() after every commit.
 //
 // Between commits, what was committed is left alone: writes behind its end go to disk, where nothing points to them
 // yet, and writes into it wait in memory. A kill at any moment therefore leaves the last commit, whole.

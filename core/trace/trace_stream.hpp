@@ -1,5 +1,5 @@
-// Writes a trace on a thread of its own, behind a queue that is bounded in bytes: the run goes on while a frame is
-// packed and written, and waits, rather than loses one, when the disk is slower than the run.
+// Writes a trace on a thread of its own, behind a queue that is bounded in bytes. The run goes on while a frame is
+// packed and written; when the disk is slower than the run, the run waits and no frame is lost.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What the generators of boxes draw with.
+// Random draws that the generators of boxes share.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Sets of boxes at the edges of what a broad phase must get right: races on them are of answers, not of times.
+// Sets of boxes on which a broad phase easily goes wrong: they compare answers, not times.
 #pragma once
 
 #include <cstdint>

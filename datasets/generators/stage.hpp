@@ -1,4 +1,4 @@
-// A scene under construction: bodies of one model, and static boxes to hold them.
+// A scene under construction: bodies of one model, and static boxes around them.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@
 namespace broadside::datasets {
 
 struct MeshOptions {
-  std::filesystem::path mesh_dir;   // a folder of mesh files that somebody provides; empty = none
+  std::filesystem::path mesh_dir;   // a folder of mesh files from the user; empty = none
   std::filesystem::path cache_dir;  // where fetch_mesh leaves its products; empty = none
   // A procedural body of the same size class when no file is there; it is marked as a stand-in.
   bool allow_procedural = false;
@@ -21,13 +21,13 @@ struct MeshOptions {
   static MeshOptions from_environment();
 };
 
-// A mesh file of somebody's own; Mesh::source is its name and sum. Errors: those of load_mesh.
+// A mesh file of the user's own; Mesh::source is its name and sum. Errors: those of load_mesh.
 core::Result<core::LoadedMesh> mesh_from_file(const std::filesystem::path& path);
 
-// A name with an extension is the path of a mesh file. Otherwise it looks for the row's files in mesh_dir, then in
+// A name with an extension is the path of a mesh file. Otherwise the row's files are searched in mesh_dir, then in
 // cache_dir, best first. Coordinates are the file's; Mesh::name is the catalogue's and Mesh::source says which file
 // with which sum was used. Errors: unknown name; a file with another sum than the published one (a damaged file is
-// never passed over in silence); no file, with what to do; and all errors of load_mesh.
+// never skipped without an error); no file, with what to do; and all errors of load_mesh.
 core::Result<core::LoadedMesh> acquire_loaded_mesh(std::string_view name, const MeshOptions& options);
 
 // The mesh alone.

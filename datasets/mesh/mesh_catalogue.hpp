@@ -14,7 +14,7 @@ namespace broadside::datasets {
 struct MeshSource {
   bool is_npm = false;  // otherwise apt
   std::string_view package;
-  std::string_view version;  // that the sums were taken with; the sum decides, not the version
+  std::string_view version;  // of which the sums were taken; the sum decides, not the version
   std::string_view member;   // in the package's file tree
   std::string_view inner;    // in the archive that the member is; empty = the member is the model
   std::string_view model_file;
@@ -31,7 +31,7 @@ struct MeshFile {
   std::uint32_t boundary_edges = 0;  // 0: closed; every file here is a manifold
   std::int32_t euler_characteristic = 2;
   double covering_radius = 0.0;  // rho of METHOD section 3, in the file's unit
-  bool is_stand_in = false;      // detail that is not the original's: reports say so
+  bool is_stand_in = false;      // detail that the original does not have: reports say so
   std::string_view what;
   const MeshSource* source = nullptr;  // what `fetch_mesh` makes it from; null = it cannot be made here
 };
@@ -39,7 +39,7 @@ struct MeshFile {
 struct MeshRow {
   std::string_view name;
   std::string_view what;
-  std::span<const MeshFile> files;  // best first; the first that is there is taken
+  std::span<const MeshFile> files;  // best first; the first file that exists is used
   std::uint32_t vertices = 0;       // the size class: of the paper's model where it has one
   std::uint32_t triangles = 0;
   std::string_view credit;

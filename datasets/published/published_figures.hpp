@@ -1,4 +1,4 @@
-// The paper's own figures, as printed: what our tables are set beside. Source and columns: README.md here.
+// The paper's own figures, as printed, to be shown beside ours. Source and columns: README.md here.
 #pragma once
 
 #include <cstdint>

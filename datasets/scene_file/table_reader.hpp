@@ -13,7 +13,7 @@
 
 namespace broadside::datasets {
 
-// The file's name and its first error; shared by the readers of its tables.
+// The file's name and its first error; all readers of its tables share it.
 struct FileErrors {
   std::string file;
   std::optional<core::Error> first;

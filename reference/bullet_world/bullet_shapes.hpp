@@ -19,8 +19,8 @@ enum class BulletMesh {
 
 struct BulletShapeOptions {
   BulletMesh mesh = BulletMesh::kGimpact;
-  // By which hulls and triangles are thickened, m. Boxes keep their size and get rounded edges, spheres and capsules
-  // stay as they are.
+  // By how much hulls and triangles are thickened, m. Boxes keep their size and get rounded edges; spheres and capsules
+  // do not change.
   float margin_m = 0.0F;
 };
 
@@ -28,7 +28,7 @@ struct BulletShape {
   std::shared_ptr<btCollisionShape> shape;
   std::shared_ptr<void> behind;  // what the shape refers to and does not own
   std::string what;              // "box", "GImpact triangle mesh"
-  std::string differs;           // how it is not the scene's mesh: "true sphere, facets up to 1.2 mm inside"; or empty
+  std::string differs;           // from the scene's mesh: "true sphere, facets up to 1.2 mm inside"; or empty
 };
 
 // The mesh is kept alive by the shape. Throws what Bullet or memory throws.

@@ -10,7 +10,7 @@
 
 namespace broadside::reference {
 
-// How a mutant shows: alone, against a second run of itself, or against its run on a transformed scene.
+// How a mutant is exposed: by its run alone, by a second run of itself, or by its run on a transformed scene.
 enum class Showing { kAlone, kSecondRun, kMirrored, kScaled, kRenumbered };
 
 struct Mutant {

@@ -1,4 +1,4 @@
-// The pipeline's stages run one after another, body by body, with any of them replaced: an engine to be wrong in.
+// The pipeline's stages, one after another, body by body; any of them can be replaced: the base of wrong engines.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,18 @@
 
 namespace broadside::reference {
 
-// With default stages: octree-cpu[broad=octree], bit for bit. The sound engine knows nothing of this one, so a seam for
-// mutations costs it nothing. One thread, because what it runs is small.
+// With default stages: octree-cpu[broad=octree], bit for bit. The sound engine has no hooks for mutations, so they cost
+// it nothing. One thread, because the scenes that it runs are small.
 class SerialPipeline final : public core::Dynamics {
  public:
-  // run: given to the stages, for those that are not determined.
+  // run: handed to the stages, for mutants that differ from run to run.
   explicit SerialPipeline(const Stages& stages, std::uint64_t run = 0);
 
   core::Status load(const core::Scene& scene) override;
   core::Status step(float dt_s) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   [[nodiscard]] std::uint32_t groups() const override;
-  // Canonical settings of the engine that it stands for.
+  // Canonical settings of the engine that it imitates.
   static const char* settings();
 
  private:

@@ -25,12 +25,12 @@ struct World {
   Bodies bodies;
   float dt_s = 0.0F;
   std::uint64_t step = 0;  // of the frame that is being made, from 1
-  std::uint64_t run = 0;   // 0, 1, ...: what a run that is not determined depends on
+  std::uint64_t run = 0;   // 0, 1, ...: lets a mutant differ from run to run
   core::PairSet candidates;
   std::vector<core::Pair> confirmed;
   std::vector<core::Proximity> proximity;
   std::vector<core::Contact> contacts;
-  // Of the frame before: what a stage that lags behind would use.
+  // The frame before, for stages that lag behind.
   std::vector<core::Kinematics> last_state;
   std::vector<core::Box> last_boxes;
   std::vector<core::Pair> last_pairs;
@@ -80,12 +80,12 @@ struct Stages {
   core::Material (*combine)(const core::Material& a, const core::Material& b) = nullptr;
   // Fills the contact from the pre states in it.
   void (*respond)(const World&, const Application&) = nullptr;
-  // What a contact leaves, before it is stored.
+  // Changes a contact before it is stored.
   void (*store)(const World&, core::Contact&) = nullptr;
   core::Vec3 (*clip)(core::Vec3 v, float v_max) = nullptr;
-  // Before the states become those of the frame's end.
+  // Changes the states before they become those of the frame's end.
   void (*end)(World&) = nullptr;
-  // What is told of the frame.
+  // Changes what is recorded of the frame.
   void (*tell)(const World&, core::FrameRecord&) = nullptr;
   bool faces_first = false;
   bool moves_static = false;

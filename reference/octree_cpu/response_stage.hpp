@@ -49,7 +49,7 @@ class ResponseStage {
   // Slots in order of application; depth 0 marks a slot that made no contact.
   std::vector<core::Contact> contacts_;
   std::vector<std::array<core::Contact, core::kFaceCount>> face_contacts_;
-  // Bit k of a body: its contact with face k was applied. Six contacts of each body are much to look through.
+  // Bit k of a body: its contact with face k was applied. Searching six contacts for each body would take longer.
   std::vector<std::uint8_t> touched_faces_;
   std::vector<core::Kinematics> sums_;
   std::vector<std::uint8_t> never_written_;

@@ -11,7 +11,7 @@
 
 namespace broadside::reference {
 
-// One Proximity per pair: the nearest of all vertex pairs below the pair's theta, whatever leaf they are in.
+// One Proximity per pair: the nearest of all vertex pairs below the pair's theta, whatever leaves they are in.
 void measure_proximity(const Bodies& bodies, const core::Parameters& parameters, std::span<const core::Pair> confirmed,
                        std::vector<core::Proximity>& out);
 

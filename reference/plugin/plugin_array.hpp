@@ -12,7 +12,7 @@
 
 namespace broadside::reference {
 
-// What the harness hands in. A plug-in that writes here dies of it.
+// An input. A plug-in that writes to it crashes.
 template <typename T>
 class PluginInput {
  public:
@@ -35,7 +35,7 @@ class PluginInput {
   std::unique_ptr<core::MemoryBlock> block_;
 };
 
-// What a plug-in fills. Elements start as bytes 0xFF, so that those it says it wrote and did not can be told.
+// What a plug-in fills. Elements start as bytes 0xFF, so that those it only claims to have written are found.
 template <typename T>
 class PluginOutput {
  public:
@@ -72,7 +72,7 @@ struct Read {
   std::uint64_t demanded = 0;
 };
 
-// Asks with room for `guess`, and once more when that was too little. read(out, capacity, &demanded) returns a Status.
+// Asks with room for `guess` elements, and once more when it was too little. read(out, capacity, &demanded): a Status.
 template <typename T, typename ReadFunction>
 core::Result<Read<T>> read_all(core::MemorySpace& space, std::size_t guess, ReadFunction&& read) {
   PluginOutput<T> output(space);

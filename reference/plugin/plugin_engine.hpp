@@ -11,7 +11,7 @@
 
 namespace broadside::reference {
 
-// What a plug-in says of itself, without the library: safe to hold in a process that never loads it.
+// What a plug-in says about itself, without the library: safe to hold in a process that never loads it.
 struct PluginDescription {
   struct Setting {
     std::string key;
@@ -26,7 +26,7 @@ struct PluginDescription {
   std::vector<Setting> settings;
 };
 
-// Loads the library and asks it: only in a process that may die of it.
+// Loads the library and reads its description. Call it only in a child process: a bad library may crash it.
 core::Result<PluginDescription> describe_plugin(const std::filesystem::path& file);
 
 // The engine itself. `space` is where the plug-in wants its arrays. Settings: those of the description, by key.

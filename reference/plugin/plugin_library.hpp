@@ -14,7 +14,7 @@ namespace broadside::reference {
 
 class PluginLibrary {
  public:
-  // Runs the library's own initializers: only in a process that may die of it. Errors: no such file, not a shared
+  // Runs the library's own initializers, so call it only in a child process. Errors: no such file, not a shared
   // library, no entry, another version of the interface, half a group of functions, an unusable id (each named).
   static core::Result<std::shared_ptr<const PluginLibrary>> open(const std::filesystem::path& file);
 
@@ -36,7 +36,7 @@ class PluginLibrary {
   const broadside_engine* engine_;
 };
 
-// One engine made by the library: destroyed with its last user.
+// One engine made by the library; destroyed with its last user.
 class PluginInstance {
  public:
   // values[k] belongs to the library's settings[k].
@@ -49,7 +49,7 @@ class PluginInstance {
   [[nodiscard]] const broadside_engine& table() const { return library_->engine(); }
   [[nodiscard]] void* self() const { return self_; }
   [[nodiscard]] std::string where(std::string_view stage) const;
-  // What a function of the library returned, as a status: its last_error when it failed.
+  // The status that a function of the library returned, with the library's last_error when it failed.
   [[nodiscard]] core::Status checked(int returned, std::string_view stage) const;
 
  private:

@@ -1,4 +1,4 @@
-// Refuses boxes that no broad phase can be held to: not finite, or inside out.
+// Refuses boxes for which no broad phase is defined: not finite, or inside out.
 #pragma once
 
 #include <cstdint>

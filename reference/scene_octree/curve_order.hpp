@@ -18,7 +18,7 @@ class CurveOrder {
  private:
   void order_part(const BoxRecord* records, std::size_t begin, std::size_t end);
 
-  std::vector<KeyedId> entries_;  // place in the bucket, below a key that is spent
+  std::vector<KeyedId> entries_;  // place in the bucket, under a key that is no longer needed
   std::vector<KeyedId> scratch_;
 };
 

@@ -41,7 +41,7 @@ class PairWriter {
 
  private:
   void open_block() {
-    // for_overwrite: pages that no pair reaches are never touched.
+    // for_overwrite: pages that hold no pair are never touched.
     if (filled_.size() == blocks_.size())
       blocks_.push_back(std::make_unique_for_overwrite<core::Pair[]>(kPairsPerBlock));
     next_ = blocks_[filled_.size()].get();

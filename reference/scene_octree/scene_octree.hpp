@@ -27,7 +27,7 @@ class SceneOctree {
   void find_pairs(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::Box& domain,
                   std::vector<core::Pair>& out);
 
-  // The two halves of find_pairs, and the order, for whoever times them apart.
+  // The two halves of find_pairs, and the order, for callers that time them apart.
   void build(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::Box& domain);
   void find();
   void read_back(std::vector<core::Pair>& out);
@@ -35,7 +35,7 @@ class SceneOctree {
   [[nodiscard]] int depth() const { return depth_; }
   // Of each body, in order of id: the node that it is stored in. Valid after build.
   [[nodiscard]] std::span<const core::SceneNode> nodes() const { return nodes_; }
-  // The complete octree that these nodes are of, as OctreeRecord::tell_octree says it.
+  // The complete octree to which these nodes belong, as OctreeRecord::tell_octree gives it.
   void tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const;
   // Box tests of the last find.
   [[nodiscard]] std::uint64_t tests() const { return tests_; }

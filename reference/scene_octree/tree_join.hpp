@@ -1,9 +1,9 @@
 // The search of one pack of boxes, for any vector type. Included once by each file that is compiled for an instruction
 // set; everything here has internal linkage, so that no two of them share code.
 //
-// Where boxes are spread, a test finds one overlap on average, so a branch on it is a coin toss that costs more than
-// the test. Hence lists: each stage tests everything in its list and appends what overlaps to the next stage's, writing
-// all eight lanes and advancing by the number that hold. Only the ends of lists are branches.
+// Where boxes are spread, a test finds one overlap on average, so the branch on it is mispredicted half the time, which
+// costs more than the test. Hence lists: each stage tests everything in its list and appends what overlaps to the next
+// stage's list, writing all eight lanes and advancing by the number of hits. Only the ends of lists are branches.
 //
 // Lanes is the vector code:
 //   struct Box;                                      one box in every lane
@@ -23,7 +23,7 @@ namespace {
 
 // Entries of a list: enough that a box of usual size fills none, few enough that all of them stay in L1 (8 KiB).
 constexpr std::uint32_t kListSize = 256;
-// A giant's list is emptied into the next when it holds this many; one more append always fits.
+// A giant's list is handed to the next stage when it holds this many; one more append always fits.
 constexpr std::uint32_t kListFull = kListSize - 8U;
 
 template <typename Lanes>
@@ -36,7 +36,7 @@ class Join {
     const TreeClass& own = tree_.classes[pack_class];
     own_pack_ = own.level_begin[0] + pack;
     bounds_ = Lanes::spread(tree_.packs[own.level_begin[1] + pack / 8U], pack % 8U);
-    // core::finds: within the class, packs that come first find; from classes that are finer, all.
+    // core::finds: within a class the first of two packs finds the pair, between classes the pack of the finer one.
     walk(own, pack);
     for (std::uint32_t other = pack_class + 1U; other < tree_.class_count; ++other) walk(tree_.classes[other], 0);
   }

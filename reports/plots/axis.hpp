@@ -1,4 +1,4 @@
-// An axis: which values lie where, and which of them are written beside it.
+// An axis: where values lie on it, and which of them are labelled.
 #pragma once
 
 #include <span>

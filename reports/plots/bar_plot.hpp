@@ -10,7 +10,7 @@ namespace broadside::reports::plots {
 
 struct BarSeries {
   std::string name;
-  std::vector<double> values;  // one per group; not finite = absent, said so in place of the bar
+  std::vector<double> values;  // one per group; not finite = absent, and the bar's place says so
   std::vector<double> errors;  // half the length of the error bar, one per group; empty or not finite = none
 };
 

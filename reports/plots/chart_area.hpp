@@ -1,4 +1,4 @@
-// What charts with two axes share: where the data lie on the picture, grid, axis names, heading and legend.
+// What charts with two axes share: the rectangle of the data, grid, axis names, heading and legend.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace broadside::reports::plots {
 
-// What a plot says in words. The description stands in for the picture where it is not seen: say what it shows.
+// The words of a plot. The description replaces the picture for readers who cannot see it: say what it shows.
 struct PlotText {
   std::string title;
   std::string description;
@@ -58,12 +58,12 @@ void draw_x_axis(Drawing& drawing, const Area& area, const Axis& x, std::string_
 // A frame alone, with these names under equal parts of it.
 void draw_x_names(Drawing& drawing, const Area& area, const std::vector<std::string>& names, std::string_view label);
 
-// Lines with no place on their axis are left out; without an x axis all that stand on it. Words that would run into
-// each other go below each other.
+// Lines with no place on their axis are left out; so are all upright ones without an x axis. Labels that would overlap
+// are drawn below each other.
 void draw_cross_lines(Drawing& drawing, const Area& area, const std::vector<CrossLine>& lines, const Axis* x,
                       const Axis& y);
 
-// "no data": absence is a word, never an empty frame.
+// "no data": absence is said in words, never by an empty frame.
 void draw_absence(Drawing& drawing, const Area& area);
 
 }  // namespace broadside::reports::plots

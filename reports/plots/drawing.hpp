@@ -23,7 +23,7 @@ struct Point {
 // "on-full", "model-box". Texts are escaped here; whatever is drawn outside the picture is cut off by the viewer.
 class Drawing {
  public:
-  // title and description are what a screen reader says; neither is drawn.
+  // A screen reader reads title and description; neither is drawn.
   Drawing(double width, double height, std::string_view title, std::string_view description);
 
   void line(std::string_view style, Point from, Point to);
@@ -34,7 +34,7 @@ class Drawing {
   // opacity 0 to 1: for shades of one color that work on light and on dark.
   void shaded_rect(std::string_view style, Point corner, double width, double height, double opacity,
                    std::string_view hint);
-  // Shape 0 to 3: circle, square, diamond, triangle. Series are told apart by it where color is not seen.
+  // Shape 0 to 3: circle, square, diamond, triangle. They tell series apart where colors cannot be seen.
   void mark(std::string_view style, int shape, Point at, std::string_view hint = {});
   void text(std::string_view style, Point at, Anchor anchor, std::string_view words);
   // Read from bottom to top, centered at the point.
@@ -42,7 +42,7 @@ class Drawing {
   // SVG path data as they are; color is a presentation attribute and may be empty.
   void path(std::string_view style, std::string_view color, std::string_view data);
 
-  // Two placed inline on one page have the same ids only when they are the same picture.
+  // Two pictures on one page have the same ids only when they are the same picture.
   [[nodiscard]] std::string finish(Placement placement) const;
 
  private:

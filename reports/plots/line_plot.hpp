@@ -15,7 +15,7 @@ struct Curve {
   // The band: as many as x, or none. Around the curve, for instance mean -+ standard deviation.
   std::vector<double> low = {};
   std::vector<double> high = {};
-  // A model's line: dashed, without marks, in the color of the curve before it that it belongs to.
+  // A model's line: dashed, without marks, in the color of the curve before it.
   bool is_fitted = false;
 };
 

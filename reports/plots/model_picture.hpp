@@ -28,7 +28,7 @@ Projected project(core::Vec3 point, const View& view);
 
 struct ModelPicture {
   std::string title;        // drawn too
-  std::string description;  // for who does not see it
+  std::string description;  // for readers who cannot see it
   View view;
 };
 
