@@ -1,4 +1,4 @@
-"""What is in a trace, with h5py and pandas: python3 reading_a_trace.py octree-cpu.h5"""
+"""Prints the content of a trace with h5py and pandas: python3 reading_a_trace.py octree-cpu.h5"""
 import sys
 import h5py
 import pandas as pd

@@ -1,6 +1,6 @@
 """Writes the inputs that fuzzing starts from:  make_seeds.py FOLDER
 
-Small files of every kind that the readers take, made from nothing: FOLDER/scene, boxes, trace and mesh. A mesh begins with
+Small files of every kind that the readers take, generated here: FOLDER/scene, boxes, trace and mesh. A mesh begins with
 one more byte, which names its format (tests/fuzz/readers.hpp). Needs numpy and h5py (Debian: python3-h5py).
 """
 

@@ -1,4 +1,4 @@
-"""Run by pvpython: goes through all time steps of a file and prints what it saw of each, as JSON on the last line."""
+"""Run by pvpython: goes through all time steps of a file and prints facts of each as JSON on the last line."""
 
 import json
 import sys

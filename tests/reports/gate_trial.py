@@ -1,7 +1,7 @@
 """How often the gate is wrong on this machine:  gate_trial.py PROGRAM [COMPARISONS]
 
-Compares the program with itself, in turns, COMPARISONS times (20), and as often with itself made a tenth slower by
-slower.c. Of equal builds at most 5 % may alarm. No slowdown may pass, and at least 95 % must be called slower; the rest is
+Compares the program with itself, in turns, COMPARISONS times (20), and as often with a copy made a tenth slower by
+slower.c. At most 5 % of equal builds may give an alarm. No slowdown may pass, and at least 95 % must be called slower; the rest is
 inconclusive, which is no pass. A busy machine makes it longer, up to sixty processes of each build a comparison. Exits 77
 where there is no C compiler.
 """
@@ -19,7 +19,7 @@ WORK = ["freefall:sphere:100", "--engine", "octree-cpu[threads=1]", "--frames", 
 
 
 def verdicts(program, head, folder, count):
-    """What compare says of the time, so many times."""
+    """The outcomes of the time in that many comparisons."""
     said = Counter()
     for _ in range(count):
         answer = subprocess.run([program, "compare", "--interleave", program, str(head), *WORK, "--out", str(folder / "out")],

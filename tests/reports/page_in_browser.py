@@ -1,6 +1,6 @@
 """Runs browser/page_test.mjs with the installed Chromium:  page_in_browser.py PROGRAM WORK
 
-Exits 77 (skipped) with the reason where Chromium, node or the packages of browser/package-lock.json are not to be had.
+Exits 77 (skipped) with the reason where Chromium, node or the packages of browser/package-lock.json cannot be installed.
 """
 
 import hashlib

@@ -1,4 +1,4 @@
-"""Every source is as clang-format 14 leaves it. Other versions format differently, so none of them is asked."""
+"""Every source is as clang-format 14 leaves it. Other versions format differently and are not used."""
 
 import re
 import shutil

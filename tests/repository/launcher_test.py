@@ -1,4 +1,4 @@
-"""The launcher ./broadside, with the machine around it played by small scripts: apt-get, dpkg-query, cmake, ctest."""
+"""The launcher ./broadside, with small scripts in place of the machine's programs: apt-get, dpkg-query, cmake, ctest."""
 
 import os
 import shutil

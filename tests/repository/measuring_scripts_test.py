@@ -1,4 +1,4 @@
-"""The scripts that measure and keep: with programs that only pretend, and on what the repository keeps."""
+"""The scripts that measure: with fake programs, and on the results that the repository keeps."""
 import json
 import os
 import shutil

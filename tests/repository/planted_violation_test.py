@@ -1,4 +1,4 @@
-"""Each check finds what it is there to find: a violation is planted in a small tree, and nothing else is reported."""
+"""Each check finds its kind of violation: one is planted in a small tree, and nothing else is reported."""
 
 import tempfile
 import unittest

@@ -1,4 +1,4 @@
-"""The idea that is being tried out: all pairs, as plainly as can be."""
+"""The algorithm to try out: all pairs, in the plainest form."""
 
 
 def find_pairs(boxes, is_static):

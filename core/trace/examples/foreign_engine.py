@@ -1,7 +1,7 @@
 """A simulator that is not Broadside's, and the trace that it writes:  foreign_engine.py OUT.h5 [--fault FAULT]
 
-Cubes fall into a box and bounce off its floor and walls; a pair of them passes through each other. It has nothing of
-Broadside but the layout of core/trace/SCHEMA.md, and shows how little of it a trace needs (core/trace/FOREIGN.md).
+Cubes fall into a box and bounce off its floor and walls; a pair of them passes through each other. It shares
+only the layout of core/trace/SCHEMA.md with Broadside, and shows how little of it a trace needs (core/trace/FOREIGN.md).
 Needs numpy and h5py (Debian: python3-h5py).
 """
 

@@ -1,4 +1,4 @@
-"""One campaign of 40 cells on Slurm, GNU parallel and Snakemake, with things going wrong on the way.
+"""One campaign of 40 cells on Slurm, GNU parallel and Snakemake, with failures on the way.
 
 usage: cluster_test.py PROGRAM WRONG_ENGINE SMALL_CLUSTER; exits 77 where one of the three is not installed.
 
