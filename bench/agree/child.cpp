@@ -58,8 +58,8 @@ double processor_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// The lesser of elapsed and processor time. Elapsed time counts a query that the machine interrupted for too long;
-// processor time counts one that several threads shared for too long.
+// The lesser of elapsed and processor time: elapsed time also counts interruptions by other programs, processor time
+// adds up all threads of a query.
 template <typename Query>
 float seconds_of(Query&& query) {
   const double used = processor_seconds();

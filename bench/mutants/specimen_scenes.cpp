@@ -98,7 +98,7 @@ Scene materials() {
   return scene;
 }
 
-// Bodies over the upper faces of the domain, without any force.
+// Bodies that fly out through faces of the domain, without any force.
 Scene leaving() {
   Scene scene = around_origin("leaving", 60);
   scene.bodies = {body_at({3.0F, 0, 0}, {2, 0, 0}, 1.0F), body_at({-3.0F, 0, 0}, {-2, 0, 0}, 1.0F)};

@@ -30,7 +30,7 @@ core::Result<std::optional<ResumePoint>> find_resume_point(const CellRequest& re
 // The windows of steps that a trace was recorded in; empty = all steps.
 std::string windows_of(const core::TraceHeader& header);
 
-// The files that find_resume_point set aside; they are removed at the end of the run, whose trace has all their frames.
+// The file that find_resume_point set aside; it is removed at the end of the run, whose trace has all its frames.
 std::filesystem::path set_aside_path(const CellRequest& request, const core::Stamp& stamp);
 
 }  // namespace broadside::bench
