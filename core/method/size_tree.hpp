@@ -32,7 +32,8 @@ BROADSIDE_HD int size_bin(const Box& b) {
   const float z = b.max.z - b.min.z;
   const float xy = x < y ? y : x;
   const float side_m = xy < z ? z : xy;
-  return static_cast<int>(std::bit_cast<std::uint32_t>(side_m) >> 23U);
+  // Without the sign: a box from +0 to -0 has a side of -0.
+  return static_cast<int>((std::bit_cast<std::uint32_t>(side_m) & 0x7FFFFFFFU) >> 23U);
 }
 
 // A quarter of min + max: half the center, in a form that cannot overflow. Where it rounds, only the order suffers.
@@ -73,7 +74,9 @@ BROADSIDE_HD CurveGrid make_curve_grid(const Box& half_centers, int bits) {
 }
 
 BROADSIDE_HD std::uint32_t curve_coordinate(const CurveGrid& grid, float offset_m) {
-  const float cell = offset_m * grid.first_factor * grid.cells_per_m;
+  // Half of an odd number of smallest subnormal steps is rounded: a center may lie below the bounds of all centers.
+  const float above_m = offset_m < 0.0F ? 0.0F : offset_m;
+  const float cell = above_m * grid.first_factor * grid.cells_per_m;
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(cell < grid.last_cell ? cell : grid.last_cell));
 }
 

@@ -2,6 +2,7 @@
 // that fails to the fewest boxes that still fail.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -30,6 +31,13 @@ class Draw {
   // In [low, high).
   float between(float low, float high) { return low + (high - low) * (static_cast<float>(bits_() >> 40U) * 0x1p-24F); }
   std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(bits_() % count); }
+  // Any pattern of bits that is a finite float.
+  float finite_float() {
+    for (;;) {
+      const float v = std::bit_cast<float>(static_cast<std::uint32_t>(bits_() >> 32U));
+      if (std::isfinite(v)) return v;
+    }
+  }
 
  private:
   std::mt19937_64 bits_;
@@ -38,6 +46,12 @@ class Draw {
 inline core::Box box_at(core::Vec3 c, core::Vec3 sides) {
   return {{c.x - 0.5F * sides.x, c.y - 0.5F * sides.y, c.z - 0.5F * sides.z},
           {c.x + 0.5F * sides.x, c.y + 0.5F * sides.y, c.z + 0.5F * sides.z}};
+}
+
+// Two floats in order, in either order where they are equal: min +0 and max -0 is a sound side.
+inline void put_side(core::Box& box, int axis, float a, float b) {
+  box.min[axis] = b < a ? b : a;
+  box.max[axis] = b < a ? a : b;
 }
 
 struct BoxFamily {
@@ -145,6 +159,62 @@ inline constexpr BoxFamily kBoxFamilies[] = {
        sides[static_cast<int>(k % 3)] = w;
        if (k % 7 == 0) sides[static_cast<int>((k + 1) % 3)] = w;
        return box_at({d.between(0, w), d.between(0, w), d.between(0, w)}, sides);
+     }},
+    // Any finite float is as likely as any other.
+    {"every finite float",
+     [](Draw& d, std::uint32_t, float) {
+       core::Box box;
+       for (int axis = 0; axis < 3; ++axis) put_side(box, axis, d.finite_float(), d.finite_float());
+       return box;
+     }},
+    // Corners at all exponents, sides mostly shorter than that.
+    {"places and sizes of every exponent",
+     [](Draw& d, std::uint32_t, float) {
+       core::Box box;
+       const float scale = std::exp2(d.between(-40.0F, 0.0F));
+       for (int axis = 0; axis < 3; ++axis) {
+         const float at = d.finite_float();
+         const float to = at + at * scale;
+         put_side(box, axis, at, std::isfinite(to) ? to : at);
+       }
+       return box;
+     }},
+    // Zeros of both signs, the smallest subnormals and normals, and their neighbors: what differs by a sign or a bit.
+    {"signed zeros and subnormals",
+     [](Draw& d, std::uint32_t, float) {
+       constexpr float kValues[] = {0.0F, -0.0F, 0x1p-149F, -0x1p-149F, 0x1p-148F, 0x1p-126F, -0x1p-126F, 0x1.8p-127F};
+       core::Box box;
+       for (int axis = 0; axis < 3; ++axis) put_side(box, axis, kValues[d.below(8)], kValues[d.below(8)]);
+       return box;
+     }},
+    // The same, as one box among usual ones: a side of -0 once indexed a table of sizes by its sign.
+    {"one box from +0 to -0",
+     [](Draw& d, std::uint32_t k, float n) {
+       const float w = cube_side(n);
+       if (k == 3) return core::Box{{0.0F, 0.0F, 0.0F}, {-0.0F, -0.0F, -0.0F}};
+       return box_at({d.between(0, w), d.between(0, w), d.between(0, w)}, {1.0F, 1.0F, 1.0F});
+     }},
+    // Lattices of a few subnormal steps: half of an odd number of them is rounded.
+    {"a few smallest steps",
+     [](Draw& d, std::uint32_t, float) {
+       core::Box box;
+       for (int axis = 0; axis < 3; ++axis) {
+         const auto at = static_cast<float>(2U + d.below(40));
+         put_side(box, axis, at * 0x1p-149F, (at + static_cast<float>(d.below(3))) * 0x1p-149F);
+       }
+       return box;
+     }},
+    // From end to end of what a float can hold: sides overflow, and beginnings less a side do too.
+    {"at the ends of floats",
+     [](Draw& d, std::uint32_t, float) {
+       constexpr float kMost = 0x1.fffffep127F;
+       core::Box box;
+       for (int axis = 0; axis < 3; ++axis) {
+         const float at = d.below(3) == 0 ? -kMost : kMost * d.between(-1, 1);
+         const float to = d.below(9) == 0 ? kMost : at + kMost * d.between(0, 0.1F);
+         put_side(box, axis, at, std::isfinite(to) ? to : kMost);
+       }
+       return box;
      }},
 };
 
