@@ -17,16 +17,18 @@ constexpr std::uint64_t kLeastBuckets = 1024;
 constexpr std::uint64_t kMostBuckets = 1ULL << 31U;
 constexpr std::uint64_t kMostHashCells = 4096;  // as in stages/hash_stage.cuh
 
+constexpr float kSlack = 1.0F + 0x1p-10F;
+// Inverted it is still a normal number.
+constexpr float kMostCell_m = 0x1p125F;
+
 // The size of the grid's largest cells: a box may grow by a few units in the last place when it is placed, and a cell
 // must be many such units of the coordinates, whatever it holds (see grid_level).
 float grid_cell_m(const BoxFacts& facts) {
-  constexpr float kSlack = 1.0F + 0x1p-10F;
   constexpr float kLeastShare = 0x1p-17F;
   // Halved twenty times, or inverted, it is still a normal number.
   constexpr float kLeast = 0x1p-100F;
-  constexpr float kMost = 0x1p125F;
   const float wanted = std::max({facts.largest_side_m * kSlack, facts.coordinate_range_m * kLeastShare, kLeast});
-  return std::min(wanted, kMost);
+  return std::min(wanted, kMostCell_m);
 }
 
 // The most bits an axis that fit beside the 5 bits of a row, which x shares.
@@ -41,6 +43,10 @@ std::uint32_t axis_bits(std::uint64_t buckets) {
 
 std::uint64_t grid_buckets(std::uint64_t bodies) {
   return std::bit_ceil(std::max(kBucketsPerFiveBodies * bodies / 5, kLeastBuckets));
+}
+
+bool fits_grid(const BoxFacts& facts) {
+  return facts.largest_side_m * kSlack <= kMostCell_m;
 }
 
 std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m) {

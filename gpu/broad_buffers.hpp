@@ -38,6 +38,10 @@ struct BoxFacts {
 // Cells that a closed interval of this length can touch, wherever it is; and so of a box with these sides.
 std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m);
 
+// Whether no box is longer than the largest cell that a grid can have, 2^125 m. Where one is, its partners may lie in
+// cells where nobody looks for them: all pairs of boxes are tested in tiles instead, n (n - 1) / 2 of them.
+bool fits_grid(const BoxFacts& facts);
+
 // Of a grid.
 std::uint64_t grid_buckets(std::uint64_t bodies);
 

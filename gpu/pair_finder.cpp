@@ -61,7 +61,8 @@ Start PairFinder::Impl::start() const {
   if (options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7) return Start::kOctree;
   if (options.broad == Broad::kOctree) return Start::kOctree;
   if (options.broad == Broad::kHash) return Start::kHash;
-  if (options.broad != Broad::kTree || is_static.size() < options.least_for_grid) return Start::kTiles;
+  if (options.broad != Broad::kTree || is_static.size() < options.least_for_grid || !fits_grid(facts))
+    return Start::kTiles;
   return is_static.size() < options.least_for_many ? Start::kGrid : Start::kMany;
 }
 
@@ -134,7 +135,9 @@ core::Status PairFinder::update(std::span<const Box> boxes) {
     return core::Error{"update was given " + std::to_string(boxes.size()) + " boxes after a load of " +
                            std::to_string(d.is_static.size()),
                        "broad phase on the GPU", "load again when the number of boxes changes"};
+  const Start before = d.start();
   BROADSIDE_TRY(d.pack_boxes(boxes));
+  if (d.start() != before) BROADSIDE_TRY(d.reserve());
   d.broad.refit(d.facts);
   return d.upload();
 }

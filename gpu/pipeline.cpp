@@ -19,7 +19,8 @@ Start Pipeline::Impl::chosen_start() const {
   if (options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7) return Start::kOctree;
   switch (options.broad) {
     case Broad::kTree:
-      return scene != nullptr && scene->body_count() < options.least_for_grid ? Start::kTiles : Start::kGrid;
+      if (scene != nullptr && scene->body_count() < options.least_for_grid) return Start::kTiles;
+      return fits_grid(device_scene.box_facts()) ? Start::kGrid : Start::kTiles;
     case Broad::kOctree:
       return Start::kOctree;
     case Broad::kHash:

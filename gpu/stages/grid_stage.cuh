@@ -31,6 +31,13 @@ __device__ inline int cell_index(float v, float cells_per_m) {
   return floor_to_int(v * cells_per_m);
 }
 
+// Cells of the grid further out are one with the last, so that a row of them is never longer than what rounding adds: a
+// box is in a cell at least 2^-18 of its coordinates, so only what has left the world comes here.
+constexpr float kFarthestCell = 0x1p20F;
+__device__ inline int near_cell_index(float v, float cells_per_m) {
+  return floor_to_int(fminf(fmaxf(v * cells_per_m, -kFarthestCell), kFarthestCell));
+}
+
 __device__ inline CellCorner cell_of(core::Vec3 v, float cells_per_m) {
   return {cell_index(v.x, cells_per_m), cell_index(v.y, cells_per_m), cell_index(v.z, cells_per_m)};
 }
@@ -45,7 +52,8 @@ __device__ inline float cell_size(const GridView& g, int level) {
 }
 
 __device__ inline CellCorner grid_cell(const GridView& g, core::Vec3 v, int level) {
-  return cell_of(v, scaled(g.cells_per_m, level));
+  const float cells_per_m = scaled(g.cells_per_m, level);
+  return {near_cell_index(v.x, cells_per_m), near_cell_index(v.y, cells_per_m), near_cell_index(v.z, cells_per_m)};
 }
 
 __device__ inline float largest_magnitude(core::Vec3 v) {

@@ -26,7 +26,8 @@ __device__ inline HashRange hash_range(const HashView& h, const PackedBox& box) 
   const CellCorner low = cell_of(box.min, h.cells_per_m);
   const CellCorner high = cell_of(box.max, h.cells_per_m);
   const auto width = [](int from, int to) {
-    return min(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from) + 1U, 65536U);
+    // From the lowest cell to the highest it is 2^32, which one more than the difference would wrap to none.
+    return min(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from), 65535U) + 1U;
   };
   const std::uint32_t x = width(low.x, high.x);
   const std::uint32_t y = width(low.y, high.y);

@@ -14,7 +14,6 @@ namespace broadside::gpu {
 // the level above. Monotone, also where it saturates: a cell far outside holds whatever lies beyond it. Out there, at
 // 2^20 cells, a box may be a quarter longer than a cell by rounding; further on it could be twice as long.
 constexpr int kFineBits = 10;
-constexpr float kFarthestCell = 0x1p20F;
 
 __device__ inline int fine_index(float v, float cells_per_m) {
   return floor_to_int(fminf(fmaxf(v * cells_per_m, -kFarthestCell), kFarthestCell) * (1 << kFineBits));

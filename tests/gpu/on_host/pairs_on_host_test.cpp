@@ -9,6 +9,7 @@
 
 #include "gpu/pair_finder.hpp"
 #include "tests/gpu/small_scenes.hpp"
+#include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -163,6 +164,25 @@ TEST(PairsOnHost, FineBlocksThatLookLikeCoarseOnes) {
                           kSameY * static_cast<float>(i / 64)};
     const core::Vec3 center = dice.cube(2.0F) + (is_large ? core::Vec3{} : away);
     boxes.push_back({center - core::Vec3{half, half, half}, center + core::Vec3{half, half, half}});
+  }
+  expect_exact(boxes);
+}
+
+// Whatever finite floats the boxes are made of. Boxes near the largest float once sent a search through all cells below
+// theirs, some 2^31 rows of them, and boxes longer than the largest cell were not found.
+TEST(PairsOnHost, EveryFiniteFloat) {
+  for (const tests::BoxFamily& family : tests::kBoxFamilies) {
+    SCOPED_TRACE(family.name);
+    for (const std::uint32_t count : {60U, 110U}) expect_exact(tests::make_case(family, count, 11).boxes);
+  }
+}
+
+// Boxes far outside of the world that the cells were made for: a body that flew away.
+TEST(PairsOnHost, BoxesThatHaveLeftTheWorld) {
+  std::vector<Box> boxes = boxes_of(120, [](Dice& dice, std::uint32_t) { return dice.cube(5.0F); });
+  for (std::size_t k = 0; k < boxes.size(); k += 10) {
+    const float far = std::pow(10.0F, 4.0F + static_cast<float>(k) / 4.0F);
+    boxes[k] = core::translated(boxes[k], {k % 20 == 0 ? far : -far, far, -far});
   }
   expect_exact(boxes);
 }
