@@ -69,6 +69,12 @@ class Launcher(unittest.TestCase):
         self.assertEqual((0, "ran list engines\n", ""), (second.returncode, second.stdout, second.stderr))
         self.assertEqual([], self.called("apt-get") + self.called("cmake --fresh"))
 
+    def test_only_the_tests_and_build_itself_build_more_than_the_program(self):
+        for arguments, target in ((("demo",), "broadside"), (("list", "engines"), "broadside"), (("test",), "all"), (("build",), "all")):
+            self.call(*arguments)
+            built = [call.split(" --target ")[1].split()[0] for call in self.called("cmake --build")]
+            self.assertEqual([target], built, arguments)
+
     def test_demo_has_a_place_for_its_results_unless_told_another(self):
         self.assertEqual(f"ran demo --out {self.tree}/out/demo --frames 3\n", self.call("demo", "--frames", "3").stdout)
         self.assertEqual("ran demo --out=x\n", self.call("demo", "--out=x").stdout)
