@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/process/child.hpp"
-#include "gpu/device_space.hpp"
+#include "gpu/runtime/device_space.hpp"
 #include "reference/plugin/plugin_engine.hpp"
 
 namespace broadside::bench {

@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "gpu/broad/pair_finder.hpp"
 #include "gpu/engines_on_cuda.hpp"
-#include "gpu/pair_finder.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 
 namespace broadside::gpu {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/trace/trace_stream.hpp"
 #include "datasets/scenes.hpp"
 #include "gpu/engines_on_cuda.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 
 namespace broadside::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "datasets/scenes.hpp"
 #include "gpu/engines_on_cuda.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 
 namespace broadside::bench {
 namespace {

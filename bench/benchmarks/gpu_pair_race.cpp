@@ -9,8 +9,8 @@
 
 #include "core/pair.hpp"
 #include "datasets/box_streams/box_stream.hpp"
+#include "gpu/broad/pair_finder.hpp"
 #include "gpu/engines_on_cuda.hpp"
-#include "gpu/pair_finder.hpp"
 
 namespace broadside::bench {
 namespace {

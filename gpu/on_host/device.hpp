@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "gpu/grid_word.hpp"
 #include "gpu/on_host/fibers.hpp"
+#include "gpu/stages/grid/grid_word.hpp"
 
 // The two function attributes that stages are written with.
 #define __device__

@@ -1,7 +1,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "gpu/device_runtime.hpp"
+#include "gpu/runtime/device_runtime.hpp"
 
 namespace broadside::gpu {
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "gpu/frame_kernel.hpp"
+#include "gpu/frame/frame_kernel.hpp"
 #include "gpu/stages/digest.cuh"
 #include "gpu/stages/frame.cuh"
-#include "gpu/stages/pairs.cuh"
+#include "gpu/stages/pairs_only/pairs.cuh"
 
 namespace broadside::gpu {
 namespace {

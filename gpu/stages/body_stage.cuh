@@ -4,12 +4,12 @@
 #include "core/method/contact_geometry.hpp"
 #include "core/method/integrate.hpp"
 #include "core/method/response.hpp"
-#include "gpu/frame_view.hpp"
-#include "gpu/stages/contact_words.cuh"
-#include "gpu/stages/fetched.cuh"
-#include "gpu/stages/grid_stage.cuh"
-#include "gpu/stages/octree_stage.cuh"
-#include "gpu/stages/team.cuh"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/stages/broad/grid_stage.cuh"
+#include "gpu/stages/broad/octree_stage.cuh"
+#include "gpu/stages/grid/fetched.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/response/contact_words.cuh"
 
 namespace broadside::gpu {
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/method/frame_digest.hpp"
-#include "gpu/frame_kernel.hpp"
-#include "gpu/stages/contact_words.cuh"
-#include "gpu/stages/team.cuh"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/response/contact_words.cuh"
 
 namespace broadside::gpu {
 

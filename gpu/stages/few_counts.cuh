@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "gpu/frame_kernel.hpp"
-#include "gpu/frame_view.hpp"
-#include "gpu/grid_word.hpp"
-#include "gpu/stages/device.cuh"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/stages/grid/device.cuh"
+#include "gpu/stages/grid/grid_word.hpp"
 
 namespace broadside::gpu {
 

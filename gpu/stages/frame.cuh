@@ -3,18 +3,18 @@
 
 #include <variant>
 
-#include "gpu/frame_kernel.hpp"
-#include "gpu/frame_view.hpp"
-#include "gpu/stages/arrival_stage.cuh"
-#include "gpu/stages/block_stage.cuh"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/frame/frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
-#include "gpu/stages/broad_stage.cuh"
-#include "gpu/stages/confirm_stage.cuh"
-#include "gpu/stages/contact_stage.cuh"
-#include "gpu/stages/few_stage.cuh"
-#include "gpu/stages/order_stage.cuh"
-#include "gpu/stages/proximity_stage.cuh"
-#include "gpu/stages/team.cuh"
+#include "gpu/stages/broad/broad_stage.cuh"
+#include "gpu/stages/broad/few_stage.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/levels/confirm_stage.cuh"
+#include "gpu/stages/response/arrival_stage.cuh"
+#include "gpu/stages/response/block_stage.cuh"
+#include "gpu/stages/response/contact_stage.cuh"
+#include "gpu/stages/response/order_stage.cuh"
+#include "gpu/stages/vertices/proximity_stage.cuh"
 
 namespace broadside::gpu {
 

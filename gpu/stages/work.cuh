@@ -1,12 +1,12 @@
 // The work of a frame, counted after it: its searches run again over what it left on the device.
 #pragma once
 
-#include "gpu/stages/broad_stage.cuh"
-#include "gpu/stages/confirm_stage.cuh"
-#include "gpu/stages/many_search.cuh"
-#include "gpu/stages/tile_stage.cuh"
+#include "gpu/stages/broad/broad_stage.cuh"
+#include "gpu/stages/broad/tile_stage.cuh"
+#include "gpu/stages/levels/confirm_stage.cuh"
+#include "gpu/stages/pairs_only/many_search.cuh"
 #include "gpu/stages/work_count.cuh"
-#include "gpu/work_view.hpp"
+#include "gpu/work/work_view.hpp"
 
 namespace broadside::gpu {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "gpu/stages/device.cuh"
+#include "gpu/stages/grid/device.cuh"
 
 namespace broadside::gpu {
 

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <vector>
 
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"
 

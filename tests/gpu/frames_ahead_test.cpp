@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "gpu/engines_on_cuda.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 #include "tests/gpu/ahead_comparison.hpp"
 #include "tests/gpu/small_scenes.hpp"
 

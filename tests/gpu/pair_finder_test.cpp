@@ -1,5 +1,5 @@
 // The GPU's broad phase returns exactly the overlapping pairs, whatever the boxes.
-#include "gpu/pair_finder.hpp"
+#include "gpu/broad/pair_finder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <random>
 #include <vector>
 
-#include "gpu/frame_kernel.hpp"
-#include "gpu/stages/block_room.cuh"
-#include "gpu/stages/fetched.cuh"
-#include "gpu/stages/search_stack.cuh"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/stages/grid/fetched.cuh"
+#include "gpu/stages/response/block_room.cuh"
+#include "gpu/stages/vertices/search_stack.cuh"
 
 namespace broadside::gpu {
 namespace {

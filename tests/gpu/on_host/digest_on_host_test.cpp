@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/engine/engine.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 #include "reference/octree_cpu/engine.hpp"
 #include "tests/gpu/small_scenes.hpp"
 

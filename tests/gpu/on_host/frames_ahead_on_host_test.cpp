@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "gpu/frame_queue.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/frame_queue.hpp"
+#include "gpu/frame/pipeline.hpp"
 #include "tests/gpu/ahead_comparison.hpp"
 #include "tests/gpu/small_scenes.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "core/method/levels.hpp"
 #include "core/scene/body_octree.hpp"
-#include "gpu/frame_kernel.hpp"
-#include "gpu/small_divisor.hpp"
-#include "gpu/stages/body_ring.cuh"
-#include "gpu/stages/confirm_stage.cuh"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/frame/small_divisor.hpp"
+#include "gpu/stages/broad/body_ring.cuh"
+#include "gpu/stages/levels/confirm_stage.cuh"
 
 namespace broadside::gpu {
 namespace {

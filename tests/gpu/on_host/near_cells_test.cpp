@@ -1,5 +1,5 @@
 // Cells of near vertices: whatever the place and the rounding, the nearest vertex is in the list of the point's cell.
-#include "gpu/near_cells.hpp"
+#include "gpu/scene/near_cells.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "gpu/pair_finder.hpp"
+#include "gpu/broad/pair_finder.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/engine/engine.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 #include "reference/octree_cpu/engine.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"

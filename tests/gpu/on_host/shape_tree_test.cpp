@@ -1,5 +1,5 @@
 // The vertex trees that the GPU's proximity stage descends: every vertex in one leaf, every box tight.
-#include "gpu/shape_tree.hpp"
+#include "gpu/scene/shape_tree.hpp"
 
 #include <gtest/gtest.h>
 

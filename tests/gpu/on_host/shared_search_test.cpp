@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/engine/engine.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/frame/pipeline.hpp"
 #include "gpu/stages/few_counts.cuh"
-#include "gpu/stages/search_rests.cuh"
+#include "gpu/stages/vertices/search_rests.cuh"
 #include "reference/octree_cpu/engine.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/method/proximity.hpp"
-#include "gpu/shape_tree.hpp"
-#include "gpu/stages/tree_start.cuh"
+#include "gpu/scene/shape_tree.hpp"
+#include "gpu/stages/vertices/tree_start.cuh"
 #include "tests/gpu/small_scenes.hpp"
 
 namespace broadside::gpu {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/scene/shapes.hpp"
-#include "gpu/pair_finder.hpp"
-#include "gpu/pipeline.hpp"
+#include "gpu/broad/pair_finder.hpp"
+#include "gpu/frame/pipeline.hpp"
 #include "tests/gpu/work_counts.hpp"
 
 namespace broadside::gpu {

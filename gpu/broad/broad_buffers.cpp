@@ -1,0 +1,202 @@
+#include "gpu/broad/broad_buffers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include "core/method/scene_octree.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+// Buckets of the grid, before rounding up to a power of two: a lookup is a run of some three of them.
+constexpr std::uint64_t kBucketsPerFiveBodies = 8;
+constexpr std::uint64_t kLeastBuckets = 1024;
+constexpr std::uint64_t kMostBuckets = 1ULL << 31U;
+constexpr std::uint64_t kMostHashCells = 4096;  // as in stages/broad/hash_stage.cuh
+
+constexpr float kSlack = 1.0F + 0x1p-10F;
+// Inverted it is still a normal number.
+constexpr float kMostCell_m = 0x1p125F;
+
+// The size of the grid's largest cells: a box may grow by a few units in the last place when it is placed, and a cell
+// must be many such units of the coordinates, whatever it holds (see grid_level).
+float grid_cell_m(const BoxFacts& facts) {
+  constexpr float kLeastShare = 0x1p-17F;
+  // Halved twenty times, or inverted, it is still a normal number.
+  constexpr float kLeast = 0x1p-100F;
+  const float wanted = std::max({facts.largest_side_m * kSlack, facts.coordinate_range_m * kLeastShare, kLeast});
+  return std::min(wanted, kMostCell_m);
+}
+
+// The most bits an axis that fit beside the 5 bits of a row, which x shares.
+std::uint32_t axis_bits(std::uint64_t buckets) {
+  const auto all = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U;
+  std::uint32_t bits = 1;
+  while (std::max(bits + 1, 5U) + 2 * (bits + 1) <= all) ++bits;
+  return bits;
+}
+
+}  // namespace
+
+std::uint64_t grid_buckets(std::uint64_t bodies) {
+  return std::bit_ceil(std::max(kBucketsPerFiveBodies * bodies / 5, kLeastBuckets));
+}
+
+bool fits_grid(const BoxFacts& facts) {
+  return facts.largest_side_m * kSlack <= kMostCell_m;
+}
+
+std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m) {
+  double cells = 1.0;
+  for (int axis = 0; axis < 3; ++axis) cells *= std::floor(static_cast<double>(side_m[axis] / cell_m)) + 2.0;
+  return cells > static_cast<double>(kMostHashCells) ? kMostHashCells : static_cast<std::uint64_t>(cells);
+}
+
+core::Status BroadBuffers::reserve_buckets(std::uint64_t buckets, const char* what) {
+  BROADSIDE_TRY(bucket_count_.reserve(buckets, what));
+  BROADSIDE_TRY(bucket_begin_.reserve(bucket_words(buckets), what));
+  return bucket_count_.fill_bytes(0);
+}
+
+core::Status BroadBuffers::load_many(std::size_t n, std::uint32_t bins, std::uint32_t blocks) {
+  ManyView& many = many_;
+  const std::uint64_t buckets = grid_buckets(n);
+  BROADSIDE_TRY(many_entries_.reserve(n + 4, "boxes"));
+  BROADSIDE_TRY(levels_.reserve(3, "boxes"));
+  BROADSIDE_TRY(levels_.fill_bytes(0));
+  many.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
+  many.axis_bits = axis_bits(buckets);
+  many.x_bits = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U - 2 * many.axis_bits;
+  many.row_bits = std::min(many.x_bits, static_cast<std::uint32_t>(std::bit_width(kBucketChunk)) - 1U);
+  many.bins.bins = bins;
+  if (bins == 0) {
+    BROADSIDE_TRY(rank_.reserve(n, "boxes"));
+    return reserve_buckets(buckets, "boxes");
+  }
+  BROADSIDE_TRY(bucket_begin_.reserve(bucket_words(buckets), "boxes"));
+  BROADSIDE_TRY(binned_entries_.reserve(n, "boxes"));
+  BROADSIDE_TRY(binned_buckets_.reserve(n, "boxes"));
+  BROADSIDE_TRY(chunk_count_.reserve(buckets / kBucketChunk, "boxes"));
+  BROADSIDE_TRY(chunk_begin_.reserve(buckets / kBucketChunk + 1, "boxes"));
+  BROADSIDE_TRY(bins_.reserve(3 * std::size_t{bins} + blocks, "boxes"));
+  return chunk_count_.fill_bytes(0);
+}
+
+core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
+                                std::uint32_t bins, std::uint32_t blocks) {
+  const std::size_t n = facts.count;
+  view_ = {};
+  many_ = {};
+  view_.start = start;
+  if (start == Start::kGrid) {
+    const std::uint64_t buckets = grid_buckets(n);
+    BROADSIDE_TRY(reserve_buckets(buckets, "grid"));
+    BROADSIDE_TRY(rank_.reserve(n, "grid"));
+    BROADSIDE_TRY(entries_.reserve(n, "grid"));
+    BROADSIDE_TRY(levels_.reserve(1, "grid"));
+    BROADSIDE_TRY(levels_.fill_bytes(0));
+    view_.grid.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
+    view_.grid.axis_bits = axis_bits(buckets);
+    refit(facts);
+  } else if (start == Start::kMany) {
+    BROADSIDE_TRY(load_many(n, bins, blocks));
+    refit(facts);
+  } else if (start == Start::kHash) {
+    view_.hash.cells_per_m = 1.0F / hash_cell_m;
+    Counters expected;
+    expected.entries = std::max<std::uint64_t>(facts.hash_entries, kLeastBuckets);
+    BROADSIDE_TRY(oversized_.reserve(n, "spatial hash"));
+    BROADSIDE_TRY(grow(expected));
+  } else if (start == Start::kOctree) {
+    OctreeView& octree = view_.octree;
+    octree.grid = core::make_scene_grid(facts.domain, variant == core::Variant::kE7 ? 1 : core::kSceneOctreeDepth);
+    octree.same_node_only = variant == core::Variant::kE2;
+    const std::uint32_t nodes = core::complete_octree_nodes(octree.grid.depth);
+    BROADSIDE_TRY(node_count_.reserve(nodes, "scene octree"));
+    BROADSIDE_TRY(node_begin_.reserve(nodes + 1, "scene octree"));
+    BROADSIDE_TRY(rank_.reserve(n, "scene octree"));
+    BROADSIDE_TRY(entries_.reserve(n, "scene octree"));
+    BROADSIDE_TRY(range_end_.reserve(n, "scene octree"));
+    BROADSIDE_TRY(node_count_.fill_bytes(0));
+  }
+  return core::Done{};
+}
+
+void BroadBuffers::refit(const BoxFacts& facts) {
+  GridView& grid = view_.grid;
+  grid.cell_m = grid_cell_m(facts);
+  grid.cells_per_m = 1.0F / grid.cell_m;
+  // Half a cell of room below, so that what lies a little outside is still near in the table.
+  for (int axis = 0; axis < 3; ++axis)
+    grid.first_cell[axis] = static_cast<std::int32_t>(
+        std::clamp(std::floor(facts.low_corner[axis] / grid.cell_m) - 1.0F, -1048576.0F, 1048576.0F));
+  many_.cell_m = grid.cell_m;
+  many_.cells_per_m = grid.cells_per_m;
+  std::copy(std::begin(grid.first_cell), std::end(grid.first_cell), std::begin(many_.first_cell));
+}
+
+core::Status BroadBuffers::grow(const Counters& demanded) {
+  if (view_.start != Start::kHash || demanded.entries <= hash_entries_.capacity()) return core::Done{};
+  if (demanded.entries > kMostBuckets)
+    return core::Error{"the spatial hash needs " + std::to_string(demanded.entries) + " entries of bodies in cells",
+                       "hash-gpu", "use larger cells", core::Exit::kMissing};
+  const std::uint64_t buckets = std::bit_ceil(demanded.entries);
+  BROADSIDE_TRY(hash_entries_.reserve(demanded.entries, "spatial hash"));
+  BROADSIDE_TRY(reserve_buckets(buckets, "spatial hash"));
+  BROADSIDE_TRY(bucket_cursor_.reserve(buckets, "spatial hash"));
+  BROADSIDE_TRY(bucket_cursor_.fill_bytes(0));
+  view_.hash.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
+  return wait_for_device("clearing the spatial hash");
+}
+
+void BroadBuffers::fill(BroadView& view) const {
+  view = view_;
+  GridView& grid = view.grid;
+  grid.count = bucket_count_.data();
+  grid.begin = bucket_begin_.data();
+  grid.rank = rank_.data();
+  grid.entries = entries_.data();
+  grid.levels = levels_.data();
+  HashView& hash = view.hash;
+  hash.count = bucket_count_.data();
+  hash.begin = bucket_begin_.data();
+  hash.cursor = bucket_cursor_.data();
+  hash.entries = {hash_entries_.data(), hash_entries_.capacity()};
+  hash.oversized = oversized_.data();
+  OctreeView& octree = view.octree;
+  octree.node_count = node_count_.data();
+  octree.node_begin = node_begin_.data();
+  octree.rank = rank_.data();
+  octree.sorted = entries_.data();
+  octree.range_end = range_end_.data();
+}
+
+void BroadBuffers::fill(ManyView& many) const {
+  many = many_;
+  many.count = bucket_count_.data();
+  many.begin = bucket_begin_.data();
+  many.rank = rank_.data();
+  many.entries = many_entries_.data();
+  many.levels = levels_.data();
+  many.turns = many.levels + 2;
+  many.bins.chunk_count = chunk_count_.data();
+  many.bins.chunk_begin = chunk_begin_.data();
+  many.bins.first_chunk = bins_.data();
+  many.bins.last_chunk = many.bins.first_chunk + many.bins.bins;
+  many.bins.cursor = many.bins.last_chunk + many.bins.bins;
+  many.bins.block_sum = many.bins.cursor + many.bins.bins;
+  many.bins.entries = binned_entries_.data();
+  many.bins.bucket = binned_buckets_.data();
+}
+
+std::uint64_t BroadBuffers::bytes() const {
+  return bucket_count_.bytes() + bucket_begin_.bytes() + bucket_cursor_.bytes() + rank_.bytes() + levels_.bytes() +
+         entries_.bytes() + many_entries_.bytes() + binned_entries_.bytes() + binned_buckets_.bytes() +
+         chunk_count_.bytes() + chunk_begin_.bytes() + bins_.bytes() + hash_entries_.bytes() + oversized_.bytes() +
+         node_count_.bytes() + node_begin_.bytes() + range_end_.bytes();
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,87 @@
+// Device memory of a broad phase, whichever it is.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/math/box.hpp"
+#include "core/result.hpp"
+#include "core/variant.hpp"
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/broad/many_view.hpp"
+#include "gpu/runtime/device_buffer.hpp"
+
+namespace broadside::gpu {
+
+// Which broad phase the user asked for.
+enum class Broad { kTree, kOctree, kHash, kBrute };
+
+// Below this many bodies the tree start tests all pairs of body boxes: 2,080 tiles of 32 x 32 are one tile a warp on a
+// large GPU, and take less than the grid's three passes.
+constexpr std::uint32_t kLeastBodiesForGrid = 2048;
+
+// From here on a broad phase alone searches by many_search.cuh, a lane a box.
+constexpr std::uint32_t kLeastBoxesForMany = 50000;
+// From here on the entries of many boxes are more than a cache holds, and go to bins first.
+constexpr std::uint32_t kLeastBoxesForBins = 1000000;
+
+// What is known of the boxes before the first frame.
+struct BoxFacts {
+  std::uint32_t count = 0;
+  float largest_side_m = 0.0F;
+  float coordinate_range_m = 0.0F;  // the largest magnitude of a coordinate
+  core::Vec3 low_corner;            // about where the world begins
+  std::uint64_t hash_entries = 0;   // of boxes of these sizes, wherever they are; more is found out later
+  core::Box domain;                 // of the published scene octree
+};
+
+// Cells that a closed interval of this length can touch, wherever it is; and so of a box with these sides.
+std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m);
+
+// Whether no box is longer than the largest cell that a grid can have, 2^125 m. Where one is, its partners may lie in
+// cells where nobody looks for them: all pairs of boxes are tested in tiles instead, n (n - 1) / 2 of them.
+bool fits_grid(const BoxFacts& facts);
+
+// Of a grid.
+std::uint64_t grid_buckets(std::uint64_t bodies);
+
+class BroadBuffers {
+ public:
+  // `bins`: of BinsView, in a launch of so many blocks.
+  core::Status load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
+                    std::uint32_t bins = 0, std::uint32_t blocks = 0);
+  // The facts that a new set of boxes may change.
+  void refit(const BoxFacts& facts);
+  // Makes room for what the aborted frame demanded.
+  core::Status grow(const Counters& demanded);
+  void fill(BroadView& view) const;
+  // Of Start::kMany.
+  void fill(ManyView& view) const;
+  [[nodiscard]] std::uint64_t bytes() const;
+
+ private:
+  core::Status reserve_buckets(std::uint64_t buckets, const char* what);
+  core::Status load_many(std::size_t n, std::uint32_t bins, std::uint32_t blocks);
+
+  BroadView view_;
+  ManyView many_;
+  DeviceBuffer<std::uint32_t> bucket_count_;
+  DeviceBuffer<std::uint32_t> bucket_begin_;
+  DeviceBuffer<std::uint32_t> bucket_cursor_;
+  DeviceBuffer<std::uint32_t> rank_;
+  DeviceBuffer<std::uint32_t> levels_;
+  DeviceBuffer<PackedBox> entries_;
+  DeviceBuffer<ManyEntry> many_entries_;
+  DeviceBuffer<ManyEntry> binned_entries_;
+  DeviceBuffer<std::uint16_t> binned_buckets_;
+  DeviceBuffer<std::uint32_t> chunk_count_;
+  DeviceBuffer<std::uint32_t> chunk_begin_;
+  DeviceBuffer<std::uint32_t> bins_;  // what BinsView has of each bin, and block_sum
+  DeviceBuffer<HashEntry> hash_entries_;
+  DeviceBuffer<std::uint32_t> oversized_;
+  DeviceBuffer<std::uint32_t> node_count_;
+  DeviceBuffer<std::uint32_t> node_begin_;
+  DeviceBuffer<std::uint32_t> range_end_;
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,56 @@
+// The broad phases of the GPU engines on their own: boxes in, the exact set of overlapping pairs out.
+#pragma once
+
+#include <memory>
+
+#include "core/engine/broad_phase.hpp"
+#include "core/engine/work_counting.hpp"
+#include "core/variant.hpp"
+#include "gpu/broad/broad_buffers.hpp"
+
+namespace broadside::gpu {
+
+struct PairFinderOptions {
+  Broad broad = Broad::kTree;  // the hashed octree; for few boxes, and with kBrute, all pairs in tiles
+  core::Variant variant = core::Variant::kSound;
+  float hash_cell_m = 0.25F;
+  std::uint32_t least_for_grid = kLeastBodiesForGrid;
+  std::uint32_t least_for_many = kLeastBoxesForMany;
+  std::uint32_t least_for_bins = kLeastBoxesForBins;
+};
+
+// Where the time of the last find() went. `whole_s` is the time between two events around the launches; the stages are
+// read off the GPU's clock within it.
+struct FindTime {
+  double whole_s = 0.0;
+  double count_s = 0.0;    // boxes into cells
+  double place_s = 0.0;    // cells into memory
+  double scatter_s = 0.0;  // boxes by cell
+  double find_s = 0.0;
+};
+
+// update() copies the boxes to the device and is charged for it; find() leaves the pairs on the device, in no order;
+// read_back() copies and sorts them. Boxes that are not finite, or have min > max, are refused.
+class PairFinder final : public core::BroadPhase, public core::CountsWork {
+ public:
+  explicit PairFinder(const PairFinderOptions& options);
+  ~PairFinder() override;
+
+  [[nodiscard]] core::BroadPhaseTraits traits() const override;
+  core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override;
+  core::Status update(std::span<const core::Box> boxes) override;
+  core::Status find() override;
+  core::Result<core::PairSet> read_back() override;
+  // Launches, bytes that load and update copied to the device, and bytes of device memory; where it was asked to count
+  // work, box tests and nodes visited. The same on every GPU.
+  [[nodiscard]] std::vector<core::Counter> counters() const override;
+  void count_work() override;
+
+  [[nodiscard]] FindTime find_time() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace broadside::gpu

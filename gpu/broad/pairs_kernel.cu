@@ -1,0 +1,58 @@
+#include <algorithm>
+
+#include "gpu/runtime/kernel_launch.cuh"
+#include "gpu/stages/pairs_only/pairs.cuh"
+
+namespace broadside::gpu {
+namespace {
+
+constexpr std::uint32_t kThreads = 512;
+constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
+// Tiles and bins fill a multiprocessor's shared memory.
+constexpr std::uint32_t kSortThreads = 1024;
+
+template <bool kAreMany>
+__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
+    pairs_kernel(const __grid_constant__ PairsView view) {
+  extern __shared__ __align__(16) unsigned char shared[];
+  run_pairs<kAreMany>(view, shared);
+}
+
+__global__ void __launch_bounds__(kSortThreads, 1) sort_kernel(const __grid_constant__ PairsView view) {
+  extern __shared__ __align__(16) unsigned char shared[];
+  run_sort(view, shared);
+}
+
+template <bool kAreMany>
+core::Result<LaunchShape> search_shape() {
+  LaunchShape shape{kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairsScratch<kAreMany>)), 0};
+  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(pairs_kernel<kAreMany>), shape));
+  return shape;
+}
+
+}  // namespace
+
+core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
+                                            std::uint32_t least_for_bins) {
+  PairsShape shape;
+  auto search = start == Start::kMany ? search_shape<true>() : search_shape<false>();
+  if (!search.ok()) return search.error();
+  shape.search = search.value();
+  if (start != Start::kMany || boxes < least_for_bins) return shape;
+  const std::uint32_t bins = bins_of(kSortThreads, boxes, buckets);
+  auto block_limit = attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin);
+  if (!block_limit.ok()) return block_limit.error();
+  shape.sort = {kSortThreads, 0, std::max(tile_bytes(kSortThreads, bins), bin_bytes(kSortThreads)), 0};
+  if (shape.sort.shared_bytes > block_limit.value()) return shape;
+  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(sort_kernel), shape.sort));
+  if (shape.sort.blocks != 0) shape.bins = bins;
+  return shape;
+}
+
+core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
+  if (view.broad.start != Start::kMany) return launch(pairs_kernel<false>, view, shape.search, stream);
+  if (shape.bins != 0) BROADSIDE_TRY(launch(sort_kernel, view, shape.sort, stream));
+  return launch(pairs_kernel<true>, view, shape.search, stream);
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,77 @@
+// What changes from frame to frame, on the device: states, and the buffers that grow to what a frame demands. The broad
+// phase's own are in broad_buffers.hpp.
+#pragma once
+
+#include <cstdint>
+
+#include "core/contact.hpp"
+#include "core/method/proximity.hpp"
+#include "core/pair.hpp"
+#include "core/scene/scene.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/runtime/device_buffer.hpp"
+
+namespace broadside::gpu {
+
+struct DeviceState {
+  DeviceBuffer<PackedVec3> position;
+  DeviceBuffer<PackedVec3> velocity;
+
+  core::Status reserve(std::size_t bodies);
+  [[nodiscard]] StateView view() const { return {position.data(), velocity.data()}; }
+};
+
+class FrameBuffers {
+ public:
+  // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
+  core::Status load(const core::Scene& scene);
+  // Where long searches of few bodies are handed over.
+  core::Status reserve_rests();
+  // For the frame that has so many others under way before it, none of which advance() was called for.
+  void fill(FrameView& view, std::uint64_t under_way = 0) const;
+  // Makes room for what the aborted frame demanded, and a quarter more. Contents are lost.
+  core::Status grow(const Counters& demanded, bool is_confirmed_by_level0);
+  // The frame is done: the next one starts from what it made.
+  void advance() { std::swap(previous_, next_); }
+
+  // After advance(), of the frame that was done; before any step, the initial state.
+  [[nodiscard]] const DeviceState& state() const { return previous_; }
+  [[nodiscard]] const DeviceState& detected() const { return detected_; }
+  [[nodiscard]] const DeviceBuffer<PackedBox>& boxes() const { return boxes_; }
+  [[nodiscard]] const DeviceBuffer<core::Pair>& pairs() const { return pairs_; }
+  [[nodiscard]] const DeviceBuffer<core::Pair>& confirmed() const { return confirmed_; }
+  [[nodiscard]] const DeviceBuffer<core::Proximity>& proximity() const { return proximity_; }
+  [[nodiscard]] const DeviceBuffer<core::Contact>& contacts() const { return contacts_; }
+  [[nodiscard]] const DeviceBuffer<core::Contact>& face_contacts() const { return face_contacts_; }
+  [[nodiscard]] std::uint64_t body_bytes() const;
+  [[nodiscard]] std::uint64_t appended_bytes() const;
+
+ private:
+  core::Status reserve_confirmed(std::uint64_t count);
+
+  std::uint32_t body_count_ = 0;
+  DeviceState previous_;
+  DeviceState detected_;
+  DeviceState next_;
+  DeviceBuffer<PackedBox> boxes_;
+  DeviceBuffer<std::uint32_t> degree_;
+  DeviceBuffer<std::uint32_t> list_begin_;
+  DeviceBuffer<LiveBody> live_;
+  DeviceBuffer<Counters> counters_;
+  DeviceBuffer<unsigned long long> barrier_;
+
+  DeviceBuffer<core::Pair> pairs_;
+  DeviceBuffer<core::Pair> confirmed_;
+  DeviceBuffer<core::Proximity> proximity_;
+  DeviceBuffer<MeasuredPair> measured_;
+  DeviceBuffer<PlacedPair> placed_;
+  DeviceBuffer<SearchRest> rests_;
+  DeviceBuffer<NodePair> rest_entries_;
+  DeviceBuffer<Link> links_;
+  DeviceBuffer<unsigned long long> keys_;
+  DeviceBuffer<ListEntry> lists_;
+  DeviceBuffer<core::Contact> contacts_;
+  DeviceBuffer<core::Contact> face_contacts_;
+};
+
+}  // namespace broadside::gpu

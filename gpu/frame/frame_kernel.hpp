@@ -1,0 +1,86 @@
+// Launches of the device code, as plain functions: the rest of gpu/ is compiled by the host compiler. frame_kernel.cu
+// and pairs_kernel.cu implement them on CUDA, on_host/frame_on_host.cpp with fibers.
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/quat.hpp"
+#include "core/math/vec3.hpp"
+#include "core/result.hpp"
+#include "gpu/broad/many_view.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/runtime/device_runtime.hpp"
+
+namespace broadside::gpu {
+
+// How a kernel fits this GPU.
+struct LaunchShape {
+  std::uint32_t threads = 0;  // of a block; a power of two of warps
+  std::uint32_t blocks = 0;   // that are resident at once: all of them meet at barriers
+  std::uint32_t shared_bytes = 0;
+  std::uint32_t multiprocessors = 0;
+
+  [[nodiscard]] std::uint64_t all_threads() const { return std::uint64_t{blocks} * threads; }
+};
+
+// Of the ring of all bodies (stages/broad/body_ring.cuh) a warp takes so few places at once as there are warps for:
+// seldom do two of its pairs go down the levels one after the other then.
+inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) {
+  const std::uint64_t warps = shape.all_threads() / 32;
+  std::uint32_t share = 1;
+  while (share < 32 && std::uint64_t{bodies} * ring_shares(bodies, share) > warps) ++share;
+  return share;
+}
+
+// Above this the tiles of tile_stage.cuh are sooner done: a warp of theirs tests 1024 pairs, one of ours 32.
+constexpr std::uint32_t kFewBodies = 512;
+
+// Whether frames are those of the kernel for few bodies, which knows nothing else and has a thread of one block for
+// each.
+inline bool has_few_bodies(const FrameView& f) {
+  return f.broad.start == Start::kTiles && f.body_count <= kFewBodies && f.body_count <= f.block_bodies &&
+         f.solver == Solver::kColored;
+}
+
+// For trees of this many levels. An error says that the GPU has too little shared memory for one warp's stack.
+core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
+
+// One whole frame is this one launch, whatever its counts: every stage reads them on the device. Asynchronous.
+core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream);
+
+// The broad phase alone; the same rules, but for great many boxes, which are sorted by a launch before.
+struct PairsView {
+  std::uint32_t box_count = 0;
+  const PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
+  BroadView broad;
+  ManyView many;  // where the start is Start::kMany
+  AppendView<core::Pair> pairs;
+  Counters* counters = nullptr;
+  unsigned long long* barrier = nullptr;  // the word where the grid meets
+  Outcome* outcome = nullptr;
+};
+struct PairsShape {
+  LaunchShape search;
+  LaunchShape sort;        // where there are bins
+  std::uint32_t bins = 0;  // of BinsView; 0 also where the GPU has too little shared memory for them
+};
+core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
+                                            std::uint32_t least_for_bins);
+core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream);
+
+// The sum of the digests of everything that the last frame left. Counts are read on the device, so that it can be
+// launched right behind the frame; a frame that was aborted has none. Asynchronous.
+struct DigestView {
+  std::uint32_t body_count = 0;
+  StateView state;
+  const core::Quat* orientation = nullptr;
+  const core::Pair* confirmed = nullptr;
+  bool is_confirmed_by_level0 = false;
+  const core::Contact* contacts = nullptr;
+  const core::Contact* face_contacts = nullptr;
+  Counters* counters = nullptr;
+  unsigned long long* digest = nullptr;  // in host memory: what this is about
+};
+core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream);
+
+}  // namespace broadside::gpu

@@ -1,0 +1,175 @@
+// What the frame kernel is given, by value: where everything of one simulation lies on the device.
+#pragma once
+
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/contact.hpp"
+#include "core/material.hpp"
+#include "core/math/box.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/levels.hpp"
+#include "core/method/proximity.hpp"
+#include "core/pair.hpp"
+#include "core/parameters.hpp"
+#include "core/scene/spring.hpp"
+#include "core/variant.hpp"
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/frame/measured_pair.hpp"
+#include "gpu/frame/placed_shape.hpp"
+#include "gpu/frame/search_rest.hpp"
+#include "gpu/frame/small_divisor.hpp"
+#include "gpu/scene/near_cells.hpp"
+#include "gpu/scene/packed_box.hpp"
+#include "gpu/scene/shape_tree.hpp"
+
+namespace broadside::gpu {
+
+// Of pairs, confirmed or not, there is room for so many at least.
+constexpr std::uint64_t kLeastPairs = 1024;
+
+enum class Solver : std::uint32_t { kColored, kJacobi, kRacing };
+
+// Per shape, in body coordinates. All instances of a mesh share one shape.
+struct ShapesView {
+  std::uint32_t count = 0;
+  const PackedBox* octree = nullptr;  // [shapes * 73] boxes of the body octree, in its order; empty nodes stay empty
+  const PackedBox* level2 = nullptr;  // [shapes * 64] its level-2 boxes without the empty ones
+  const std::uint32_t* level2_count = nullptr;  // [shapes]
+  const TreeHeader* trees = nullptr;            // [shapes]
+  const PackedBox* tree_nodes = nullptr;
+  const PackedBox* tree_upper = nullptr;
+  std::uint32_t tree_upper_count = 0;  // of all shapes; 0: no trees are descended but where a body is far outside
+  const PackedVec3* tree_vertices = nullptr;
+  const NearCells* near_cells = nullptr;  // [shapes]
+  const std::uint8_t* near_lower = nullptr;
+  const std::uint32_t* near_lists = nullptr;
+  const NearEntry* near_entries = nullptr;
+  const QuantizedVertex* quantized = nullptr;  // as tree_vertices
+  float extent_m = 0.0F;                       // the largest coordinate of any shape's vertices
+};
+
+// Position (w = inverse mass) and velocity of every body, at one moment.
+struct StateView {
+  PackedVec3* position = nullptr;
+  PackedVec3* velocity = nullptr;
+};
+
+// A touching pair, and the places in which it came to each body's contacts; kNoRank for a body that is never written.
+constexpr std::uint32_t kNoRank = 0xFFFFFFFFU;
+struct alignas(16) Link {
+  std::uint32_t i = 0;
+  std::uint32_t j = 0;
+  std::uint32_t rank_i = 0;
+  std::uint32_t rank_j = 0;
+};
+
+// A contact in the list of one of its bodies, in the order in which the body's contacts are resolved.
+struct alignas(16) ListEntry {
+  static constexpr std::uint32_t kIsOurs = 1U << 31;
+
+  std::uint32_t contact = 0;
+  std::uint32_t other = 0;       // the other body
+  std::uint32_t rank_other = 0;  // the contact's place in the other's list
+  std::uint32_t shape = 0;       // of the other body; kIsOurs: this body's thread resolves the contact
+};
+
+// A body while its contacts are resolved: how many of them are done, and the state that they left. Two words of 16
+// bytes, each written whole; the lowest bit of `tag` is that of `done`, so that a reader can tell whether both words
+// are of one moment. Above it: the color of the body's next contact, as far as the body has a say.
+struct alignas(16) LiveBody {
+  core::Vec3 x;
+  std::uint32_t done = 0;
+  core::Vec3 v;
+  std::uint32_t tag = 0;
+};
+static_assert(sizeof(Link) == 16 && sizeof(ListEntry) == 16 && sizeof(LiveBody) == 32,
+              "read and written in words of 16 bytes");
+
+constexpr int kStageCount = 6;
+
+// What the host reads after a frame, in host memory that the device writes.
+struct Outcome {
+  Counters counters;
+  unsigned long long stage_end_ns[kStageCount + 1] = {};  // [0] is the start of the frame
+};
+
+// Of the ring of all bodies (stages/broad/body_ring.cuh), into how many shares of so many places each body's are dealt.
+BROADSIDE_HD std::uint32_t ring_shares(std::uint32_t bodies, std::uint32_t share) {
+  return (bodies / 2 + share - 1) / share;
+}
+
+// Fixed during a run, but for `previous` and `next`, which change places after every frame, and its outcome.
+struct FrameView {
+  std::uint32_t body_count = 0;
+  core::Levels levels = core::Levels::kC;
+  Solver solver = Solver::kColored;
+  core::Variant variant = core::Variant::kSound;
+  bool has_vertex_stage = true;
+  float dt_s = 0.0F;
+  core::Vec3 gravity_m_s2;
+  core::Parameters parameters;
+  core::Box domain;
+  core::Material face_material;
+
+  ShapesView shapes;
+  const std::uint32_t* shape_of_body = nullptr;
+  const core::Material* material = nullptr;
+  // By body, in the scene's order for each: body i has springs[spring_begin[i] .. spring_begin[i + 1]). Null: no
+  // springs.
+  const core::Spring* springs = nullptr;
+  const std::uint32_t* spring_begin = nullptr;
+  StateView previous;
+  StateView detected;
+  StateView next;
+  PackedBox* boxes = nullptr;  // at detection
+
+  BroadView broad;
+  AppendView<core::Pair> pairs;
+  AppendView<core::Pair> confirmed;      // flat: the same memory as pairs
+  core::Proximity* proximity = nullptr;  // one per confirmed pair
+  // Few bodies: the levels below 0 are gone down where pairs are found, not while they are measured.
+  bool are_levels_first = false;
+  std::uint32_t ring_share = 1;        // places of the ring that a warp takes, where there are few bodies
+  SmallDivisor ring_shares;            // by ring_shares() of them: divided beforehand, as all warps would wait for it
+  std::uint32_t stack_entries = 0;     // of each warp's stack in the proximity stage
+  std::uint32_t block_bodies = 0;      // that one block resolves alone
+  std::uint32_t block_bytes = 0;       // of shared memory that a block has, beside what is fixed
+  Link* links = nullptr;               // the touching pairs: as many as confirmed
+  unsigned long long* keys = nullptr;  // [2 * links] order of the contacts of each written body, as they came
+  ListEntry* lists = nullptr;          // [2 * links] contacts of each written body, in their order
+  core::Contact* contacts = nullptr;   // one slot per link; depth 0 = no contact
+  AppendView<core::Contact> face_contacts;
+
+  std::uint32_t* degree = nullptr;      // [bodies] contacts of a written body
+  std::uint32_t* list_begin = nullptr;  // [bodies]
+  LiveBody* live = nullptr;             // [bodies]
+
+  Counters* counters = nullptr;  // until this frame begins, those of the frame before it
+  // The word where the grid meets; and, behind it, few bodies' FewCounts::marked, zero between frames.
+  unsigned long long* barrier = nullptr;
+  Outcome* outcome = nullptr;
+  // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
+  bool is_behind_unseen = false;
+  MeasuredPair* measured = nullptr;         // few bodies: one per pair that is measured
+  PlacedPair* placed = nullptr;             // likewise; between frames none is there
+  unsigned long long* given_out = nullptr;  // few bodies: pairs, to warps that measure them; zero between frames
+  RestsView rests[2];                       // few bodies
+};
+
+// Few bodies: whether the vertex stage is given pairs whose levels are still to be gone down.
+BROADSIDE_HD bool are_levels_left(const FrameView& f) {
+  return f.levels != core::Levels::kFlat && !f.are_levels_first;
+}
+
+// Of one shape nobody has to ask which.
+BROADSIDE_HD std::uint32_t shape_of(const FrameView& f, std::uint32_t body) {
+  return f.shapes.count == 1 ? 0U : f.shape_of_body[body];
+}
+
+// At detection.
+BROADSIDE_HD PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
+  return {f.detected.position[body].v, shape_of(f, body)};
+}
+
+}  // namespace broadside::gpu

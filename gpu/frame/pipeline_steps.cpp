@@ -1,0 +1,146 @@
+// A pipeline's frames: launched, waited for, repeated with larger buffers, counted as steps.
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "gpu/frame/pipeline_parts.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+constexpr std::array<std::string_view, kStageCount> kStageNames{"integrate", "broad",    "levels",
+                                                                "vertices",  "response", "faces"};
+
+}  // namespace
+
+// Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them, as there is
+// where all levels are tested for all pairs.
+LaunchShape Pipeline::Impl::frame_shape() const {
+  LaunchShape shape = launch;
+  if (view.body_count < kLeastBodiesForGrid && view.broad.start != Start::kNone)
+    shape.blocks = std::min(shape.blocks, shape.multiprocessors);
+  return shape;
+}
+
+// Of few bodies. While a pair is measured other warps go down its levels, for nothing. But where there are more pairs,
+// as in the last frame that was seen, than the grid has large teams of warps, and a warp more for each, it is worth
+// while to know before which of them are left: there are more warps for each then. Descending two trees takes long, and
+// wants all warps of a block.
+bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
+  if (view.levels == core::Levels::kFlat) return false;
+  const std::uint64_t warps = shape.threads / 32;
+  const std::uint64_t large = device_scene.has_cells() ? std::max<std::uint64_t>(1, warps / 4) : warps;
+  return !view.has_vertex_stage || last.pairs * (large + 1) > shape.blocks * warps;
+}
+
+// Behind those under way.
+core::Status Pipeline::Impl::launch_frame() {
+  buffers.fill(view, frames.under_way());
+  broad.fill(view.broad);
+  if (is_confirmed_by_level0()) view.confirmed.items = view.pairs.items;
+  const LaunchShape shape = frame_shape();
+  view.ring_share = ring_share(view.body_count, shape);
+  view.ring_shares = SmallDivisor(ring_shares(view.body_count, view.ring_share));
+  view.are_levels_first = levels_come_first(shape);
+  return frames.launch(view, shape);
+}
+
+// The only one under way.
+core::Status Pipeline::Impl::wait_for_frame() {
+  if (!has_digest) return frames.wait();
+  // The digest is added up while the host sees to its next launch: only the frame is waited for.
+  BROADSIDE_TRY(frame_end.set(stream));
+  BROADSIDE_TRY(start_digest(view.next, steps + 1));
+  return frame_end.wait("a frame");
+}
+
+// The oldest frame is done. When its buffers were too small they have grown, and it has to be launched again from the
+// state before it.
+core::Result<bool> Pipeline::Impl::is_kept() {
+  last = frames.oldest().counters;
+  if (last.is_aborted == 0) return true;
+  BROADSIDE_TRY(frames.clear());
+  BROADSIDE_TRY(broad.grow(last));
+  BROADSIDE_TRY(buffers.grow(last, is_confirmed_by_level0()));
+  ++repeats;
+  return false;
+}
+
+// The oldest frame, which is kept, is a step from now on.
+void Pipeline::Impl::take_frame() {
+  // What was in the stream before it is done.
+  take_digests();
+  const auto& end = frames.oldest().stage_end_ns;
+  for (int k = 0; k < kStageCount; ++k) times[k] = {kStageNames[k], static_cast<double>(end[k + 1] - end[k]) * 1e-9};
+  frames.pop();
+  buffers.advance();
+  ++steps;
+  pairs_tested += starts_at_level0() ? last.pairs : all_pairs;
+  dt_s = static_cast<double>(view.dt_s);
+}
+
+// After an error nothing is under way: the device would use memory that this object may free now.
+core::Status Pipeline::Impl::settled(core::Status status) {
+  if (!status.ok()) (void)frames.clear();
+  return status;
+}
+
+core::Status Pipeline::step(float dt_s) {
+  impl_->view.dt_s = dt_s;
+  return impl_->settled(impl_->run_alone());
+}
+
+core::Status Pipeline::Impl::run_alone() {
+  has_digest = expects_digest();
+  for (bool is_done = false; !is_done;) {
+    BROADSIDE_TRY(launch_frame());
+    BROADSIDE_TRY(wait_for_frame());
+    const auto kept = is_kept();
+    if (!kept.ok()) return kept.error();
+    is_done = kept.value();
+  }
+  BROADSIDE_TRY(count_work());
+  take_frame();
+  return core::Done{};
+}
+
+core::Status Pipeline::run(float dt_s, std::uint64_t steps, const StepDone& step_done) {
+  impl_->view.dt_s = dt_s;
+  if (!impl_->work.is_asked()) return impl_->settled(impl_->run_ahead(steps, step_done));
+  // What a frame left is looked at before the next one.
+  bool goes_on = true;
+  for (std::uint64_t k = 0; k < steps && goes_on; ++k) {
+    BROADSIDE_TRY(step(dt_s));
+    goes_on = step_done();
+  }
+  return core::Done{};
+}
+
+core::Status Pipeline::Impl::run_ahead(std::uint64_t steps_asked, const StepDone& step_done) {
+  std::uint64_t end = steps + steps_asked;
+  bool is_told = true;  // whoever asked, of each step
+  while (steps < end) {
+    while (frames.under_way() < FrameQueue::kMost && steps + frames.under_way() < end) BROADSIDE_TRY(launch_frame());
+    BROADSIDE_TRY(frames.wait());
+    const auto kept = is_kept();
+    if (!kept.ok()) return kept.error();
+    if (!kept.value()) continue;
+    take_frame();
+    has_digest = false;
+    if (is_told && !step_done()) {
+      is_told = false;
+      end = steps + frames.under_way();
+    }
+  }
+  return core::Done{};
+}
+
+// Of the frame that was just computed; nothing where nobody asked.
+core::Status Pipeline::Impl::count_work() {
+  const BroadWorkView of_broad{view.broad, {}, view.boxes, view.body_count, view.counters};
+  BROADSIDE_TRY(work.count_broad(of_broad, launch.multiprocessors, stream));
+  if (is_confirmed_by_level0()) return core::Done{};
+  return work.count_levels(view, launch.multiprocessors, stream);
+}
+
+}  // namespace broadside::gpu

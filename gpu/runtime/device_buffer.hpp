@@ -1,0 +1,82 @@
+// Device memory with an owner.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/result.hpp"
+#include "gpu/runtime/device_runtime.hpp"
+
+namespace broadside::gpu {
+
+template <typename T>
+class DeviceBuffer {
+ public:
+  static_assert(std::is_trivially_copyable_v<T>);
+
+  DeviceBuffer() = default;
+  DeviceBuffer(const DeviceBuffer&) = delete;
+  DeviceBuffer& operator=(const DeviceBuffer&) = delete;
+  DeviceBuffer(DeviceBuffer&& other) noexcept { swap(other); }
+  DeviceBuffer& operator=(DeviceBuffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~DeviceBuffer() { release(); }
+
+  // At least this many elements (and never none, so that data() is a pointer); contents are lost when it grows. The old
+  // memory is given back first, so growing needs no room for both.
+  core::Status reserve(std::size_t count, const char* what) {
+    if (data_ != nullptr && count <= capacity_) return core::Done{};
+    release();
+    const std::size_t wanted = count == 0 ? 1 : count;
+    core::Result<void*> memory = allocate_device_bytes(wanted * sizeof(T), what);
+    if (!memory.ok()) return memory.error();
+    data_ = static_cast<T*>(memory.value());
+    capacity_ = wanted;
+    return core::Done{};
+  }
+
+  // Returns when the host's bytes were read.
+  core::Status upload(std::span<const T> from, const char* what) {
+    BROADSIDE_TRY(reserve(from.size(), what));
+    if (!from.empty()) BROADSIDE_TRY(copy_to_device(data_, from.data(), from.size_bytes()));
+    return core::Done{};
+  }
+
+  // Synchronizes: returns when the bytes are there.
+  core::Status download(std::vector<T>& to, std::size_t count) const {
+    to.resize(count);
+    if (count != 0) BROADSIDE_TRY(copy_to_host(to.data(), data_, count * sizeof(T)));
+    return core::Done{};
+  }
+
+  core::Status fill_bytes(int value) {
+    if (data_ != nullptr) BROADSIDE_TRY(fill_device_bytes(data_, value, capacity_ * sizeof(T)));
+    return core::Done{};
+  }
+
+  void swap(DeviceBuffer& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+  [[nodiscard]] T* data() const { return data_; }
+  [[nodiscard]] std::size_t capacity() const { return capacity_; }
+  [[nodiscard]] std::size_t bytes() const { return capacity_ * sizeof(T); }
+
+ private:
+  void release() {
+    if (data_ != nullptr) release_device_bytes(data_);
+    data_ = nullptr;
+    capacity_ = 0;
+  }
+
+  T* data_ = nullptr;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace broadside::gpu

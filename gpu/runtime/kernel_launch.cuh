@@ -1,0 +1,65 @@
+// How a kernel whose threads all meet at barriers fits this GPU, and its launch.
+#pragma once
+
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/runtime/cuda_check.hpp"
+
+namespace broadside::gpu {
+
+inline core::Result<std::uint32_t> attribute(cudaDeviceAttr which) {
+  int device = 0;
+  int value = 0;
+  BROADSIDE_CUDA_TRY(cudaGetDevice(&device));
+  BROADSIDE_CUDA_TRY(cudaDeviceGetAttribute(&value, which, device));
+  return static_cast<std::uint32_t>(value);
+}
+
+// How many of a kernel's blocks are resident at once; `shape` has threads and shared memory.
+inline core::Status fit(const void* kernel, LaunchShape& shape) {
+  auto multiprocessors = attribute(cudaDevAttrMultiProcessorCount);
+  if (!multiprocessors.ok()) return multiprocessors.error();
+  shape.multiprocessors = multiprocessors.value();
+  BROADSIDE_CUDA_TRY(
+      cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shape.shared_bytes)));
+  int each = 0;
+  BROADSIDE_CUDA_TRY(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&each, kernel, static_cast<int>(shape.threads),
+                                                                   shape.shared_bytes));
+  shape.blocks = static_cast<std::uint32_t>(each) * shape.multiprocessors;
+  return core::Done{};
+}
+
+// When a launch's blocks begin.
+enum class LaunchBegin : std::uint8_t {
+  // When all of them are resident at once: CUDA's cooperative launch.
+  kTogether,
+  // While the launch before it in the stream ends, each as soon as there is room: CUDA's programmatic dependent launch.
+  // There is none that is both, so nothing but their number vouches for all of them becoming resident. They do, if what
+  // else runs ends without them: so of launches like this, whose blocks wait for each other, all are in one stream
+  // (frame_stream), where none has a block before all those of the one before are resident.
+  kEarly,
+};
+
+template <typename View>
+core::Status launch(void (*kernel)(View), const View& view, const LaunchShape& shape, StreamHandle stream,
+                    LaunchBegin begin = LaunchBegin::kTogether) {
+  cudaLaunchAttribute attribute = {};
+  if (begin == LaunchBegin::kTogether) {
+    attribute.id = cudaLaunchAttributeCooperative;
+    attribute.val.cooperative = 1;
+  } else {
+    attribute.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+    attribute.val.programmaticStreamSerializationAllowed = 1;
+  }
+  cudaLaunchConfig_t config = {};
+  config.gridDim = dim3(shape.blocks);
+  config.blockDim = dim3(shape.threads);
+  config.dynamicSmemBytes = shape.shared_bytes;
+  config.stream = stream;
+  config.attrs = &attribute;
+  config.numAttrs = 1;
+  void* arguments[] = {const_cast<View*>(&view)};
+  return cuda_status(cudaLaunchKernelExC(&config, reinterpret_cast<const void*>(kernel), arguments),
+                     "launching a kernel");
+}
+
+}  // namespace broadside::gpu

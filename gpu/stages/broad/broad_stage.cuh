@@ -1,0 +1,78 @@
+// The broad phase of a frame, whichever it is: boxes in, candidate pairs out.
+#pragma once
+
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/stages/broad/grid_stage.cuh"
+#include "gpu/stages/broad/hash_stage.cuh"
+#include "gpu/stages/broad/octree_stage.cuh"
+#include "gpu/stages/broad/tile_stage.cuh"
+#include "gpu/stages/grid/team.cuh"
+
+namespace broadside::gpu {
+
+// A box's part in what must be counted before anything is placed; the team meets before find_candidates.
+__device__ inline void count_box(const BroadView& b, std::uint64_t body, const core::Box& box) {
+  if (b.start == Start::kGrid) grid_count(b.grid, body, box);
+  if (b.start == Start::kOctree) octree_count(b.octree, body, box);
+}
+
+// Returns false when the spatial hash has no room for its entries; the counters say how much it needs. Marks the ends
+// of placing (2) and scattering (3), if that is asked for.
+template <typename Team>
+__device__ bool find_candidates(const Team& team, const BroadView& b, const PackedBox* boxes, std::uint32_t count,
+                                AppendView<core::Pair> out, Counters* counters, PairQueue& room,
+                                unsigned long long* stage_end_ns) {
+  // Steps that a start does not have end where the one before did.
+  const auto mark = [&](int stage) {
+    if (stage_end_ns != nullptr && team.rank() == 0) stage_end_ns[stage] = now_ns();
+  };
+  WarpQueue queue(room, out, &counters->pairs);
+  Uncounted work;
+  switch (b.start) {
+    case Start::kTiles:
+      mark(2), mark(3);
+      find_pairs_by_tiles(team, boxes, count, nullptr, out, &counters->pairs, work);
+      break;
+    case Start::kGrid:
+      place_buckets(team, b.grid.bucket_mask, b.grid.count, b.grid.begin, &counters->entry_cursor);
+      team.sync();
+      mark(2);
+      grid_scatter(team, b.grid, boxes, count);
+      team.sync();
+      mark(3);
+      grid_find(team, b.grid, count, queue, work);
+      break;
+    case Start::kOctree:
+      octree_place_nodes(team, b.octree);
+      team.sync();
+      mark(2);
+      octree_scatter(team, b.octree, boxes, count);
+      team.sync();
+      mark(3);
+      find_pairs_by_tiles(team, b.octree.sorted, count, b.octree.range_end, out, &counters->pairs, work);
+      break;
+    case Start::kHash:
+      hash_count(team, b.hash, boxes, count, counters);
+      team.sync();
+      if (counters->entries > b.hash.entries.capacity) {
+        hash_clear(team, b.hash);
+        return false;
+      }
+      place_buckets(team, b.hash.bucket_mask, b.hash.count, b.hash.begin, &counters->entry_cursor);
+      team.sync();
+      mark(2);
+      hash_scatter(team, b.hash, boxes, count);
+      team.sync();
+      mark(3);
+      hash_find(team, b.hash, boxes, count, counters, queue, work);
+      hash_clear(team, b.hash);
+      break;
+    case Start::kNone:
+    case Start::kMany:  // in pairs.cuh
+      break;
+  }
+  queue.flush();
+  return true;
+}
+
+}  // namespace broadside::gpu

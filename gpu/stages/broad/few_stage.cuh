@@ -1,0 +1,157 @@
+// All pairs of a few bodies. METHOD section 2.
+#pragma once
+
+#include "core/method/levels.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/stages/body_stage.cuh"
+#include "gpu/stages/broad/body_ring.cuh"
+#include "gpu/stages/few_counts.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/levels/confirm_stage.cuh"
+#include "gpu/stages/levels/shapes_in_block.cuh"
+
+namespace broadside::gpu {
+
+// In no list.
+constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
+
+// A warp's item of the ring at a time: a body and those that it may meet there, a lane each.
+class FewItem {
+ public:
+  __device__ FewItem(const GridPlaces& team, const FrameView& f)
+      : ring_(f.body_count, f.ring_share, f.ring_shares),
+        item_(static_cast<std::uint32_t>(team.spread_rank() / 32)),
+        stride_(static_cast<std::uint32_t>(warp_count(team))) {
+    enter();
+  }
+
+  __device__ bool exists() const { return item_ < ring_.items(); }
+  __device__ void next() {
+    item_ += stride_;
+    enter();
+  }
+  __device__ const BodyRing<SmallDivisor>::Meeting& meeting() const { return meeting_; }
+
+ private:
+  __device__ void enter() {
+    if (exists()) meeting_ = ring_.meeting(item_);
+  }
+
+  BodyRing<SmallDivisor> ring_;
+  std::uint32_t item_;
+  std::uint32_t stride_;
+  BodyRing<SmallDivisor>::Meeting meeting_;
+};
+
+// By a whole warp, of a pair that level 0 found.
+__device__ inline bool is_confirmed_few(const FrameView& f, const ShapesInBlock& shapes, const PlacedShape& a,
+                                        const PlacedShape& b) {
+  Uncounted work;
+  if (!shapes.has_octrees()) return are_levels_overlapping<2>(f, OctreesInMemory{f.shapes.octree}, a, b, work);
+  shapes.wait();
+  return are_levels_overlapping<2>(f, shapes, a, b, work);
+}
+
+// Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet. Of the bodies of an item,
+// before the frame.
+__device__ inline void find_few(const FrameView& f, const ShapesInBlock& shapes,
+                                const BodyRing<SmallDivisor>::Meeting& at, const BodyBefore& before_i,
+                                const BodyBefore& before_j) {
+  const BodyAtDetection now_i(f, at.i, before_i);
+  const BodyAtDetection now_j(f, at.j, before_j);
+  const PlacedShape placed_i{now_i.state.x, shape_of(f, at.i)};
+  const PlacedShape placed_j{now_j.state.x, shape_of(f, at.j)};
+  const bool overlaps =
+      at.exists && core::overlaps(now_i.box, now_j.box) && !(before_i.is_static() && before_j.is_static());
+  const unsigned found = __ballot_sync(kFullWarp, overlaps);
+  if (found == 0) return;
+  unsigned confirmed = 0;
+  for (unsigned left = f.are_levels_first ? found : 0U; left != 0; left &= left - 1) {
+    const int source = __ffs(static_cast<int>(left)) - 1;
+    const PlacedShape other{{__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
+                             __shfl_sync(kFullWarp, placed_j.x.z, source)},
+                            __shfl_sync(kFullWarp, placed_j.shape, source)};
+    if (is_confirmed_few(f, shapes, placed_i, other)) confirmed |= 1U << source;
+  }
+  const FewCounts here{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))};
+  const unsigned long long room = add_by_first_lane(f.barrier, here.packed());
+  const FewCounts first = FewCounts::unpacked(__shfl_sync(kFullWarp, room, 0));
+  const core::Pair pair = core::make_pair_of(at.i, at.j);
+  const auto place_among = [](unsigned lanes, std::uint32_t begin) {
+    return (lanes >> lane() & 1U) != 0 ? begin + __popc(lanes & ((1U << lane()) - 1U)) : kNoPlace;
+  };
+  const std::uint32_t place = place_among(found, first.pairs);
+  if (place < f.pairs.capacity) f.pairs.items[place] = pair;
+  const std::uint32_t confirmed_place = place_among(confirmed, first.judged);
+  if (confirmed_place < f.confirmed.capacity) f.confirmed.items[confirmed_place] = pair;
+  const std::uint32_t measured_place = f.are_levels_first ? confirmed_place : place;
+  if (f.has_vertex_stage && measured_place < f.confirmed.capacity)
+    put(f.placed + measured_place, at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i});
+}
+
+// Bodies are integrated, and pairs found without waiting for that: where there are few, whoever looks at two of them
+// works out for itself where they are. Returns false, and has done nothing, behind an aborted frame.
+// `item`: the warp's first.
+__device__ inline bool integrate_and_find_few(const GridTeam& team, const FrameView& f, const ShapesInBlock& shapes,
+                                              FewItem item) {
+  const std::uint32_t is_aborted = is_behind_aborted(f);
+  const std::uint64_t first = first_body(team);
+  // All of it is asked for before any of it is looked at.
+  BodyBefore own;
+  BodyBefore before_i;
+  BodyBefore before_j;
+  if (__any_sync(kFullWarp, first < f.body_count))
+    own = BodyBefore(f, static_cast<std::uint32_t>(min(first, std::uint64_t{f.body_count} - 1)));
+  if (item.exists()) {
+    before_i = BodyBefore(f, item.meeting().i);
+    before_j = BodyBefore(f, item.meeting().j);
+  }
+  ask_for_all();
+  if (is_aborted != 0) return false;
+  for (std::uint64_t i = first; i < f.body_count; i += team.size()) {
+    const auto body = static_cast<std::uint32_t>(i);
+    if (i != first) own = BodyBefore(f, body);
+    start_body(f, body, own, BodyAtDetection(f, body, own));
+  }
+  if (team.rank() == 0) *f.counters = Counters{};
+  mark(team, f, 1);
+  shapes.begin_upper(f);
+  // Those who ask for shapes have begun to.
+  if (f.are_levels_first) __syncthreads();
+  while (item.exists()) {
+    find_few(f, shapes, item.meeting(), before_i, before_j);
+    item.next();
+    if (!item.exists()) break;
+    before_i = BodyBefore(f, item.meeting().i);
+    before_j = BodyBefore(f, item.meeting().j);
+    ask_for_all();
+  }
+  return true;
+}
+
+// The levels of few bodies' pairs where they do not come first: gone down by warps of teams that have no pair, while
+// others measure the pairs.
+class FewLevels {
+ public:
+  static constexpr bool kAreOfFewBodies = true;
+
+  __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
+
+  // By one warp of the block, if any of it will look(): before that one does, and when it is done.
+  __device__ void begin() const { shapes_.begin_octrees(f_); }
+  __device__ void end() const { shapes_.end_octrees(); }
+
+  // By a warp: tells whether pair k is rejected. Returns whether it is not.
+  __device__ bool look(const PlacedPair& bodies, std::uint64_t k) const {
+    const bool is_kept = is_confirmed_few(f_, shapes_, bodies.i, bodies.j);
+    if (lane() == 0) f_.measured[k].is_rejected = is_kept ? 0 : 1;
+    if (!is_kept && lane() == 0) atomicAdd(f_.barrier, FewCounts{0, 1}.packed());
+    return is_kept;
+  }
+
+ private:
+  const FrameView& f_;
+  const ShapesInBlock& shapes_;
+};
+
+}  // namespace broadside::gpu

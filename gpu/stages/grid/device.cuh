@@ -1,0 +1,313 @@
+// What device code takes from CUDA beyond the language, in one place: nvcc gives it, and in a build for the host
+// gpu/on_host does, where the threads of a kernel are fibers. So the stages run, and are tested, where there is no GPU.
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/stages/grid/grid_word.hpp"
+
+#if defined(__CUDACC__)
+
+namespace broadside::gpu {
+
+// A spin on another thread's write goes through here. Nothing to do: sleeping for 32 ns makes a pile's contacts 5 %
+// slower.
+__device__ inline void relax() {}
+
+// Of a launch that began early (LaunchBegin::kEarly): until the launch before it in the stream has ended, and what that
+// wrote is there. Before it only what no launch changes may be read, and nothing written. Otherwise it waits for
+// nothing.
+__device__ inline void wait_for_launch_before() {
+#if __CUDA_ARCH__ >= 900
+  asm volatile("griddepcontrol.wait;" ::: "memory");
+#endif
+}
+
+// By all blocks: from then on the launch behind this one may begin, as far as there is room beside its blocks. So all
+// of these are resident before any of those is.
+__device__ inline void let_next_launch_begin() {
+#if __CUDA_ARCH__ >= 900
+  asm volatile("griddepcontrol.launch_dependents;" ::: "memory");
+#endif
+}
+
+// The barrier of one team of warps of a block, at most 15 teams a block. By whole warps.
+__device__ inline void sync_warps(std::uint32_t team, std::uint32_t warps) {
+  asm volatile("bar.sync %0, %1;" ::"r"(team + 1), "r"(warps * 32) : "memory");
+}
+
+// One more arrival at *arrived, and waiting until there were `awaited`; orders memory over the grid. By one thread.
+__device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
+  asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived) : "memory");
+  std::uint32_t seen = 0;
+  do {
+    asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(seen) : "l"(arrived) : "memory");
+  } while (seen < awaited);
+}
+
+// Where all blocks of a cooperative launch meet, by way of one word (grid_word.hpp): zero before its first launch, and
+// of one launch at a time. What its highest bit was is asked for when the launch begins, before anybody can have
+// flipped it: at a meeting a block waits for one thing alone. Whoever has met knows the tally.
+class GridBarrier {
+ public:
+  __device__ explicit GridBarrier(unsigned long long* word) : word_(word) {
+    if (threadIdx.x == 0) asm volatile("ld.relaxed.gpu.global.u64 %0, [%1];" : "=l"(seen_) : "l"(word) : "memory");
+  }
+
+  // Orders memory over the grid. By all threads.
+  __device__ void meet() { arrive_and_wait_for_all(nullptr, false); }
+  // The same, and returns the tally and the word behind it. `in_block`: of the block's shared memory, used by nobody
+  // else. If `is_loose`, of what was written before, nothing but these two words need be there yet, which spares the
+  // wait until it is: until a later meeting others may look at words alone that say so themselves (GridWords).
+  __device__ GridTally meet_and_ask(GridTally* in_block, bool is_loose) {
+    arrive_and_wait_for_all(in_block, is_loose);
+    return *in_block;
+  }
+
+ private:
+  __device__ __forceinline__ void arrive_and_wait_for_all(GridTally* tally, bool is_loose) {
+    __syncthreads();
+    if (threadIdx.x == 0) {
+      const unsigned long long share = GridWord::share(blockIdx.x, gridDim.x);
+      if (is_loose)
+        asm volatile("red.relaxed.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
+      else
+        asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
+      unsigned long long now = 0;
+      unsigned long long behind = 0;
+      do {
+        if (tally == nullptr)
+          asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
+        else
+          asm volatile("{ .reg .b128 w; ld.acquire.gpu.global.b128 w, [%2]; mov.b128 {%0, %1}, w; }"
+                       : "=l"(now), "=l"(behind)
+                       : "l"(word_)
+                       : "memory");
+      } while (((now ^ seen_) & GridWord::kFlipped) == 0);
+      seen_ = now;
+      if (tally != nullptr) *tally = {now & GridWord::kTally, behind};
+    }
+    __syncthreads();
+  }
+
+  unsigned long long* word_;
+  unsigned long long seen_ = 0;
+};
+
+// Sets bits of a word of global memory. Nothing is waited for.
+__device__ inline void set_bits(unsigned long long* of, unsigned long long bits) {
+  asm volatile("red.relaxed.gpu.global.or.b64 [%0], %1;" ::"l"(of), "l"(bits) : "memory");
+}
+
+// Adds to a word of global memory, by the first lane of a whole warp, to whom it returns what was there. That is waited
+// for where it is used: behind an if it would be waited for at the end of the if.
+__device__ inline unsigned long long add_by_first_lane(unsigned long long* to, unsigned long long value) {
+  unsigned long long before = 0;
+  asm volatile(
+      "{ .reg .pred is_first; setp.eq.u32 is_first, %2, 0; @is_first atom.relaxed.gpu.global.add.u64 %0, [%1], %3; }"
+      : "+l"(before)
+      : "l"(to), "r"(threadIdx.x % 32), "l"(value)
+      : "memory");
+  return before;
+}
+
+// One more arrival at *arrived; orders memory over the grid. Returns how many there were before.
+__device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
+  std::uint32_t before = 0;
+  asm volatile("atom.acq_rel.gpu.global.add.u32 %0, [%1], 1;" : "=r"(before) : "l"(arrived) : "memory");
+  return before;
+}
+
+// A word that others write meanwhile, asked for by the threads for which `asks`; 0 for others. That is waited for where
+// it is used: behind an if it would be waited for at the end of the if.
+__device__ inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* from) {
+  std::uint32_t v = 0;
+  asm volatile("{ .reg .pred asks; setp.ne.u32 asks, %2, 0; @asks ld.relaxed.gpu.global.u32 %0, [%1]; }"
+               : "+r"(v)
+               : "l"(from), "r"(asks ? 1U : 0U)
+               : "memory");
+  return v;
+}
+
+// Two words of 16 bytes, asked for at once, each in one access that is never torn: each is of one moment, both together
+// need not be. In global memory they are never served from this multiprocessor's own cache.
+struct GridWords {
+  __device__ static void load_two_whole(const uint4* from, uint4 (&words)[2]) {
+    unsigned long long part[4];
+    asm volatile(
+        "{ .reg .b128 s; .reg .b128 t; ld.relaxed.gpu.global.b128 s, [%4]; ld.relaxed.gpu.global.b128 t, [%4+16]; "
+        "mov.b128 {%0, %1}, s; mov.b128 {%2, %3}, t; }"
+        : "=l"(part[0]), "=l"(part[1]), "=l"(part[2]), "=l"(part[3])
+        : "l"(from)
+        : "memory");
+    unpack(part, words);
+  }
+  // One such word.
+  __device__ static void store_whole(uint4* to, uint4 v) {
+    asm volatile("{ .reg .b128 t; mov.b128 t, {%1, %2}; st.relaxed.gpu.global.b128 [%0], t; }" ::"l"(to), "l"(low(v)),
+                 "l"(high(v))
+                 : "memory");
+  }
+
+  // One such word, of this moment.
+  __device__ static uint4 load_whole(const uint4* from) {
+    unsigned long long part[2];
+    asm volatile("{ .reg .b128 s; ld.relaxed.gpu.global.b128 s, [%2]; mov.b128 {%0, %1}, s; }"
+                 : "=l"(part[0]), "=l"(part[1])
+                 : "l"(from)
+                 : "memory");
+    return unpacked(part[0], part[1]);
+  }
+  // Puts `v` there if it still holds `seen`, which gets what it holds. Returns whether it did. The highest bit of the
+  // last word is nobody else's: where there is no such instruction, it locks the word.
+  __device__ static bool replace_whole(uint4* at, uint4& seen, uint4 v) {
+#if __CUDA_ARCH__ >= 900
+    const unsigned long long before[2] = {low(seen), high(seen)};
+    unsigned long long now[2];
+    asm volatile(
+        "{ .reg .b128 s; .reg .b128 t; .reg .b128 u; mov.b128 s, {%3, %4}; mov.b128 t, {%5, %6};\n"
+        "atom.relaxed.gpu.global.cas.b128 u, [%2], s, t; mov.b128 {%0, %1}, u; }"
+        : "=l"(now[0]), "=l"(now[1])
+        : "l"(at), "l"(before[0]), "l"(before[1]), "l"(low(v)), "l"(high(v))
+        : "memory");
+    seen = unpacked(now[0], now[1]);
+    return now[0] == before[0] && now[1] == before[1];
+#else
+    constexpr unsigned kLock = 1U << 31;
+    while ((atomicOr(&at->w, kLock) & kLock) != 0) relax();
+    __threadfence();
+    uint4 now = load_whole(at);
+    now.w &= ~kLock;
+    const bool is_same = now.x == seen.x && now.y == seen.y && now.z == seen.z && now.w == (seen.w & ~kLock);
+    if (is_same) store_whole(at, {v.x, v.y, v.z, v.w | kLock});
+    __threadfence();
+    atomicAnd(&at->w, ~kLock);
+    seen = now;
+    return is_same;
+#endif
+  }
+
+  __device__ static unsigned long long low(uint4 v) {
+    return v.x | static_cast<unsigned long long>(v.y) << 32;
+  }
+  __device__ static unsigned long long high(uint4 v) {
+    return v.z | static_cast<unsigned long long>(v.w) << 32;
+  }
+  __device__ static uint4 unpacked(unsigned long long low, unsigned long long high) {
+    return {static_cast<unsigned>(low), static_cast<unsigned>(low >> 32), static_cast<unsigned>(high),
+            static_cast<unsigned>(high >> 32)};
+  }
+  __device__ static void unpack(const unsigned long long (&part)[4], uint4 (&words)[2]) {
+    for (int k = 0; k < 2; ++k) words[k] = unpacked(part[2 * k], part[2 * k + 1]);
+  }
+};
+
+__device__ inline std::uint32_t in_shared(const void* p) {
+  return static_cast<std::uint32_t>(__cvta_generic_to_shared(p));
+}
+
+// The same in the block's shared memory.
+struct BlockWords {
+  __device__ static void load_two_whole(const uint4* from, uint4 (&words)[2]) {
+    unsigned long long part[4];
+    asm volatile(
+        "{ .reg .b128 s; .reg .b128 t; ld.relaxed.cta.shared.b128 s, [%4]; ld.relaxed.cta.shared.b128 t, [%4+16]; "
+        "mov.b128 {%0, %1}, s; mov.b128 {%2, %3}, t; }"
+        : "=l"(part[0]), "=l"(part[1]), "=l"(part[2]), "=l"(part[3])
+        : "r"(in_shared(from))
+        : "memory");
+    GridWords::unpack(part, words);
+  }
+  __device__ static void store_whole(uint4* to, uint4 v) {
+    asm volatile("{ .reg .b128 t; mov.b128 t, {%1, %2}; st.relaxed.cta.shared.b128 [%0], t; }" ::"r"(in_shared(to)),
+                 "l"(GridWords::low(v)), "l"(GridWords::high(v))
+                 : "memory");
+  }
+};
+
+// 16 bytes that nobody needs again: the first to leave the caches.
+__device__ inline uint4 load_once(const uint4* from) {
+  return __ldcs(from);
+}
+
+// A copy from global to shared memory, both on 16 bytes, that one warp asks for and any thread of the block waits for.
+// In shared memory; used once a launch at most. Nobody leaves before what was begun is there.
+class BlockCopy {
+ public:
+  // By one thread. The block meets before anything else is done with it.
+  __device__ void init() {
+#if __CUDA_ARCH__ >= 900
+    asm volatile("mbarrier.init.shared.b64 [%0], 1; fence.proxy.async.shared::cta;" ::"r"(in_shared(&done_))
+                 : "memory");
+#else
+    done_ = 0;
+#endif
+  }
+  // By a whole warp. With compute capability 9, one thread asks for all of it at once.
+  __device__ void begin(void* to, const void* from, std::uint32_t bytes) {
+#if __CUDA_ARCH__ >= 900
+    if (threadIdx.x % 32 == 0)
+      asm volatile(
+          "{ .reg .b64 state;\n"
+          "mbarrier.arrive.expect_tx.shared.b64 state, [%0], %3;\n"
+          "cp.async.bulk.shared::cluster.global.mbarrier::complete_tx::bytes [%1], [%2], %3, [%0]; }" ::"r"(
+              in_shared(&done_)),
+          "r"(in_shared(to)), "l"(from), "r"(bytes)
+          : "memory");
+#else
+    for (std::uint32_t w = threadIdx.x % 32; w < bytes / sizeof(uint4); w += 32)
+      static_cast<uint4*>(to)[w] = static_cast<const uint4*>(from)[w];
+    __threadfence_block();
+    __syncwarp();
+    if (threadIdx.x % 32 == 0) *static_cast<volatile unsigned long long*>(&done_) = 1;
+#endif
+  }
+  __device__ void wait() const {
+#if __CUDA_ARCH__ >= 900
+    asm volatile(
+        "{ .reg .pred is_done;\n"
+        "again: mbarrier.try_wait.parity.shared.b64 is_done, [%0], 0;\n"
+        "@!is_done bra again; }" ::"r"(in_shared(&done_))
+        : "memory");
+#else
+    while (*static_cast<const volatile unsigned long long*>(&done_) == 0) relax();
+    __threadfence_block();
+#endif
+  }
+
+ private:
+  unsigned long long done_;
+};
+
+// The largest integer not above v; saturates.
+__device__ inline int floor_to_int(float v) {
+  return __float2int_rd(v);
+}
+
+// Two signed halves at once: max(0, min(a + b, most)).
+__device__ inline std::uint32_t clamped_sums(std::uint32_t a, std::uint32_t b, std::uint32_t most) {
+  return __viaddmin_s16x2_relu(a, b, most);
+}
+
+__device__ inline unsigned long long now_ns() {
+  unsigned long long t;
+  asm volatile("mov.u64 %0, %globaltimer;" : "=l"(t));
+  return t;
+}
+
+__device__ inline std::uint32_t warp_min(std::uint32_t value) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_min_sync(0xFFFFFFFFU, value);
+#else
+  for (unsigned step = 16; step > 0; step /= 2) value = min(value, __shfl_xor_sync(0xFFFFFFFFU, value, step));
+  return value;
+#endif
+}
+
+}  // namespace broadside::gpu
+
+#else
+
+#include "gpu/on_host/device.hpp"
+
+#endif

@@ -1,0 +1,84 @@
+// Boxes and vertices out of memory as whole words.
+#pragma once
+
+#include "core/math/box.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/search_rest.hpp"
+#include "gpu/scene/packed_box.hpp"
+#include "gpu/stages/grid/device.cuh"
+
+namespace broadside::gpu {
+
+// Of its lower and upper corner.
+__device__ inline core::Box box_of(const uint4& low, const uint4& high) {
+  return {{__uint_as_float(low.x), __uint_as_float(low.y), __uint_as_float(low.z)},
+          {__uint_as_float(high.x), __uint_as_float(high.y), __uint_as_float(high.z)}};
+}
+
+// In one access of 16 bytes, two for a box: left to itself, the compiler fetches word by word what it needs first, and
+// lines of the cache that are looked up are what a search has fewest of.
+__device__ inline PackedVec3 fetched(const PackedVec3* from) {
+  const uint4 word = *reinterpret_cast<const uint4*>(from);
+  return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, __uint_as_float(word.w)};
+}
+__device__ inline core::Box fetched(const PackedBox* from) {
+  const auto* words = reinterpret_cast<const uint4*>(from);
+  return box_of(words[0], words[1]);
+}
+
+// A node of a vertex tree, and its word.
+struct FetchedNode {
+  core::Box box;
+  std::uint32_t word = 0;
+};
+__device__ inline FetchedNode fetched_node(const PackedBox* from) {
+  const auto* words = reinterpret_cast<const uint4*>(from);
+  const uint4 low = words[0];
+  return {box_of(low, words[1]), low.w};
+}
+
+__device__ inline MeasuredPair fetched(const MeasuredPair* from) {
+  const uint4 word = *reinterpret_cast<const uint4*>(from);
+  return {{__uint_as_float(word.x), word.y, word.z}, word.w};
+}
+
+__device__ inline PlacedShape fetched(const PlacedShape* from) {
+  const uint4 word = *reinterpret_cast<const uint4*>(from);
+  return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, word.w};
+}
+__device__ inline PlacedPair fetched(const PlacedPair* from) {
+  return {fetched(&from->i), fetched(&from->j)};
+}
+
+// A pair that others may look at before the grid has met so that writes are visible: two words, each whole, that are
+// none until then. Whoever has put it is known to have.
+__device__ inline void put(PlacedPair* to, const PlacedPair& pair) {
+  const auto word = [](const PlacedShape& s) {
+    return uint4{__float_as_uint(s.x.x), __float_as_uint(s.x.y), __float_as_uint(s.x.z), s.shape};
+  };
+  GridWords::store_whole(reinterpret_cast<uint4*>(&to->i), word(pair.i));
+  GridWords::store_whole(reinterpret_cast<uint4*>(&to->j), word(pair.j));
+}
+__device__ inline PlacedPair awaited(const PlacedPair* from) {
+  uint4 words[2];
+  for (;;) {
+    GridWords::load_two_whole(reinterpret_cast<const uint4*>(from), words);
+    if (words[0].w != PlacedShape::kNone && words[1].w != PlacedShape::kNone) break;
+    relax();
+  }
+  const auto shape = [](const uint4& w) {
+    return PlacedShape{{__uint_as_float(w.x), __uint_as_float(w.y), __uint_as_float(w.z)}, w.w};
+  };
+  return {shape(words[0]), shape(words[1])};
+}
+// When nobody looks at it any more.
+__device__ inline void take_away(PlacedPair* pair) {
+  pair->i.shape = pair->j.shape = PlacedShape::kNone;
+}
+
+__device__ inline SearchRest fetched(const SearchRest* from) {
+  const uint4 last = reinterpret_cast<const uint4*>(from)[2];
+  return {fetched(&from->bodies), last.x, __uint_as_float(last.y), last.z, last.w};
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,136 @@
+// Who works on a stage together: the whole grid, or one block where the work is too small to share.
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/stages/grid/device.cuh"
+
+namespace broadside::gpu {
+
+constexpr unsigned kFullWarp = 0xFFFFFFFFU;
+
+// The grid of a kernel whose threads do not meet.
+struct GridPlaces {
+  __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
+  // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
+  __device__ std::uint64_t spread_rank() const {
+    return (std::uint64_t{threadIdx.x / 32} * gridDim.x + blockIdx.x) * 32 + threadIdx.x % 32;
+  }
+  __device__ std::uint64_t size() const { return std::uint64_t{gridDim.x} * blockDim.x; }
+};
+
+// sync() waits for all threads of the grid and makes their writes visible: the kernel must be launched cooperatively.
+class GridTeam : public GridPlaces {
+ public:
+  // `barrier`: the word of GridBarrier.
+  __device__ explicit GridTeam(unsigned long long* barrier) : barrier_(barrier) {}
+  __device__ void sync() const { barrier_.meet(); }
+  // The same; returns what was told beside the barrier. `is_loose`: without making writes visible.
+  __device__ GridTally sync_and_ask(GridTally* in_block, bool is_loose = false) const {
+    return barrier_.meet_and_ask(in_block, is_loose);
+  }
+
+ private:
+  mutable GridBarrier barrier_;
+};
+
+struct BlockTeam {
+  __device__ std::uint64_t rank() const { return threadIdx.x; }
+  __device__ std::uint64_t spread_rank() const { return threadIdx.x; }
+  __device__ std::uint64_t lonely_rank() const { return threadIdx.x; }
+  __device__ std::uint64_t size() const { return blockDim.x; }
+  __device__ void sync() const { __syncthreads(); }
+};
+
+// The first blocks of a grid whose others have nothing left to do: fewer arrivals, sooner together. `arrived` starts at
+// zero and only grows.
+struct PartialGridTeam {
+  std::uint32_t blocks = 1;
+  std::uint32_t* arrived = nullptr;
+  mutable std::uint32_t meetings = 0;
+
+  __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
+  // As in GridPlaces.
+  __device__ std::uint64_t spread_rank() const {
+    return (std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x) * 32 + threadIdx.x % 32;
+  }
+  // Likewise, but first a lane of every warp, then the next lane of each: threads that wait for each other get in each
+  // other's way least.
+  __device__ std::uint64_t lonely_rank() const {
+    const std::uint64_t warps = std::uint64_t{blocks} * (blockDim.x / 32);
+    return threadIdx.x % 32 * warps + std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x;
+  }
+  __device__ std::uint64_t size() const { return std::uint64_t{blocks} * blockDim.x; }
+  __device__ void sync() const {
+    ++meetings;
+    __syncthreads();
+    if (threadIdx.x == 0) arrive_and_wait(arrived, meetings * blocks);
+    __syncthreads();
+  }
+};
+
+// Which of the warps that share something this is.
+struct WarpShare {
+  std::uint32_t member = 0;
+  std::uint32_t members = 1;
+
+  __device__ bool is_last() const { return member == members - 1; }
+};
+
+template <typename Team>
+__device__ std::uint64_t warp_rank(const Team& team) {
+  return team.rank() / 32;
+}
+template <typename Team>
+__device__ std::uint64_t warp_count(const Team& team) {
+  return team.size() / 32;
+}
+__device__ inline unsigned lane() {
+  return threadIdx.x % 32;
+}
+
+// Between what a whole warp asks memory for and the first look at any of it: one wait. Without it the compiler, to have
+// fewer registers in use, looks at one word before it asks for the next; it moves no access past where warps meet.
+__device__ inline void ask_for_all() {
+  __syncwarp();
+}
+
+// Of a whole warp, the first of so many places.
+__device__ inline std::uint32_t room_for_warp(std::uint32_t count, std::uint32_t* taken) {
+  std::uint32_t first = 0;
+  if (lane() == 0) first = atomicAdd(taken, count);
+  return __shfl_sync(kFullWarp, first, 0);
+}
+// The same for one item of these lanes: this lane's.
+__device__ inline std::uint32_t place_in_warp(unsigned lanes, std::uint32_t* taken) {
+  return room_for_warp(__popc(lanes), taken) + __popc(lanes & ((1U << lane()) - 1U));
+}
+
+// Room for the items of one warp in an append buffer: one atomic for all its lanes. Called by whole warps. Returns the
+// place of this lane's first item; places at or past the capacity are counted and not to be written.
+template <typename Count>
+__device__ Count warp_append(unsigned count, Count* demanded) {
+  unsigned before = count;
+  for (unsigned step = 1; step < 32; step *= 2) {
+    const unsigned other = __shfl_up_sync(kFullWarp, before, step);
+    if (lane() >= step) before += other;
+  }
+  const unsigned total = __shfl_sync(kFullWarp, before, 31);
+  before -= count;
+  if (total == 0) return 0;
+  Count base = 0;
+  if (lane() == 0) base = atomicAdd(demanded, static_cast<Count>(total));
+  return __shfl_sync(kFullWarp, base, 0) + before;
+}
+
+// The same for one item of some lanes.
+template <typename Count>
+__device__ Count warp_append_one(bool has_one, Count* demanded) {
+  const unsigned with = __ballot_sync(kFullWarp, has_one);
+  if (with == 0) return 0;
+  Count base = 0;
+  if (lane() == 0) base = atomicAdd(demanded, static_cast<Count>(__popc(with)));
+  return __shfl_sync(kFullWarp, base, 0) + static_cast<Count>(__popc(with & ((1U << lane()) - 1U)));
+}
+
+}  // namespace broadside::gpu

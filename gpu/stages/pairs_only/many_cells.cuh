@@ -1,0 +1,164 @@
+// Where a box lies among many: the loose octree of grid_stage.cuh for another search. Boxes lie on even levels alone,
+// each of a quarter of the cell's size to its whole: fewer levels to look at are worth more tests on each. An entry is
+// half as large, a box rounded to two words: see many_search.cuh for what that is good for.
+#pragma once
+
+#include "gpu/broad/many_view.hpp"
+#include "gpu/stages/broad/bucket_stage.cuh"
+#include "gpu/stages/broad/grid_stage.cuh"
+#include "gpu/stages/grid/team.cuh"
+
+namespace broadside::gpu {
+
+// Coordinates are counted in 1024ths of a cell of the box's own level: an integer shifted by one more bit is that of
+// the level above. Monotone, also where it saturates: a cell far outside holds whatever lies beyond it. Out there, at
+// 2^20 cells, a box may be a quarter longer than a cell by rounding; further on it could be twice as long.
+constexpr int kFineBits = 10;
+
+__device__ inline int fine_index(float v, float cells_per_m) {
+  return floor_to_int(fminf(fmaxf(v * cells_per_m, -kFarthestCell), kFarthestCell) * (1 << kFineBits));
+}
+
+__device__ inline CellCorner fine_corner(core::Vec3 v, float cells_per_m) {
+  return {fine_index(v.x, cells_per_m), fine_index(v.y, cells_per_m), fine_index(v.z, cells_per_m)};
+}
+
+// The cell of a corner, `coarser` levels above the one whose cells it is counted in.
+__device__ inline CellCorner cell_above(CellCorner fine, int coarser) {
+  const int shift = kFineBits + coarser;
+  return {fine.x >> shift, fine.y >> shift, fine.z >> shift};
+}
+
+// The finest level whose cells are at least as large as the box, and not so fine that a cell is lost in the rounding of
+// the coordinates (2^-18 of them is 32 units in the last place).
+__device__ inline int many_level(const ManyView& g, const core::Box& box) {
+  const core::Vec3 side = box.max - box.min;
+  const float far = fmaxf(largest_magnitude(box.min), largest_magnitude(box.max)) * 0x1p-18F;
+  const float needed = fmaxf(fmaxf(side.x, side.y), fmaxf(side.z, far));
+  // What is left of the exponents' difference is by how many halvings a cell is larger still.
+  const int halvings = static_cast<int>(__float_as_uint(g.cell_m) - __float_as_uint(needed)) >> 23;
+  return min(max(halvings, 0), kGridLevels - 1) & ~1;
+}
+
+// A cell of a level, counted from where the table begins.
+struct TableCell {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  std::uint32_t z = 0;
+};
+__device__ inline TableCell table_cell(const ManyView& g, CellCorner c, int level) {
+  const auto from = [level](int cell, int first) {
+    return static_cast<std::uint32_t>(cell) - (static_cast<std::uint32_t>(first) << level);
+  };
+  return {from(c.x, g.first_cell[0]), from(c.y, g.first_cell[1]), from(c.z, g.first_cell[2])};
+}
+
+__device__ inline std::uint32_t row_mask(const ManyView& g) {
+  return (1U << g.row_bits) - 1U;
+}
+// Rows of 2^row_bits cells, row by row in y, then in z, then slabs in x: where the table has a bucket for every cell of
+// the world, that is all.
+__device__ inline std::uint32_t bucket_in_block(const ManyView& g, TableCell c) {
+  const std::uint32_t low = (1U << g.axis_bits) - 1U;
+  const std::uint32_t slab = (c.x & ((1U << g.x_bits) - 1U)) >> g.row_bits;
+  return (c.x & row_mask(g)) | (((slab << g.axis_bits | (c.z & low)) << g.axis_bits | (c.y & low)) << g.row_bits);
+}
+// What is above these bits, and the level, scatters whole blocks over the table: to be combined by exclusive or.
+__device__ inline std::uint32_t block_of(const ManyView& g, TableCell c, int level) {
+  const std::uint32_t x = c.x >> g.x_bits;
+  const std::uint32_t y = c.y >> g.axis_bits;
+  const std::uint32_t z = c.z >> g.axis_bits;
+  if ((x | y | z | static_cast<std::uint32_t>(level)) == 0) return 0;
+  std::uint32_t far =
+      x * 0x9E3779B1U ^ y * 0x85EBCA6BU ^ z * 0xC2B2AE35U ^ static_cast<std::uint32_t>(level) * 0x27D4EB2FU;
+  far = (far ^ far >> 15) * 0x2C1B3C6DU;
+  return ((far ^ far >> 16) << g.row_bits) & g.bucket_mask;
+}
+__device__ inline std::uint32_t bucket_of(const ManyView& g, TableCell c, int level) {
+  return bucket_in_block(g, c) ^ block_of(g, c, level);
+}
+
+__device__ inline TableCell own_cell(const ManyView& g, const core::Box& box, int level) {
+  return table_cell(g, cell_above(fine_corner(box.min, scaled(g.cells_per_m, level)), 0), level);
+}
+
+// What levels there are, and where the world has more blocks on an axis than a tag tells apart. Cells that a box looks
+// at are at most two away from cells with boxes.
+constexpr int kBlockTagBits = 9;
+constexpr std::uint32_t kBlockTag = (1U << kBlockTagBits) - 1U;
+
+struct LevelMarks {
+  std::uint32_t occupied = 0;
+  std::uint32_t wide = 0;
+
+  __device__ void add(const ManyView& g, TableCell c, int level) {
+    occupied |= 1U << level;
+    if (max(c.x >> g.x_bits, max(c.y, c.z) >> g.axis_bits) >= kBlockTag) wide |= 1U << level;
+  }
+  __device__ void note(const ManyView& g) const {
+    const volatile std::uint32_t* known = g.levels;
+    if ((occupied & ~known[0]) != 0) atomicOr(&g.levels[0], occupied);
+    if ((wide & ~known[1]) != 0) atomicOr(&g.levels[1], wide);
+  }
+};
+
+// The tag of an entry: 9 bits of its block on each axis, half its level, and the static mark. With a bucket it says
+// which cell that is, where the level is not wide.
+constexpr int kLevelTagShift = 3 * kBlockTagBits;
+constexpr std::uint32_t kRowTag = ~kStaticTag;
+constexpr std::uint32_t kNoCellTag = 15U << kLevelTagShift;  // of no level
+
+__device__ inline std::uint32_t block_tag(const ManyView& g, TableCell c, int level) {
+  return (c.x >> g.x_bits & kBlockTag) | (c.y >> g.axis_bits & kBlockTag) << kBlockTagBits |
+         (c.z >> g.axis_bits & kBlockTag) << 2 * kBlockTagBits |
+         static_cast<std::uint32_t>(level) / 2 << kLevelTagShift;
+}
+__device__ inline int many_level_of_tag(std::uint32_t tag) {
+  return static_cast<int>(tag >> kLevelTagShift & 15U) * 2;
+}
+
+// A box in two words, in 128ths of a cell modulo eight cells: enough to tell that two boxes of neighboring cells do not
+// overlap, or that they do. A field has 10 bits: x from bit 0, y from 11, z from 22. Coordinates are rounded by one
+// monotone function, so boxes that overlap do so in these words. Subtracting one word from another leaves in each
+// field's highest bit whether the difference, which is less than four cells either way, is negative; `max` has a bit
+// set above x and y, so that no field borrows from the next.
+constexpr std::uint32_t kCoarseSigns = 1U << 9 | 1U << 20 | 1U << 31;
+constexpr std::uint32_t kCoarseGuards = 1U << 10 | 1U << 21;
+
+__device__ inline std::uint32_t coarse_corner(CellCorner fine, int coarser) {
+  const int shift = kFineBits - 7 + coarser;
+  const auto field = [shift](int v) { return static_cast<std::uint32_t>(v >> shift) & 1023U; };
+  return field(fine.x) | field(fine.y) << 11 | field(fine.z) << 22;
+}
+__device__ inline CoarseBox coarse_box(CellCorner fine_min, CellCorner fine_max, int coarser) {
+  return {coarse_corner(fine_min, coarser), coarse_corner(fine_max, coarser) | kCoarseGuards};
+}
+__device__ inline bool may_overlap(CoarseBox a, CoarseBox b) {
+  return (((b.max - a.min) | (a.max - b.min)) & kCoarseSigns) == 0;
+}
+// For boxes that may: what is less after rounding was less before.
+__device__ inline bool surely_overlap(CoarseBox a, CoarseBox b) {
+  constexpr std::uint32_t kOnes = 1U | 1U << 11 | 1U << 22;
+  return (((b.max - (a.min + kOnes)) | (a.max - kOnes - b.min)) & kCoarseSigns) == 0;
+}
+
+// Where a box goes.
+struct ManyPlace {
+  ManyEntry entry;
+  std::uint32_t bucket = 0;
+  TableCell cell;
+  int level = 0;
+};
+__device__ inline ManyPlace place_of(const ManyView& g, const PackedBox& box, std::uint32_t body) {
+  ManyPlace place;
+  place.level = many_level(g, unpack(box));
+  const float cells_per_m = scaled(g.cells_per_m, place.level);
+  const CellCorner fine_min = fine_corner(box.min, cells_per_m);
+  place.cell = table_cell(g, cell_above(fine_min, 0), place.level);
+  place.bucket = bucket_of(g, place.cell, place.level);
+  place.entry = {coarse_box(fine_min, fine_corner(box.max, cells_per_m), 0), body,
+                 block_tag(g, place.cell, place.level) | (box.high_tag != 0 ? kStaticTag : 0U)};
+  return place;
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,117 @@
+// What bins a great many boxes have, and where their chunks of buckets begin: see many_bins.cuh.
+#pragma once
+
+#include "gpu/stages/broad/bucket_stage.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/pairs_only/many_cells.cuh"
+#include "gpu/stages/pairs_only/many_sort.cuh"
+
+namespace broadside::gpu {
+
+constexpr std::uint32_t kBoxesPerThread = 8;  // of a tile
+constexpr std::uint32_t kGroupChunks = 64;    // of which a bin has some
+constexpr std::uint32_t kGroupBuckets = kGroupChunks * kBucketChunk;
+static_assert(kGroupBuckets <= 1U << 16, "BinsView::bucket");
+
+// Bins for blocks of this many threads: a bin's chunks belong to one group of them, and begin in one share of all
+// entries that is as large as a tile. Both grow along the chunks, so their sum says which bin it is.
+constexpr std::uint32_t bins_of(std::uint32_t threads, std::uint32_t boxes, std::uint32_t buckets) {
+  return boxes / (kBoxesPerThread * threads) + buckets / kGroupBuckets + 1;
+}
+__device__ inline std::uint32_t bin_of(std::uint32_t chunk, std::uint32_t begin) {
+  return begin / (kBoxesPerThread * blockDim.x) + chunk / kGroupChunks;
+}
+
+// Sum over the threads of a block before this one. `room`: 32 words; the block meets.
+__device__ inline std::uint32_t sum_before(std::uint32_t own, std::uint32_t* room) {
+  std::uint32_t through = own;
+  for (unsigned step = 1; step < 32; step *= 2) {
+    const std::uint32_t other = __shfl_up_sync(kFullWarp, through, step);
+    if (lane() >= step) through += other;
+  }
+  if (lane() == 31) room[threadIdx.x / 32] = through;
+  __syncthreads();
+  const std::uint32_t warps = blockDim.x / 32;
+  std::uint32_t before = 0;
+  for (std::uint32_t w = lane(); w < warps; w += 32) before += w < threadIdx.x / 32 ? room[w] : 0U;
+  for (unsigned step = 16; step > 0; step /= 2) before += __shfl_xor_sync(kFullWarp, before, step);
+  __syncthreads();
+  return before + through - own;
+}
+
+// How many entries each chunk has.
+template <typename Team>
+__device__ void count_chunks(const Team& team, const ManyView& g, const PackedBox* boxes, std::uint32_t count) {
+  const BinsView& b = g.bins;
+  for (std::uint64_t k = team.rank(); k < b.bins; k += team.size()) {
+    b.first_chunk[k] = ~0U;
+    b.last_chunk[k] = 0;
+    b.cursor[k] = ~0U;
+  }
+  for (std::uint64_t first = team.rank(); first < count; first += team.size() * kManyAtOnce) {
+    PackedBox box[kManyAtOnce];
+    LevelMarks marks;
+#pragma unroll
+    for (std::uint32_t k = 0; k < kManyAtOnce; ++k)
+      if (first + k * team.size() < count) box[k] = boxes[first + k * team.size()];
+#pragma unroll
+    for (std::uint32_t k = 0; k < kManyAtOnce; ++k) {
+      if (first + k * team.size() >= count) break;
+      const int level = many_level(g, unpack(box[k]));
+      const TableCell cell = own_cell(g, unpack(box[k]), level);
+      marks.add(g, cell, level);
+      atomicAdd(&b.chunk_count[bucket_of(g, cell, level) / kBucketChunk], 1U);
+    }
+    marks.note(g);
+  }
+}
+
+// Where each chunk begins, and what bins that makes. Empty chunks are done with: nothing begins in their buckets.
+template <typename Team>
+__device__ void place_chunks_in_order(const Team& team, const ManyView& g, std::uint32_t* room) {
+  const BinsView& b = g.bins;
+  const std::uint32_t chunks = (g.bucket_mask + 1) / kBucketChunk;
+  const std::uint32_t each = (chunks + gridDim.x - 1) / gridDim.x;
+  const std::uint32_t from = min(blockIdx.x * each, chunks);
+  const std::uint32_t to = min(from + each, chunks);
+  std::uint32_t sum = 0;
+  for (std::uint32_t c = from + threadIdx.x; c < to; c += blockDim.x) sum += b.chunk_count[c];
+  const std::uint32_t before_own = sum_before(sum, room);
+  if (threadIdx.x == blockDim.x - 1) b.block_sum[blockIdx.x] = before_own + sum;
+  team.sync();
+  std::uint32_t earlier = 0;
+  for (std::uint32_t k = threadIdx.x; k < blockIdx.x; k += blockDim.x) earlier += b.block_sum[k];
+  const std::uint32_t earlier_before = sum_before(earlier, room);
+  if (threadIdx.x == blockDim.x - 1) room[0] = earlier_before + earlier;
+  __syncthreads();
+  std::uint32_t begin = room[0];
+  __syncthreads();
+  for (std::uint32_t first = from; first < to; first += blockDim.x) {
+    const std::uint32_t c = first + threadIdx.x;
+    const std::uint32_t own = c < to ? b.chunk_count[c] : 0U;
+    const std::uint32_t before = sum_before(own, room);
+    if (threadIdx.x == blockDim.x - 1) room[0] = before + own;
+    if (c < to) {
+      b.chunk_begin[c] = begin + before;
+      b.chunk_count[c] = 0;
+      if (own != 0) {
+        const std::uint32_t bin = bin_of(c, begin + before);
+        atomicMin(&b.first_chunk[bin], c);
+        atomicMax(&b.last_chunk[bin], c);
+        atomicMin(&b.cursor[bin], begin + before);
+      }
+      if (c + 1 == chunks) b.chunk_begin[chunks] = begin + before + own;
+    }
+    for (unsigned empty = __ballot_sync(kFullWarp, c < to && own == 0); empty != 0; empty &= empty - 1U) {
+      const std::uint32_t which = static_cast<std::uint32_t>(__ffs(static_cast<int>(empty))) - 1;
+      const std::uint32_t value = __shfl_sync(kFullWarp, begin + before, which);
+      std::uint32_t* words = g.begin + std::uint64_t{first + threadIdx.x / 32 * 32 + which} * (kBucketChunk + 1);
+      for (std::uint32_t k = lane(); k <= kBucketChunk; k += 32) words[k] = value;
+    }
+    __syncthreads();
+    begin += room[0];
+    __syncthreads();
+  }
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,259 @@
+// The search among many boxes, where nothing but their pairs is asked for. Every pair is found from its smaller box: a
+// box looks at its own level and at those of larger cells, so that a giant's many overlaps are spread over its many
+// partners.
+//
+// A lane takes a box. Row of cells by row it walks the entries in which partners may be, and notes those whose rounded
+// boxes overlap its own. Of most of these the rounded boxes say that they are partners; at the others it looks closely.
+// Lanes of a warp have boxes of neighboring cells, so what they read is mostly the same.
+//
+// Why there are two searches: this one does the least work a box, and waits for all of a box's rows one after another.
+// With tens of thousands of boxes enough warps are there to hide that; with fewer the search of grid_stage.cuh, where
+// lanes share a box, is done sooner. It is also the one in a frame, whose kernel has no registers and no shared memory
+// to spare: there this one made a pile of 100 000 cubes 13 % slower.
+#pragma once
+
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/stages/broad/pair_queue.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/pairs_only/many_cells.cuh"
+#include "gpu/stages/work_count.cuh"
+
+namespace broadside::gpu {
+
+// One warp's notes, in shared memory.
+struct ManyNotes {
+  static constexpr std::uint32_t kHits = 24;
+  static constexpr std::uint32_t kUnsure = 1U << 31;
+  PairQueue queue;
+  std::uint32_t hit[kHits][32];  // what each lane has found: its entry, then its body; kUnsure: look closely
+};
+
+// A lane's search for the partners of one box after the other. Every call is by the whole warp.
+template <typename Work>
+class ManySearch {
+ public:
+  __device__ ManySearch(const ManyView& g, const PackedBox* boxes, ManyNotes& notes, AppendView<core::Pair> out,
+                        unsigned long long* demanded)
+      : g_(g), boxes_(boxes), notes_(notes), queue_(notes.queue, out, demanded) {}
+
+  // The box at this place of the entries.
+  __device__ void find_partners(std::uint32_t place, bool has_box, LevelMarks marks) {
+    place_ = place;
+    ManyEntry entry;
+    PackedBox box;
+    if (has_box) {
+      entry = g_.entries[place];
+      box = boxes_[entry.body];
+    }
+    body_ = entry.body;
+    own_level_ = many_level_of_tag(entry.tag);
+    static_tag_ = entry.tag & kStaticTag;
+    const float cells_per_m = scaled(g_.cells_per_m, own_level_);
+    fine_min_ = fine_corner(box.min, cells_per_m);
+    fine_max_ = fine_corner(box.max, cells_per_m);
+    std::uint32_t left = has_box ? marks.occupied & ((2U << own_level_) - 1U) : 0U;
+    while (__any_sync(kFullWarp, left != 0)) {
+      const bool looks = left != 0;
+      const int level = looks ? 31 - __clz(left) : 0;
+      left &= (1U << level) - 1U;
+      unsure_ = (marks.wide >> level | marks.wide >> own_level_) & 1U;
+      look_at_level(level, looks);
+      settle();
+    }
+    look_closely();
+  }
+
+  __device__ void flush() { queue_.flush(); }
+  __device__ const Work& work() const { return work_; }
+
+ private:
+  // Runs are read by fours, also past their ends.
+  static constexpr std::uint32_t kEntriesAtOnce = 4;
+  // Three rows at a time, so that their loads wait together: there seldom are more in y.
+  static constexpr std::uint32_t kRows = 3;
+
+  struct Runs {
+    std::uint32_t k[kRows];
+    std::uint32_t end[kRows];
+  };
+
+  // A box b of a level overlaps this one only if its lower corner is between min - c and max of this one. What rounding
+  // on the way there can do is covered by one 1024th of a cell and 2^-20 of the coordinate: a side that is at most c
+  // after rounding, the products that coordinates are counted by, and boxes far outside, which are longer than c by a
+  // unit in the last place of their coordinates (2^-23 of them each).
+  __device__ static int lowest_cell(int fine_min, int coarser) {
+    const int f = fine_min >> coarser;
+    return ((f - 1 - (abs(f) >> 20)) >> kFineBits) - 1;
+  }
+
+  // Two boxes of the same level would find each other twice: the one in the lexicographically lower cell (z, y, x)
+  // finds, in one cell the one whose entry is first.
+  __device__ void look_at_level(int level, bool looks) {
+    const int coarser = own_level_ - level;
+    const bool is_own_level = coarser == 0;
+    coarse_ = coarse_box(fine_min_, fine_max_, coarser);
+    const TableCell own = table_cell(g_, cell_above(fine_min_, coarser), level);
+    const TableCell high = table_cell(g_, cell_above(fine_max_, coarser), level);
+    TableCell low = table_cell(
+        g_, {lowest_cell(fine_min_.x, coarser), lowest_cell(fine_min_.y, coarser), lowest_cell(fine_min_.z, coarser)},
+        level);
+    if (is_own_level) low.z = own.z;
+    // Seldom do the cells of one box belong to several blocks.
+    const bool has_blocks =
+        __any_sync(kFullWarp, looks && ((low.x ^ high.x) >> g_.x_bits | (low.y ^ high.y) >> g_.axis_bits |
+                                        (low.z ^ high.z) >> g_.axis_bits) != 0);
+    const std::uint32_t block = block_of(g_, low, level);
+    const std::uint32_t rows_y = high.y - low.y + 1;
+    const std::uint32_t rows_z = high.z - low.z + 1;
+    for (std::uint32_t y = 0;; y += kRows) {
+      const bool has_more_y = __any_sync(kFullWarp, looks && y + kRows < rows_y);
+      for (std::uint32_t z = 0;; ++z) {
+        const bool has_more_z = __any_sync(kFullWarp, looks && z + 1 < rows_z);
+        // Where a row of cells is cut into two runs, both.
+        TableCell cell{low.x, low.y + y, low.z + z};
+        for (bool is_in_row = looks && z < rows_z;;) {
+          const std::uint32_t more = min(high.x - cell.x, row_mask(g_) - (cell.x & row_mask(g_)));
+          const bool goes_on = is_in_row && high.x - cell.x != more;
+          const bool has_more_x = __any_sync(kFullWarp, goes_on);
+          Runs runs;
+#pragma unroll
+          for (std::uint32_t j = 0; j < kRows; ++j) {
+            runs.k[j] = runs.end[j] = 0;
+            const TableCell first{cell.x, cell.y + j, cell.z};
+            const auto rows_on = static_cast<int>(first.y - own.y);
+            const bool is_own_layer = is_own_level && cell.z == own.z;
+            const bool is_own_row = is_own_layer && rows_on == 0;
+            const int on = is_own_row ? static_cast<int>(own.x - cell.x) : 0;
+            if (!is_in_row || y + j >= rows_y || (is_own_layer && rows_on < 0) || on > static_cast<int>(more)) continue;
+            const std::uint32_t bucket = bucket_in_block(g_, first) ^ (has_blocks ? block_of(g_, first, level) : block);
+            const std::uint32_t* at = g_.begin + bucket_place(bucket);
+            runs.k[j] = is_own_row && on >= 0 ? place_ + 1 : at[0];
+            runs.end[j] = at[more + 1];
+            work_.node();
+          }
+          walk(runs, cell, level);
+          if (!has_more_x) break;
+          is_in_row = goes_on;
+          cell.x += more + 1;
+        }
+        if (!has_more_z) break;
+      }
+      if (!has_more_y) break;
+    }
+  }
+
+  // Notes what may be partners in three rows, the first of which begins at `cell`. A lane whose notes are full waits.
+  __device__ void walk(Runs& runs, TableCell cell, int level) {
+    // Two static boxes are no pair.
+    const std::uint32_t tag_mask = kRowTag | static_tag_;
+    for (bool has_more = true; has_more;) {
+      has_more = false;
+#pragma unroll
+      for (std::uint32_t j = 0; j < kRows; ++j) {
+        // Buckets are shared: an entry of another row that happens to be here is found from its own.
+        const std::uint32_t row_tag = block_tag(g_, {cell.x, cell.y + j, cell.z}, level);
+        while (runs.k[j] < runs.end[j] && hits_ <= ManyNotes::kHits - kEntriesAtOnce) {
+          work_.tests(min(kEntriesAtOnce, runs.end[j] - runs.k[j]));
+          ManyEntry other[kEntriesAtOnce];
+#pragma unroll
+          for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) other[k] = g_.entries[runs.k[j] + k];
+#pragma unroll
+          for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) {
+            const bool is_noted = runs.k[j] + k < runs.end[j] && may_overlap(coarse_, other[k].box) &&
+                                  ((other[k].tag ^ row_tag) & tag_mask) == 0;
+            if (is_noted) notes_.hit[hits_][lane()] = runs.k[j] + k;
+            hits_ += is_noted ? 1U : 0U;
+          }
+          runs.k[j] += kEntriesAtOnce;
+        }
+        has_more = has_more || __any_sync(kFullWarp, runs.k[j] < runs.end[j]);
+      }
+      if (has_more) settle(), look_closely();
+    }
+  }
+
+  // Of what was noted on this level: whose body it is, and whether the rounded boxes leave a doubt.
+  __device__ void settle() {
+#pragma unroll 2
+    for (std::uint32_t k = settled_; k < hits_; ++k) {
+      const ManyEntry other = g_.entries[notes_.hit[k][lane()]];
+      const bool is_unsure = unsure_ != 0 || !surely_overlap(coarse_, other.box);
+      notes_.hit[k][lane()] = is_unsure ? other.body | ManyNotes::kUnsure : other.body;
+    }
+    settled_ = hits_;
+  }
+
+  // Passes on what each lane has noted, after a close look at what may be no pair.
+  __device__ void look_closely() {
+    std::uint32_t unsure = 0;  // bit k: the k-th note
+    for (std::uint32_t k = 0; k < hits_; ++k) unsure |= notes_.hit[k][lane()] >> 31 << k;
+    // Two at a time, so that their loads wait together.
+    std::uint32_t left = unsure;
+    if (__any_sync(kFullWarp, left != 0)) {
+      const PackedBox own = boxes_[body_];  // once more: it would cost registers all the while
+      while (left != 0) {
+        const std::uint32_t first = __ffs(static_cast<int>(left)) - 1;
+        left &= left - 1U;
+        const std::uint32_t second = left != 0 ? __ffs(static_cast<int>(left)) - 1 : first;
+        left &= left - 1U;
+        const std::uint32_t a = notes_.hit[first][lane()] & ~ManyNotes::kUnsure;
+        const std::uint32_t b = notes_.hit[second][lane()] & ~ManyNotes::kUnsure;
+        const PackedBox box_a = boxes_[a];
+        const PackedBox box_b = boxes_[b];
+        if (core::overlaps(unpack(own), unpack(box_a))) notes_.hit[first][lane()] = a;
+        if (core::overlaps(unpack(own), unpack(box_b))) notes_.hit[second][lane()] = b;
+      }
+    }
+    for (std::uint32_t k = 0; __any_sync(kFullWarp, k < hits_); ++k) {
+      const std::uint32_t other = k < hits_ ? notes_.hit[k][lane()] : ManyNotes::kUnsure;
+      queue_.push((other & ManyNotes::kUnsure) == 0, core::make_pair_of(body_, other));
+    }
+    hits_ = settled_ = 0;
+  }
+
+  const ManyView& g_;
+  const PackedBox* boxes_;
+  ManyNotes& notes_;
+  WarpQueue queue_;
+  Work work_;
+  CellCorner fine_min_;
+  CellCorner fine_max_;
+  CoarseBox coarse_;  // on the level that is looked at
+  std::uint32_t body_ = 0;
+  std::uint32_t place_ = 0;
+  int own_level_ = 0;
+  std::uint32_t static_tag_ = 0;
+  std::uint32_t unsure_ = 0;   // whether cells of this level may be taken for others
+  std::uint32_t hits_ = 0;     // noted
+  std::uint32_t settled_ = 0;  // of them
+};
+
+// Warps take boxes as they are done with others: of a crowd one box has many partners, outside of it few. `g.turns` is
+// zero before.
+template <typename Team>
+__device__ void many_find(const Team& team, const ManyView& g, const PackedBox* boxes, std::uint32_t count,
+                          ManyNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded) {
+  const volatile std::uint32_t* known = g.levels;
+  const LevelMarks marks{known[0], known[1]};
+  ManySearch<Uncounted> search(g, boxes, notes, out, demanded);
+  // Of few boxes a warp takes fewer than it has lanes: it is done when the slowest of them is.
+  const std::uint64_t warps = warp_count(team);
+  std::uint32_t width = 32;
+  while (width > 4 && count <= warps * (width / 2)) width /= 2;
+  // Of many, as many turns at once as leave some sixteen: all warps take from one word, some 2 ns each.
+  const std::uint32_t turns = min(static_cast<std::uint32_t>(count / (team.size() * 16)), 3U) + 1;
+  // The first turns are everybody's own; few boxes are spread over all multiprocessors.
+  std::uint64_t first = team.spread_rank() / 32 * width * turns;
+  while (first < count) {
+    std::uint64_t next = 0;
+    if (lane() == 0) next = (warps + atomicAdd(g.turns, 1U)) * width * turns;
+    for (std::uint32_t k = 0; k < turns; ++k) {
+      const std::uint64_t place = first + k * width + lane();
+      search.find_partners(static_cast<std::uint32_t>(place), lane() < width && place < count, marks);
+    }
+    first = __shfl_sync(kFullWarp, next, 0);
+  }
+  search.flush();
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,92 @@
+// The broad phase alone, as the threads of its launches run it.
+#pragma once
+
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/stages/broad/broad_stage.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/pairs_only/many_bins.cuh"
+#include "gpu/stages/pairs_only/many_chunks.cuh"
+#include "gpu/stages/pairs_only/many_search.cuh"
+#include "gpu/stages/pairs_only/many_sort.cuh"
+
+namespace broadside::gpu {
+
+__device__ inline void mark_stage(const GridTeam& grid, const PairsView& view, int stage) {
+  if (grid.rank() == 0) view.outcome->stage_end_ns[stage] = now_ns();
+}
+
+// By one thread, before anybody counts.
+__device__ inline void start_counts(const PairsView& view) {
+  *view.counters = Counters{};
+  if (view.broad.start == Start::kMany) *view.many.turns = 0;
+}
+
+// Before run_pairs<true>, where there are bins. `shared`: a block's own, tile_bytes or bin_bytes, the larger.
+__device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
+  const GridTeam grid(view.barrier);
+  const ManyView& many = view.many;
+  mark_stage(grid, view, 0);
+  if (grid.rank() == 0) start_counts(view);
+  count_chunks(grid, many, view.boxes, view.box_count);
+  grid.sync();
+  mark_stage(grid, view, 1);
+  place_chunks_in_order(grid, many, reinterpret_cast<std::uint32_t*>(shared));
+  grid.sync();
+  mark_stage(grid, view, 2);
+  fill_bins(many, view.boxes, view.box_count, shared);
+  grid.sync();
+  empty_bins(many, shared);
+  end_entries(grid, many, view.box_count);
+}
+
+// What a warp has in shared memory.
+template <bool kAreMany>
+struct PairsScratch {
+  PairQueue queue;
+};
+template <>
+struct PairsScratch<true> {
+  ManyNotes notes;
+};
+
+// Boxes in, pairs out. kAreMany: the search is that of Start::kMany.
+template <bool kAreMany>
+__device__ void run_pairs(const PairsView& view, unsigned char* shared) {
+  const GridTeam grid(view.barrier);
+  auto& scratch = reinterpret_cast<PairsScratch<kAreMany>*>(shared)[threadIdx.x / 32];
+  const ManyView& many = view.many;
+  const bool is_sorted = kAreMany && many.bins.bins != 0;
+  if (!is_sorted) {
+    mark_stage(grid, view, 0);
+    if (grid.rank() == 0) start_counts(view);
+    if constexpr (kAreMany)
+      many_count(grid, many, view.boxes, view.box_count);
+    else
+      for (std::uint64_t i = grid.rank(); i < view.box_count; i += grid.size())
+        count_box(view.broad, i, unpack(view.boxes[i]));
+    grid.sync();
+    mark_stage(grid, view, 1);
+  }
+  bool has_room = true;
+  if constexpr (kAreMany) {
+    if (!is_sorted) {
+      place_buckets(grid, many.bucket_mask, many.count, many.begin, &view.counters->entry_cursor);
+      grid.sync();
+      mark_stage(grid, view, 2);
+      many_scatter(grid, many, view.boxes, view.box_count);
+      grid.sync();
+    }
+    mark_stage(grid, view, 3);
+    many_find(grid, many, view.boxes, view.box_count, scratch.notes, view.pairs, &view.counters->pairs);
+  } else {
+    has_room = find_candidates(grid, view.broad, view.boxes, view.box_count, view.pairs, view.counters, scratch.queue,
+                               view.outcome->stage_end_ns);
+  }
+  grid.sync();
+  if (grid.rank() != 0) return;
+  mark_stage(grid, view, 4);
+  view.counters->is_aborted = !has_room || view.counters->pairs > view.pairs.capacity ? 1 : 0;
+  view.outcome->counters = *view.counters;
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,247 @@
+// Nearest vertices of each pair, P(7) and P(8): how pairs are dealt out to warps.
+#pragma once
+
+#include "core/method/proximity.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/vertices/cell_search.cuh"
+#include "gpu/stages/vertices/meeting_pairs.cuh"
+#include "gpu/stages/vertices/search_rests.cuh"
+#include "gpu/stages/vertices/search_stack.cuh"
+#include "gpu/stages/vertices/tree_search.cuh"
+#include "gpu/stages/vertices/tree_start.cuh"
+
+namespace broadside::gpu {
+
+constexpr std::uint32_t kMaxBlockWarps = 16;  // so that each of their teams has a barrier
+
+// Shared memory of a block: what the warps of one pair share.
+struct ProximityScratch {
+  static constexpr unsigned long long kNoVertices = ~0ULL;
+
+  std::uint32_t bound[kMaxBlockWarps];
+  unsigned long long nearest[kMaxBlockWarps];
+  TeamCounts counts[kMaxBlockWarps][kTeamTurns];
+  std::uint32_t place[kMaxBlockWarps];
+
+  // By all threads; the block meets before teams measure anything.
+  __device__ void clear() {
+    const std::uint32_t warp = threadIdx.x / 32;
+    if (lane() != 0) return;
+    bound[warp] = __float_as_uint(INFINITY);
+    nearest[warp] = kNoVertices;
+    for (TeamCounts& turn : counts[warp]) turn = {};
+  }
+};
+
+// Of so many warps side by side.
+__device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, std::uint32_t first,
+                                             std::uint32_t count) {
+  const std::uint32_t each = f.stack_entries;
+  return {static_cast<std::uint32_t*>(stacks) + std::uint64_t{first} * each * 3, count * each, count * each};
+}
+
+// Where nothing is ever left to be found out about pairs but how near they are; otherwise FewLevels.
+struct NoLevels {
+  static constexpr bool kAreOfFewBodies = false;
+
+  __device__ void begin() const {}
+  __device__ void end() const {}
+  __device__ static bool look(const PlacedPair& /*bodies*/, std::uint64_t /*k*/) { return true; }
+};
+
+template <typename Levels>
+class ProximityStage {
+ public:
+  __device__ ProximityStage(const FrameView& f, const ShapeHeaders& headers, const Levels& levels,
+                            const MeetingPairs& pairs, ProximityScratch& scratch, void* stacks)
+      : f_(f), headers_(headers), levels_(levels), pairs_(pairs), scratch_(scratch), stacks_(stacks) {}
+
+  // When there are fewer pairs than warps, several warps of a block share a pair, and where levels are left so many
+  // warps remain that there is one for each pair's. The block's warps are a power of two.
+  __device__ void run() const {
+    const std::uint32_t warps = blockDim.x / 32;
+    const std::uint32_t all_warps = gridDim.x * warps;
+    const auto count = static_cast<std::uint32_t>(min(pairs_.count, std::uint64_t{all_warps}));
+    const std::uint32_t besides = pairs_.are_levels_left ? count : 0;
+    const std::uint32_t shift = shift_of_members(count, all_warps - besides, warps);
+    const std::uint32_t teams = warps >> shift;  // of a block
+    // The last of a block's teams has no pair, if any of them has none: its last warp sees to what the others look at.
+    const bool looks = pairs_.are_levels_left && threadIdx.x / 32 == warps - 1 &&
+                       (shift == 0 || (teams - 1) * gridDim.x + blockIdx.x >= pairs_.count);
+    if (looks) levels_.begin();
+    if (shift == 0)
+      measure_by_warps();
+    else
+      measure_by_teams(shift);
+    if (looks) levels_.end();
+  }
+
+  // Of few bodies, what teams handed over, shared by the whole grid, until nothing is handed over any more. `meet`: the
+  // grid does; returns FewCounts since the frame began.
+  template <typename Meet>
+  __device__ void share_rests(const Meet& meet) const {
+    std::uint32_t before = 0;
+    std::uint32_t turn = 0;
+    FewCounts met = meet();
+    for (bool is_marked = met.marked != 0; is_marked || met.rests > before; ++turn) {
+      const std::uint32_t count = is_marked ? __popcll(met.marked) : min(met.rests - before, most_rests());
+      before = met.rests;
+      search_part(f_.rests[turn % 2], count, is_marked ? met.marked : 0, f_.rests[(turn + 1) % 2], before);
+      is_marked = false;
+      met = meet();
+    }
+  }
+
+ private:
+  using Cells = NearestByCells<Levels::kAreOfFewBodies>;
+
+  // How many warps a pair has, as a power of two: the largest of which there are enough for so many pairs, at most a
+  // block's.
+  __device__ static std::uint32_t shift_of_members(std::uint32_t pairs, std::uint32_t warps,
+                                                   std::uint32_t block_warps) {
+    if (warps < pairs) return 0;
+    std::uint32_t shift = __clz(static_cast<int>(pairs)) - __clz(static_cast<int>(warps));
+    if (pairs << shift > warps) --shift;
+    return min(shift, 31U - __clz(static_cast<int>(block_warps)));
+  }
+
+  // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at
+  // once where there are very many, because all warps take from one counter.
+  __device__ void measure_by_warps() const {
+    const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
+    const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, pairs_.count / (warps * 32)));
+    std::uint32_t* bound = &scratch_.bound[threadIdx.x / 32];
+    const SearchStack stack = stack_of_warps(f_, stacks_, threadIdx.x / 32, 1);
+    for (;;) {
+      unsigned long long first = 0;
+      if (lane() == 0) first = atomicAdd(given_out(), static_cast<unsigned long long>(share));
+      first = __shfl_sync(kFullWarp, first, 0);
+      if (first >= pairs_.count) return;
+      for (std::uint64_t k = first; k < min(std::uint64_t{first} + share, pairs_.count); ++k) {
+        if (lane() == 0) *bound = __float_as_uint(INFINITY);
+        __syncwarp();
+        const PlacedPair bodies = pairs_.bodies(f_, k);
+        if (pairs_.are_levels_left && !levels_.look(bodies, k)) continue;
+        const CellRoles roles = cell_roles(f_, headers_, bodies);
+        const core::Proximity best =
+            warp_nearest(roles.has_cells ? Cells(f_, headers_, bodies, roles.is_asked_by_j, stack, bound, {}).find()
+                                         : nearest_by_trees(TreePair(f_, headers_, bodies, bound), stack));
+        if (lane() == 0) pairs_.tell(f_, k, best);
+        __syncwarp();
+      }
+    }
+  }
+
+  // How many pairs were given out to warps.
+  __device__ unsigned long long* given_out() const {
+    return Levels::kAreOfFewBodies ? f_.given_out : &f_.counters->measured;
+  }
+
+  // There are as many teams as pairs, or more. Where levels are left, the warps of those that have no pair see to them.
+  __device__ void measure_by_teams(std::uint32_t shift) const {
+    const std::uint32_t warp = threadIdx.x / 32;
+    const std::uint32_t team = warp >> shift;
+    const std::uint32_t members = 1U << shift;
+    const WarpShare share{warp & (members - 1), members};
+    const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
+    // Few bodies' kernel has cleared it when it began: a wait less. So early, in the kernels for more bodies, it makes
+    // contacts wait longer, 7 % of a pile's frame.
+    if constexpr (!Levels::kAreOfFewBodies) {
+      scratch_.clear();
+      __syncthreads();
+    }
+    if (k < pairs_.count) {
+      const PlacedPair bodies = pairs_.bodies(f_, k);
+      const CellRoles roles = cell_roles(f_, headers_, bodies);
+      const core::Proximity best = roles.has_cells ? nearest_by_cells(bodies, roles.is_asked_by_j, team, share)
+                                                   : nearest_by_team(bodies, k, team, share);
+      tell_team(team, best);
+    } else if (pairs_.are_levels_left) {
+      const std::uint64_t idle = std::uint64_t{gridDim.x} * (blockDim.x / 32 >> shift) - pairs_.count;
+      const std::uint64_t other = share.member * idle + (k - pairs_.count);
+      if (other < pairs_.count) levels_.look(pairs_.bodies(f_, other), other);
+    }
+    __syncthreads();
+    if (share.member == 0 && lane() == 0 && k < pairs_.count) pairs_.tell(f_, k, nearest_of_team(team));
+  }
+
+  // This block's part of what was handed over: all its warps are one team.
+  __device__ void search_part(const RestsView& rests, std::uint32_t count, unsigned long long marked,
+                              const RestsView& to, std::uint32_t before) const {
+    const std::uint32_t warp = threadIdx.x / 32;
+    const std::uint32_t warps = blockDim.x / 32;
+    const SearchTeam all{{warp, warps}, 0, stack_of_warps(f_, stacks_, 0, warps), scratch_.counts[0]};
+    const RestPart part(rests, count, marked, all);
+    const SearchRest& rest = part.rest();
+    if (threadIdx.x == 0) {
+      scratch_.bound[0] = __float_as_uint(rest.bound_m2);
+      scratch_.nearest[0] = ProximityScratch::kNoVertices;
+      scratch_.counts[0][1] = {};
+    }
+    __syncthreads();
+    if (part.counts().any()) {
+      RestOfPair next(f_, to, false, before, rest.bodies, rest.k, kRoundsOfBlock, &scratch_.place[0]);
+      tell_team(0, nearest_by_trees(TreePair(f_, headers_, rest.bodies, &scratch_.bound[0]), all, part.counts(), next));
+    }
+    __syncthreads();
+    if (threadIdx.x == 0 && scratch_.nearest[0] != ProximityScratch::kNoVertices)
+      improve(f_.measured + rest.k, nearest_of_team(0), rest.bound_m2 == INFINITY);
+  }
+
+  // By all lanes of a team that has met since it searched: its bound is the least distance, and whoever has found that
+  // names the vertices.
+  __device__ void tell_team(std::uint32_t team, const core::Proximity& best) const {
+    if (best.is_touching() && __float_as_uint(best.squared_distance_m2) == scratch_.bound[team])
+      atomicMin(&scratch_.nearest[team], static_cast<unsigned long long>(best.vertex_a) << 32 | best.vertex_b);
+  }
+  // When all have told and the block has met.
+  __device__ core::Proximity nearest_of_team(std::uint32_t team) const {
+    const unsigned long long vertices = scratch_.nearest[team];
+    if (vertices == ProximityScratch::kNoVertices) return {};
+    return {__uint_as_float(scratch_.bound[team]), static_cast<std::uint32_t>(vertices >> 32),
+            static_cast<std::uint32_t>(vertices)};
+  }
+
+  // These two return each lane's nearest, when the team has met.
+  __device__ core::Proximity nearest_by_cells(const PlacedPair& bodies, bool is_asked_by_j, std::uint32_t team,
+                                              const WarpShare& share) const {
+    const core::Proximity best = Cells(f_, headers_, bodies, is_asked_by_j,
+                                       stack_of_warps(f_, stacks_, threadIdx.x / 32, 1), &scratch_.bound[team], share)
+                                     .find();
+    sync_warps(team, share.members);
+    return best;
+  }
+  __device__ core::Proximity nearest_by_team(const PlacedPair& bodies, std::uint64_t k, std::uint32_t team,
+                                             const WarpShare& share) const {
+    const SearchTeam all{share, team, stack_of_warps(f_, stacks_, team * share.members, share.members),
+                         scratch_.counts[team]};
+    const TreePair trees(f_, headers_, bodies, &scratch_.bound[team]);
+    if (headers_.upper_copy != nullptr) headers_.upper_copy->wait();
+    const TeamCounts left = TreeStart(trees, all).begin();
+    if constexpr (Levels::kAreOfFewBodies) {
+      RestOfPair rest(f_, f_.rests[0], has_marks(), 0, bodies, k, rounds_of_team(trees), &scratch_.place[team]);
+      return nearest_by_trees(trees, all, left, rest);
+    } else {
+      NoRest rest;
+      return nearest_by_trees(trees, all, left, rest);
+    }
+  }
+
+  // Whether there are as few pairs as FewCounts::marked has bits, and each has a block or more to be shared by.
+  __device__ bool has_marks() const { return pairs_.count <= min(RestsView::kMostMarked, gridDim.x); }
+
+  // What a meeting of the grid costs is some four rounds. The more levels are left to go down, the more there may be
+  // to hand over, and the sooner.
+  __device__ static std::uint32_t rounds_of_team(const TreePair& trees) { return trees.upper_level() >= 3 ? 2 : 3; }
+  static constexpr std::uint32_t kRoundsOfBlock = 8;
+
+  const FrameView& f_;
+  ShapeHeaders headers_;
+  const Levels& levels_;
+  const MeetingPairs& pairs_;
+  ProximityScratch& scratch_;
+  void* stacks_;
+};
+
+}  // namespace broadside::gpu
