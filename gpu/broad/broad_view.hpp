@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/engine/stage.hpp"
 #include "core/math/box.hpp"
 #include "core/method/scene_octree.hpp"
 #include "core/pair.hpp"
@@ -19,6 +20,15 @@ enum class Start : std::uint32_t {
   kNone,    // levels level1, A and B as published: their first level by brute force over all pairs of bodies
   kMany,    // as kGrid for many boxes of which nothing but their pairs is asked for: many_search.cuh
 };
+
+// The steps of a broad phase that runs alone, in their order; each has a time.
+enum class FindStep : std::uint32_t {
+  kCount,    // boxes into cells
+  kPlace,    // cells into memory
+  kScatter,  // boxes by cell
+  kSearch,   // boxes against the boxes of their cells
+};
+static_assert(static_cast<std::size_t>(FindStep::kSearch) < core::kStageCount, "Outcome has room for their ends");
 
 // An append buffer. `stored` never passes its capacity; `demanded` counts on, so nothing is lost unseen.
 template <typename T>

@@ -184,9 +184,14 @@ void PairFinder::count_work() {
 }
 
 FindTime PairFinder::find_time() const {
-  const auto& end = impl_->outcome[0].stage_end_ns;
-  const auto seconds = [&end](int stage) { return static_cast<double>(end[stage] - end[stage - 1]) * 1e-9; };
-  return {impl_->timer.elapsed_s(), seconds(1), seconds(2), seconds(3), seconds(4)};
+  const Outcome& outcome = impl_->outcome[0];
+  const auto seconds = [&outcome](FindStep step) {
+    const auto k = static_cast<std::size_t>(step);
+    const unsigned long long begin_ns = k == 0 ? outcome.begin_ns : outcome.stage_end_ns[k - 1];
+    return static_cast<double>(outcome.stage_end_ns[k] - begin_ns) * 1e-9;
+  };
+  return {impl_->timer.elapsed_s(), seconds(FindStep::kCount), seconds(FindStep::kPlace), seconds(FindStep::kScatter),
+          seconds(FindStep::kSearch)};
 }
 
 }  // namespace broadside::gpu

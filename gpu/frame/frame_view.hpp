@@ -5,6 +5,7 @@
 
 #include "core/attributes.hpp"
 #include "core/contact.hpp"
+#include "core/engine/stage.hpp"
 #include "core/material.hpp"
 #include "core/math/box.hpp"
 #include "core/math/vec3.hpp"
@@ -86,12 +87,12 @@ struct alignas(16) LiveBody {
 static_assert(sizeof(Link) == 16 && sizeof(ListEntry) == 16 && sizeof(LiveBody) == 32,
               "read and written in words of 16 bytes");
 
-constexpr int kStageCount = 6;
-
-// What the host reads after a frame, in host memory that the device writes.
+// What the host reads after a frame, in host memory that the device writes: counts, and the device's clock when the
+// frame began and at the end of each stage.
 struct Outcome {
   Counters counters;
-  unsigned long long stage_end_ns[kStageCount + 1] = {};  // [0] is the start of the frame
+  unsigned long long begin_ns = 0;
+  unsigned long long stage_end_ns[core::kStageCount] = {};  // by core::Stage; of pairs alone, by FindStep
 };
 
 // Of the ring of all bodies (stages/broad/body_ring.cuh), into how many shares of so many places each body's are dealt.

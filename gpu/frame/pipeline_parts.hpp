@@ -31,7 +31,7 @@ struct Pipeline::Impl {
   WorkCounter work;
   FrameView view;
   Counters last;
-  std::array<core::StageTime, kStageCount> times{};
+  std::array<core::StageTime, core::kStageCount> times{};
   std::uint64_t steps = 0;
   std::uint64_t repeats = 0;
   std::uint64_t pairs_tested = 0;

@@ -1,17 +1,9 @@
 // A pipeline's frames: launched, waited for, repeated with larger buffers, counted as steps.
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "gpu/frame/pipeline_parts.hpp"
 
 namespace broadside::gpu {
-namespace {
-
-constexpr std::array<std::string_view, kStageCount> kStageNames{"integrate", "broad",    "levels",
-                                                                "vertices",  "response", "faces"};
-
-}  // namespace
 
 // Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them, as there is
 // where all levels are tested for all pairs.
@@ -70,8 +62,12 @@ core::Result<bool> Pipeline::Impl::is_kept() {
 void Pipeline::Impl::take_frame() {
   // What was in the stream before it is done.
   take_digests();
-  const auto& end = frames.oldest().stage_end_ns;
-  for (int k = 0; k < kStageCount; ++k) times[k] = {kStageNames[k], static_cast<double>(end[k + 1] - end[k]) * 1e-9};
+  unsigned long long begin_ns = frames.oldest().begin_ns;
+  for (std::size_t k = 0; k < core::kStageCount; ++k) {
+    const unsigned long long end_ns = frames.oldest().stage_end_ns[k];
+    times[k] = {core::kStageNames[k], static_cast<double>(end_ns - begin_ns) * 1e-9};
+    begin_ns = end_ns;
+  }
   frames.pop();
   buffers.advance();
   ++steps;

@@ -13,11 +13,6 @@
 
 namespace broadside::gpu {
 
-template <typename Team>
-__device__ void mark(const Team& team, const FrameView& f, int stage) {
-  if (team.rank() == 0) f.outcome->stage_end_ns[stage] = now_ns();
-}
-
 __device__ inline core::Box local_box(const FrameView& f, std::uint32_t body) {
   return fetched(f.shapes.octree + std::uint64_t{shape_of(f, body)} * core::kBodyOctreeNodes);
 }

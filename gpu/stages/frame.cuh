@@ -8,6 +8,7 @@
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/broad/broad_stage.cuh"
 #include "gpu/stages/broad/few_stage.cuh"
+#include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/levels/confirm_stage.cuh"
 #include "gpu/stages/response/arrival_stage.cuh"
@@ -90,10 +91,10 @@ __device__ void resolve(const Team& team, const FrameView& f, const MeetingPairs
     team.sync();
     finish_live(team, f, live);
   }
-  mark(team, f, 5);
+  mark_end(team, f.outcome, core::Stage::kResponse);
   resolve_faces(team, f);
   team.sync();
-  mark(team, f, 6);
+  mark_end(team, f.outcome, core::Stage::kFaces);
   if (team.rank() != 0) return;
   Counters counters = *f.counters;
   if constexpr (kIsFew) {
@@ -110,8 +111,8 @@ __device__ void resolve_alone(const FrameView& f, const MeetingPairs& pairs, con
                               const BlockRoom& room, Counters& counters) {
   const BlockTeam team;
   if (team.rank() == 0) counters = counters_of<kKind>(f, few);
-  resolve_in_block(f, pairs, room, [&] { mark(team, f, 5); });
-  mark(team, f, 6);
+  resolve_in_block(f, pairs, room, [&] { mark_end(team, f.outcome, core::Stage::kResponse); });
+  mark_end(team, f.outcome, core::Stage::kFaces);
   if (team.rank() != 0) return;
   counters.touching = room.counts->touching;
   counters.faces = room.counts->faces;
@@ -165,7 +166,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   const bool starts_at_level0 = kIsFew || f.broad.start != Start::kNone;
   const auto first = begin_frame<kKind>(f, shapes, scratch.proximity);
   const GridTeam grid(f.barrier);
-  mark(grid, f, 0);
+  mark_begin(grid, f.outcome);
   if constexpr (kIsFew) {
     const bool is_needed = integrate_and_find_few(grid, f, shapes, first);
     shapes.end(f);
@@ -173,7 +174,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   } else {
     if (!integrate(grid, f)) return;
     grid.sync();
-    mark(grid, f, 1);
+    mark_end(grid, f.outcome, core::Stage::kIntegrate);
     if (starts_at_level0) {
       PairQueue& queue = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];
       if (!find_candidates(grid, f.broad, f.boxes, f.body_count, f.pairs, f.counters, queue, nullptr))
@@ -190,7 +191,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   } else {
     grid.sync();
   }
-  mark(grid, f, 2);
+  mark_end(grid, f.outcome, core::Stage::kBroad);
   if constexpr (kIsFew) shapes.end_upper();
   const std::uint64_t pairs = kIsFew ? few.pairs : f.counters->pairs;
   if (pairs > f.pairs.capacity) return report_aborted<kKind>(grid, f, few);
@@ -207,7 +208,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
   const std::uint64_t confirmed = is_confirmed_by_level0 || has_levels_left
                                       ? pairs
                                       : (kIsFew ? std::uint64_t{few.confirmed(f)} : f.counters->confirmed);
-  mark(grid, f, 3);
+  mark_end(grid, f.outcome, core::Stage::kConfirm);
   if (confirmed > f.confirmed.capacity) return report_aborted<kKind>(grid, f, few, confirmed);
 
   const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
@@ -227,7 +228,7 @@ __device__ __forceinline__ void run_frame(const FrameView& f, BlockScratch& scra
       grid.sync();
     }
   }
-  mark(grid, f, 4);
+  mark_end(grid, f.outcome, core::Stage::kVertices);
   if constexpr (kIsFew) let_next_launch_begin();
 
   if (kIsFew && f.has_vertex_stage && blockIdx.x == gridDim.x - 1) list_measured(f, meeting, &scratch.listed);

@@ -19,17 +19,18 @@ namespace {
 
 class StageClock {
  public:
-  explicit StageClock(std::array<core::StageTime, 6>& times) : times_(times), last_(Clock::now()) {}
-  void lap(std::string_view stage) {
+  explicit StageClock(std::array<core::StageTime, core::kStageCount>& times) : times_(times), last_(Clock::now()) {}
+  // Ends a stage: what passed since the end of the one before is its time.
+  void lap(core::Stage stage) {
     const auto now = Clock::now();
-    times_[next_++] = {stage, std::chrono::duration<double>(now - last_).count()};
+    times_[static_cast<std::size_t>(stage)] = {core::name_of(stage),
+                                               std::chrono::duration<double>(now - last_).count()};
     last_ = now;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::array<core::StageTime, 6>& times_;
-  std::size_t next_ = 0;
+  std::array<core::StageTime, core::kStageCount>& times_;
   Clock::time_point last_;
 };
 
@@ -78,20 +79,20 @@ core::Status Pipeline::step(float dt_s) {
 core::Status Pipeline::run_stages(float dt_s) {
   StageClock clock(times_);
   integrate(dt_s);
-  clock.lap("integrate");
+  clock.lap(core::Stage::kIntegrate);
   if (core::Status s = find_candidates(); !s) return s;
   // The published start of level 0 is a broad phase, and is timed as one, as on the GPU.
   const bool confirms_all_by_level0 = !broad_phase_ && has_level0();
   if (confirms_all_by_level0) confirm();
-  clock.lap("broad");
+  clock.lap(core::Stage::kBroad);
   if (!confirms_all_by_level0) confirm();
-  clock.lap("levels");
+  clock.lap(core::Stage::kConfirm);
   touch();
-  clock.lap("vertices");
+  clock.lap(core::Stage::kVertices);
   response_.resolve_bodies(bodies_, rules_, touching_);
-  clock.lap("response");
+  clock.lap(core::Stage::kResponse);
   response_.resolve_faces(bodies_, rules_);
-  clock.lap("faces");
+  clock.lap(core::Stage::kFaces);
   ++steps_;
   dt_s_ = dt_s;
   return core::Done{};

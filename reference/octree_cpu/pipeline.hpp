@@ -9,6 +9,7 @@
 
 #include "core/engine/broad_phase.hpp"
 #include "core/engine/dynamics.hpp"
+#include "core/engine/stage.hpp"
 #include "core/method/frame_digest.hpp"
 #include "core/method/levels.hpp"
 #include "core/method/proximity.hpp"
@@ -70,7 +71,7 @@ class Pipeline final : public core::Dynamics {
   std::vector<core::Pair> confirmed_;
   std::vector<core::Proximity> proximity_;
   std::vector<core::Pair> touching_;
-  std::array<core::StageTime, 6> times_{};
+  std::array<core::StageTime, core::kStageCount> times_{};
   float dt_s_ = 0.0F;
   std::uint64_t steps_ = 0;
   std::optional<std::uint64_t> told_at_;  // the step whose record has the body octrees

@@ -6,6 +6,7 @@
 #include "gpu/stages/broad/hash_stage.cuh"
 #include "gpu/stages/broad/octree_stage.cuh"
 #include "gpu/stages/broad/tile_stage.cuh"
+#include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
 
 namespace broadside::gpu {
@@ -17,38 +18,37 @@ __device__ inline void count_box(const BroadView& b, std::uint64_t body, const c
 }
 
 // Returns false when the spatial hash has no room for its entries; the counters say how much it needs. Marks the ends
-// of placing (2) and scattering (3), if that is asked for.
+// of placing and scattering in `outcome`, unless that is null.
 template <typename Team>
 __device__ bool find_candidates(const Team& team, const BroadView& b, const PackedBox* boxes, std::uint32_t count,
-                                AppendView<core::Pair> out, Counters* counters, PairQueue& room,
-                                unsigned long long* stage_end_ns) {
+                                AppendView<core::Pair> out, Counters* counters, PairQueue& room, Outcome* outcome) {
   // Steps that a start does not have end where the one before did.
-  const auto mark = [&](int stage) {
-    if (stage_end_ns != nullptr && team.rank() == 0) stage_end_ns[stage] = now_ns();
+  const auto mark = [&](FindStep ended) {
+    if (outcome != nullptr) mark_end(team, outcome, ended);
   };
   WarpQueue queue(room, out, &counters->pairs);
   Uncounted work;
   switch (b.start) {
     case Start::kTiles:
-      mark(2), mark(3);
+      mark(FindStep::kPlace), mark(FindStep::kScatter);
       find_pairs_by_tiles(team, boxes, count, nullptr, out, &counters->pairs, work);
       break;
     case Start::kGrid:
       place_buckets(team, b.grid.bucket_mask, b.grid.count, b.grid.begin, &counters->entry_cursor);
       team.sync();
-      mark(2);
+      mark(FindStep::kPlace);
       grid_scatter(team, b.grid, boxes, count);
       team.sync();
-      mark(3);
+      mark(FindStep::kScatter);
       grid_find(team, b.grid, count, queue, work);
       break;
     case Start::kOctree:
       octree_place_nodes(team, b.octree);
       team.sync();
-      mark(2);
+      mark(FindStep::kPlace);
       octree_scatter(team, b.octree, boxes, count);
       team.sync();
-      mark(3);
+      mark(FindStep::kScatter);
       find_pairs_by_tiles(team, b.octree.sorted, count, b.octree.range_end, out, &counters->pairs, work);
       break;
     case Start::kHash:
@@ -60,10 +60,10 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
       }
       place_buckets(team, b.hash.bucket_mask, b.hash.count, b.hash.begin, &counters->entry_cursor);
       team.sync();
-      mark(2);
+      mark(FindStep::kPlace);
       hash_scatter(team, b.hash, boxes, count);
       team.sync();
-      mark(3);
+      mark(FindStep::kScatter);
       hash_find(team, b.hash, boxes, count, counters, queue, work);
       hash_clear(team, b.hash);
       break;

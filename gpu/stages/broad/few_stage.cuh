@@ -6,6 +6,7 @@
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/broad/body_ring.cuh"
 #include "gpu/stages/few_counts.cuh"
+#include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/levels/confirm_stage.cuh"
 #include "gpu/stages/levels/shapes_in_block.cuh"
@@ -114,7 +115,7 @@ __device__ inline bool integrate_and_find_few(const GridTeam& team, const FrameV
     start_body(f, body, own, BodyAtDetection(f, body, own));
   }
   if (team.rank() == 0) *f.counters = Counters{};
-  mark(team, f, 1);
+  mark_end(team, f.outcome, core::Stage::kIntegrate);
   shapes.begin_upper(f);
   // Those who ask for shapes have begun to.
   if (f.are_levels_first) __syncthreads();

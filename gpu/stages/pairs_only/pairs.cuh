@@ -3,6 +3,7 @@
 
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/stages/broad/broad_stage.cuh"
+#include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/pairs_only/many_bins.cuh"
 #include "gpu/stages/pairs_only/many_chunks.cuh"
@@ -10,10 +11,6 @@
 #include "gpu/stages/pairs_only/many_sort.cuh"
 
 namespace broadside::gpu {
-
-__device__ inline void mark_stage(const GridTeam& grid, const PairsView& view, int stage) {
-  if (grid.rank() == 0) view.outcome->stage_end_ns[stage] = now_ns();
-}
 
 // By one thread, before anybody counts.
 __device__ inline void start_counts(const PairsView& view) {
@@ -25,14 +22,14 @@ __device__ inline void start_counts(const PairsView& view) {
 __device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
   const ManyView& many = view.many;
-  mark_stage(grid, view, 0);
+  mark_begin(grid, view.outcome);
   if (grid.rank() == 0) start_counts(view);
   count_chunks(grid, many, view.boxes, view.box_count);
   grid.sync();
-  mark_stage(grid, view, 1);
+  mark_end(grid, view.outcome, FindStep::kCount);
   place_chunks_in_order(grid, many, reinterpret_cast<std::uint32_t*>(shared));
   grid.sync();
-  mark_stage(grid, view, 2);
+  mark_end(grid, view.outcome, FindStep::kPlace);
   fill_bins(many, view.boxes, view.box_count, shared);
   grid.sync();
   empty_bins(many, shared);
@@ -57,7 +54,7 @@ __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
   const ManyView& many = view.many;
   const bool is_sorted = kAreMany && many.bins.bins != 0;
   if (!is_sorted) {
-    mark_stage(grid, view, 0);
+    mark_begin(grid, view.outcome);
     if (grid.rank() == 0) start_counts(view);
     if constexpr (kAreMany)
       many_count(grid, many, view.boxes, view.box_count);
@@ -65,26 +62,26 @@ __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
       for (std::uint64_t i = grid.rank(); i < view.box_count; i += grid.size())
         count_box(view.broad, i, unpack(view.boxes[i]));
     grid.sync();
-    mark_stage(grid, view, 1);
+    mark_end(grid, view.outcome, FindStep::kCount);
   }
   bool has_room = true;
   if constexpr (kAreMany) {
     if (!is_sorted) {
       place_buckets(grid, many.bucket_mask, many.count, many.begin, &view.counters->entry_cursor);
       grid.sync();
-      mark_stage(grid, view, 2);
+      mark_end(grid, view.outcome, FindStep::kPlace);
       many_scatter(grid, many, view.boxes, view.box_count);
       grid.sync();
     }
-    mark_stage(grid, view, 3);
+    mark_end(grid, view.outcome, FindStep::kScatter);
     many_find(grid, many, view.boxes, view.box_count, scratch.notes, view.pairs, &view.counters->pairs);
   } else {
     has_room = find_candidates(grid, view.broad, view.boxes, view.box_count, view.pairs, view.counters, scratch.queue,
-                               view.outcome->stage_end_ns);
+                               view.outcome);
   }
   grid.sync();
   if (grid.rank() != 0) return;
-  mark_stage(grid, view, 4);
+  mark_end(grid, view.outcome, FindStep::kSearch);
   view.counters->is_aborted = !has_room || view.counters->pairs > view.pairs.capacity ? 1 : 0;
   view.outcome->counters = *view.counters;
 }
