@@ -4,7 +4,8 @@
 #include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/kernel_launch.cuh"
 #include "gpu/stages/digest.cuh"
-#include "gpu/stages/frame.cuh"
+#include "gpu/stages/grid_frame.cuh"
+#include "gpu/stages/small_frame.cuh"
 
 namespace broadside::gpu {
 namespace {
@@ -12,17 +13,23 @@ namespace {
 constexpr std::uint32_t kThreads = 512;
 static_assert(kThreads <= kMaxBlockWarps * 32);
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
-constexpr std::uint32_t kFewBlocksPerMultiprocessor = 1;  // few bodies get no more, so that registers suffice
+constexpr std::uint32_t kSmallBlocksPerMultiprocessor = 1;  // no more, so that registers suffice
 constexpr std::uint32_t kDigestThreads = 512;
 constexpr std::uint32_t kDigestBlocksPerMultiprocessor = 2;
 
-template <FrameKind kKind>
-__global__ void __launch_bounds__(kThreads,
-                                  kKind == FrameKind::kFew ? kFewBlocksPerMultiprocessor : kBlocksPerMultiprocessor)
-    frame_kernel(const __grid_constant__ FrameView frame) {
+__global__ void __launch_bounds__(kThreads, kSmallBlocksPerMultiprocessor)
+    small_frame_kernel(const __grid_constant__ FrameView frame) {
   extern __shared__ __align__(16) unsigned char shared[];
-  __shared__ BlockScratch scratch;
-  run_frame<kKind>(frame, scratch, shared);
+  __shared__ SmallScratch scratch;
+  run_small_frame(frame, scratch, shared);
+}
+
+template <bool kHasThreadPerBody>
+__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
+    grid_frame_kernel(const __grid_constant__ FrameView frame) {
+  extern __shared__ __align__(16) unsigned char shared[];
+  __shared__ GridScratch scratch;
+  run_grid_frame<kHasThreadPerBody>(frame, scratch, shared);
 }
 
 __global__ void __launch_bounds__(kDigestThreads, kDigestBlocksPerMultiprocessor)
@@ -31,22 +38,22 @@ __global__ void __launch_bounds__(kDigestThreads, kDigestBlocksPerMultiprocessor
   run_digest(view, &block_sum);
 }
 
-// Few bodies' kernel has shapes in shared memory too.
-LaunchShape few_shape(LaunchShape shape) {
+// A small frame's kernel has shapes in shared memory too.
+LaunchShape small_shape(LaunchShape shape) {
   shape.shared_bytes += sizeof(BlockShapes);
   return shape;
 }
 
-// Of few bodies' frames, all of whose blocks but one end early. Not where processes share the GPU side by side (MPS):
-// nobody knows what else waits for its blocks there. And only if the kernel waits for the one before, which is a matter
-// of what it was compiled for, not of the GPU: this may have made its code of what was meant for an older one.
-LaunchBegin few_begin() {
+// When a small frame begins, all of whose blocks but one end before its response. Early, but not where processes share
+// the GPU side by side (MPS): blocks of another process may hold the place that a block waits for. And only if the
+// kernel has the instruction that waits for the launch before, which depends on what it was compiled for: the driver
+// may have translated code that was meant for an older GPU.
+LaunchBegin small_begin() {
   static const bool can_be_early = [] {
     cudaFuncAttributes kernel = {};
     const auto shares = attribute(cudaDevAttrMpsEnabled);
     return shares.ok() && shares.value() == 0 &&
-           cudaFuncGetAttributes(&kernel, reinterpret_cast<const void*>(frame_kernel<FrameKind::kFew>)) ==
-               cudaSuccess &&
+           cudaFuncGetAttributes(&kernel, reinterpret_cast<const void*>(small_frame_kernel)) == cudaSuccess &&
            kernel.ptxVersion >= 90;
   }();
   return can_be_early ? LaunchBegin::kEarly : LaunchBegin::kTogether;
@@ -66,27 +73,24 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
                                                 static_cast<std::uint32_t>((sizeof(PairQueue) + 15) / 16 * 16));
   for (std::uint32_t threads = kThreads; threads >= 32; threads /= 2) {
     LaunchShape shape{threads, 0, threads / 32 * bytes_per_warp, 0};
-    if (few_shape(shape).shared_bytes + sizeof(BlockScratch) > block_limit.value()) continue;
-    LaunchShape few = few_shape(shape);
-    LaunchShape many = shape;
-    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kSome>), shape));
-    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kMany>), many));
-    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(frame_kernel<FrameKind::kFew>), few));
-    shape.blocks = std::min(shape.blocks, many.blocks);
-    // Few bodies get one block a multiprocessor.
-    if (shape.blocks != 0 && few.blocks >= few.multiprocessors) return shape;
+    LaunchShape small = small_shape(shape);
+    if (small.shared_bytes + std::max(sizeof(SmallScratch), sizeof(GridScratch)) > block_limit.value()) continue;
+    LaunchShape other = shape;
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(grid_frame_kernel<true>), shape));
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(grid_frame_kernel<false>), other));
+    BROADSIDE_TRY(fit(reinterpret_cast<const void*>(small_frame_kernel), small));
+    shape.blocks = std::min(shape.blocks, other.blocks);
+    // A small frame gets one block a multiprocessor.
+    if (shape.blocks != 0 && small.blocks >= small.multiprocessors) return shape;
   }
   return core::Error{"this GPU has too little shared memory for the vertex trees' stack", "octree-gpu",
                      "use a mesh of fewer vertices", core::Exit::kMissing};
 }
 
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream) {
-  void (*const kernels[])(FrameView) = {frame_kernel<FrameKind::kFew>, frame_kernel<FrameKind::kSome>,
-                                        frame_kernel<FrameKind::kMany>};
-  const FrameKind kind = kind_of(frame, shape.all_threads());
-  const auto kernel = kernels[static_cast<std::size_t>(kind)];
-  if (kind == FrameKind::kFew) return launch(kernel, frame, few_shape(shape), stream, few_begin());
-  return launch(kernel, frame, shape, stream);
+  if (has_few_bodies(frame)) return launch(small_frame_kernel, frame, small_shape(shape), stream, small_begin());
+  const bool has_thread_per_body = frame.body_count <= shape.all_threads();
+  return launch(has_thread_per_body ? grid_frame_kernel<true> : grid_frame_kernel<false>, frame, shape, stream);
 }
 
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {

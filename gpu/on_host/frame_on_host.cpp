@@ -4,8 +4,9 @@
 
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/stages/digest.cuh"
-#include "gpu/stages/frame.cuh"
+#include "gpu/stages/grid_frame.cuh"
 #include "gpu/stages/pairs_only/pairs.cuh"
+#include "gpu/stages/small_frame.cuh"
 
 namespace broadside::gpu {
 namespace {
@@ -32,16 +33,19 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
 }
 
 core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle /*stream*/) {
-  std::vector<BlockScratch> scratch(shape.blocks);
-  on_host::run(launch_of(shape), shape.shared_bytes + sizeof(BlockShapes), [&](unsigned char* shared) {
-    switch (kind_of(frame, shape.all_threads())) {
-      case FrameKind::kFew:
-        return run_frame<FrameKind::kFew>(frame, scratch[blockIdx.x], shared);
-      case FrameKind::kSome:
-        return run_frame<FrameKind::kSome>(frame, scratch[blockIdx.x], shared);
-      case FrameKind::kMany:
-        return run_frame<FrameKind::kMany>(frame, scratch[blockIdx.x], shared);
-    }
+  if (has_few_bodies(frame)) {
+    std::vector<SmallScratch> scratch(shape.blocks);
+    on_host::run(launch_of(shape), shape.shared_bytes + sizeof(BlockShapes),
+                 [&](unsigned char* shared) { run_small_frame(frame, scratch[blockIdx.x], shared); });
+    return core::Done{};
+  }
+  std::vector<GridScratch> scratch(shape.blocks);
+  const bool has_thread_per_body = frame.body_count <= shape.all_threads();
+  on_host::run(launch_of(shape), shape.shared_bytes, [&](unsigned char* shared) {
+    if (has_thread_per_body)
+      run_grid_frame<true>(frame, scratch[blockIdx.x], shared);
+    else
+      run_grid_frame<false>(frame, scratch[blockIdx.x], shared);
   });
   return core::Done{};
 }

@@ -1,0 +1,121 @@
+// A small frame from top to bottom, as the threads of one launch run it: METHOD sections 1 to 6. The grid waits for all
+// its blocks once after pairs are found, once after vertices, and once more for each time that leftover work is shared.
+#pragma once
+
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/stages/broad/few_stage.cuh"
+#include "gpu/stages/frame_report.cuh"
+#include "gpu/stages/grid/stage_clock.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/response/frame_response.cuh"
+#include "gpu/stages/vertices/proximity_stage.cuh"
+
+namespace broadside::gpu {
+
+// What a block has in shared memory beside `shared`.
+struct SmallScratch {
+  ProximityScratch proximity;
+  BlockCopy octree_copy;
+  BlockCopy upper_copy;
+  GridTally tally;
+  Counters counters;
+  std::uint32_t listed;
+};
+
+// By one thread, when no other adds to the tally any more. The tally is cleared for the next frame.
+__device__ inline void report_small(const FrameView& f, const Counters& counters, const FewCounts& few,
+                                    bool is_aborted) {
+  f.barrier[1] = 0;
+  *f.given_out = 0;
+  tell_host(f, counters, is_aborted);
+  if (const unsigned long long tally = few.packed(); tally != 0) atomicAdd(f.barrier, 0ULL - tally);
+}
+
+// Pairs that were counted in the tally, as counters. The counters in memory are clear until the frame is reported.
+__device__ inline Counters counters_of(const FrameView& f, const FewCounts& few) {
+  Counters counters;
+  counters.pairs = few.pairs;
+  counters.confirmed = few.confirmed(f);
+  return counters;
+}
+
+// By all threads, when there is no room for so many pairs, or confirmed pairs. The grid waits first: a block that read
+// a cleared tally would not abort, and would wait for the others for ever.
+__device__ inline void abort_small(const GridTeam& grid, const FrameView& f, const FewCounts& few,
+                                   std::uint64_t confirmed) {
+  grid.sync();
+  if (blockIdx.x != 0 || threadIdx.x != 0) return;
+  Counters counters = counters_of(f, few);
+  counters.confirmed = max(std::uint64_t{counters.confirmed}, confirmed);
+  report_small(f, counters, few, true);
+}
+
+// Contacts and faces, by all threads of one block.
+__device__ inline void resolve_small(const FrameView& f, const MeetingPairs& pairs, const FewCounts& few,
+                                     SmallScratch& scratch, unsigned char* shared) {
+  if (BlockRoom::fits(f, pairs.count)) {
+    if (threadIdx.x == 0) scratch.counters = counters_of(f, few);
+    const BlockRoom room(shared, f.body_count, static_cast<std::uint32_t>(pairs.count));
+    resolve_alone(f, pairs, room, scratch.counters);
+    if (threadIdx.x == 0) report_small(f, scratch.counters, few, !has_room_for_faces(f, scratch.counters));
+    return;
+  }
+  const BlockTeam team;
+  resolve_by_team(team, f, pairs, [&](std::uint64_t count) {
+    resolve_body_by_body(team, f, count, BlockLive{reinterpret_cast<LiveBody*>(shared)});
+  });
+  if (team.rank() != 0) return;
+  Counters counters = *f.counters;
+  counters.pairs = few.pairs;
+  counters.confirmed = few.confirmed(f);
+  report_small(f, counters, few, !has_room_for_faces(f, counters));
+}
+
+// `shared`: what LaunchShape says, a block's own, and BlockShapes behind it. Always inlined: a call would take the view
+// through memory.
+__device__ __forceinline__ void run_small_frame(const FrameView& f, SmallScratch& scratch, unsigned char* shared) {
+  const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);
+  // Until the frame before has ended, nothing is read that it writes.
+  scratch.proximity.clear();
+  shapes.begin(f);
+  const FewItem first(GridPlaces{}, f);
+  wait_for_launch_before();
+
+  const GridTeam grid(f.barrier);
+  mark_begin(grid, f.outcome);
+  const bool is_needed = integrate_and_find_few(grid, f, shapes, first);
+  shapes.end(f);
+  if (!is_needed) return;
+  // With a vertex stage there is another barrier before anything of this is read but where a pair's bodies are.
+  FewCounts few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally, f.has_vertex_stage));
+  mark_end(grid, f.outcome, core::Stage::kBroad);
+  shapes.end_upper();
+  if (few.pairs > f.pairs.capacity) return abort_small(grid, f, few, 0);
+
+  // Where levels are left for the vertex stage, the confirmed pairs are among all that were found; with flat levels
+  // they are these.
+  const bool has_levels_left = are_levels_left(f);
+  const std::uint64_t confirmed = f.levels == core::Levels::kFlat || has_levels_left ? few.pairs : few.confirmed(f);
+  mark_end(grid, f.outcome, core::Stage::kConfirm);
+  if (confirmed > f.confirmed.capacity) return abort_small(grid, f, few, confirmed);
+
+  const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
+                             f.has_vertex_stage ? f.measured : nullptr, f.placed};
+  if (f.has_vertex_stage) {
+    const FewLevels levels(f, shapes);
+    const ProximityStage stage(f, shapes.headers(f), levels, meeting, scratch.proximity, shared);
+    if (confirmed > 0) stage.run();
+    stage.share_rests([&] {
+      few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
+      return few;
+    });
+  }
+  mark_end(grid, f.outcome, core::Stage::kVertices);
+  let_next_launch_begin();
+
+  if (f.has_vertex_stage && blockIdx.x == gridDim.x - 1) list_measured(f, meeting, &scratch.listed);
+  if (blockIdx.x == 0) resolve_small(f, meeting, few, scratch, shared);
+}
+
+}  // namespace broadside::gpu
