@@ -94,11 +94,6 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
   view.pairs = {pairs_.data(), pairs_.capacity()};
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.proximity = proximity_.data();
-  view.measured = measured_.data();
-  view.placed = placed_.data();
-  view.given_out = barrier_.data() + 2;
-  view.rests[0] = {rests_.data(), rest_entries_.data()};
-  view.rests[1] = {rests_.data() + RestsView::kMost, rest_entries_.data() + RestsView::kMost * RestsView::kEntries};
   view.links = links_.data();
   view.keys = keys_.data();
   view.lists = lists_.data();
@@ -106,9 +101,20 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
   view.face_contacts = {face_contacts_.data(), face_contacts_.capacity()};
   view.degree = degree_.data();
   view.list_begin = list_begin_.data();
-  view.live = live_.data();
   view.counters = counters_.data();
   view.barrier = barrier_.data();
+}
+
+void FrameBuffers::fill_small(SmallFrameView& view) const {
+  view.measured = measured_.data();
+  view.placed = placed_.data();
+  view.given_out = barrier_.data() + 2;
+  view.rests[0] = {rests_.data(), rest_entries_.data()};
+  view.rests[1] = {rests_.data() + RestsView::kMost, rest_entries_.data() + RestsView::kMost * RestsView::kEntries};
+}
+
+void FrameBuffers::fill_grid(GridFrameView& view) const {
+  view.live = live_.data();
 }
 
 std::uint64_t FrameBuffers::body_bytes() const {

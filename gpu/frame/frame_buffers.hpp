@@ -9,6 +9,8 @@
 #include "core/pair.hpp"
 #include "core/scene/scene.hpp"
 #include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/grid_frame_view.hpp"
+#include "gpu/frame/small_frame_view.hpp"
 #include "gpu/runtime/device_buffer.hpp"
 
 namespace broadside::gpu {
@@ -29,6 +31,9 @@ class FrameBuffers {
   core::Status reserve_rests();
   // For the frame that has so many others under way before it, none of which advance() was called for.
   void fill(FrameView& view, std::uint64_t under_way = 0) const;
+  // What a small frame, or a grid frame, has beside that.
+  void fill_small(SmallFrameView& view) const;
+  void fill_grid(GridFrameView& view) const;
   // Makes room for what the aborted frame demanded, and a quarter more. Contents are lost.
   core::Status grow(const Counters& demanded, bool is_confirmed_by_level0);
   // The frame is done: the next one starts from what it made.

@@ -18,7 +18,7 @@ constexpr std::uint32_t kDigestThreads = 512;
 constexpr std::uint32_t kDigestBlocksPerMultiprocessor = 2;
 
 __global__ void __launch_bounds__(kThreads, kSmallBlocksPerMultiprocessor)
-    small_frame_kernel(const __grid_constant__ FrameView frame) {
+    small_frame_kernel(const __grid_constant__ SmallFrameView frame) {
   extern __shared__ __align__(16) unsigned char shared[];
   __shared__ SmallScratch scratch;
   run_small_frame(frame, scratch, shared);
@@ -26,7 +26,7 @@ __global__ void __launch_bounds__(kThreads, kSmallBlocksPerMultiprocessor)
 
 template <bool kHasThreadPerBody>
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
-    grid_frame_kernel(const __grid_constant__ FrameView frame) {
+    grid_frame_kernel(const __grid_constant__ GridFrameView frame) {
   extern __shared__ __align__(16) unsigned char shared[];
   __shared__ GridScratch scratch;
   run_grid_frame<kHasThreadPerBody>(frame, scratch, shared);
@@ -87,8 +87,11 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
                      "use a mesh of fewer vertices", core::Exit::kMissing};
 }
 
-core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream) {
-  if (has_few_bodies(frame)) return launch(small_frame_kernel, frame, small_shape(shape), stream, small_begin());
+core::Status launch_frame(const SmallFrameView& frame, const LaunchShape& shape, StreamHandle stream) {
+  return launch(small_frame_kernel, frame, small_shape(shape), stream, small_begin());
+}
+
+core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, StreamHandle stream) {
   const bool has_thread_per_body = frame.body_count <= shape.all_threads();
   return launch(has_thread_per_body ? grid_frame_kernel<true> : grid_frame_kernel<false>, frame, shape, stream);
 }

@@ -9,6 +9,9 @@
 #include "core/result.hpp"
 #include "gpu/broad/many_view.hpp"
 #include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/grid_frame_view.hpp"
+#include "gpu/frame/ring_shares.hpp"
+#include "gpu/frame/small_frame_view.hpp"
 #include "gpu/runtime/device_runtime.hpp"
 
 namespace broadside::gpu {
@@ -35,10 +38,10 @@ inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) 
 // Above this the tiles of tile_stage.cuh are sooner done: a warp of theirs tests 1024 pairs, one of ours 32.
 constexpr std::uint32_t kFewBodies = 512;
 
-// Whether frames are those of the kernel for few bodies, which knows nothing else and has a thread of one block for
-// each.
-inline bool has_few_bodies(const FrameView& f) {
-  return f.broad.start == Start::kTiles && f.body_count <= kFewBodies && f.body_count <= f.block_bodies &&
+// Whether frames that start so are small frames: their kernel has no other start and no other solver, and its response
+// has a thread of one block for each body.
+inline bool is_small_frame(const FrameView& f, Start start) {
+  return start == Start::kTiles && f.body_count <= kFewBodies && f.body_count <= f.block_bodies &&
          f.solver == Solver::kColored;
 }
 
@@ -46,7 +49,8 @@ inline bool has_few_bodies(const FrameView& f) {
 core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
 
 // One whole frame is this one launch, whatever its counts: every stage reads them on the device. Asynchronous.
-core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle stream);
+core::Status launch_frame(const SmallFrameView& frame, const LaunchShape& shape, StreamHandle stream);
+core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 
 // The broad phase alone; the same rules, but for great many boxes, which are sorted by a launch before.
 struct PairsView {

@@ -10,7 +10,8 @@ core::Status FrameQueue::create(StreamHandle stream) {
   return outcomes_.allocate();
 }
 
-core::Status FrameQueue::launch(FrameView frame, const LaunchShape& shape) {
+template <typename View>
+core::Status FrameQueue::launch(View frame, const LaunchShape& shape) {
   frame.outcome = outcomes_.device(launched_ % kMost);
   frame.is_behind_unseen = under_way() != 0;
   // Where nothing comes behind a frame, the stream is waited for.
@@ -19,6 +20,9 @@ core::Status FrameQueue::launch(FrameView frame, const LaunchShape& shape) {
   ++launched_;
   return core::Done{};
 }
+
+template core::Status FrameQueue::launch(SmallFrameView frame, const LaunchShape& shape);
+template core::Status FrameQueue::launch(GridFrameView frame, const LaunchShape& shape);
 
 core::Status FrameQueue::wait() const {
   if (under_way() == 1) return wait_for_stream(stream_, "a frame");

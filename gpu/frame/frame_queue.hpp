@@ -19,8 +19,10 @@ class FrameQueue {
 
   // Empty. The stream, which others may use too, outlives this object's use.
   core::Status create(StreamHandle stream);
-  // Behind those under way, fewer than kMost; `frame` is complete but for its outcomes. Returns at once.
-  core::Status launch(FrameView frame, const LaunchShape& shape);
+  // Behind those under way, fewer than kMost; `frame`, a SmallFrameView or a GridFrameView, is complete but for its
+  // outcomes. Returns at once.
+  template <typename View>
+  core::Status launch(View frame, const LaunchShape& shape);
   [[nodiscard]] std::uint64_t under_way() const { return launched_ - seen_; }
 
   // Until the oldest frame is done.

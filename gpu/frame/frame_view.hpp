@@ -1,4 +1,5 @@
-// What the frame kernel is given, by value: where everything of one simulation lies on the device.
+// What the kernel of every frame is given, by value: where everything of one simulation lies on the device. What small
+// frames and grid frames have of their own is in small_frame_view.hpp and grid_frame_view.hpp.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,7 @@
 #include "core/scene/spring.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad/broad_view.hpp"
-#include "gpu/frame/measured_pair.hpp"
 #include "gpu/frame/placed_shape.hpp"
-#include "gpu/frame/search_rest.hpp"
-#include "gpu/frame/small_divisor.hpp"
 #include "gpu/scene/near_cells.hpp"
 #include "gpu/scene/packed_box.hpp"
 #include "gpu/scene/shape_tree.hpp"
@@ -95,11 +93,6 @@ struct Outcome {
   unsigned long long stage_end_ns[core::kStageCount] = {};  // by core::Stage; of pairs alone, by FindStep
 };
 
-// Of the ring of all bodies (stages/broad/body_ring.cuh), into how many shares of so many places each body's are dealt.
-BROADSIDE_HD std::uint32_t ring_shares(std::uint32_t bodies, std::uint32_t share) {
-  return (bodies / 2 + share - 1) / share;
-}
-
 // Fixed during a run, but for `previous` and `next`, which change places after every frame, and its outcome.
 struct FrameView {
   std::uint32_t body_count = 0;
@@ -125,43 +118,28 @@ struct FrameView {
   StateView next;
   PackedBox* boxes = nullptr;  // at detection
 
-  BroadView broad;
   AppendView<core::Pair> pairs;
   AppendView<core::Pair> confirmed;      // flat: the same memory as pairs
   core::Proximity* proximity = nullptr;  // one per confirmed pair
-  // Few bodies: the levels below 0 are gone down where pairs are found, not while they are measured.
-  bool are_levels_first = false;
-  std::uint32_t ring_share = 1;        // places of the ring that a warp takes, where there are few bodies
-  SmallDivisor ring_shares;            // by ring_shares() of them: divided beforehand, as all warps would wait for it
-  std::uint32_t stack_entries = 0;     // of each warp's stack in the proximity stage
-  std::uint32_t block_bodies = 0;      // that one block resolves alone
-  std::uint32_t block_bytes = 0;       // of shared memory that a block has, beside what is fixed
-  Link* links = nullptr;               // the touching pairs: as many as confirmed
-  unsigned long long* keys = nullptr;  // [2 * links] order of the contacts of each written body, as they came
-  ListEntry* lists = nullptr;          // [2 * links] contacts of each written body, in their order
-  core::Contact* contacts = nullptr;   // one slot per link; depth 0 = no contact
+  std::uint32_t stack_entries = 0;       // of each warp's stack in the proximity stage
+  std::uint32_t block_bodies = 0;        // that one block resolves alone
+  std::uint32_t block_bytes = 0;         // of shared memory that a block has, beside what is fixed
+  Link* links = nullptr;                 // the touching pairs: as many as confirmed
+  unsigned long long* keys = nullptr;    // [2 * links] order of the contacts of each written body, as they came
+  ListEntry* lists = nullptr;            // [2 * links] contacts of each written body, in their order
+  core::Contact* contacts = nullptr;     // one slot per link; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
 
   std::uint32_t* degree = nullptr;      // [bodies] contacts of a written body
   std::uint32_t* list_begin = nullptr;  // [bodies]
-  LiveBody* live = nullptr;             // [bodies]
 
   Counters* counters = nullptr;  // until this frame begins, those of the frame before it
-  // The word where the grid meets; and, behind it, few bodies' FewCounts::marked, zero between frames.
+  // The barrier word, and the word behind it: FewCounts::marked of small frames, zero between frames.
   unsigned long long* barrier = nullptr;
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
   bool is_behind_unseen = false;
-  MeasuredPair* measured = nullptr;         // few bodies: one per pair that is measured
-  PlacedPair* placed = nullptr;             // likewise; between frames none is there
-  unsigned long long* given_out = nullptr;  // few bodies: pairs, to warps that measure them; zero between frames
-  RestsView rests[2];                       // few bodies
 };
-
-// Few bodies: whether the vertex stage is given pairs whose levels are still to be gone down.
-BROADSIDE_HD bool are_levels_left(const FrameView& f) {
-  return f.levels != core::Levels::kFlat && !f.are_levels_first;
-}
 
 // Of one shape nobody has to ask which.
 BROADSIDE_HD std::uint32_t shape_of(const FrameView& f, std::uint32_t body) {

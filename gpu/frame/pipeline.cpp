@@ -50,6 +50,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.has_digest = false;
   d.times = {};
   d.view = {};
+  d.broad_view = {};
   const float hash_cell_m = d.options.hash_cell_m > 0.0F ? d.options.hash_cell_m : scene.parameters.hash_cell_m;
   auto stream = frame_stream();
   if (!stream.ok()) return stream.error();
@@ -85,7 +86,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.view.block_bytes = d.launch.shared_bytes;
   d.device_scene.fill(d.view);
   // Uploads ran on the default stream, which this one does not wait for.
-  d.broad.fill(d.view.broad);
+  d.broad.fill(d.broad_view);
   d.buffers.fill(d.view);
   return wait_for_device("loading the scene");
 }

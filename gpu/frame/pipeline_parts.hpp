@@ -29,7 +29,8 @@ struct Pipeline::Impl {
   StreamMark frame_end;
   LaunchShape launch;
   WorkCounter work;
-  FrameView view;
+  FrameView view;  // of every frame
+  BroadView broad_view;
   Counters last;
   std::array<core::StageTime, core::kStageCount> times{};
   std::uint64_t steps = 0;
@@ -47,7 +48,7 @@ struct Pipeline::Impl {
   double dt_s = 0.0;
 
   [[nodiscard]] bool is_confirmed_by_level0() const {
-    return view.broad.start != Start::kNone && view.levels == core::Levels::kFlat;
+    return broad_view.start != Start::kNone && view.levels == core::Levels::kFlat;
   }
   [[nodiscard]] std::uint64_t confirmed_count() const { return is_confirmed_by_level0() ? last.pairs : last.confirmed; }
   [[nodiscard]] Start chosen_start() const;
@@ -57,6 +58,8 @@ struct Pipeline::Impl {
   [[nodiscard]] LaunchShape frame_shape() const;
   [[nodiscard]] bool levels_come_first(const LaunchShape& shape) const;
   core::Status launch_frame();
+  [[nodiscard]] SmallFrameView small_view(const LaunchShape& shape) const;
+  [[nodiscard]] GridFrameView grid_view() const;
   core::Status wait_for_frame();
   core::Result<bool> is_kept();
   void take_frame();

@@ -9,7 +9,7 @@ namespace broadside::gpu {
 // where all levels are tested for all pairs.
 LaunchShape Pipeline::Impl::frame_shape() const {
   LaunchShape shape = launch;
-  if (view.body_count < kLeastBodiesForGrid && view.broad.start != Start::kNone)
+  if (view.body_count < kLeastBodiesForGrid && broad_view.start != Start::kNone)
     shape.blocks = std::min(shape.blocks, shape.multiprocessors);
   return shape;
 }
@@ -28,13 +28,26 @@ bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
 // Behind those under way.
 core::Status Pipeline::Impl::launch_frame() {
   buffers.fill(view, frames.under_way());
-  broad.fill(view.broad);
+  broad.fill(broad_view);
   if (is_confirmed_by_level0()) view.confirmed.items = view.pairs.items;
   const LaunchShape shape = frame_shape();
-  view.ring_share = ring_share(view.body_count, shape);
-  view.ring_shares = SmallDivisor(ring_shares(view.body_count, view.ring_share));
-  view.are_levels_first = levels_come_first(shape);
-  return frames.launch(view, shape);
+  return is_small_frame(view, broad_view.start) ? frames.launch(small_view(shape), shape)
+                                                : frames.launch(grid_view(), shape);
+}
+
+SmallFrameView Pipeline::Impl::small_view(const LaunchShape& shape) const {
+  SmallFrameView small{view};
+  buffers.fill_small(small);
+  small.ring_share = ring_share(view.body_count, shape);
+  small.ring_shares = SmallDivisor(ring_shares(view.body_count, small.ring_share));
+  small.are_levels_first = levels_come_first(shape);
+  return small;
+}
+
+GridFrameView Pipeline::Impl::grid_view() const {
+  GridFrameView grid{view, broad_view};
+  buffers.fill_grid(grid);
+  return grid;
 }
 
 // The only one under way.
@@ -133,10 +146,10 @@ core::Status Pipeline::Impl::run_ahead(std::uint64_t steps_asked, const StepDone
 
 // Of the frame that was just computed; nothing where nobody asked.
 core::Status Pipeline::Impl::count_work() {
-  const BroadWorkView of_broad{view.broad, {}, view.boxes, view.body_count, view.counters};
+  const BroadWorkView of_broad{broad_view, {}, view.boxes, view.body_count, view.counters};
   BROADSIDE_TRY(work.count_broad(of_broad, launch.multiprocessors, stream));
   if (is_confirmed_by_level0()) return core::Done{};
-  return work.count_levels(view, launch.multiprocessors, stream);
+  return work.count_levels(view, broad_view.start, launch.multiprocessors, stream);
 }
 
 }  // namespace broadside::gpu

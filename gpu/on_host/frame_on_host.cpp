@@ -32,13 +32,14 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels) {
   return LaunchShape{kThreads, kBlocks, kThreads / 32 * bytes_per_warp, kBlocks};
 }
 
-core::Status launch_frame(const FrameView& frame, const LaunchShape& shape, StreamHandle /*stream*/) {
-  if (has_few_bodies(frame)) {
-    std::vector<SmallScratch> scratch(shape.blocks);
-    on_host::run(launch_of(shape), shape.shared_bytes + sizeof(BlockShapes),
-                 [&](unsigned char* shared) { run_small_frame(frame, scratch[blockIdx.x], shared); });
-    return core::Done{};
-  }
+core::Status launch_frame(const SmallFrameView& frame, const LaunchShape& shape, StreamHandle /*stream*/) {
+  std::vector<SmallScratch> scratch(shape.blocks);
+  on_host::run(launch_of(shape), shape.shared_bytes + sizeof(BlockShapes),
+               [&](unsigned char* shared) { run_small_frame(frame, scratch[blockIdx.x], shared); });
+  return core::Done{};
+}
+
+core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, StreamHandle /*stream*/) {
   std::vector<GridScratch> scratch(shape.blocks);
   const bool has_thread_per_body = frame.body_count <= shape.all_threads();
   on_host::run(launch_of(shape), shape.shared_bytes, [&](unsigned char* shared) {

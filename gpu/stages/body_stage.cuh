@@ -4,7 +4,7 @@
 #include "core/method/contact_geometry.hpp"
 #include "core/method/integrate.hpp"
 #include "core/method/response.hpp"
-#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/grid_frame_view.hpp"
 #include "gpu/stages/broad/grid_stage.cuh"
 #include "gpu/stages/broad/octree_stage.cuh"
 #include "gpu/stages/grid/fetched.cuh"
@@ -82,7 +82,7 @@ __device__ inline std::uint64_t first_body(const GridPlaces& grid) {
 }
 
 // P(1) to P(3), P(5). Returns false, and has done nothing, behind an aborted frame.
-__device__ inline bool integrate(const GridPlaces& grid, const FrameView& f) {
+__device__ inline bool integrate(const GridPlaces& grid, const GridFrameView& f) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
   for (std::uint64_t i = first_body(grid); __any_sync(kFullWarp, i < f.body_count); i += grid.size()) {
     const auto body = static_cast<std::uint32_t>(min(i, std::uint64_t{f.body_count} - 1));

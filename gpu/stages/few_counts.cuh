@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "gpu/frame/frame_kernel.hpp"
-#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/small_frame_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/grid/grid_word.hpp"
 
@@ -22,7 +22,9 @@ struct FewCounts {
   unsigned long long marked = 0;
 
   // By levels below 0: of flat levels, none.
-  __device__ std::uint32_t confirmed(const FrameView& f) const { return are_levels_left(f) ? pairs - judged : judged; }
+  __device__ std::uint32_t confirmed(const SmallFrameView& f) const {
+    return are_levels_left(f) ? pairs - judged : judged;
+  }
 
   __device__ unsigned long long packed() const {
     return pairs | std::uint64_t{judged} << kPairBits | std::uint64_t{rests} << 2 * kPairBits;

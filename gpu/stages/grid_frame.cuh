@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/frame/frame_kernel.hpp"
-#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/grid_frame_view.hpp"
 #include "gpu/stages/broad/broad_stage.cuh"
 #include "gpu/stages/frame_report.cuh"
 #include "gpu/stages/grid/stage_clock.cuh"
@@ -76,7 +76,7 @@ __device__ inline bool resolve_by_one_block(const FrameView& f, const MeetingPai
 // half of the grid, a body a warp is work enough: a chain of contacts waits longer in warps where other threads resolve
 // theirs.
 template <bool kHasThreadPerBody>
-__device__ void resolve_by_many_blocks(const FrameView& f, const MeetingPairs& pairs) {
+__device__ void resolve_by_many_blocks(const GridFrameView& f, const MeetingPairs& pairs) {
   const std::uint64_t work = max(pairs.count, std::uint64_t{f.body_count});
   const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
   const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
@@ -88,7 +88,7 @@ __device__ void resolve_by_many_blocks(const FrameView& f, const MeetingPairs& p
 // `shared`: what LaunchShape says, a block's own. kHasThreadPerBody: the grid has. Always inlined: a call would take
 // the view through memory.
 template <bool kHasThreadPerBody>
-__device__ __forceinline__ void run_grid_frame(const FrameView& f, GridScratch& scratch, unsigned char* shared) {
+__device__ __forceinline__ void run_grid_frame(const GridFrameView& f, GridScratch& scratch, unsigned char* shared) {
   const GridTeam grid(f.barrier);
   mark_begin(grid, f.outcome);
   if (!integrate(grid, f)) return;

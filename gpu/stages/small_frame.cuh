@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/frame/frame_kernel.hpp"
-#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/small_frame_view.hpp"
 #include "gpu/stages/broad/few_stage.cuh"
 #include "gpu/stages/frame_report.cuh"
 #include "gpu/stages/grid/stage_clock.cuh"
@@ -24,7 +24,7 @@ struct SmallScratch {
 };
 
 // By one thread, when no other adds to the tally any more. The tally is cleared for the next frame.
-__device__ inline void report_small(const FrameView& f, const Counters& counters, const FewCounts& few,
+__device__ inline void report_small(const SmallFrameView& f, const Counters& counters, const FewCounts& few,
                                     bool is_aborted) {
   f.barrier[1] = 0;
   *f.given_out = 0;
@@ -33,7 +33,7 @@ __device__ inline void report_small(const FrameView& f, const Counters& counters
 }
 
 // Pairs that were counted in the tally, as counters. The counters in memory are clear until the frame is reported.
-__device__ inline Counters counters_of(const FrameView& f, const FewCounts& few) {
+__device__ inline Counters counters_of(const SmallFrameView& f, const FewCounts& few) {
   Counters counters;
   counters.pairs = few.pairs;
   counters.confirmed = few.confirmed(f);
@@ -42,7 +42,7 @@ __device__ inline Counters counters_of(const FrameView& f, const FewCounts& few)
 
 // By all threads, when there is no room for so many pairs, or confirmed pairs. The grid waits first: a block that read
 // a cleared tally would not abort, and would wait for the others for ever.
-__device__ inline void abort_small(const GridTeam& grid, const FrameView& f, const FewCounts& few,
+__device__ inline void abort_small(const GridTeam& grid, const SmallFrameView& f, const FewCounts& few,
                                    std::uint64_t confirmed) {
   grid.sync();
   if (blockIdx.x != 0 || threadIdx.x != 0) return;
@@ -52,7 +52,7 @@ __device__ inline void abort_small(const GridTeam& grid, const FrameView& f, con
 }
 
 // Contacts and faces, by all threads of one block.
-__device__ inline void resolve_small(const FrameView& f, const MeetingPairs& pairs, const FewCounts& few,
+__device__ inline void resolve_small(const SmallFrameView& f, const MeetingPairs& pairs, const FewCounts& few,
                                      SmallScratch& scratch, unsigned char* shared) {
   if (BlockRoom::fits(f, pairs.count)) {
     if (threadIdx.x == 0) scratch.counters = counters_of(f, few);
@@ -74,7 +74,7 @@ __device__ inline void resolve_small(const FrameView& f, const MeetingPairs& pai
 
 // `shared`: what LaunchShape says, a block's own, and BlockShapes behind it. Always inlined: a call would take the view
 // through memory.
-__device__ __forceinline__ void run_small_frame(const FrameView& f, SmallScratch& scratch, unsigned char* shared) {
+__device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallScratch& scratch, unsigned char* shared) {
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);
   // Until the frame before has ended, nothing is read that it writes.
   scratch.proximity.clear();

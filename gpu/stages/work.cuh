@@ -64,7 +64,7 @@ __device__ inline void count_broad_work(const BroadWorkView& view, ManyNotes& ro
 __device__ inline void count_level_work(const LevelWorkView& view) {
   const GridPlaces grid;
   Counted work;
-  if (view.frame.broad.start == Start::kNone)
+  if (view.start == Start::kNone)
     confirm_by_brute_force(grid, view.frame, work);
   else
     confirm_pairs(grid, view.frame, work);

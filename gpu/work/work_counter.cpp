@@ -21,10 +21,11 @@ core::Status WorkCounter::count_broad(const BroadWorkView& view, std::uint32_t m
   return wait_for_stream(stream, "counting the broad phase's work");
 }
 
-core::Status WorkCounter::count_levels(const FrameView& frame, std::uint32_t multiprocessors, StreamHandle stream) {
+core::Status WorkCounter::count_levels(const FrameView& frame, Start start, std::uint32_t multiprocessors,
+                                       StreamHandle stream) {
   if (!is_asked_) return core::Done{};
   has_levels_ = true;
-  LevelWorkView view{frame, work_.data()};
+  LevelWorkView view{frame, start, work_.data()};
   view.frame.confirmed = {};
   view.frame.counters = counters_.data();
   BROADSIDE_TRY(copy_on_device(counters_.data(), frame.counters, sizeof(Counters), stream));

@@ -19,7 +19,7 @@ class WorkCounter {
 
   // After a frame or a search that was not aborted, before the next; where nobody asked they do nothing. They wait.
   core::Status count_broad(const BroadWorkView& view, std::uint32_t multiprocessors, StreamHandle stream);
-  core::Status count_levels(const FrameView& frame, std::uint32_t multiprocessors, StreamHandle stream);
+  core::Status count_levels(const FrameView& frame, Start start, std::uint32_t multiprocessors, StreamHandle stream);
 
   // Behind the others, what was counted. Waits.
   void tell(std::vector<core::Counter>& counters) const;

@@ -34,6 +34,7 @@ core::Status launch_broad_work(const BroadWorkView& view, std::uint32_t multipro
 // copy of the frame's: they are written.
 struct LevelWorkView {
   FrameView frame;
+  Start start = Start::kNone;
   Work* work = nullptr;
 };
 core::Status launch_level_work(const LevelWorkView& view, std::uint32_t multiprocessors, StreamHandle stream);

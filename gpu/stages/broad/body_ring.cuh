@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "gpu/frame/ring_shares.hpp"
 #include "gpu/frame/small_divisor.hpp"
 #include "gpu/stages/grid/team.cuh"
 

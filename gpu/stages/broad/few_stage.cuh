@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/method/levels.hpp"
-#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/small_frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/broad/body_ring.cuh"
 #include "gpu/stages/few_counts.cuh"
@@ -19,7 +19,7 @@ constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 // A warp's item of the ring at a time: a body and those that it may meet there, a lane each.
 class FewItem {
  public:
-  __device__ FewItem(const GridPlaces& team, const FrameView& f)
+  __device__ FewItem(const GridPlaces& team, const SmallFrameView& f)
       : ring_(f.body_count, f.ring_share, f.ring_shares),
         item_(static_cast<std::uint32_t>(team.spread_rank() / 32)),
         stride_(static_cast<std::uint32_t>(warp_count(team))) {
@@ -45,7 +45,7 @@ class FewItem {
 };
 
 // By a whole warp, of a pair that level 0 found.
-__device__ inline bool is_confirmed_few(const FrameView& f, const ShapesInBlock& shapes, const PlacedShape& a,
+__device__ inline bool is_confirmed_few(const SmallFrameView& f, const ShapesInBlock& shapes, const PlacedShape& a,
                                         const PlacedShape& b) {
   Uncounted work;
   if (!shapes.has_octrees()) return are_levels_overlapping<2>(f, OctreesInMemory{f.shapes.octree}, a, b, work);
@@ -55,7 +55,7 @@ __device__ inline bool is_confirmed_few(const FrameView& f, const ShapesInBlock&
 
 // Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet. Of the bodies of an item,
 // before the frame.
-__device__ inline void find_few(const FrameView& f, const ShapesInBlock& shapes,
+__device__ inline void find_few(const SmallFrameView& f, const ShapesInBlock& shapes,
                                 const BodyRing<SmallDivisor>::Meeting& at, const BodyBefore& before_i,
                                 const BodyBefore& before_j) {
   const BodyAtDetection now_i(f, at.i, before_i);
@@ -93,8 +93,8 @@ __device__ inline void find_few(const FrameView& f, const ShapesInBlock& shapes,
 // Bodies are integrated, and pairs found without waiting for that: where there are few, whoever looks at two of them
 // works out for itself where they are. Returns false, and has done nothing, behind an aborted frame.
 // `item`: the warp's first.
-__device__ inline bool integrate_and_find_few(const GridTeam& team, const FrameView& f, const ShapesInBlock& shapes,
-                                              FewItem item) {
+__device__ inline bool integrate_and_find_few(const GridTeam& team, const SmallFrameView& f,
+                                              const ShapesInBlock& shapes, FewItem item) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
   const std::uint64_t first = first_body(team);
   // All of it is asked for before any of it is looked at.
@@ -135,8 +135,9 @@ __device__ inline bool integrate_and_find_few(const GridTeam& team, const FrameV
 class FewLevels {
  public:
   static constexpr bool kAreOfFewBodies = true;
+  using View = SmallFrameView;
 
-  __device__ FewLevels(const FrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
+  __device__ FewLevels(const SmallFrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
 
   // By one warp of the block, if any of it will look(): before that one does, and when it is done.
   __device__ void begin() const { shapes_.begin_octrees(f_); }
@@ -151,7 +152,7 @@ class FewLevels {
   }
 
  private:
-  const FrameView& f_;
+  const SmallFrameView& f_;
   const ShapesInBlock& shapes_;
 };
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "core/math/box.hpp"
-#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/measured_pair.hpp"
+#include "gpu/frame/placed_shape.hpp"
 #include "gpu/frame/search_rest.hpp"
 #include "gpu/scene/packed_box.hpp"
 #include "gpu/stages/grid/device.cuh"

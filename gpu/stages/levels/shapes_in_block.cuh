@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/method/levels.hpp"
-#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/small_frame_view.hpp"
 #include "gpu/stages/grid/fetched.cuh"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/levels/shape_headers.cuh"
@@ -23,7 +23,8 @@ struct alignas(16) BlockShapes {
 // Asked for while bodies are integrated, octrees only where levels come first: waited for where a pair goes down them.
 class ShapesInBlock {
  public:
-  __device__ ShapesInBlock(const FrameView& f, unsigned char* shared, BlockCopy& octree_copy, BlockCopy& upper_copy)
+  __device__ ShapesInBlock(const SmallFrameView& f, unsigned char* shared, BlockCopy& octree_copy,
+                           BlockCopy& upper_copy)
       : room_(reinterpret_cast<BlockShapes*>(shared + f.block_bytes)),
         octree_copy_(octree_copy),
         upper_copy_(upper_copy),
@@ -34,7 +35,7 @@ class ShapesInBlock {
 
   __device__ bool has_octrees() const { return has_octrees_; }
   // By all threads of the block; one warp does it. Before the block meets and after it.
-  __device__ void begin(const FrameView& f) const {
+  __device__ void begin(const SmallFrameView& f) const {
     if (!is_ours()) return;
     if (has_octrees_ && lane() == 0) octree_copy_.init();
     if (has_upper_ && lane() == 0) upper_copy_.init();
@@ -44,11 +45,11 @@ class ShapesInBlock {
     copy(room_->trees, f.shapes.trees, f.shapes.count);
     copy(room_->cells, f.shapes.near_cells, f.shapes.count);
   }
-  __device__ void end(const FrameView& f) const {
+  __device__ void end(const SmallFrameView& f) const {
     if (f.are_levels_first && is_ours()) end_octrees();
   }
   // Upper nodes, asked for when bodies are there, by all threads of the block; and before anybody leaves it.
-  __device__ void begin_upper(const FrameView& f) const {
+  __device__ void begin_upper(const SmallFrameView& f) const {
     if (has_upper_ && is_ours())
       upper_copy_.begin(room_->upper, f.shapes.tree_upper, f.shapes.tree_upper_count * sizeof(PackedBox));
   }
@@ -56,7 +57,7 @@ class ShapesInBlock {
     if (has_upper_ && is_ours()) upper_copy_.wait();
   }
   // The same of octrees alone, once a launch, by one warp: before anybody waits for them, and before it leaves.
-  __device__ void begin_octrees(const FrameView& f) const {
+  __device__ void begin_octrees(const SmallFrameView& f) const {
     if (has_octrees_)
       octree_copy_.begin(room_->octree, f.shapes.octree, f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox));
   }
@@ -66,7 +67,7 @@ class ShapesInBlock {
 
   __device__ void wait() const { octree_copy_.wait(); }
   __device__ core::Box at(std::uint32_t k) const { return fetched(room_->octree + k); }
-  __device__ ShapeHeaders headers(const FrameView& f) const {
+  __device__ ShapeHeaders headers(const SmallFrameView& f) const {
     if (!are_there_) return {f.shapes.trees, f.shapes.near_cells, f.shapes.tree_upper, nullptr};
     if (!has_upper_) return {room_->trees, room_->cells, f.shapes.tree_upper, nullptr};
     return {room_->trees, room_->cells, room_->upper, &upper_copy_};

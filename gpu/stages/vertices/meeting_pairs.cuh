@@ -4,6 +4,7 @@
 #include "core/method/proximity.hpp"
 #include "core/pair.hpp"
 #include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/measured_pair.hpp"
 #include "gpu/stages/grid/fetched.cuh"
 #include "gpu/stages/grid/team.cuh"
 

@@ -44,6 +44,7 @@ __device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, s
 // Where nothing is ever left to be found out about pairs but how near they are; otherwise FewLevels.
 struct NoLevels {
   static constexpr bool kAreOfFewBodies = false;
+  using View = FrameView;
 
   __device__ void begin() const {}
   __device__ void end() const {}
@@ -53,8 +54,10 @@ struct NoLevels {
 template <typename Levels>
 class ProximityStage {
  public:
-  __device__ ProximityStage(const FrameView& f, const ShapeHeaders& headers, const Levels& levels,
-                            const MeetingPairs& pairs, ProximityScratch& scratch, void* stacks)
+  using View = typename Levels::View;
+
+  __device__ ProximityStage(const View& f, const ShapeHeaders& headers, const Levels& levels, const MeetingPairs& pairs,
+                            ProximityScratch& scratch, void* stacks)
       : f_(f), headers_(headers), levels_(levels), pairs_(pairs), scratch_(scratch), stacks_(stacks) {}
 
   // When there are fewer pairs than warps, several warps of a block share a pair, and where levels are left so many
@@ -135,7 +138,10 @@ class ProximityStage {
 
   // How many pairs were given out to warps.
   __device__ unsigned long long* given_out() const {
-    return Levels::kAreOfFewBodies ? f_.given_out : &f_.counters->measured;
+    if constexpr (Levels::kAreOfFewBodies)
+      return f_.given_out;
+    else
+      return &f_.counters->measured;
   }
 
   // There are as many teams as pairs, or more. Where levels are left, the warps of those that have no pair see to them.
@@ -236,7 +242,7 @@ class ProximityStage {
   __device__ static std::uint32_t rounds_of_team(const TreePair& trees) { return trees.upper_level() >= 3 ? 2 : 3; }
   static constexpr std::uint32_t kRoundsOfBlock = 8;
 
-  const FrameView& f_;
+  const View& f_;
   ShapeHeaders headers_;
   const Levels& levels_;
   const MeetingPairs& pairs_;

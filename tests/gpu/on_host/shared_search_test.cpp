@@ -32,7 +32,7 @@ TEST(FewCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
 
 TEST(FewCounts, OfLevelsThatAreLeftTheRejectedAreCounted) {
   const FewCounts counts{10, 4, 0};
-  FrameView view;
+  SmallFrameView view;
   view.levels = core::Levels::kC;
   EXPECT_EQ(counts.confirmed(view), 6U);
   view.are_levels_first = true;

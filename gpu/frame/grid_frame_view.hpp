@@ -1,0 +1,14 @@
+// What the kernels of grid frames are given, by value.
+#pragma once
+
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/frame/frame_view.hpp"
+
+namespace broadside::gpu {
+
+struct GridFrameView : FrameView {
+  BroadView broad;
+  LiveBody* live = nullptr;  // [bodies] where one block does not resolve them in its shared memory
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,30 @@
+// What the kernel of small frames is given, by value.
+#pragma once
+
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/measured_pair.hpp"
+#include "gpu/frame/search_rest.hpp"
+#include "gpu/frame/small_divisor.hpp"
+
+namespace broadside::gpu {
+
+struct SmallFrameView : FrameView {
+  // The levels below 0 are tested where pairs are found, not while their vertices are searched.
+  bool are_levels_first = false;
+  std::uint32_t ring_share = 1;  // places of the ring that a warp takes
+  SmallDivisor ring_shares;      // by ring_shares() of them: made on the host, as all warps would wait for the division
+  MeasuredPair* measured = nullptr;         // one per pair whose vertices are searched
+  PlacedPair* placed = nullptr;             // likewise; PlacedShape::kNone between frames
+  unsigned long long* given_out = nullptr;  // pairs that warps took to search; zero between frames
+  RestsView rests[2];
+};
+
+// Whether the vertex stage is given pairs whose levels are still to be tested.
+BROADSIDE_HD bool are_levels_left(const SmallFrameView& f) {
+  return f.levels != core::Levels::kFlat && !f.are_levels_first;
+}
+
+}  // namespace broadside::gpu
