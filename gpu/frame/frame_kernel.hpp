@@ -19,7 +19,7 @@ namespace broadside::gpu {
 // How a kernel fits this GPU.
 struct LaunchShape {
   std::uint32_t threads = 0;  // of a block; a power of two of warps
-  std::uint32_t blocks = 0;   // that are resident at once: all of them meet at barriers
+  std::uint32_t blocks = 0;   // that are resident at once: barriers wait for all of them
   std::uint32_t shared_bytes = 0;
   std::uint32_t multiprocessors = 0;
 
@@ -60,7 +60,7 @@ struct PairsView {
   ManyView many;  // where the start is Start::kMany
   AppendView<core::Pair> pairs;
   Counters* counters = nullptr;
-  unsigned long long* barrier = nullptr;  // the word where the grid meets
+  unsigned long long* barrier = nullptr;  // the barrier word
   Outcome* outcome = nullptr;
 };
 struct PairsShape {

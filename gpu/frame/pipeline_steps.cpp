@@ -5,7 +5,7 @@
 
 namespace broadside::gpu {
 
-// Few blocks meet sooner at a barrier; more than one a multiprocessor pays when there is work for them, as there is
+// A barrier of few blocks is faster; more than one a multiprocessor pays when there is work for them, as there is
 // where all levels are tested for all pairs.
 LaunchShape Pipeline::Impl::frame_shape() const {
   LaunchShape shape = launch;

@@ -1,5 +1,5 @@
 // The part of CUDA's device language that the stages use, for the host's compiler: the threads of a kernel are fibers
-// of one OS thread (fibers.hpp), and every barrier, vote and shuffle is a place where they meet. Slow and exact: a
+// of one OS thread (fibers.hpp), and every barrier, vote and shuffle waits for all of them. Slow and exact: a
 // missing participant is a deadlock that is reported, and the order in which fibers run is shuffled by a seed.
 #pragma once
 
@@ -48,15 +48,15 @@ inline void let_next_launch_begin() {}
 class GridBarrier {
  public:
   explicit GridBarrier(unsigned long long* word) : word_(word) {}
-  void meet() {
+  void sync() {
     if (threadIdx.x == 0) *word_ += GridWord::share(blockIdx.x, gridDim.x);
-    on_host::meet_grid();
+    on_host::sync_grid();
   }
-  GridTally meet_and_ask(GridTally* /*in_block*/, bool /*is_loose*/) {
-    meet();
+  GridTally sync_and_read(GridTally* /*in_block*/, bool /*is_loose*/) {
+    sync();
     const GridTally tally{word_[0] & GridWord::kTally, word_[1]};
     // Nobody goes on to change it before all have seen it.
-    on_host::meet_grid();
+    on_host::sync_grid();
     return tally;
   }
 
@@ -64,14 +64,14 @@ class GridBarrier {
   unsigned long long* word_;
 };
 inline void __syncthreads() {
-  on_host::meet_block(false);
+  on_host::sync_block(false);
 }
 // Blocks have two warps: a team of more than one is the block.
 inline void sync_warps(std::uint32_t /*team*/, std::uint32_t /*warps*/) {
-  on_host::meet_block(false);
+  on_host::sync_block(false);
 }
 inline int __syncthreads_or(int value) {
-  return on_host::meet_block(value != 0) ? 1 : 0;
+  return on_host::sync_block(value != 0) ? 1 : 0;
 }
 inline void __syncwarp() {
   on_host::exchange(0);

@@ -14,15 +14,15 @@ namespace broadside::gpu::on_host {
 namespace {
 
 constexpr std::size_t kStackBytes = 128 * 1024;
-// Rounds over all fibers without one of them meeting, returning or being let go: far more than any spin needs.
+// Rounds over all fibers in which no barrier opened and no fiber returned: far more than any spin needs.
 constexpr std::uint64_t kMostIdleRounds = 1'000'000;
 
-// A meeting of a fixed number of fibers, again and again. Two sets of slots in turn: nobody can bring a value to the
-// meeting after next before all have left this one.
-struct Meeting {
+// A barrier for a fixed number of fibers, used again and again. It has two sets of slots in turn: no fiber can write a
+// value for the barrier after next before all have left this one.
+struct Barrier {
   unsigned members = 0;
   unsigned arrived = 0;
-  std::uint64_t held = 0;  // meetings so far
+  std::uint64_t passed = 0;  // how often all were there
   bool any[2] = {};
   std::uint64_t slots[2][32] = {};
 };
@@ -38,9 +38,9 @@ struct Grid {
   Launch launch;
   const std::function<void(unsigned char*)>* body = nullptr;
   std::vector<Fiber> fibers;
-  std::vector<Meeting> warps;
-  std::vector<Meeting> blocks;
-  Meeting all;
+  std::vector<Barrier> warps;
+  std::vector<Barrier> blocks;
+  Barrier all;
   std::vector<std::vector<unsigned char>> shared;
   ucontext_t scheduler;
   Fiber* running = nullptr;
@@ -57,16 +57,16 @@ void enter() {
   yield();
 }
 
-void meet(Meeting& meeting) {
-  const std::uint64_t held = meeting.held;
-  if (++meeting.arrived == meeting.members) {
-    meeting.arrived = 0;
-    ++meeting.held;
-    meeting.any[meeting.held % 2] = false;  // of the next one
+void wait_at(Barrier& barrier) {
+  const std::uint64_t passed = barrier.passed;
+  if (++barrier.arrived == barrier.members) {
+    barrier.arrived = 0;
+    ++barrier.passed;
+    barrier.any[barrier.passed % 2] = false;  // of the next one
     ++grid->events;
     return;
   }
-  while (meeting.held == held) yield();
+  while (barrier.passed == passed) yield();
 }
 
 std::uint64_t scrambled(std::uint64_t& state) {
@@ -122,8 +122,8 @@ void run(const Launch& launch, std::size_t shared_bytes, const std::function<voi
   own.blocks.resize(launch.grid_size.x);
   // What a kernel reads before it was written is not zero by chance.
   own.shared.assign(launch.grid_size.x, std::vector<unsigned char>(shared_bytes + 1, 0xA5));
-  for (Meeting& warp : own.warps) warp.members = 32;
-  for (Meeting& block : own.blocks) block.members = launch.block_size.x;
+  for (Barrier& warp : own.warps) warp.members = 32;
+  for (Barrier& block : own.blocks) block.members = launch.block_size.x;
   own.all.members = threads;
   grid = &own;
   for (unsigned k = 0; k < threads; ++k) {
@@ -148,24 +148,24 @@ void yield() {
   swapcontext(&own.context, &grid->scheduler);
 }
 
-void meet_grid() {
-  meet(grid->all);
+void sync_grid() {
+  wait_at(grid->all);
 }
 
-bool meet_block(bool value) {
-  Meeting& block = grid->blocks[self().block.x];
-  const std::size_t set = block.held % 2;
+bool sync_block(bool value) {
+  Barrier& block = grid->blocks[self().block.x];
+  const std::size_t set = block.passed % 2;
   block.any[set] = block.any[set] || value;
-  meet(block);
+  wait_at(block);
   return block.any[set];
 }
 
 const std::uint64_t* exchange(std::uint64_t value) {
   const Place& own = self();
-  Meeting& warp = grid->warps[(own.block.x * grid->launch.block_size.x + own.thread.x) / 32];
-  std::uint64_t* slots = warp.slots[warp.held % 2];
+  Barrier& warp = grid->warps[(own.block.x * grid->launch.block_size.x + own.thread.x) / 32];
+  std::uint64_t* slots = warp.slots[warp.passed % 2];
   slots[own.thread.x % 32] = value;
-  meet(warp);
+  wait_at(warp);
   return slots;
 }
 

@@ -23,18 +23,18 @@ struct Place {
   Index block;
 };
 
-// Runs `body` once per thread, with its block's `shared_bytes` of shared memory, until all have returned. A meeting
-// that can never be complete ends the program with a line that says so. Not re-entrant.
+// Runs `body` once per thread, with its block's `shared_bytes` of shared memory, until all have returned. A barrier
+// that some thread never reaches ends the program with a line that says so. Not re-entrant.
 void run(const Launch& launch, std::size_t shared_bytes, const std::function<void(unsigned char* shared)>& body);
 
 // For code that runs in a fiber.
 const Place& self();
 const Launch& launch();
 void yield();
-void meet_grid();
+void sync_grid();
 // True when any thread of the block brought true.
-bool meet_block(bool value);
-// Meets the warp; the values that its 32 lanes brought, good until the warp meets once more.
+bool sync_block(bool value);
+// Waits for the warp. Returns the values of its 32 lanes, which are good until the next call but one.
 const std::uint64_t* exchange(std::uint64_t value);
 std::uint64_t now_ns();
 

@@ -1,4 +1,4 @@
-// How a kernel whose threads all meet at barriers fits this GPU, and its launch.
+// How a kernel with barriers over its whole grid fits this GPU, and its launch.
 #pragma once
 
 #include "gpu/frame/frame_kernel.hpp"

@@ -1,4 +1,4 @@
-// What is counted in a frame of few bodies while the grid meets.
+// What a small frame counts in the tally of its barrier word.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace broadside::gpu {
 
-// In the tally beside the grid's barrier: one addition takes room in several lists, and whoever has met knows all.
+// One addition to the tally takes places in several lists, and every block knows all counts after the barrier.
 struct FewCounts {
   // From here on nobody asks: those who do at the same time still fit.
   static constexpr std::uint32_t kMostRests = 1U << 13;

@@ -88,7 +88,7 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
   shapes.end(f);
   if (!is_needed) return;
   // With a vertex stage there is another barrier before anything of this is read but where a pair's bodies are.
-  FewCounts few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally, f.has_vertex_stage));
+  FewCounts few = FewCounts::unpacked(grid.sync_and_read(&scratch.tally, f.has_vertex_stage));
   mark_end(grid, f.outcome, core::Stage::kBroad);
   shapes.end_upper();
   if (few.pairs > f.pairs.capacity) return abort_small(grid, f, few, 0);
@@ -107,7 +107,7 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
     const ProximityStage stage(f, shapes.headers(f), levels, meeting, scratch.proximity, shared);
     if (confirmed > 0) stage.run();
     stage.share_rests([&] {
-      few = FewCounts::unpacked(grid.sync_and_ask(&scratch.tally));
+      few = FewCounts::unpacked(grid.sync_and_read(&scratch.tally));
       return few;
     });
   }

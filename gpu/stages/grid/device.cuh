@@ -45,21 +45,21 @@ __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awa
   } while (seen < awaited);
 }
 
-// Where all blocks of a cooperative launch meet, by way of one word (grid_word.hpp): zero before its first launch, and
-// of one launch at a time. What its highest bit was is asked for when the launch begins, before anybody can have
-// flipped it: at a meeting a block waits for one thing alone. Whoever has met knows the tally.
+// A barrier for all blocks of a launch, which must be resident together. It counts on one word (grid_word.hpp) that is
+// zero before the first launch and serves one launch at a time. A block loads the word when the launch begins, before
+// any block can flip its highest bit; so at the barrier it waits for one load alone, until that bit differs.
 class GridBarrier {
  public:
   __device__ explicit GridBarrier(unsigned long long* word) : word_(word) {
     if (threadIdx.x == 0) asm volatile("ld.relaxed.gpu.global.u64 %0, [%1];" : "=l"(seen_) : "l"(word) : "memory");
   }
 
-  // Orders memory over the grid. By all threads.
-  __device__ void meet() { arrive_and_wait_for_all(nullptr, false); }
-  // The same, and returns the tally and the word behind it. `in_block`: of the block's shared memory, used by nobody
-  // else. If `is_loose`, of what was written before, nothing but these two words need be there yet, which spares the
-  // wait until it is: until a later meeting others may look at words alone that say so themselves (GridWords).
-  __device__ GridTally meet_and_ask(GridTally* in_block, bool is_loose) {
+  // Waits for all blocks; what any thread wrote before is visible to all threads after. By all threads.
+  __device__ void sync() { arrive_and_wait_for_all(nullptr, false); }
+  // The same, and returns the tally and the word behind it. `in_block`: in the block's shared memory, for this alone.
+  // If `is_loose`, only these two words are sure to be visible, and the barrier does not wait for other writes: until a
+  // later barrier, threads may read of them only words that say themselves whether they are there (GridWords).
+  __device__ GridTally sync_and_read(GridTally* in_block, bool is_loose) {
     arrive_and_wait_for_all(in_block, is_loose);
     return *in_block;
   }

@@ -1,5 +1,5 @@
-// The word of global memory by which the blocks of a grid meet: the shares of all of them together flip the highest bit
-// and leave the others as they were, so nobody resets anything.
+// The word of global memory on which a grid's barrier counts. Every block adds its share: all shares together flip the
+// highest bit and leave the other bits as they were, so the word needs no reset.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace broadside::gpu {
 
 struct GridWord {
-  // The lowest bits are for something else that is added up.
+  // The lowest bits hold the tally: counts that blocks add before they arrive.
   static constexpr unsigned long long kTally = (1ULL << 48) - 1;
   static constexpr unsigned long long kArrival = kTally + 1;
   static constexpr unsigned long long kFlipped = 1ULL << 63;
@@ -19,7 +19,7 @@ struct GridWord {
   }
 };
 
-// What whoever has met knows, of one moment: the lowest bits of the word, and the word behind it.
+// What every block reads when the barrier releases, in one access: the tally, and the word behind the barrier word.
 struct GridTally {
   unsigned long long tally = 0;
   unsigned long long behind = 0;

@@ -9,7 +9,7 @@ namespace broadside::gpu {
 
 constexpr unsigned kFullWarp = 0xFFFFFFFFU;
 
-// The grid of a kernel whose threads do not meet.
+// The grid of a kernel that has no barrier.
 struct GridPlaces {
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
   // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
@@ -24,10 +24,10 @@ class GridTeam : public GridPlaces {
  public:
   // `barrier`: the word of GridBarrier.
   __device__ explicit GridTeam(unsigned long long* barrier) : barrier_(barrier) {}
-  __device__ void sync() const { barrier_.meet(); }
-  // The same; returns what was told beside the barrier. `is_loose`: without making writes visible.
-  __device__ GridTally sync_and_ask(GridTally* in_block, bool is_loose = false) const {
-    return barrier_.meet_and_ask(in_block, is_loose);
+  __device__ void sync() const { barrier_.sync(); }
+  // The same; returns the tally and the word behind it. `is_loose`: as for GridBarrier.
+  __device__ GridTally sync_and_read(GridTally* in_block, bool is_loose = false) const {
+    return barrier_.sync_and_read(in_block, is_loose);
   }
 
  private:
@@ -42,12 +42,12 @@ struct BlockTeam {
   __device__ void sync() const { __syncthreads(); }
 };
 
-// The first blocks of a grid whose others have nothing left to do: fewer arrivals, sooner together. `arrived` starts at
-// zero and only grows.
+// The first blocks of a grid whose others have ended: a barrier of fewer blocks is faster. `arrived` starts at zero and
+// counts all arrivals of the launch.
 struct PartialGridTeam {
   std::uint32_t blocks = 1;
   std::uint32_t* arrived = nullptr;
-  mutable std::uint32_t meetings = 0;
+  mutable std::uint32_t syncs = 0;
 
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
   // As in GridPlaces.
@@ -62,9 +62,9 @@ struct PartialGridTeam {
   }
   __device__ std::uint64_t size() const { return std::uint64_t{blocks} * blockDim.x; }
   __device__ void sync() const {
-    ++meetings;
+    ++syncs;
     __syncthreads();
-    if (threadIdx.x == 0) arrive_and_wait(arrived, meetings * blocks);
+    if (threadIdx.x == 0) arrive_and_wait(arrived, syncs * blocks);
     __syncthreads();
   }
 };

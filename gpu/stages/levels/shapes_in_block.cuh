@@ -34,7 +34,7 @@ class ShapesInBlock {
                    f.shapes.tree_upper_count <= BlockShapes::kMostUpper) {}
 
   __device__ bool has_octrees() const { return has_octrees_; }
-  // By all threads of the block; one warp does it. Before the block meets and after it.
+  // By all threads of the block; one warp does it. begin() before a barrier of the block, end() after it.
   __device__ void begin(const SmallFrameView& f) const {
     if (!is_ours()) return;
     if (has_octrees_ && lane() == 0) octree_copy_.init();
@@ -74,7 +74,7 @@ class ShapesInBlock {
   }
 
  private:
-  // Neither the first warp, which meets for the block, nor the last, which has bodies.
+  // Neither the first warp, which waits at the grid's barrier, nor the last, which has bodies.
   __device__ static bool is_ours() { return threadIdx.x / 32 == blockDim.x / 64; }
 
   // By the warp, word by word: headers are no multiple of anything larger.

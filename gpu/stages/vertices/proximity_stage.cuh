@@ -82,17 +82,17 @@ class ProximityStage {
 
   // Of few bodies, what teams handed over, shared by the whole grid, until nothing is handed over any more. `meet`: the
   // grid does; returns FewCounts since the frame began.
-  template <typename Meet>
-  __device__ void share_rests(const Meet& meet) const {
+  template <typename Sync>
+  __device__ void share_rests(const Sync& sync) const {
     std::uint32_t before = 0;
     std::uint32_t turn = 0;
-    FewCounts met = meet();
-    for (bool is_marked = met.marked != 0; is_marked || met.rests > before; ++turn) {
-      const std::uint32_t count = is_marked ? __popcll(met.marked) : min(met.rests - before, most_rests());
-      before = met.rests;
-      search_part(f_.rests[turn % 2], count, is_marked ? met.marked : 0, f_.rests[(turn + 1) % 2], before);
+    FewCounts counts = sync();
+    for (bool is_marked = counts.marked != 0; is_marked || counts.rests > before; ++turn) {
+      const std::uint32_t count = is_marked ? __popcll(counts.marked) : min(counts.rests - before, most_rests());
+      before = counts.rests;
+      search_part(f_.rests[turn % 2], count, is_marked ? counts.marked : 0, f_.rests[(turn + 1) % 2], before);
       is_marked = false;
-      met = meet();
+      counts = sync();
     }
   }
 
@@ -201,7 +201,7 @@ class ProximityStage {
     if (best.is_touching() && __float_as_uint(best.squared_distance_m2) == scratch_.bound[team])
       atomicMin(&scratch_.nearest[team], static_cast<unsigned long long>(best.vertex_a) << 32 | best.vertex_b);
   }
-  // When all have told and the block has met.
+  // When all have told and the block has counts.
   __device__ core::Proximity nearest_of_team(std::uint32_t team) const {
     const unsigned long long vertices = scratch_.nearest[team];
     if (vertices == ProximityScratch::kNoVertices) return {};
@@ -209,7 +209,7 @@ class ProximityStage {
             static_cast<std::uint32_t>(vertices)};
   }
 
-  // These two return each lane's nearest, when the team has met.
+  // These two return each lane's nearest, when the team has counts.
   __device__ core::Proximity nearest_by_cells(const PlacedPair& bodies, bool is_asked_by_j, std::uint32_t team,
                                               const WarpShare& share) const {
     const core::Proximity best = Cells(f_, headers_, bodies, is_asked_by_j,

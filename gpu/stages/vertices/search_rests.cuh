@@ -94,8 +94,8 @@ struct NoRest {
 // A block's part of one of so many rests: every so-manieth entry, those that were opened last at the end.
 class RestPart {
  public:
-  // By all threads of a block, which are the team and meet afterwards. `marked`: the places of the rests, or 0: the
-  // first ones.
+  // By all threads of a block, which are the team; a barrier of the block must follow. `marked`: the places of the
+  // rests, or 0: the first ones.
   __device__ RestPart(const RestsView& rests, std::uint32_t count, unsigned long long marked, const SearchTeam& team) {
     const SmallDivisor by_count(count);
     const std::uint32_t part = by_count.quotient(blockIdx.x);
