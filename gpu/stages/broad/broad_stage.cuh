@@ -11,7 +11,8 @@
 
 namespace broadside::gpu {
 
-// A box's part in what must be counted before anything is placed; the team meets before find_candidates.
+// A box's part in what must be counted before anything is placed; a barrier of the team must follow before
+// find_candidates.
 __device__ inline void count_box(const BroadView& b, std::uint64_t body, const core::Box& box) {
   if (b.start == Start::kGrid) grid_count(b.grid, body, box);
   if (b.start == Start::kOctree) octree_count(b.octree, body, box);

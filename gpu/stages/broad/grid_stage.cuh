@@ -240,7 +240,7 @@ class RunsOfGroup {
 
 // One box of each group against the runs that its lanes hold, an entry a lane at a time.
 template <std::uint32_t kGroup, typename Work>
-__device__ void meet_runs(const GridView& g, const PackedBox& q, const EntryRun& run, WarpQueue& queue, Work& work) {
+__device__ void test_runs(const GridView& g, const PackedBox& q, const EntryRun& run, WarpQueue& queue, Work& work) {
   if (!__any_sync(kFullWarp, run.end > run.begin)) return;
   const RunsOfGroup<kGroup> runs(run);
   for (std::uint32_t t = lane() % kGroup; __any_sync(kFullWarp, t < runs.total()); t += kGroup) {
@@ -294,7 +294,7 @@ __device__ void grid_find_by(const Team& team, const GridView& g, std::uint32_t 
             has_run = search.next_run(g, row, x, run);
             work.node();
           }
-          meet_runs<kGroup>(g, q, run, queue, work);
+          test_runs<kGroup>(g, q, run, queue, work);
         } while (__any_sync(kFullWarp, has_run));
       }
     }

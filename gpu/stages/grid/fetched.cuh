@@ -51,8 +51,8 @@ __device__ inline PlacedPair fetched(const PlacedPair* from) {
   return {fetched(&from->i), fetched(&from->j)};
 }
 
-// A pair that others may look at before the grid has met so that writes are visible: two words, each whole, that are
-// none until then. Whoever has put it is known to have.
+// A pair that other blocks may read after a loose barrier, when it is sure to be written but perhaps not visible: two
+// words, each written whole, whose shape is PlacedShape::kNone until then.
 __device__ inline void put(PlacedPair* to, const PlacedPair& pair) {
   const auto word = [](const PlacedShape& s) {
     return uint4{__float_as_uint(s.x.x), __float_as_uint(s.x.y), __float_as_uint(s.x.z), s.shape};

@@ -95,7 +95,7 @@ __device__ bool descends(const Octrees& octrees, const PlacedShape& a, const Pla
 
 // core::level2_overlaps by a warp: all pairs, two boxes of A a lane against each box of B.
 template <typename Work>
-__device__ bool level2_meets(const FrameView& f, const PlacedShape& a, const PlacedShape& b, Work& work) {
+__device__ bool level2_overlaps(const FrameView& f, const PlacedShape& a, const PlacedShape& b, Work& work) {
   const PackedBox* boxes_a = f.shapes.level2 + std::uint64_t{a.shape} * core::kLevelSize[2];
   const PackedBox* boxes_b = f.shapes.level2 + std::uint64_t{b.shape} * core::kLevelSize[2];
   const std::uint32_t count_a = f.shapes.level2_count[a.shape];
@@ -124,7 +124,7 @@ __device__ bool are_levels_overlapping(const FrameView& f, const Octrees& octree
       work.tests(EightByEight::kTestsOfLane);
       return first_level(octrees, a, b).hits().any();
     case core::Levels::kA:
-      return level2_meets(f, a, b, work);
+      return level2_overlaps(f, a, b, work);
     case core::Levels::kB:
     case core::Levels::kC:
       return descends<kAtOnce>(octrees, a, b, work);

@@ -22,7 +22,7 @@ __device__ inline std::uint32_t bin_of(std::uint32_t chunk, std::uint32_t begin)
   return begin / (kBoxesPerThread * blockDim.x) + chunk / kGroupChunks;
 }
 
-// Sum over the threads of a block before this one. `room`: 32 words; the block meets.
+// Sum over the threads of a block before this one. `room`: 32 words. Has barriers of the block.
 __device__ inline std::uint32_t sum_before(std::uint32_t own, std::uint32_t* room) {
   std::uint32_t through = own;
   for (unsigned step = 1; step < 32; step *= 2) {

@@ -18,7 +18,8 @@ __device__ inline void store_contact(core::Contact* to, const core::Contact& con
   for (std::size_t w = 0; w < kContactWords; ++w) reinterpret_cast<uint4*>(to)[w] = words[w];
 }
 
-// Read once: what the frame left in the cache is not pushed out by what comes from memory, and so met there.
+// Read once, and first to leave the cache: so these loads do not evict what the frame left there and is still to be
+// read.
 __device__ inline core::Contact load_contact_once(const core::Contact* from) {
   uint4 words[kContactWords];
 #pragma unroll

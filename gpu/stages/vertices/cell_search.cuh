@@ -102,10 +102,10 @@ class NearestByCells {
         const std::uint32_t one = take();
         const bool are_two = left != 0;
         look_up(one, are_two, are_two ? take() : one);
-        while (waiting_ >= 32) meet(32);
+        while (waiting_ >= 32) visit(32);
       }
     }
-    if (waiting_ > 0) meet(waiting_);
+    if (waiting_ > 0) visit(waiting_);
     return best_;
   }
 
@@ -168,7 +168,7 @@ class NearestByCells {
     if (d2 < theta2_ && core::is_nearer(found, best_)) best_ = found;
   }
 
-  __device__ void meet_two(core::Vec3 v, float own_id, const PackedVec3& first, const PackedVec3& second) {
+  __device__ void visit_two(core::Vec3 v, float own_id, const PackedVec3& first, const PackedVec3& second) {
     const float first_d2 = core::squared_distance(v, first.v + other_x_);
     const float second_d2 = core::squared_distance(v, second.v + other_x_);
     const float least_d2 = fminf(first_d2, second_d2);
@@ -179,7 +179,7 @@ class NearestByCells {
 
   // The last `count` of the waiting vertices, up to 32, with the lists of their cells: the more lanes for each the
   // fewer there are. What takes the time is waiting for what a list names.
-  __device__ void meet(std::uint32_t count) {
+  __device__ void visit(std::uint32_t count) {
     waiting_ -= count;
     const auto shift =
         static_cast<std::uint32_t>(__clz(static_cast<int>(count - 1))) - 27U;  // 32 / count, rounded down
@@ -209,14 +209,14 @@ class NearestByCells {
         if (step < length) four = *reinterpret_cast<const uint2*>(entries + step);
         ask_for_all();
         if (!has_four) continue;
-        meet_two(v, mine.w, first, second);
-        meet_two(v, mine.w, third, fourth);
+        visit_two(v, mine.w, first, second);
+        visit_two(v, mine.w, third, fourth);
       }
     } else {
       for (; step < length; step += lanes) {
         const uint2 four = *reinterpret_cast<const uint2*>(entries + step);
-        meet_two(v, mine.w, fetched(others + (four.x & 0xFFFFU)), fetched(others + (four.x >> 16U)));
-        meet_two(v, mine.w, fetched(others + (four.y & 0xFFFFU)), fetched(others + (four.y >> 16U)));
+        visit_two(v, mine.w, fetched(others + (four.x & 0xFFFFU)), fetched(others + (four.x >> 16U)));
+        visit_two(v, mine.w, fetched(others + (four.y & 0xFFFFU)), fetched(others + (four.y >> 16U)));
       }
     }
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));

@@ -24,7 +24,7 @@ struct ProximityScratch {
   TeamCounts counts[kMaxBlockWarps][kTeamTurns];
   std::uint32_t place[kMaxBlockWarps];
 
-  // By all threads; the block meets before teams measure anything.
+  // By all threads; a barrier of the block must follow before teams search.
   __device__ void clear() {
     const std::uint32_t warp = threadIdx.x / 32;
     if (lane() != 0) return;
@@ -80,8 +80,8 @@ class ProximityStage {
     if (looks) levels_.end();
   }
 
-  // Of few bodies, what teams handed over, shared by the whole grid, until nothing is handed over any more. `meet`: the
-  // grid does; returns FewCounts since the frame began.
+  // Of few bodies, what teams handed over, shared by the whole grid, until nothing is handed over any more.
+  // `sync`: the barrier of the grid; returns FewCounts since the frame began.
   template <typename Sync>
   __device__ void share_rests(const Sync& sync) const {
     std::uint32_t before = 0;
@@ -195,13 +195,13 @@ class ProximityStage {
       improve(f_.measured + rest.k, nearest_of_team(0), rest.bound_m2 == INFINITY);
   }
 
-  // By all lanes of a team that has met since it searched: its bound is the least distance, and whoever has found that
-  // names the vertices.
+  // By all lanes of a team, after a barrier behind its search: the bound is the least distance then, and the lanes that
+  // found it name their vertices.
   __device__ void tell_team(std::uint32_t team, const core::Proximity& best) const {
     if (best.is_touching() && __float_as_uint(best.squared_distance_m2) == scratch_.bound[team])
       atomicMin(&scratch_.nearest[team], static_cast<unsigned long long>(best.vertex_a) << 32 | best.vertex_b);
   }
-  // When all have told and the block has counts.
+  // After a barrier of the block behind tell_team().
   __device__ core::Proximity nearest_of_team(std::uint32_t team) const {
     const unsigned long long vertices = scratch_.nearest[team];
     if (vertices == ProximityScratch::kNoVertices) return {};
@@ -209,7 +209,7 @@ class ProximityStage {
             static_cast<std::uint32_t>(vertices)};
   }
 
-  // These two return each lane's nearest, when the team has counts.
+  // These two return each lane's nearest, after a barrier of the team.
   __device__ core::Proximity nearest_by_cells(const PlacedPair& bodies, bool is_asked_by_j, std::uint32_t team,
                                               const WarpShare& share) const {
     const core::Proximity best = Cells(f_, headers_, bodies, is_asked_by_j,
@@ -237,7 +237,7 @@ class ProximityStage {
   // Whether there are as few pairs as FewCounts::marked has bits, and each has a block or more to be shared by.
   __device__ bool has_marks() const { return pairs_.count <= min(RestsView::kMostMarked, gridDim.x); }
 
-  // What a meeting of the grid costs is some four rounds. The more levels are left to go down, the more there may be
+  // A barrier of the grid costs as much as some four rounds. The more levels are left to go down, the more there may be
   // to hand over, and the sooner.
   __device__ static std::uint32_t rounds_of_team(const TreePair& trees) { return trees.upper_level() >= 3 ? 2 : 3; }
   static constexpr std::uint32_t kRoundsOfBlock = 8;

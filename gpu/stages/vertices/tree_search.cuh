@@ -47,8 +47,8 @@ class NearChildren {
   unsigned second_near_ = 0;
 };
 
-// The two trees of a pair, and the nearest vertices that this lane has met. `bound`, in shared memory, has the bits of
-// the smallest squared distance that anybody found (of non-negative floats, bits order as values do).
+// The two trees of a pair, and the nearest vertices that this lane has found. `bound`, in shared memory, has the bits
+// of the smallest squared distance that anybody found (of non-negative floats, bits order as values do).
 class TreePair {
  public:
   __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies, std::uint32_t* bound)
@@ -109,16 +109,16 @@ class TreePair {
             opens_a && takes_b && is_near(high_gap2)};
   }
 
-  // By the whole warp: up to four pairs of leaves, eight lanes a pair: a lane has one vertex of A and meets eight of B.
-  // So many of them are asked for at once: what takes the time is waiting for them.
+  // By the whole warp: up to four pairs of leaves, eight lanes a pair: a lane compares one vertex of A with
+  // eight of B. kAtOnce of these are loaded at once: waiting for loads is what takes the time.
   template <std::uint32_t kAtOnce>
-  __device__ void meet(bool has_leaves, const NodePair& leaves, float limit) {
+  __device__ void visit_leaves(bool has_leaves, const NodePair& leaves, float limit) {
     static_assert(kLeafVertices % kAtOnce == 0);
-    const bool meets = has_leaves && leaves.gap2 <= limit;
-    // A leaf's word is its block of vertices. Where there is nothing to meet, the first is asked for, and not looked
-    // at.
-    const PackedVec3* of_b = vertices_ + (meets ? leaves.b * kLeafVertices : 0U);
-    const PackedVec3 mine = fetched(vertices_ + (meets ? leaves.a * kLeafVertices : 0U) + lane() % 8);
+    const bool is_near = has_leaves && leaves.gap2 <= limit;
+    // A leaf's word is its block of vertices. A lane without a pair of leaves loads the first vertices and
+    // ignores them.
+    const PackedVec3* of_b = vertices_ + (is_near ? leaves.b * kLeafVertices : 0U);
+    const PackedVec3 mine = fetched(vertices_ + (is_near ? leaves.a * kLeafVertices : 0U) + lane() % 8);
     const core::Vec3 va = mine.v + xa_;
     core::Proximity nearest{INFINITY, __float_as_uint(mine.w), 0};
 #pragma unroll
@@ -137,7 +137,7 @@ class TreePair {
         }
       }
     }
-    if (meets && nearest.squared_distance_m2 < theta2_ && core::is_nearer(nearest, best_)) best_ = nearest;
+    if (is_near && nearest.squared_distance_m2 < theta2_ && core::is_nearer(nearest, best_)) best_ = nearest;
     const std::uint32_t least = warp_min(__float_as_uint(best_.squared_distance_m2));
     if (lane() == 0 && least < *static_cast<volatile std::uint32_t*>(bound_)) atomicMin(bound_, least);
     __syncwarp();
@@ -178,7 +178,7 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
   __syncwarp();
   while (size > 0) {
     const float limit = trees.limit();
-    // Groups of eight lanes look at the upmost four; if those from the first on are leaves, they are met.
+    // Groups of eight lanes look at the upmost four; leaves at the top are visited at once.
     const std::uint32_t group = lane() / 8;
     const NodePair one = stack.at(size - 1 - min(group, size - 1));
     const unsigned are_leaves = __ballot_sync(kFullWarp, group < size && one.are_leaves());
@@ -186,7 +186,7 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
       const std::uint32_t taken =
           are_leaves == kFullWarp ? 4U : static_cast<std::uint32_t>(__ffs(~are_leaves) - 1) / 8U;
       size -= taken;
-      trees.meet<4>(group < taken, one, limit);
+      trees.visit_leaves<4>(group < taken, one, limit);
       continue;
     }
     const NodePair parents = stack.at(size - 1);
@@ -202,7 +202,7 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
 }
 
 // Worth handing over: pairs of nodes for a few warps, each of which may become many, or as many pairs of leaves, which
-// become no more, as sixteen warps meet in a round.
+// become no more, as sixteen warps visit in a round.
 __device__ inline bool is_much(const TeamCounts& left) {
   constexpr std::uint32_t kNodes = 4;
   constexpr std::uint32_t kLeaves = 64;
@@ -249,8 +249,9 @@ __device__ inline void put_for_team(const SearchTeam& team, const NearChildren& 
   near.each([&](std::uint32_t place, const NodePair& pair) { stack.put(first + place, pair); });
 }
 
-// By all warps of a team, in rounds: each opens a pair of nodes or meets four pairs of leaves, from the upmost on.
-// Where surfaces meet, nearly all the work is below one pair of upper nodes, so it cannot be dealt out beforehand.
+// By all warps of a team, in rounds: each opens a pair of nodes or visits four pairs of leaves, from the top of the
+// stack on. Where surfaces touch, nearly all the work is below one pair of upper nodes, so it cannot be dealt out
+// beforehand.
 //
 // `left`: what the stack holds. `rest`: a RestOfPair or NoRest (search_rests.cuh). Returns each lane's nearest.
 template <typename Rest>
@@ -263,26 +264,26 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
   for (std::uint32_t round = 1; left.any(); ++round) {
     // What all members do follows from what is left, so that they agree without a word.
     const std::uint32_t groups = min(team.members, left.nodes > 0 ? left.leaves / 4 : (left.leaves + 3) / 4);
-    const std::uint32_t met = min(4 * groups, left.leaves);
-    std::uint32_t opened = min(min(team.members - groups, left.nodes), (leaves.entries - (left.leaves - met)) / 64);
+    const std::uint32_t visited = min(4 * groups, left.leaves);
+    std::uint32_t opened = min(min(team.members - groups, left.nodes), (leaves.entries - (left.leaves - visited)) / 64);
     const std::uint32_t spare = nodes.entries > reserve + left.nodes ? (nodes.entries - reserve - left.nodes) / 64 : 0U;
     opened = min(opened, max(spare, 1U));
-    const bool meets = team.member < groups;
-    const bool opens = !meets && team.member - groups < opened;
+    const bool visits = team.member < groups;
+    const bool opens = !visits && team.member - groups < opened;
     const std::uint32_t leaf = 4 * team.member + lane() / 8;
     NodePair own;
-    if (meets && leaf < met) own = leaves.at(left.leaves - 1 - leaf);
+    if (visits && leaf < visited) own = leaves.at(left.leaves - 1 - leaf);
     if (opens) own = nodes.at(left.nodes - 1 - (team.member - groups));
     TeamCounts& added = team.counts[round % kTeamTurns];
     if (team.member == 0 && lane() == 0) team.counts[(round + 1) % kTeamTurns] = {};
     const float limit = trees.limit();
     NearChildren near;
-    if (meets) trees.meet<kLeafVertices>(leaf < met, own, limit);
+    if (visits) trees.visit_leaves<kLeafVertices>(leaf < visited, own, limit);
     if (opens && own.gap2 <= limit) near = trees.open(own, limit);
     const std::uint32_t room = room_for_near(near, added);
     // By now all have taken their own off the stack.
     team.sync();
-    const TeamCounts kept{left.nodes - opened, left.leaves - met};
+    const TeamCounts kept{left.nodes - opened, left.leaves - visited};
     put_for_team(team, near, kept, room);
     team.sync();
     left = {kept.nodes + added.nodes, kept.leaves + added.leaves};

@@ -11,7 +11,7 @@ namespace broadside::gpu {
 
 // By all warps of a team, whose counts are clear.
 //
-// Bodies that meet overlap at an edge of theirs: of either tree's upper nodes few are near the other's root. All pairs
+// Bodies that touch overlap near their surfaces: of either tree's upper nodes few are near the other's root. All pairs
 // of those are tried, where opening the roots and what is below them would be a wait for memory on each level.
 class TreeStart {
  public:
