@@ -35,9 +35,9 @@ struct FewCounts {
     return {static_cast<std::uint32_t>(tally) & kMostPairs, static_cast<std::uint32_t>(tally >> kPairBits) & kMostPairs,
             static_cast<std::uint32_t>(tally >> 2 * kPairBits), 0};
   }
-  __device__ static FewCounts unpacked(const GridTally& met) {
-    FewCounts counts = unpacked(met.tally);
-    counts.marked = met.behind;
+  __device__ static FewCounts unpacked(const GridTally& read) {
+    FewCounts counts = unpacked(read.tally);
+    counts.marked = read.behind;
     return counts;
   }
 

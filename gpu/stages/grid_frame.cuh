@@ -36,7 +36,7 @@ __device__ inline void abort_grid(const FrameView& f, std::uint64_t confirmed) {
 // Contacts and faces, by all threads of a team. kHasThreadPerBody: the team has; otherwise a contact that is resolved
 // hands its bodies on to the next one.
 template <bool kHasThreadPerBody, typename Team, typename Live>
-__device__ void resolve_grid(const Team& team, const FrameView& f, const MeetingPairs& pairs, const Live& live) {
+__device__ void resolve_grid(const Team& team, const FrameView& f, const NarrowPairs& pairs, const Live& live) {
   resolve_by_team(team, f, pairs, [&](std::uint64_t count) {
     if (f.solver == Solver::kRacing) {
       resolve_racing(team, f, count);
@@ -58,7 +58,7 @@ __device__ void resolve_grid(const Team& team, const FrameView& f, const Meeting
 
 // The same by one block, if that has room. Returns false, and has done nothing, if it has not; by all threads of the
 // grid.
-__device__ inline bool resolve_by_one_block(const FrameView& f, const MeetingPairs& pairs, Counters& counters,
+__device__ inline bool resolve_by_one_block(const FrameView& f, const NarrowPairs& pairs, Counters& counters,
                                             unsigned char* shared) {
   if (f.solver == Solver::kColored && BlockRoom::fits(f, pairs.count)) {
     if (blockIdx.x != 0) return true;
@@ -76,7 +76,7 @@ __device__ inline bool resolve_by_one_block(const FrameView& f, const MeetingPai
 // half of the grid, a body a warp is work enough: a chain of contacts waits longer in warps where other threads resolve
 // theirs.
 template <bool kHasThreadPerBody>
-__device__ void resolve_by_many_blocks(const GridFrameView& f, const MeetingPairs& pairs) {
+__device__ void resolve_by_many_blocks(const GridFrameView& f, const NarrowPairs& pairs) {
   const std::uint64_t work = max(pairs.count, std::uint64_t{f.body_count});
   const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
   const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
@@ -119,17 +119,17 @@ __device__ __forceinline__ void run_grid_frame(const GridFrameView& f, GridScrat
   mark_end(grid, f.outcome, core::Stage::kConfirm);
   if (confirmed > f.confirmed.capacity) return abort_grid(f, confirmed);
 
-  const MeetingPairs meeting{f.confirmed.items, confirmed};
+  const NarrowPairs narrow{f.confirmed.items, confirmed};
   if (f.has_vertex_stage && confirmed > 0) {
     const ShapeHeaders headers{f.shapes.trees, f.shapes.near_cells, f.shapes.tree_upper, nullptr};
-    ProximityStage(f, headers, NoLevels{}, meeting, scratch.proximity, shared).run();
+    ProximityStage(f, headers, NoLevels{}, narrow, scratch.proximity, shared).run();
     grid.sync();
   }
   mark_end(grid, f.outcome, core::Stage::kVertices);
 
   if constexpr (kHasThreadPerBody)
-    if (resolve_by_one_block(f, meeting, scratch.counters, shared)) return;
-  resolve_by_many_blocks<kHasThreadPerBody>(f, meeting);
+    if (resolve_by_one_block(f, narrow, scratch.counters, shared)) return;
+  resolve_by_many_blocks<kHasThreadPerBody>(f, narrow);
 }
 
 }  // namespace broadside::gpu

@@ -52,7 +52,7 @@ __device__ inline void abort_small(const GridTeam& grid, const SmallFrameView& f
 }
 
 // Contacts and faces, by all threads of one block.
-__device__ inline void resolve_small(const SmallFrameView& f, const MeetingPairs& pairs, const FewCounts& few,
+__device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs& pairs, const FewCounts& few,
                                      SmallScratch& scratch, unsigned char* shared) {
   if (BlockRoom::fits(f, pairs.count)) {
     if (threadIdx.x == 0) scratch.counters = counters_of(f, few);
@@ -100,11 +100,11 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
   mark_end(grid, f.outcome, core::Stage::kConfirm);
   if (confirmed > f.confirmed.capacity) return abort_small(grid, f, few, confirmed);
 
-  const MeetingPairs meeting{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
-                             f.has_vertex_stage ? f.measured : nullptr, f.placed};
+  const NarrowPairs narrow{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
+                           f.has_vertex_stage ? f.measured : nullptr, f.placed};
   if (f.has_vertex_stage) {
     const FewLevels levels(f, shapes);
-    const ProximityStage stage(f, shapes.headers(f), levels, meeting, scratch.proximity, shared);
+    const ProximityStage stage(f, shapes.headers(f), levels, narrow, scratch.proximity, shared);
     if (confirmed > 0) stage.run();
     stage.share_rests([&] {
       few = FewCounts::unpacked(grid.sync_and_read(&scratch.tally));
@@ -114,8 +114,8 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
   mark_end(grid, f.outcome, core::Stage::kVertices);
   let_next_launch_begin();
 
-  if (f.has_vertex_stage && blockIdx.x == gridDim.x - 1) list_measured(f, meeting, &scratch.listed);
-  if (blockIdx.x == 0) resolve_small(f, meeting, few, scratch, shared);
+  if (f.has_vertex_stage && blockIdx.x == gridDim.x - 1) list_measured(f, narrow, &scratch.listed);
+  if (blockIdx.x == 0) resolve_small(f, narrow, few, scratch, shared);
 }
 
 }  // namespace broadside::gpu

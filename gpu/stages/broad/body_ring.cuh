@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// Bodies on a ring: body i meets those 1 to n / 2 places on, so that every pair is met once without a root or a
+// Bodies on a ring: body i is paired with those 1 to n / 2 places on, so that every pair comes once without a root or a
 // triangle, and every body has as much to do as the next. An item is one body and `share` places on from it, a lane
 // each. Divisor: SmallDivisor where there are fewer items than it can divide, or WideDivisor.
 template <typename Divisor>
@@ -17,7 +17,7 @@ class BodyRing {
  public:
   using Item = typename Divisor::Number;
 
-  struct Meeting {
+  struct RingPair {
     std::uint32_t i = 0;
     std::uint32_t j = 0;  // i where there is none
     bool exists = false;
@@ -30,15 +30,15 @@ class BodyRing {
   __device__ Item items() const { return Item{bodies_} * shares_.by(); }
 
   // Of this lane, in an item that exists.
-  __device__ Meeting meeting(Item item) const {
+  __device__ RingPair pair_of(Item item) const {
     const std::uint32_t i = shares_.quotient(item);
-    return meeting(i, static_cast<std::uint32_t>(item - Item{i} * shares_.by()));
+    return pair_of(i, static_cast<std::uint32_t>(item - Item{i} * shares_.by()));
   }
 
  private:
-  __device__ Meeting meeting(std::uint32_t i, std::uint32_t part) const {
+  __device__ RingPair pair_of(std::uint32_t i, std::uint32_t part) const {
     const std::uint32_t on = part * share_ + lane() + 1;
-    // Bodies that face each other on an even ring meet once.
+    // Two bodies that face each other on an even ring are one pair.
     const bool exists = lane() < share_ && on <= half_ && (on * 2 != bodies_ || i < half_);
     if (!exists) return {i, i, false};
     return {i, i < bodies_ - on ? i + on : i - (bodies_ - on), true};

@@ -16,7 +16,7 @@ namespace broadside::gpu {
 // In no list.
 constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 
-// A warp's item of the ring at a time: a body and those that it may meet there, a lane each.
+// A warp's item of the ring at a time: a body and those that it is paired with, a lane each.
 class FewItem {
  public:
   __device__ FewItem(const GridPlaces& team, const SmallFrameView& f)
@@ -31,17 +31,17 @@ class FewItem {
     item_ += stride_;
     enter();
   }
-  __device__ const BodyRing<SmallDivisor>::Meeting& meeting() const { return meeting_; }
+  __device__ const BodyRing<SmallDivisor>::RingPair& pair() const { return pair_; }
 
  private:
   __device__ void enter() {
-    if (exists()) meeting_ = ring_.meeting(item_);
+    if (exists()) pair_ = ring_.pair_of(item_);
   }
 
   BodyRing<SmallDivisor> ring_;
   std::uint32_t item_;
   std::uint32_t stride_;
-  BodyRing<SmallDivisor>::Meeting meeting_;
+  BodyRing<SmallDivisor>::RingPair pair_;
 };
 
 // By a whole warp, of a pair that level 0 found.
@@ -56,7 +56,7 @@ __device__ inline bool is_confirmed_few(const SmallFrameView& f, const ShapesInB
 // Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet. Of the bodies of an item,
 // before the frame.
 __device__ inline void find_few(const SmallFrameView& f, const ShapesInBlock& shapes,
-                                const BodyRing<SmallDivisor>::Meeting& at, const BodyBefore& before_i,
+                                const BodyRing<SmallDivisor>::RingPair& at, const BodyBefore& before_i,
                                 const BodyBefore& before_j) {
   const BodyAtDetection now_i(f, at.i, before_i);
   const BodyAtDetection now_j(f, at.j, before_j);
@@ -104,8 +104,8 @@ __device__ inline bool integrate_and_find_few(const GridTeam& team, const SmallF
   if (__any_sync(kFullWarp, first < f.body_count))
     own = BodyBefore(f, static_cast<std::uint32_t>(min(first, std::uint64_t{f.body_count} - 1)));
   if (item.exists()) {
-    before_i = BodyBefore(f, item.meeting().i);
-    before_j = BodyBefore(f, item.meeting().j);
+    before_i = BodyBefore(f, item.pair().i);
+    before_j = BodyBefore(f, item.pair().j);
   }
   ask_for_all();
   if (is_aborted != 0) return false;
@@ -120,11 +120,11 @@ __device__ inline bool integrate_and_find_few(const GridTeam& team, const SmallF
   // Those who ask for shapes have begun to.
   if (f.are_levels_first) __syncthreads();
   while (item.exists()) {
-    find_few(f, shapes, item.meeting(), before_i, before_j);
+    find_few(f, shapes, item.pair(), before_i, before_j);
     item.next();
     if (!item.exists()) break;
-    before_i = BodyBefore(f, item.meeting().i);
-    before_j = BodyBefore(f, item.meeting().j);
+    before_i = BodyBefore(f, item.pair().i);
+    before_j = BodyBefore(f, item.pair().j);
     ask_for_all();
   }
   return true;

@@ -27,8 +27,8 @@ __device__ inline Tile tile_at(std::uint64_t t, std::uint32_t side) {
   return {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row + (t - before(row)))};
 }
 
-// A warp per tile of 32 x 32 bodies of `boxes`, whose low tags name them: each lane holds one column's box and meets
-// the 32 rows. `range_end`: a row meets the columns before its own end only; null: all.
+// A warp per tile of 32 x 32 bodies of `boxes`, whose low tags name them: each lane tests one column's box
+// against the 32 rows. `range_end`: a row is tested against the columns before its own end only; null: all.
 template <typename Team, typename Work>
 __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, std::uint32_t count,
                                     const std::uint32_t* range_end, AppendView<core::Pair> out,
@@ -63,20 +63,20 @@ __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, st
   }
 }
 
-// Levels level1, A and B: a warp meets all boxes of the level of a body with those of four others.
+// Levels level1, A and B: a warp tests all boxes of the level of a body against those of four others.
 template <typename Team, typename Work>
 __device__ void confirm_by_brute_force(const Team& team, const FrameView& f, Work& work) {
   constexpr std::uint32_t kShare = 4;
   const BodyRing<WideDivisor> ring(f.body_count, kShare, WideDivisor(ring_shares(f.body_count, kShare)));
   for (std::uint64_t item = warp_rank(team); item < ring.items(); item += warp_count(team)) {
-    const BodyRing<WideDivisor>::Meeting own = ring.meeting(item);
+    const BodyRing<WideDivisor>::RingPair own = ring.pair_of(item);
     const core::Pair pair = core::make_pair_of(own.i, own.j);
     unsigned left = __ballot_sync(kFullWarp, own.exists && !(is_static(f, own.i) && is_static(f, own.j)));
     unsigned hits = 0;
     for (; left != 0; left &= left - 1) {
       const int source = __ffs(static_cast<int>(left)) - 1;
-      const core::Pair met{__shfl_sync(kFullWarp, pair.i, source), __shfl_sync(kFullWarp, pair.j, source)};
-      if (are_levels_overlapping(f, met, work)) hits |= 1U << source;
+      const core::Pair found{__shfl_sync(kFullWarp, pair.i, source), __shfl_sync(kFullWarp, pair.j, source)};
+      if (are_levels_overlapping(f, found, work)) hits |= 1U << source;
     }
     if (hits == 0) continue;
     const bool mine = (hits >> lane() & 1U) != 0;

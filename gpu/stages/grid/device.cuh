@@ -234,7 +234,7 @@ __device__ inline uint4 load_once(const uint4* from) {
 // In shared memory; used once a launch at most. Nobody leaves before what was begun is there.
 class BlockCopy {
  public:
-  // By one thread. The block meets before anything else is done with it.
+  // By one thread. A barrier of the block must follow before any other call.
   __device__ void init() {
 #if __CUDA_ARCH__ >= 900
     asm volatile("mbarrier.init.shared.b64 [%0], 1; fence.proxy.async.shared::cta;" ::"r"(in_shared(&done_))

@@ -90,7 +90,7 @@ __device__ inline unsigned lane() {
 }
 
 // Between what a whole warp asks memory for and the first look at any of it: one wait. Without it the compiler, to have
-// fewer registers in use, looks at one word before it asks for the next; it moves no access past where warps meet.
+// fewer registers in use, looks at one word before it asks for the next; it moves no access past a barrier of the warp.
 __device__ inline void ask_for_all() {
   __syncwarp();
 }

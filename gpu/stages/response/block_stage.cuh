@@ -10,7 +10,7 @@
 #include "gpu/stages/response/block_room.cuh"
 #include "gpu/stages/response/contact_stage.cuh"
 #include "gpu/stages/response/order_stage.cuh"
-#include "gpu/stages/vertices/meeting_pairs.cuh"
+#include "gpu/stages/vertices/narrow_pairs.cuh"
 
 namespace broadside::gpu {
 
@@ -29,15 +29,15 @@ class ListInBlock {
   std::uint32_t degree_;
 };
 
-// The touching pairs become links, as in order_stage.cuh. `meeting`: the thread's first pair.
-__device__ inline void collect_in_block(const FrameView& f, Meeting meeting, const MeetingPairs& pairs,
+// The touching pairs become links, as in order_stage.cuh. `narrow`: the thread's first pair.
+__device__ inline void collect_in_block(const FrameView& f, NarrowPair narrow, const NarrowPairs& pairs,
                                         const BlockRoom& room) {
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
-    if (base > 0) meeting = Meeting(f, pairs, base + threadIdx.x);
-    const bool touches = meeting.touches(f);
+    if (base > 0) narrow = NarrowPair(f, pairs, base + threadIdx.x);
+    const bool touches = narrow.touches(f);
     const std::uint32_t place = warp_append_one(touches, &room.counts->touching);
     if (!touches) continue;
-    const core::Pair p = meeting.pair();
+    const core::Pair p = narrow.pair();
     room.keys[place] = core::color_priority(p);
     room.links[place] = BlockLink(p, BlockDegree::count(&room.degree[p.i]), BlockDegree::count(&room.degree[p.j]));
   }
@@ -83,13 +83,13 @@ __device__ inline void list_in_block(const FrameView& f, std::uint32_t count, co
 // By all threads of one block, for bodies and pairs that fit `room`, which has the counts afterwards. Calls `ended`
 // when contacts are resolved.
 template <typename Ended>
-__device__ void resolve_in_block(const FrameView& f, const MeetingPairs& pairs, const BlockRoom& room,
+__device__ void resolve_in_block(const FrameView& f, const NarrowPairs& pairs, const BlockRoom& room,
                                  const Ended& ended) {
   const std::uint32_t body = threadIdx.x;
   const bool is_body = body < f.body_count;
   const BlockLive live{room.live};
   // Everything is asked for before any of it is looked at.
-  const Meeting first(f, pairs, threadIdx.x);
+  const NarrowPair first(f, pairs, threadIdx.x);
   PackedVec3 x;
   PackedVec3 v;
   ContactSide side;

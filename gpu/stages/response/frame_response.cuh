@@ -9,13 +9,13 @@
 #include "gpu/stages/response/block_stage.cuh"
 #include "gpu/stages/response/contact_stage.cuh"
 #include "gpu/stages/response/order_stage.cuh"
-#include "gpu/stages/vertices/meeting_pairs.cuh"
+#include "gpu/stages/vertices/narrow_pairs.cuh"
 
 namespace broadside::gpu {
 
 // By all threads of one block, for bodies and pairs that fit `room`. `counters`, in the block's shared memory, gets
 // what these stages count; its first thread may read it afterwards.
-__device__ inline void resolve_alone(const FrameView& f, const MeetingPairs& pairs, const BlockRoom& room,
+__device__ inline void resolve_alone(const FrameView& f, const NarrowPairs& pairs, const BlockRoom& room,
                                      Counters& counters) {
   const BlockTeam team;
   resolve_in_block(f, pairs, room, [&] { mark_end(team, f.outcome, core::Stage::kResponse); });
@@ -28,7 +28,7 @@ __device__ inline void resolve_alone(const FrameView& f, const MeetingPairs& pai
 
 // By all threads of a team. `resolve`: called with the number of touching pairs, if there are any.
 template <typename Team, typename Resolve>
-__device__ void resolve_by_team(const Team& team, const FrameView& f, const MeetingPairs& pairs,
+__device__ void resolve_by_team(const Team& team, const FrameView& f, const NarrowPairs& pairs,
                                 const Resolve& resolve) {
   collect_touching(team, f, pairs);
   team.sync();

@@ -5,7 +5,7 @@
 #include "gpu/frame/frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/vertices/meeting_pairs.cuh"
+#include "gpu/stages/vertices/narrow_pairs.cuh"
 
 namespace broadside::gpu {
 
@@ -17,15 +17,15 @@ __device__ inline bool is_written(const FrameView& f, std::uint32_t body) {
 // The touching pairs become links. Each written body's contacts are counted; a link's ranks are, for now, the places in
 // which they came.
 template <typename Team>
-__device__ void collect_touching(const Team& team, const FrameView& f, const MeetingPairs& pairs) {
+__device__ void collect_touching(const Team& team, const FrameView& f, const NarrowPairs& pairs) {
   const std::uint64_t rounds = (pairs.count + team.size() - 1) / team.size();
   for (std::uint64_t round = 0; round < rounds; ++round) {
     const std::uint64_t k = round * team.size() + team.rank();
-    const Meeting meeting(f, pairs, k);
-    const bool touches = meeting.touches(f);
+    const NarrowPair narrow(f, pairs, k);
+    const bool touches = narrow.touches(f);
     const unsigned long long place = warp_append_one(touches, &f.counters->touching);
     if (!touches) continue;
-    const core::Pair p = meeting.pair();
+    const core::Pair p = narrow.pair();
     Link link{p.i, p.j, kNoRank, kNoRank};
     if (f.solver != Solver::kRacing) {
       if (is_written(f, p.i)) link.rank_i = atomicAdd(&f.degree[p.i], 1U);

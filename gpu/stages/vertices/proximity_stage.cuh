@@ -5,7 +5,7 @@
 #include "gpu/frame/frame_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/vertices/cell_search.cuh"
-#include "gpu/stages/vertices/meeting_pairs.cuh"
+#include "gpu/stages/vertices/narrow_pairs.cuh"
 #include "gpu/stages/vertices/search_rests.cuh"
 #include "gpu/stages/vertices/search_stack.cuh"
 #include "gpu/stages/vertices/tree_search.cuh"
@@ -56,7 +56,7 @@ class ProximityStage {
  public:
   using View = typename Levels::View;
 
-  __device__ ProximityStage(const View& f, const ShapeHeaders& headers, const Levels& levels, const MeetingPairs& pairs,
+  __device__ ProximityStage(const View& f, const ShapeHeaders& headers, const Levels& levels, const NarrowPairs& pairs,
                             ProximityScratch& scratch, void* stacks)
       : f_(f), headers_(headers), levels_(levels), pairs_(pairs), scratch_(scratch), stacks_(stacks) {}
 
@@ -245,7 +245,7 @@ class ProximityStage {
   const View& f_;
   ShapeHeaders headers_;
   const Levels& levels_;
-  const MeetingPairs& pairs_;
+  const NarrowPairs& pairs_;
   ProximityScratch& scratch_;
   void* stacks_;
 };

@@ -37,7 +37,7 @@ TEST(BodyRing, MeetsEveryPairOnce) {
       on_host::run(kWarp, 0, [&](unsigned char*) {
         const BodyRing<SmallDivisor> ring(bodies, share, SmallDivisor(ring_shares(bodies, share)));
         for (std::uint32_t item = 0; item < ring.items(); ++item) {
-          const auto own = ring.meeting(item);
+          const auto own = ring.pair_of(item);
           if (own.exists) ++met[core::make_pair_of(own.i, own.j)];
         }
       });

@@ -1,4 +1,5 @@
-// The pairs that the vertex stage measures, or is left out for, and that the response collects.
+// The pairs of the narrow phase: the vertex stage, if there is one, finds their nearest vertices, and the response
+// collects those that touch.
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -10,16 +11,16 @@
 
 namespace broadside::gpu {
 
-// The confirmed pairs; or all that level 0 found, where levels are left.
-struct MeetingPairs {
+// The confirmed pairs; or, where levels are left, all that level 0 found.
+struct NarrowPairs {
   const core::Pair* items = nullptr;
   std::uint64_t count = 0;
-  // Levels are left for the vertex stage: other warps go down them while these pairs are measured, and those that are
-  // not rejected then are the confirmed, and not listed yet.
+  // Levels are left for the vertex stage: other warps test them while vertices are searched. Pairs that are not
+  // rejected are the confirmed ones; they are in no list before list_measured().
   bool are_levels_left = false;
-  // Of few bodies, where they are measured: what came of each. The others have f.proximity.
+  // In small frames with a vertex stage: the result of each. Other frames write f.proximity.
   MeasuredPair* measured = nullptr;
-  PlacedPair* placed = nullptr;  // likewise: where their bodies are; of many, none
+  PlacedPair* placed = nullptr;  // in small frames: where their bodies are; null in others
 
   __device__ PlacedPair bodies(const FrameView& f, std::uint64_t k) const {
     if (placed != nullptr) return awaited(placed + k);
@@ -38,10 +39,10 @@ struct MeetingPairs {
   }
 };
 
-// One of them. All of its words are asked for at once, and looked at when something is asked about it.
-class Meeting {
+// One of them. The constructor loads all of its words, so that a thread waits once.
+class NarrowPair {
  public:
-  __device__ Meeting(const FrameView& f, const MeetingPairs& pairs, std::uint64_t k) : exists_(k < pairs.count) {
+  __device__ NarrowPair(const FrameView& f, const NarrowPairs& pairs, std::uint64_t k) : exists_(k < pairs.count) {
     if (!exists_) return;
     pair_ = pairs.items[k];
     if (pairs.measured != nullptr)
@@ -63,21 +64,21 @@ class Meeting {
   MeasuredPair measured_;
 };
 
-// Of few bodies: what was measured in a list of its own, beside the confirmed, which were not listed yet where levels
-// were left. Nobody waits for it but who reads the frame, so it is for a block that has nothing else to do. `listed`:
-// in its shared memory.
-__device__ inline void list_measured(const FrameView& f, const MeetingPairs& pairs, std::uint32_t* listed) {
+// In small frames: copies results to f.proximity, in the order of f.confirmed; where levels were left, lists the
+// confirmed pairs first. Only the host reads these lists, so a block does it that has nothing else to do. `listed`: in
+// its shared memory.
+__device__ inline void list_measured(const FrameView& f, const NarrowPairs& pairs, std::uint32_t* listed) {
   if (threadIdx.x == 0) *listed = 0;
   __syncthreads();
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
     const std::uint64_t k = base + threadIdx.x;
-    const Meeting meeting(f, pairs, k);
+    const NarrowPair narrow(f, pairs, k);
     if (k < pairs.count) take_away(pairs.placed + k);
     std::uint64_t place = k;
-    if (pairs.are_levels_left) place = warp_append_one(meeting.is_confirmed(), listed);
-    if (!meeting.is_confirmed()) continue;
-    if (pairs.are_levels_left) f.confirmed.items[place] = meeting.pair();
-    f.proximity[place] = meeting.nearest();
+    if (pairs.are_levels_left) place = warp_append_one(narrow.is_confirmed(), listed);
+    if (!narrow.is_confirmed()) continue;
+    if (pairs.are_levels_left) f.confirmed.items[place] = narrow.pair();
+    f.proximity[place] = narrow.nearest();
   }
 }
 
