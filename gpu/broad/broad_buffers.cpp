@@ -61,17 +61,17 @@ core::Status BroadBuffers::reserve_buckets(std::uint64_t buckets, const char* wh
   return bucket_count_.fill_bytes(0);
 }
 
-core::Status BroadBuffers::load_many(std::size_t n, std::uint32_t bins, std::uint32_t blocks) {
-  ManyView& many = many_;
+core::Status BroadBuffers::load_bulk(std::size_t n, std::uint32_t bins, std::uint32_t blocks) {
+  BulkView& bulk = bulk_;
   const std::uint64_t buckets = grid_buckets(n);
-  BROADSIDE_TRY(many_entries_.reserve(n + 4, "boxes"));
+  BROADSIDE_TRY(bulk_entries_.reserve(n + 4, "boxes"));
   BROADSIDE_TRY(levels_.reserve(3, "boxes"));
   BROADSIDE_TRY(levels_.fill_bytes(0));
-  many.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
-  many.axis_bits = axis_bits(buckets);
-  many.x_bits = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U - 2 * many.axis_bits;
-  many.row_bits = std::min(many.x_bits, static_cast<std::uint32_t>(std::bit_width(kBucketChunk)) - 1U);
-  many.bins.bins = bins;
+  bulk.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
+  bulk.axis_bits = axis_bits(buckets);
+  bulk.x_bits = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U - 2 * bulk.axis_bits;
+  bulk.row_bits = std::min(bulk.x_bits, static_cast<std::uint32_t>(std::bit_width(kBucketChunk)) - 1U);
+  bulk.bins.bins = bins;
   if (bins == 0) {
     BROADSIDE_TRY(rank_.reserve(n, "boxes"));
     return reserve_buckets(buckets, "boxes");
@@ -89,7 +89,7 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
                                 std::uint32_t bins, std::uint32_t blocks) {
   const std::size_t n = facts.count;
   view_ = {};
-  many_ = {};
+  bulk_ = {};
   view_.start = start;
   if (start == Start::kGrid) {
     const std::uint64_t buckets = grid_buckets(n);
@@ -101,8 +101,8 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
     view_.grid.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
     view_.grid.axis_bits = axis_bits(buckets);
     refit(facts);
-  } else if (start == Start::kMany) {
-    BROADSIDE_TRY(load_many(n, bins, blocks));
+  } else if (start == Start::kBulk) {
+    BROADSIDE_TRY(load_bulk(n, bins, blocks));
     refit(facts);
   } else if (start == Start::kHash) {
     view_.hash.cells_per_m = 1.0F / hash_cell_m;
@@ -133,9 +133,9 @@ void BroadBuffers::refit(const BoxFacts& facts) {
   for (int axis = 0; axis < 3; ++axis)
     grid.first_cell[axis] = static_cast<std::int32_t>(
         std::clamp(std::floor(facts.low_corner[axis] / grid.cell_m) - 1.0F, -1048576.0F, 1048576.0F));
-  many_.cell_m = grid.cell_m;
-  many_.cells_per_m = grid.cells_per_m;
-  std::copy(std::begin(grid.first_cell), std::end(grid.first_cell), std::begin(many_.first_cell));
+  bulk_.cell_m = grid.cell_m;
+  bulk_.cells_per_m = grid.cells_per_m;
+  std::copy(std::begin(grid.first_cell), std::end(grid.first_cell), std::begin(bulk_.first_cell));
 }
 
 core::Status BroadBuffers::grow(const Counters& demanded) {
@@ -174,27 +174,27 @@ void BroadBuffers::fill(BroadView& view) const {
   octree.range_end = range_end_.data();
 }
 
-void BroadBuffers::fill(ManyView& many) const {
-  many = many_;
-  many.count = bucket_count_.data();
-  many.begin = bucket_begin_.data();
-  many.rank = rank_.data();
-  many.entries = many_entries_.data();
-  many.levels = levels_.data();
-  many.turns = many.levels + 2;
-  many.bins.chunk_count = chunk_count_.data();
-  many.bins.chunk_begin = chunk_begin_.data();
-  many.bins.first_chunk = bins_.data();
-  many.bins.last_chunk = many.bins.first_chunk + many.bins.bins;
-  many.bins.cursor = many.bins.last_chunk + many.bins.bins;
-  many.bins.block_sum = many.bins.cursor + many.bins.bins;
-  many.bins.entries = binned_entries_.data();
-  many.bins.bucket = binned_buckets_.data();
+void BroadBuffers::fill(BulkView& bulk) const {
+  bulk = bulk_;
+  bulk.count = bucket_count_.data();
+  bulk.begin = bucket_begin_.data();
+  bulk.rank = rank_.data();
+  bulk.entries = bulk_entries_.data();
+  bulk.levels = levels_.data();
+  bulk.turns = bulk.levels + 2;
+  bulk.bins.chunk_count = chunk_count_.data();
+  bulk.bins.chunk_begin = chunk_begin_.data();
+  bulk.bins.first_chunk = bins_.data();
+  bulk.bins.last_chunk = bulk.bins.first_chunk + bulk.bins.bins;
+  bulk.bins.cursor = bulk.bins.last_chunk + bulk.bins.bins;
+  bulk.bins.block_sum = bulk.bins.cursor + bulk.bins.bins;
+  bulk.bins.entries = binned_entries_.data();
+  bulk.bins.bucket = binned_buckets_.data();
 }
 
 std::uint64_t BroadBuffers::bytes() const {
   return bucket_count_.bytes() + bucket_begin_.bytes() + bucket_cursor_.bytes() + rank_.bytes() + levels_.bytes() +
-         entries_.bytes() + many_entries_.bytes() + binned_entries_.bytes() + binned_buckets_.bytes() +
+         entries_.bytes() + bulk_entries_.bytes() + binned_entries_.bytes() + binned_buckets_.bytes() +
          chunk_count_.bytes() + chunk_begin_.bytes() + bins_.bytes() + hash_entries_.bytes() + oversized_.bytes() +
          node_count_.bytes() + node_begin_.bytes() + range_end_.bytes();
 }

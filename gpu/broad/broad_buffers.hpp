@@ -8,7 +8,7 @@
 #include "core/result.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad/broad_view.hpp"
-#include "gpu/broad/many_view.hpp"
+#include "gpu/broad/bulk_view.hpp"
 #include "gpu/runtime/device_buffer.hpp"
 
 namespace broadside::gpu {
@@ -20,9 +20,9 @@ enum class Broad { kTree, kOctree, kHash, kBrute };
 // large GPU, and take less than the grid's three passes.
 constexpr std::uint32_t kLeastBodiesForGrid = 2048;
 
-// From here on a broad phase alone searches by many_search.cuh, a lane a box.
-constexpr std::uint32_t kLeastBoxesForMany = 50000;
-// From here on the entries of many boxes are more than a cache holds, and go to bins first.
+// From here on a broad phase alone searches by bulk_search.cuh, a lane a box.
+constexpr std::uint32_t kLeastBoxesForBulk = 50000;
+// From here on the entries of bulk pairs are more than a cache holds, and go to bins first.
 constexpr std::uint32_t kLeastBoxesForBins = 1000000;
 
 // What is known of the boxes before the first frame.
@@ -55,24 +55,24 @@ class BroadBuffers {
   // Makes room for what the aborted frame demanded.
   core::Status grow(const Counters& demanded);
   void fill(BroadView& view) const;
-  // Of Start::kMany.
-  void fill(ManyView& view) const;
+  // Of Start::kBulk.
+  void fill(BulkView& view) const;
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
   core::Status reserve_buckets(std::uint64_t buckets, const char* what);
-  core::Status load_many(std::size_t n, std::uint32_t bins, std::uint32_t blocks);
+  core::Status load_bulk(std::size_t n, std::uint32_t bins, std::uint32_t blocks);
 
   BroadView view_;
-  ManyView many_;
+  BulkView bulk_;
   DeviceBuffer<std::uint32_t> bucket_count_;
   DeviceBuffer<std::uint32_t> bucket_begin_;
   DeviceBuffer<std::uint32_t> bucket_cursor_;
   DeviceBuffer<std::uint32_t> rank_;
   DeviceBuffer<std::uint32_t> levels_;
   DeviceBuffer<PackedBox> entries_;
-  DeviceBuffer<ManyEntry> many_entries_;
-  DeviceBuffer<ManyEntry> binned_entries_;
+  DeviceBuffer<BulkEntry> bulk_entries_;
+  DeviceBuffer<BulkEntry> binned_entries_;
   DeviceBuffer<std::uint16_t> binned_buckets_;
   DeviceBuffer<std::uint32_t> chunk_count_;
   DeviceBuffer<std::uint32_t> chunk_begin_;

@@ -18,7 +18,7 @@ enum class Start : std::uint32_t {
   kOctree,  // level 0 from the published scene octree: octree_stage.cuh
   kHash,    // level 0 from the paper's comparison, a spatial hash: hash_stage.cuh
   kNone,    // levels level1, A and B as published: their first level by brute force over all pairs of bodies
-  kMany,    // as kGrid for many boxes of which nothing but their pairs is asked for: many_search.cuh
+  kBulk,    // bulk pairs: as kGrid, but nothing beside the pairs is computed: bulk_search.cuh
 };
 
 // The steps of a broad phase that runs alone, in their order; each has a time.

@@ -63,7 +63,7 @@ Start PairFinder::Impl::start() const {
   if (options.broad == Broad::kHash) return Start::kHash;
   if (options.broad != Broad::kTree || is_static.size() < options.least_for_grid || !fits_grid(facts))
     return Start::kTiles;
-  return is_static.size() < options.least_for_many ? Start::kGrid : Start::kMany;
+  return is_static.size() < options.least_for_bulk ? Start::kGrid : Start::kBulk;
 }
 
 core::Status PairFinder::Impl::reserve() {
@@ -146,7 +146,7 @@ core::Status PairFinder::find() {
   Impl& d = *impl_;
   for (;;) {
     d.broad.fill(d.view.broad);
-    d.broad.fill(d.view.many);
+    d.broad.fill(d.view.bulk);
     d.view.pairs = {d.pairs.data(), d.pairs.capacity()};
     BROADSIDE_TRY(d.timer.start(d.stream.get()));
     d.launches += d.launch.bins != 0 ? 2 : 1;
@@ -155,7 +155,7 @@ core::Status PairFinder::find() {
     BROADSIDE_TRY(d.stream.wait("finding pairs"));
     d.counts = d.outcome[0].counters;
     if (d.counts.is_aborted == 0)
-      return d.work.count_broad({d.view.broad, d.view.many, d.view.boxes, d.view.box_count, d.view.counters},
+      return d.work.count_broad({d.view.broad, d.view.bulk, d.view.boxes, d.view.box_count, d.view.counters},
                                 d.launch.search.multiprocessors, d.stream.get());
     BROADSIDE_TRY(d.broad.grow(d.counts));
     BROADSIDE_TRY(d.pairs.reserve(d.counts.pairs, "pairs"));

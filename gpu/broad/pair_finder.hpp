@@ -15,7 +15,7 @@ struct PairFinderOptions {
   core::Variant variant = core::Variant::kSound;
   float hash_cell_m = 0.25F;
   std::uint32_t least_for_grid = kLeastBodiesForGrid;
-  std::uint32_t least_for_many = kLeastBoxesForMany;
+  std::uint32_t least_for_bulk = kLeastBoxesForBulk;
   std::uint32_t least_for_bins = kLeastBoxesForBins;
 };
 

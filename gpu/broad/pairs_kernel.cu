@@ -11,11 +11,11 @@ constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 // Tiles and bins fill a multiprocessor's shared memory.
 constexpr std::uint32_t kSortThreads = 1024;
 
-template <bool kAreMany>
+template <bool kIsBulk>
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
     pairs_kernel(const __grid_constant__ PairsView view) {
   extern __shared__ __align__(16) unsigned char shared[];
-  run_pairs<kAreMany>(view, shared);
+  run_pairs<kIsBulk>(view, shared);
 }
 
 __global__ void __launch_bounds__(kSortThreads, 1) sort_kernel(const __grid_constant__ PairsView view) {
@@ -23,10 +23,10 @@ __global__ void __launch_bounds__(kSortThreads, 1) sort_kernel(const __grid_cons
   run_sort(view, shared);
 }
 
-template <bool kAreMany>
+template <bool kIsBulk>
 core::Result<LaunchShape> search_shape() {
-  LaunchShape shape{kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairsScratch<kAreMany>)), 0};
-  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(pairs_kernel<kAreMany>), shape));
+  LaunchShape shape{kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairsScratch<kIsBulk>)), 0};
+  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(pairs_kernel<kIsBulk>), shape));
   return shape;
 }
 
@@ -35,10 +35,10 @@ core::Result<LaunchShape> search_shape() {
 core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
                                             std::uint32_t least_for_bins) {
   PairsShape shape;
-  auto search = start == Start::kMany ? search_shape<true>() : search_shape<false>();
+  auto search = start == Start::kBulk ? search_shape<true>() : search_shape<false>();
   if (!search.ok()) return search.error();
   shape.search = search.value();
-  if (start != Start::kMany || boxes < least_for_bins) return shape;
+  if (start != Start::kBulk || boxes < least_for_bins) return shape;
   const std::uint32_t bins = bins_of(kSortThreads, boxes, buckets);
   auto block_limit = attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin);
   if (!block_limit.ok()) return block_limit.error();
@@ -50,7 +50,7 @@ core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, st
 }
 
 core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
-  if (view.broad.start != Start::kMany) return launch(pairs_kernel<false>, view, shape.search, stream);
+  if (view.broad.start != Start::kBulk) return launch(pairs_kernel<false>, view, shape.search, stream);
   if (shape.bins != 0) BROADSIDE_TRY(launch(sort_kernel, view, shape.sort, stream));
   return launch(pairs_kernel<true>, view, shape.search, stream);
 }

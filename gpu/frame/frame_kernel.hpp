@@ -7,7 +7,7 @@
 #include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
 #include "core/result.hpp"
-#include "gpu/broad/many_view.hpp"
+#include "gpu/broad/bulk_view.hpp"
 #include "gpu/frame/frame_view.hpp"
 #include "gpu/frame/grid_frame_view.hpp"
 #include "gpu/frame/ring_shares.hpp"
@@ -52,12 +52,12 @@ core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
 core::Status launch_frame(const SmallFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 
-// The broad phase alone; the same rules, but for great many boxes, which are sorted by a launch before.
+// The broad phase alone; the same rules. Bulk pairs of enough boxes are sorted by a launch before.
 struct PairsView {
   std::uint32_t box_count = 0;
   const PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
   BroadView broad;
-  ManyView many;  // where the start is Start::kMany
+  BulkView bulk;  // where the start is Start::kBulk
   AppendView<core::Pair> pairs;
   Counters* counters = nullptr;
   unsigned long long* barrier = nullptr;  // the barrier word

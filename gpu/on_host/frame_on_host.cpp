@@ -53,11 +53,11 @@ core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, 
 
 core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
                                             std::uint32_t least_for_bins) {
-  const bool are_many = start == Start::kMany;
-  const std::size_t each = are_many ? sizeof(PairsScratch<true>) : sizeof(PairsScratch<false>);
+  const bool is_bulk = start == Start::kBulk;
+  const std::size_t each = is_bulk ? sizeof(PairsScratch<true>) : sizeof(PairsScratch<false>);
   PairsShape shape;
   shape.search = {kThreads, kBlocks, kThreads / 32 * static_cast<std::uint32_t>(each), kBlocks};
-  if (!are_many || boxes < least_for_bins) return shape;
+  if (!is_bulk || boxes < least_for_bins) return shape;
   shape.bins = bins_of(kThreads, boxes, buckets);
   shape.sort = {kThreads, kBlocks, std::max(tile_bytes(kThreads, shape.bins), bin_bytes(kThreads)), kBlocks};
   return shape;
@@ -68,7 +68,7 @@ core::Status launch_pairs(const PairsView& view, const PairsShape& shape, Stream
     on_host::run(launch_of(shape.sort), shape.sort.shared_bytes,
                  [&](unsigned char* shared) { run_sort(view, shared); });
   on_host::run(launch_of(shape.search), shape.search.shared_bytes, [&](unsigned char* shared) {
-    if (view.broad.start == Start::kMany)
+    if (view.broad.start == Start::kBulk)
       run_pairs<true>(view, shared);
     else
       run_pairs<false>(view, shared);

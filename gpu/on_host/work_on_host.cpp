@@ -12,8 +12,8 @@ constexpr on_host::Launch kLaunch{{3}, {64}, 7};
 }  // namespace
 
 core::Status launch_broad_work(const BroadWorkView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, sizeof(ManyNotes) * 2, [&](unsigned char* shared) {
-    count_broad_work(view, reinterpret_cast<ManyNotes*>(shared)[threadIdx.x / 32]);
+  on_host::run(kLaunch, sizeof(BulkNotes) * 2, [&](unsigned char* shared) {
+    count_broad_work(view, reinterpret_cast<BulkNotes*>(shared)[threadIdx.x / 32]);
   });
   return core::Done{};
 }

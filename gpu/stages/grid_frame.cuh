@@ -76,7 +76,7 @@ __device__ inline bool resolve_by_one_block(const FrameView& f, const NarrowPair
 // half of the grid, a body a warp is work enough: a chain of contacts waits longer in warps where other threads resolve
 // theirs.
 template <bool kHasThreadPerBody>
-__device__ void resolve_by_many_blocks(const GridFrameView& f, const NarrowPairs& pairs) {
+__device__ void resolve_by_blocks(const GridFrameView& f, const NarrowPairs& pairs) {
   const std::uint64_t work = max(pairs.count, std::uint64_t{f.body_count});
   const std::uint64_t lonely = min(std::uint64_t{gridDim.x} / 2, std::uint64_t{f.body_count} * 32 / blockDim.x);
   const std::uint64_t blocks = min(std::uint64_t{gridDim.x}, max(lonely, (work + blockDim.x - 1) / blockDim.x));
@@ -129,7 +129,7 @@ __device__ __forceinline__ void run_grid_frame(const GridFrameView& f, GridScrat
 
   if constexpr (kHasThreadPerBody)
     if (resolve_by_one_block(f, narrow, scratch.counters, shared)) return;
-  resolve_by_many_blocks<kHasThreadPerBody>(f, narrow);
+  resolve_by_blocks<kHasThreadPerBody>(f, narrow);
 }
 
 }  // namespace broadside::gpu

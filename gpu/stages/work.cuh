@@ -4,7 +4,7 @@
 #include "gpu/stages/broad/broad_stage.cuh"
 #include "gpu/stages/broad/tile_stage.cuh"
 #include "gpu/stages/levels/confirm_stage.cuh"
-#include "gpu/stages/pairs_only/many_search.cuh"
+#include "gpu/stages/pairs_only/bulk_search.cuh"
 #include "gpu/stages/work_count.cuh"
 #include "gpu/work/work_view.hpp"
 
@@ -15,11 +15,11 @@ __device__ inline void add_of_warp(unsigned long long* sum, unsigned long long o
   if (lane() == 0 && own != 0) atomicAdd(sum, own);
 }
 
-// Boxes in the order of their entries, whichever warp took which: of the turns of many_find nothing shows.
-__device__ inline Counted count_many_work(const GridPlaces& grid, const BroadWorkView& view, ManyNotes& notes) {
-  const volatile std::uint32_t* known = view.many.levels;
+// Boxes in the order of their entries, whichever warp took which: of the turns of bulk_find nothing shows.
+__device__ inline Counted count_bulk_work(const GridPlaces& grid, const BroadWorkView& view, BulkNotes& notes) {
+  const volatile std::uint32_t* known = view.bulk.levels;
   const LevelMarks marks{known[0], known[1]};
-  ManySearch<Counted> search(view.many, view.boxes, notes, {}, &view.work->pairs);
+  BulkSearch<Counted> search(view.bulk, view.boxes, notes, {}, &view.work->pairs);
   for (std::uint64_t first = warp_rank(grid) * 32; first < view.box_count; first += warp_count(grid) * 32) {
     const std::uint64_t place = first + lane();
     search.find_partners(static_cast<std::uint32_t>(place), place < view.box_count, marks);
@@ -29,7 +29,7 @@ __device__ inline Counted count_many_work(const GridPlaces& grid, const BroadWor
 }
 
 // Few bodies' pairs are all tested, as tiles do.
-__device__ inline void count_broad_work(const BroadWorkView& view, ManyNotes& room) {
+__device__ inline void count_broad_work(const BroadWorkView& view, BulkNotes& room) {
   const GridPlaces grid;
   const BroadView& b = view.broad;
   const AppendView<core::Pair> nowhere;
@@ -48,8 +48,8 @@ __device__ inline void count_broad_work(const BroadWorkView& view, ManyNotes& ro
     case Start::kHash:
       hash_find(grid, b.hash, view.boxes, view.box_count, view.counters, queue, work);
       break;
-    case Start::kMany:
-      work = count_many_work(grid, view, room);
+    case Start::kBulk:
+      work = count_bulk_work(grid, view, room);
       break;
     case Start::kNone:
       break;

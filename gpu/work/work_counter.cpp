@@ -37,7 +37,7 @@ void WorkCounter::tell(std::vector<core::Counter>& counters) const {
   std::vector<Work> work;
   if ((!has_broad_ && !has_levels_) || !work_.download(work, 1).ok()) return;
   if (has_broad_) counters.push_back({"broad: box tests", work[0].broad_tests});
-  if (has_broad_ && (start_ == Start::kGrid || start_ == Start::kMany || start_ == Start::kHash))
+  if (has_broad_ && (start_ == Start::kGrid || start_ == Start::kBulk || start_ == Start::kHash))
     counters.push_back({"broad: nodes visited", work[0].broad_nodes});
   if (has_levels_) counters.push_back({"level stage: box tests", work[0].level_tests});
 }

@@ -8,7 +8,7 @@ constexpr std::uint32_t kThreads = 256;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 4;
 
 __global__ void __launch_bounds__(kThreads) broad_work_kernel(const __grid_constant__ BroadWorkView view) {
-  __shared__ ManyNotes rooms[kThreads / 32];
+  __shared__ BulkNotes rooms[kThreads / 32];
   count_broad_work(view, rooms[threadIdx.x / 32]);
 }
 

@@ -22,7 +22,7 @@ inline bool is_counted(Start start) {
 // Runs the search of the broad phase again over what a frame left on the device, finding into nothing. Asynchronous.
 struct BroadWorkView {
   BroadView broad;
-  ManyView many;  // where the start is Start::kMany
+  BulkView bulk;  // where the start is Start::kBulk
   const PackedBox* boxes = nullptr;
   std::uint32_t box_count = 0;
   const Counters* counters = nullptr;  // of the frame

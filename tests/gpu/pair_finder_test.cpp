@@ -107,7 +107,7 @@ TEST_F(PairFinderTest, SearchesAgreeOnManyBoxes) {
   });
   const std::vector<std::uint8_t> is_static(boxes.size());
   PairFinderOptions grid_options;
-  grid_options.least_for_many = kNever;
+  grid_options.least_for_bulk = kNever;
   PairFinder grid(grid_options);
   const std::vector<Pair> expected = pairs_of(grid, boxes, is_static);
   EXPECT_GT(expected.size(), boxes.size());

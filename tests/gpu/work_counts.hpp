@@ -66,9 +66,9 @@ inline std::vector<core::Box> counted_boxes(int count = 2500, float cube_m = 12.
 }
 
 // Of 2500 boxes by the search among many, which engines choose where there are more; and of so many.
-constexpr std::uint64_t kManyTests = 26873;
-constexpr std::uint64_t kManyNodes = 7871;
-inline std::vector<core::Box> many_counted_boxes() {
+constexpr std::uint64_t kBulkTests = 26873;
+constexpr std::uint64_t kBulkNodes = 7871;
+inline std::vector<core::Box> bulk_counted_boxes() {
   return counted_boxes(60'000, 34.0F);
 }
 constexpr std::uint64_t kTestsOfMore = 354680;

@@ -38,7 +38,7 @@ TEST(WorkOnDevice, OfManyBoxesIsThatOfTheHost) {
   if (const std::string why = gpu_absent(); !why.empty()) GTEST_SKIP() << "not run: " << why;
   for (int run = 0; run < 3; ++run) {
     core::Engine subject = engine_of({"tree", "", 0, 0, kNotCounted});
-    const Counts counts = counts_of(*subject.broad_phase, many_counted_boxes());
+    const Counts counts = counts_of(*subject.broad_phase, bulk_counted_boxes());
     EXPECT_EQ(counts.at("broad: box tests"), kTestsOfMore);
     EXPECT_EQ(counts.at("broad: nodes visited"), kNodesOfMore);
   }

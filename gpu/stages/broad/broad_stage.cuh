@@ -69,7 +69,7 @@ __device__ bool find_candidates(const Team& team, const BroadView& b, const Pack
       hash_clear(team, b.hash);
       break;
     case Start::kNone:
-    case Start::kMany:  // in pairs.cuh
+    case Start::kBulk:  // in pairs.cuh
       break;
   }
   queue.flush();

@@ -5,59 +5,59 @@
 #include "gpu/stages/broad/broad_stage.cuh"
 #include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/pairs_only/many_bins.cuh"
-#include "gpu/stages/pairs_only/many_chunks.cuh"
-#include "gpu/stages/pairs_only/many_search.cuh"
-#include "gpu/stages/pairs_only/many_sort.cuh"
+#include "gpu/stages/pairs_only/bulk_bins.cuh"
+#include "gpu/stages/pairs_only/bulk_chunks.cuh"
+#include "gpu/stages/pairs_only/bulk_search.cuh"
+#include "gpu/stages/pairs_only/bulk_sort.cuh"
 
 namespace broadside::gpu {
 
 // By one thread, before anybody counts.
 __device__ inline void start_counts(const PairsView& view) {
   *view.counters = Counters{};
-  if (view.broad.start == Start::kMany) *view.many.turns = 0;
+  if (view.broad.start == Start::kBulk) *view.bulk.turns = 0;
 }
 
 // Before run_pairs<true>, where there are bins. `shared`: a block's own, tile_bytes or bin_bytes, the larger.
 __device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
-  const ManyView& many = view.many;
+  const BulkView& bulk = view.bulk;
   mark_begin(grid, view.outcome);
   if (grid.rank() == 0) start_counts(view);
-  count_chunks(grid, many, view.boxes, view.box_count);
+  count_chunks(grid, bulk, view.boxes, view.box_count);
   grid.sync();
   mark_end(grid, view.outcome, FindStep::kCount);
-  place_chunks_in_order(grid, many, reinterpret_cast<std::uint32_t*>(shared));
+  place_chunks_in_order(grid, bulk, reinterpret_cast<std::uint32_t*>(shared));
   grid.sync();
   mark_end(grid, view.outcome, FindStep::kPlace);
-  fill_bins(many, view.boxes, view.box_count, shared);
+  fill_bins(bulk, view.boxes, view.box_count, shared);
   grid.sync();
-  empty_bins(many, shared);
-  end_entries(grid, many, view.box_count);
+  empty_bins(bulk, shared);
+  end_entries(grid, bulk, view.box_count);
 }
 
 // What a warp has in shared memory.
-template <bool kAreMany>
+template <bool kIsBulk>
 struct PairsScratch {
   PairQueue queue;
 };
 template <>
 struct PairsScratch<true> {
-  ManyNotes notes;
+  BulkNotes notes;
 };
 
-// Boxes in, pairs out. kAreMany: the search is that of Start::kMany.
-template <bool kAreMany>
+// Boxes in, pairs out. kIsBulk: the search is that of Start::kBulk.
+template <bool kIsBulk>
 __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
-  auto& scratch = reinterpret_cast<PairsScratch<kAreMany>*>(shared)[threadIdx.x / 32];
-  const ManyView& many = view.many;
-  const bool is_sorted = kAreMany && many.bins.bins != 0;
+  auto& scratch = reinterpret_cast<PairsScratch<kIsBulk>*>(shared)[threadIdx.x / 32];
+  const BulkView& bulk = view.bulk;
+  const bool is_sorted = kIsBulk && bulk.bins.bins != 0;
   if (!is_sorted) {
     mark_begin(grid, view.outcome);
     if (grid.rank() == 0) start_counts(view);
-    if constexpr (kAreMany)
-      many_count(grid, many, view.boxes, view.box_count);
+    if constexpr (kIsBulk)
+      bulk_count(grid, bulk, view.boxes, view.box_count);
     else
       for (std::uint64_t i = grid.rank(); i < view.box_count; i += grid.size())
         count_box(view.broad, i, unpack(view.boxes[i]));
@@ -65,16 +65,16 @@ __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
     mark_end(grid, view.outcome, FindStep::kCount);
   }
   bool has_room = true;
-  if constexpr (kAreMany) {
+  if constexpr (kIsBulk) {
     if (!is_sorted) {
-      place_buckets(grid, many.bucket_mask, many.count, many.begin, &view.counters->entry_cursor);
+      place_buckets(grid, bulk.bucket_mask, bulk.count, bulk.begin, &view.counters->entry_cursor);
       grid.sync();
       mark_end(grid, view.outcome, FindStep::kPlace);
-      many_scatter(grid, many, view.boxes, view.box_count);
+      bulk_scatter(grid, bulk, view.boxes, view.box_count);
       grid.sync();
     }
     mark_end(grid, view.outcome, FindStep::kScatter);
-    many_find(grid, many, view.boxes, view.box_count, scratch.notes, view.pairs, &view.counters->pairs);
+    bulk_find(grid, bulk, view.boxes, view.box_count, scratch.notes, view.pairs, &view.counters->pairs);
   } else {
     has_room = find_candidates(grid, view.broad, view.boxes, view.box_count, view.pairs, view.counters, scratch.queue,
                                view.outcome);

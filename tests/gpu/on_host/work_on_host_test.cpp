@@ -58,18 +58,18 @@ TEST(WorkOnHost, OfManyBoxesInOnePlaceIsThatOfAllPairs) {
   constexpr std::uint64_t kBodies = 60;
   const std::vector<core::Box> boxes(kBodies, core::Box{{0.1F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F}});
   for (const std::uint32_t least_for_bins : {1U, 1000U}) {
-    PairFinder subject({.least_for_grid = 10, .least_for_many = 10, .least_for_bins = least_for_bins});
+    PairFinder subject({.least_for_grid = 10, .least_for_bulk = 10, .least_for_bins = least_for_bins});
     EXPECT_EQ(counts_of(subject, boxes).at("broad: box tests"), kBodies * (kBodies - 1) / 2);
-    PairFinder of_many({.least_for_grid = 10, .least_for_many = 10, .least_for_bins = least_for_bins});
+    PairFinder of_many({.least_for_grid = 10, .least_for_bulk = 10, .least_for_bins = least_for_bins});
     const Counts counts = counts_of(of_many, counted_boxes());
-    EXPECT_EQ(counts.at("broad: box tests"), kManyTests);
-    EXPECT_EQ(counts.at("broad: nodes visited"), kManyNodes);
+    EXPECT_EQ(counts.at("broad: box tests"), kBulkTests);
+    EXPECT_EQ(counts.at("broad: nodes visited"), kBulkNodes);
   }
 }
 
 TEST(WorkOnHost, OfSixtyThousandBoxes) {
   PairFinder subject({});
-  const Counts counts = counts_of(subject, many_counted_boxes());
+  const Counts counts = counts_of(subject, bulk_counted_boxes());
   EXPECT_EQ(counts.at("broad: box tests"), kTestsOfMore);
   EXPECT_EQ(counts.at("broad: nodes visited"), kNodesOfMore);
 }

@@ -1,10 +1,10 @@
-// What bins a great many boxes have, and where their chunks of buckets begin: see many_bins.cuh.
+// Which bins boxes of bulk pairs have, and where their chunks of buckets begin: see bulk_bins.cuh.
 #pragma once
 
 #include "gpu/stages/broad/bucket_stage.cuh"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/pairs_only/many_cells.cuh"
-#include "gpu/stages/pairs_only/many_sort.cuh"
+#include "gpu/stages/pairs_only/bulk_cells.cuh"
+#include "gpu/stages/pairs_only/bulk_sort.cuh"
 
 namespace broadside::gpu {
 
@@ -41,23 +41,23 @@ __device__ inline std::uint32_t sum_before(std::uint32_t own, std::uint32_t* roo
 
 // How many entries each chunk has.
 template <typename Team>
-__device__ void count_chunks(const Team& team, const ManyView& g, const PackedBox* boxes, std::uint32_t count) {
+__device__ void count_chunks(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count) {
   const BinsView& b = g.bins;
   for (std::uint64_t k = team.rank(); k < b.bins; k += team.size()) {
     b.first_chunk[k] = ~0U;
     b.last_chunk[k] = 0;
     b.cursor[k] = ~0U;
   }
-  for (std::uint64_t first = team.rank(); first < count; first += team.size() * kManyAtOnce) {
-    PackedBox box[kManyAtOnce];
+  for (std::uint64_t first = team.rank(); first < count; first += team.size() * kBoxesAtOnce) {
+    PackedBox box[kBoxesAtOnce];
     LevelMarks marks;
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k)
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k)
       if (first + k * team.size() < count) box[k] = boxes[first + k * team.size()];
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k) {
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
       if (first + k * team.size() >= count) break;
-      const int level = many_level(g, unpack(box[k]));
+      const int level = bulk_level(g, unpack(box[k]));
       const TableCell cell = own_cell(g, unpack(box[k]), level);
       marks.add(g, cell, level);
       atomicAdd(&b.chunk_count[bucket_of(g, cell, level) / kBucketChunk], 1U);
@@ -68,7 +68,7 @@ __device__ void count_chunks(const Team& team, const ManyView& g, const PackedBo
 
 // Where each chunk begins, and what bins that makes. Empty chunks are done with: nothing begins in their buckets.
 template <typename Team>
-__device__ void place_chunks_in_order(const Team& team, const ManyView& g, std::uint32_t* room) {
+__device__ void place_chunks_in_order(const Team& team, const BulkView& g, std::uint32_t* room) {
   const BinsView& b = g.bins;
   const std::uint32_t chunks = (g.bucket_mask + 1) / kBucketChunk;
   const std::uint32_t each = (chunks + gridDim.x - 1) / gridDim.x;

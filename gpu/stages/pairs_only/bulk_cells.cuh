@@ -1,9 +1,9 @@
-// Where a box lies among many: the loose octree of grid_stage.cuh for another search. Boxes lie on even levels alone,
-// each of a quarter of the cell's size to its whole: fewer levels to look at are worth more tests on each. An entry is
-// half as large, a box rounded to two words: see many_search.cuh for what that is good for.
+// The cell in which a box of bulk pairs lies: the loose octree of grid_stage.cuh for another search. Boxes lie on even
+// levels alone, each of a quarter of the cell's size to its whole: fewer levels to look at are worth more tests on
+// each. An entry is half as large, a box rounded to two words: see bulk_search.cuh for what that is good for.
 #pragma once
 
-#include "gpu/broad/many_view.hpp"
+#include "gpu/broad/bulk_view.hpp"
 #include "gpu/stages/broad/bucket_stage.cuh"
 #include "gpu/stages/broad/grid_stage.cuh"
 #include "gpu/stages/grid/team.cuh"
@@ -31,7 +31,7 @@ __device__ inline CellCorner cell_above(CellCorner fine, int coarser) {
 
 // The finest level whose cells are at least as large as the box, and not so fine that a cell is lost in the rounding of
 // the coordinates (2^-18 of them is 32 units in the last place).
-__device__ inline int many_level(const ManyView& g, const core::Box& box) {
+__device__ inline int bulk_level(const BulkView& g, const core::Box& box) {
   const core::Vec3 side = box.max - box.min;
   const float far = fmaxf(largest_magnitude(box.min), largest_magnitude(box.max)) * 0x1p-18F;
   const float needed = fmaxf(fmaxf(side.x, side.y), fmaxf(side.z, far));
@@ -46,25 +46,25 @@ struct TableCell {
   std::uint32_t y = 0;
   std::uint32_t z = 0;
 };
-__device__ inline TableCell table_cell(const ManyView& g, CellCorner c, int level) {
+__device__ inline TableCell table_cell(const BulkView& g, CellCorner c, int level) {
   const auto from = [level](int cell, int first) {
     return static_cast<std::uint32_t>(cell) - (static_cast<std::uint32_t>(first) << level);
   };
   return {from(c.x, g.first_cell[0]), from(c.y, g.first_cell[1]), from(c.z, g.first_cell[2])};
 }
 
-__device__ inline std::uint32_t row_mask(const ManyView& g) {
+__device__ inline std::uint32_t row_mask(const BulkView& g) {
   return (1U << g.row_bits) - 1U;
 }
 // Rows of 2^row_bits cells, row by row in y, then in z, then slabs in x: where the table has a bucket for every cell of
 // the world, that is all.
-__device__ inline std::uint32_t bucket_in_block(const ManyView& g, TableCell c) {
+__device__ inline std::uint32_t bucket_in_block(const BulkView& g, TableCell c) {
   const std::uint32_t low = (1U << g.axis_bits) - 1U;
   const std::uint32_t slab = (c.x & ((1U << g.x_bits) - 1U)) >> g.row_bits;
   return (c.x & row_mask(g)) | (((slab << g.axis_bits | (c.z & low)) << g.axis_bits | (c.y & low)) << g.row_bits);
 }
 // What is above these bits, and the level, scatters whole blocks over the table: to be combined by exclusive or.
-__device__ inline std::uint32_t block_of(const ManyView& g, TableCell c, int level) {
+__device__ inline std::uint32_t block_of(const BulkView& g, TableCell c, int level) {
   const std::uint32_t x = c.x >> g.x_bits;
   const std::uint32_t y = c.y >> g.axis_bits;
   const std::uint32_t z = c.z >> g.axis_bits;
@@ -74,11 +74,11 @@ __device__ inline std::uint32_t block_of(const ManyView& g, TableCell c, int lev
   far = (far ^ far >> 15) * 0x2C1B3C6DU;
   return ((far ^ far >> 16) << g.row_bits) & g.bucket_mask;
 }
-__device__ inline std::uint32_t bucket_of(const ManyView& g, TableCell c, int level) {
+__device__ inline std::uint32_t bucket_of(const BulkView& g, TableCell c, int level) {
   return bucket_in_block(g, c) ^ block_of(g, c, level);
 }
 
-__device__ inline TableCell own_cell(const ManyView& g, const core::Box& box, int level) {
+__device__ inline TableCell own_cell(const BulkView& g, const core::Box& box, int level) {
   return table_cell(g, cell_above(fine_corner(box.min, scaled(g.cells_per_m, level)), 0), level);
 }
 
@@ -91,11 +91,11 @@ struct LevelMarks {
   std::uint32_t occupied = 0;
   std::uint32_t wide = 0;
 
-  __device__ void add(const ManyView& g, TableCell c, int level) {
+  __device__ void add(const BulkView& g, TableCell c, int level) {
     occupied |= 1U << level;
     if (max(c.x >> g.x_bits, max(c.y, c.z) >> g.axis_bits) >= kBlockTag) wide |= 1U << level;
   }
-  __device__ void note(const ManyView& g) const {
+  __device__ void note(const BulkView& g) const {
     const volatile std::uint32_t* known = g.levels;
     if ((occupied & ~known[0]) != 0) atomicOr(&g.levels[0], occupied);
     if ((wide & ~known[1]) != 0) atomicOr(&g.levels[1], wide);
@@ -108,12 +108,12 @@ constexpr int kLevelTagShift = 3 * kBlockTagBits;
 constexpr std::uint32_t kRowTag = ~kStaticTag;
 constexpr std::uint32_t kNoCellTag = 15U << kLevelTagShift;  // of no level
 
-__device__ inline std::uint32_t block_tag(const ManyView& g, TableCell c, int level) {
+__device__ inline std::uint32_t block_tag(const BulkView& g, TableCell c, int level) {
   return (c.x >> g.x_bits & kBlockTag) | (c.y >> g.axis_bits & kBlockTag) << kBlockTagBits |
          (c.z >> g.axis_bits & kBlockTag) << 2 * kBlockTagBits |
          static_cast<std::uint32_t>(level) / 2 << kLevelTagShift;
 }
-__device__ inline int many_level_of_tag(std::uint32_t tag) {
+__device__ inline int bulk_level_of_tag(std::uint32_t tag) {
   return static_cast<int>(tag >> kLevelTagShift & 15U) * 2;
 }
 
@@ -143,15 +143,15 @@ __device__ inline bool surely_overlap(CoarseBox a, CoarseBox b) {
 }
 
 // Where a box goes.
-struct ManyPlace {
-  ManyEntry entry;
+struct BulkPlace {
+  BulkEntry entry;
   std::uint32_t bucket = 0;
   TableCell cell;
   int level = 0;
 };
-__device__ inline ManyPlace place_of(const ManyView& g, const PackedBox& box, std::uint32_t body) {
-  ManyPlace place;
-  place.level = many_level(g, unpack(box));
+__device__ inline BulkPlace place_of(const BulkView& g, const PackedBox& box, std::uint32_t body) {
+  BulkPlace place;
+  place.level = bulk_level(g, unpack(box));
   const float cells_per_m = scaled(g.cells_per_m, place.level);
   const CellCorner fine_min = fine_corner(box.min, cells_per_m);
   place.cell = table_cell(g, cell_above(fine_min, 0), place.level);

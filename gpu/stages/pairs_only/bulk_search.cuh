@@ -1,4 +1,4 @@
-// The search among many boxes, where nothing but their pairs is asked for. Every pair is found from its smaller box: a
+// The search of bulk pairs: of boxes without a simulation. Every pair is found from its smaller box: a
 // box looks at its own level and at those of larger cells, so that a giant's many overlaps are spread over its many
 // partners.
 //
@@ -15,13 +15,13 @@
 #include "gpu/broad/broad_view.hpp"
 #include "gpu/stages/broad/pair_queue.cuh"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/pairs_only/many_cells.cuh"
+#include "gpu/stages/pairs_only/bulk_cells.cuh"
 #include "gpu/stages/work_count.cuh"
 
 namespace broadside::gpu {
 
 // One warp's notes, in shared memory.
-struct ManyNotes {
+struct BulkNotes {
   static constexpr std::uint32_t kHits = 24;
   static constexpr std::uint32_t kUnsure = 1U << 31;
   PairQueue queue;
@@ -30,23 +30,23 @@ struct ManyNotes {
 
 // A lane's search for the partners of one box after the other. Every call is by the whole warp.
 template <typename Work>
-class ManySearch {
+class BulkSearch {
  public:
-  __device__ ManySearch(const ManyView& g, const PackedBox* boxes, ManyNotes& notes, AppendView<core::Pair> out,
+  __device__ BulkSearch(const BulkView& g, const PackedBox* boxes, BulkNotes& notes, AppendView<core::Pair> out,
                         unsigned long long* demanded)
       : g_(g), boxes_(boxes), notes_(notes), queue_(notes.queue, out, demanded) {}
 
   // The box at this place of the entries.
   __device__ void find_partners(std::uint32_t place, bool has_box, LevelMarks marks) {
     place_ = place;
-    ManyEntry entry;
+    BulkEntry entry;
     PackedBox box;
     if (has_box) {
       entry = g_.entries[place];
       box = boxes_[entry.body];
     }
     body_ = entry.body;
-    own_level_ = many_level_of_tag(entry.tag);
+    own_level_ = bulk_level_of_tag(entry.tag);
     static_tag_ = entry.tag & kStaticTag;
     const float cells_per_m = scaled(g_.cells_per_m, own_level_);
     fine_min_ = fine_corner(box.min, cells_per_m);
@@ -152,9 +152,9 @@ class ManySearch {
       for (std::uint32_t j = 0; j < kRows; ++j) {
         // Buckets are shared: an entry of another row that happens to be here is found from its own.
         const std::uint32_t row_tag = block_tag(g_, {cell.x, cell.y + j, cell.z}, level);
-        while (runs.k[j] < runs.end[j] && hits_ <= ManyNotes::kHits - kEntriesAtOnce) {
+        while (runs.k[j] < runs.end[j] && hits_ <= BulkNotes::kHits - kEntriesAtOnce) {
           work_.tests(min(kEntriesAtOnce, runs.end[j] - runs.k[j]));
-          ManyEntry other[kEntriesAtOnce];
+          BulkEntry other[kEntriesAtOnce];
 #pragma unroll
           for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) other[k] = g_.entries[runs.k[j] + k];
 #pragma unroll
@@ -176,9 +176,9 @@ class ManySearch {
   __device__ void settle() {
 #pragma unroll 2
     for (std::uint32_t k = settled_; k < hits_; ++k) {
-      const ManyEntry other = g_.entries[notes_.hit[k][lane()]];
+      const BulkEntry other = g_.entries[notes_.hit[k][lane()]];
       const bool is_unsure = unsure_ != 0 || !surely_overlap(coarse_, other.box);
-      notes_.hit[k][lane()] = is_unsure ? other.body | ManyNotes::kUnsure : other.body;
+      notes_.hit[k][lane()] = is_unsure ? other.body | BulkNotes::kUnsure : other.body;
     }
     settled_ = hits_;
   }
@@ -196,8 +196,8 @@ class ManySearch {
         left &= left - 1U;
         const std::uint32_t second = left != 0 ? __ffs(static_cast<int>(left)) - 1 : first;
         left &= left - 1U;
-        const std::uint32_t a = notes_.hit[first][lane()] & ~ManyNotes::kUnsure;
-        const std::uint32_t b = notes_.hit[second][lane()] & ~ManyNotes::kUnsure;
+        const std::uint32_t a = notes_.hit[first][lane()] & ~BulkNotes::kUnsure;
+        const std::uint32_t b = notes_.hit[second][lane()] & ~BulkNotes::kUnsure;
         const PackedBox box_a = boxes_[a];
         const PackedBox box_b = boxes_[b];
         if (core::overlaps(unpack(own), unpack(box_a))) notes_.hit[first][lane()] = a;
@@ -205,15 +205,15 @@ class ManySearch {
       }
     }
     for (std::uint32_t k = 0; __any_sync(kFullWarp, k < hits_); ++k) {
-      const std::uint32_t other = k < hits_ ? notes_.hit[k][lane()] : ManyNotes::kUnsure;
-      queue_.push((other & ManyNotes::kUnsure) == 0, core::make_pair_of(body_, other));
+      const std::uint32_t other = k < hits_ ? notes_.hit[k][lane()] : BulkNotes::kUnsure;
+      queue_.push((other & BulkNotes::kUnsure) == 0, core::make_pair_of(body_, other));
     }
     hits_ = settled_ = 0;
   }
 
-  const ManyView& g_;
+  const BulkView& g_;
   const PackedBox* boxes_;
-  ManyNotes& notes_;
+  BulkNotes& notes_;
   WarpQueue queue_;
   Work work_;
   CellCorner fine_min_;
@@ -231,11 +231,11 @@ class ManySearch {
 // Warps take boxes as they are done with others: of a crowd one box has many partners, outside of it few. `g.turns` is
 // zero before.
 template <typename Team>
-__device__ void many_find(const Team& team, const ManyView& g, const PackedBox* boxes, std::uint32_t count,
-                          ManyNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded) {
+__device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count,
+                          BulkNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded) {
   const volatile std::uint32_t* known = g.levels;
   const LevelMarks marks{known[0], known[1]};
-  ManySearch<Uncounted> search(g, boxes, notes, out, demanded);
+  BulkSearch<Uncounted> search(g, boxes, notes, out, demanded);
   // Of few boxes a warp takes fewer than it has lanes: it is done when the slowest of them is.
   const std::uint64_t warps = warp_count(team);
   std::uint32_t width = 32;

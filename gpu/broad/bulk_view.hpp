@@ -1,24 +1,24 @@
-// What the search among many boxes on the device is given, by value.
+// What the search of bulk pairs on the device is given, by value.
 #pragma once
 
 #include <cstdint>
 
 namespace broadside::gpu {
 
-// Two corners, rounded: see many_cells.cuh.
+// Two corners, rounded: see bulk_cells.cuh.
 struct CoarseBox {
   std::uint32_t min = 0;
   std::uint32_t max = 0;
 };
 
-// One of many boxes, in its bucket.
-struct alignas(16) ManyEntry {
+// A box in its bucket.
+struct alignas(16) BulkEntry {
   CoarseBox box;
   std::uint32_t body = 0;
-  std::uint32_t tag = 0;  // see many_cells.cuh
+  std::uint32_t tag = 0;  // see bulk_cells.cuh
 };
 
-// What puts a great many boxes in order by chunk of buckets, so that memory is written in runs: see many_bins.cuh.
+// What puts boxes in order by chunk of buckets, so that memory is written in runs: see bulk_bins.cuh.
 struct BinsView {
   std::uint32_t bins = 0;                // 0: there are too few boxes to need it
   std::uint32_t* chunk_count = nullptr;  // [chunks]; zero between frames
@@ -27,11 +27,11 @@ struct BinsView {
   std::uint32_t* first_chunk = nullptr;  // [bins]
   std::uint32_t* last_chunk = nullptr;   // [bins]
   std::uint32_t* cursor = nullptr;       // [bins] entries given out to blocks
-  ManyEntry* entries = nullptr;          // [bodies] by bin
+  BulkEntry* entries = nullptr;          // [bodies] by bin
   std::uint16_t* bucket = nullptr;       // [bodies] of these entries, within their group
 };
 
-struct ManyView {
+struct BulkView {
   std::uint32_t bucket_mask = 0;    // buckets - 1; a power of two of buckets, whole chunks
   std::uint32_t axis_bits = 0;      // of y and of z that go into a bucket as they are
   std::uint32_t x_bits = 0;         // likewise
@@ -40,7 +40,7 @@ struct ManyView {
   std::uint32_t* count = nullptr;   // [buckets]; zero between frames
   std::uint32_t* begin = nullptr;   // [bucket_words(buckets)]
   std::uint32_t* rank = nullptr;    // [bodies] place within the bucket
-  ManyEntry* entries = nullptr;     // [bodies + 4] by bucket
+  BulkEntry* entries = nullptr;     // [bodies + 4] by bucket
   std::uint32_t* levels = nullptr;  // [2] bit k of the first: some body was on level k; of the second: see LevelMarks;
                                     // bits are only ever set
   std::uint32_t* turns = nullptr;   // [1] shares of the boxes given out to warps that look for their partners

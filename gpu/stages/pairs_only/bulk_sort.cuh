@@ -1,71 +1,71 @@
-// Many boxes into their buckets, all at once: counted by atomics, given ranges, written. Each box is one write
-// somewhere else in memory, which is what it takes the time for.
+// Sorts boxes of bulk pairs into their buckets, all at once: counted by atomics, given ranges, written. Each box is one
+// write somewhere else in memory, which is what it takes the time for.
 #pragma once
 
 #include "gpu/stages/broad/bucket_stage.cuh"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/pairs_only/many_cells.cuh"
+#include "gpu/stages/pairs_only/bulk_cells.cuh"
 
 namespace broadside::gpu {
 
 // Several boxes a thread at once: it waits for all their loads together.
-constexpr std::uint32_t kManyAtOnce = 4;
+constexpr std::uint32_t kBoxesAtOnce = 4;
 
 // Runs are read by fours: those past the last entry are found by nobody.
 template <typename Team>
-__device__ void end_entries(const Team& team, const ManyView& g, std::uint32_t count) {
+__device__ void end_entries(const Team& team, const BulkView& g, std::uint32_t count) {
   if (team.rank() < 4) g.entries[count + team.rank()] = {{}, 0, kNoCellTag};
 }
 
 // Counts boxes into buckets. The place within a bucket is whatever the order of the threads makes it: nothing that
 // follows depends on it.
 template <typename Team>
-__device__ void many_count(const Team& team, const ManyView& g, const PackedBox* boxes, std::uint32_t count) {
-  for (std::uint64_t first = team.rank(); first < count; first += team.size() * kManyAtOnce) {
-    PackedBox box[kManyAtOnce];
-    std::uint32_t rank[kManyAtOnce];
+__device__ void bulk_count(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count) {
+  for (std::uint64_t first = team.rank(); first < count; first += team.size() * kBoxesAtOnce) {
+    PackedBox box[kBoxesAtOnce];
+    std::uint32_t rank[kBoxesAtOnce];
     LevelMarks marks;
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k)
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k)
       if (first + k * team.size() < count) box[k] = boxes[first + k * team.size()];
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k) {
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
       if (first + k * team.size() >= count) break;
-      const int level = many_level(g, unpack(box[k]));
+      const int level = bulk_level(g, unpack(box[k]));
       const TableCell cell = own_cell(g, unpack(box[k]), level);
       marks.add(g, cell, level);
       rank[k] = atomicAdd(&g.count[bucket_of(g, cell, level)], 1U);
     }
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k)
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k)
       if (first + k * team.size() < count) g.rank[first + k * team.size()] = rank[k];
     marks.note(g);
   }
 }
 
 template <typename Team>
-__device__ void many_scatter(const Team& team, const ManyView& g, const PackedBox* boxes, std::uint32_t count) {
-  for (std::uint64_t first = team.rank(); first < count; first += team.size() * kManyAtOnce) {
-    PackedBox box[kManyAtOnce];
-    std::uint32_t place[kManyAtOnce];
-    ManyEntry entry[kManyAtOnce];
+__device__ void bulk_scatter(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count) {
+  for (std::uint64_t first = team.rank(); first < count; first += team.size() * kBoxesAtOnce) {
+    PackedBox box[kBoxesAtOnce];
+    std::uint32_t place[kBoxesAtOnce];
+    BulkEntry entry[kBoxesAtOnce];
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k) {
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
       const std::uint64_t i = first + k * team.size();
       if (i >= count) break;
       box[k] = boxes[i];
       place[k] = g.rank[i];
     }
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k) {
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
       const std::uint64_t i = first + k * team.size();
       if (i >= count) break;
-      const ManyPlace to = place_of(g, box[k], static_cast<std::uint32_t>(i));
+      const BulkPlace to = place_of(g, box[k], static_cast<std::uint32_t>(i));
       place[k] += g.begin[bucket_place(to.bucket)];
       entry[k] = to.entry;
     }
 #pragma unroll
-    for (std::uint32_t k = 0; k < kManyAtOnce; ++k)
+    for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k)
       if (first + k * team.size() < count) g.entries[place[k]] = entry[k];
   }
   end_entries(team, g, count);

@@ -1,13 +1,13 @@
-// A great many boxes into their buckets, in two steps. Boxes that come in no order and more entries than the cache
-// holds make every entry a write somewhere else in memory, which takes it several times as long as a run of them. So
-// entries go to bins first, each some chunks of buckets, a tile of boxes at a time, so that a tile's share of a bin is
-// a run; then bin by bin, each small enough for a multiprocessor's shared memory, into their buckets. Entries end up in
-// the order of their buckets.
+// Sorts boxes of bulk pairs into their buckets, in two steps. Boxes that come in no order and more entries than the
+// cache holds make every entry a write somewhere else in memory, which takes it several times as long as a run of them.
+// So entries go to bins first, each some chunks of buckets, a tile of boxes at a time, so that a tile's share of a bin
+// is a run; then bin by bin, each small enough for a multiprocessor's shared memory, into their buckets. Entries end up
+// in the order of their buckets.
 #pragma once
 
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/pairs_only/many_cells.cuh"
-#include "gpu/stages/pairs_only/many_chunks.cuh"
+#include "gpu/stages/pairs_only/bulk_cells.cuh"
+#include "gpu/stages/pairs_only/bulk_chunks.cuh"
 
 namespace broadside::gpu {
 
@@ -16,21 +16,21 @@ constexpr std::uint32_t kStagedPerThread = 11;
 
 // Of shared memory.
 constexpr std::uint32_t tile_bytes(std::uint32_t threads, std::uint32_t bins) {
-  return kBoxesPerThread * threads * (sizeof(ManyEntry) + 3 * sizeof(std::uint16_t)) +
+  return kBoxesPerThread * threads * (sizeof(BulkEntry) + 3 * sizeof(std::uint16_t)) +
          (2 * bins + 1 + 32) * sizeof(std::uint32_t);
 }
 constexpr std::uint32_t bin_bytes(std::uint32_t threads) {
-  return kStagedPerThread * threads * sizeof(ManyEntry) + (kGroupBuckets + 32) * sizeof(std::uint32_t);
+  return kStagedPerThread * threads * sizeof(BulkEntry) + (kGroupBuckets + 32) * sizeof(std::uint32_t);
 }
 
 // Tile by tile: entries into bins.
-__device__ inline void fill_bins(const ManyView& g, const PackedBox* boxes, std::uint32_t count,
+__device__ inline void fill_bins(const BulkView& g, const PackedBox* boxes, std::uint32_t count,
                                  unsigned char* shared) {
   const BinsView& b = g.bins;
   const std::uint32_t tile = kBoxesPerThread * blockDim.x;
   constexpr int kRankBits = 16;  // beside which a bin fits
   // By their place among the boxes: entries. By bin: which box it is, its bucket, its bin.
-  auto* entries = reinterpret_cast<ManyEntry*>(shared);
+  auto* entries = reinterpret_cast<BulkEntry*>(shared);
   auto* begin_of_bin = reinterpret_cast<std::uint32_t*>(entries + tile);
   std::uint32_t* offset = begin_of_bin + b.bins + 1;  // from a place in the tile to that in memory
   std::uint32_t* room = offset + b.bins;
@@ -45,19 +45,19 @@ __device__ inline void fill_bins(const ManyView& g, const PackedBox* boxes, std:
     std::uint32_t bucket[kBoxesPerThread];
     std::uint32_t bin_and_rank[kBoxesPerThread];
 #pragma unroll
-    for (std::uint32_t half = 0; half < kBoxesPerThread; half += kManyAtOnce) {
-      PackedBox box[kManyAtOnce];
+    for (std::uint32_t half = 0; half < kBoxesPerThread; half += kBoxesAtOnce) {
+      PackedBox box[kBoxesAtOnce];
 #pragma unroll
-      for (std::uint32_t k = 0; k < kManyAtOnce; ++k) {
+      for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
         const std::uint32_t at = (half + k) * blockDim.x + threadIdx.x;
         if (at < filled) box[k] = boxes[first + at];
       }
 #pragma unroll
-      for (std::uint32_t k = 0; k < kManyAtOnce; ++k) {
+      for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
         const std::uint32_t at = (half + k) * blockDim.x + threadIdx.x;
         bucket[half + k] = 0;
         if (at >= filled) continue;
-        const ManyPlace to = place_of(g, box[k], static_cast<std::uint32_t>(first + at));
+        const BulkPlace to = place_of(g, box[k], static_cast<std::uint32_t>(first + at));
         entries[at] = to.entry;
         bucket[half + k] = to.bucket;
       }
@@ -118,7 +118,7 @@ __device__ inline void fill_bins(const ManyView& g, const PackedBox* boxes, std:
 }
 
 // Gives every bucket of these chunks its range; `place`: counts before, where the ranges begin after.
-__device__ inline void place_in_bin(const ManyView& g, std::uint32_t first_chunk, std::uint32_t chunks,
+__device__ inline void place_in_bin(const BulkView& g, std::uint32_t first_chunk, std::uint32_t chunks,
                                     std::uint32_t begin, std::uint32_t* place, std::uint32_t* room) {
   constexpr std::uint32_t kMostEach = 8;
   const std::uint32_t buckets = chunks * kBucketChunk;
@@ -147,9 +147,9 @@ __device__ inline void place_in_bin(const ManyView& g, std::uint32_t first_chunk
 }
 
 // Bin by bin: entries into buckets.
-__device__ inline void empty_bins(const ManyView& g, unsigned char* shared) {
+__device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
   const BinsView& b = g.bins;
-  auto* staged = reinterpret_cast<ManyEntry*>(shared);
+  auto* staged = reinterpret_cast<BulkEntry*>(shared);
   auto* place = reinterpret_cast<std::uint32_t*>(staged + kStagedPerThread * blockDim.x);
   std::uint32_t* room = place + kGroupBuckets;
   for (std::uint32_t bin = blockIdx.x; bin < b.bins; bin += gridDim.x) {
