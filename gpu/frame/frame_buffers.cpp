@@ -54,7 +54,7 @@ core::Status FrameBuffers::load(const core::Scene& scene) {
 core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   BROADSIDE_TRY(confirmed_.reserve(count, "confirmed pairs"));
   BROADSIDE_TRY(proximity_.reserve(count, "nearest vertices"));
-  if (body_count_ <= kFewBodies) {
+  if (body_count_ <= kMostSmallBodies) {
     BROADSIDE_TRY(measured_.reserve(count, "nearest vertices"));
     BROADSIDE_TRY(placed_.reserve(count, "nearest vertices"));
     BROADSIDE_TRY(placed_.fill_bytes(0xFF));
@@ -66,7 +66,7 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
 }
 
 core::Status FrameBuffers::reserve_rests() {
-  if (body_count_ > kFewBodies) return core::Done{};
+  if (body_count_ > kMostSmallBodies) return core::Done{};
   BROADSIDE_TRY(rests_.reserve(2 * std::size_t{RestsView::kMost}, "shared searches"));
   BROADSIDE_TRY(rest_entries_.reserve(2 * std::size_t{RestsView::kMost} * RestsView::kEntries, "shared searches"));
   // They are read before it is known how many there are.

@@ -27,7 +27,7 @@ class FrameBuffers {
  public:
   // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
   core::Status load(const core::Scene& scene);
-  // Where long searches of few bodies are handed over.
+  // Where small frames leave the rest of long searches to the whole grid.
   core::Status reserve_rests();
   // For the frame that has so many others under way before it, none of which advance() was called for.
   void fill(FrameView& view, std::uint64_t under_way = 0) const;

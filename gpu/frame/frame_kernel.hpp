@@ -26,8 +26,8 @@ struct LaunchShape {
   [[nodiscard]] std::uint64_t all_threads() const { return std::uint64_t{blocks} * threads; }
 };
 
-// Of the ring of all bodies (stages/broad/body_ring.cuh) a warp takes so few places at once as there are warps for:
-// seldom do two of its pairs go down the levels one after the other then.
+// How many places of the ring of all bodies (stages/broad/body_ring.cuh) a warp takes at a time: the fewest for which
+// there are warps enough, so that a warp seldom has to test the levels of two pairs one after the other.
 inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) {
   const std::uint64_t warps = shape.all_threads() / 32;
   std::uint32_t share = 1;
@@ -36,12 +36,12 @@ inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) 
 }
 
 // Above this the tiles of tile_stage.cuh are sooner done: a warp of theirs tests 1024 pairs, one of ours 32.
-constexpr std::uint32_t kFewBodies = 512;
+constexpr std::uint32_t kMostSmallBodies = 512;
 
 // Whether frames that start so are small frames: their kernel has no other start and no other solver, and its response
 // has a thread of one block for each body.
 inline bool is_small_frame(const FrameView& f, Start start) {
-  return start == Start::kTiles && f.body_count <= kFewBodies && f.body_count <= f.block_bodies &&
+  return start == Start::kTiles && f.body_count <= kMostSmallBodies && f.body_count <= f.block_bodies &&
          f.solver == Solver::kColored;
 }
 

@@ -1,4 +1,4 @@
-// What comes of a pair of few bodies while it is measured.
+// The result of the vertex search of a pair in a small frame.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// Its levels may be gone down meanwhile: of a rejected one `nearest` says nothing.
+// Other warps may test the pair's levels meanwhile: `nearest` of a pair that they reject means nothing.
 struct alignas(16) MeasuredPair {
   core::Proximity nearest;
   std::uint32_t is_rejected = 0;

@@ -14,10 +14,10 @@ LaunchShape Pipeline::Impl::frame_shape() const {
   return shape;
 }
 
-// Of few bodies. While a pair is measured other warps go down its levels, for nothing. But where there are more pairs,
-// as in the last frame that was seen, than the grid has large teams of warps, and a warp more for each, it is worth
-// while to know before which of them are left: there are more warps for each then. Descending two trees takes long, and
-// wants all warps of a block.
+// Of a small frame. Levels that come with the vertex search cost no time, because idle warps test them. But if there
+// are more pairs than the grid has large teams of warps, with one warp more for each, it is better to test levels
+// first: the pairs that remain get more warps each. The last frame that the host has seen says how many pairs there
+// are. A large team is a quarter of a block where cells are looked up, and a block where two trees are descended.
 bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
   if (view.levels == core::Levels::kFlat) return false;
   const std::uint64_t warps = shape.threads / 32;
@@ -39,7 +39,7 @@ SmallFrameView Pipeline::Impl::small_view(const LaunchShape& shape) const {
   SmallFrameView small{view};
   buffers.fill_small(small);
   small.ring_share = ring_share(view.body_count, shape);
-  small.ring_shares = SmallDivisor(ring_shares(view.body_count, small.ring_share));
+  small.ring_shares = FloatDivisor(ring_shares(view.body_count, small.ring_share));
   small.are_levels_first = levels_come_first(shape);
   return small;
 }

@@ -4,7 +4,7 @@
 
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/frame/small_frame_view.hpp"
-#include "gpu/stages/broad/few_stage.cuh"
+#include "gpu/stages/broad/small_stage.cuh"
 #include "gpu/stages/frame_report.cuh"
 #include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
@@ -24,41 +24,41 @@ struct SmallScratch {
 };
 
 // By one thread, when no other adds to the tally any more. The tally is cleared for the next frame.
-__device__ inline void report_small(const SmallFrameView& f, const Counters& counters, const FewCounts& few,
+__device__ inline void report_small(const SmallFrameView& f, const Counters& counters, const SmallCounts& counts,
                                     bool is_aborted) {
   f.barrier[1] = 0;
   *f.given_out = 0;
   tell_host(f, counters, is_aborted);
-  if (const unsigned long long tally = few.packed(); tally != 0) atomicAdd(f.barrier, 0ULL - tally);
+  if (const unsigned long long tally = counts.packed(); tally != 0) atomicAdd(f.barrier, 0ULL - tally);
 }
 
 // Pairs that were counted in the tally, as counters. The counters in memory are clear until the frame is reported.
-__device__ inline Counters counters_of(const SmallFrameView& f, const FewCounts& few) {
+__device__ inline Counters counters_of(const SmallFrameView& f, const SmallCounts& counts) {
   Counters counters;
-  counters.pairs = few.pairs;
-  counters.confirmed = few.confirmed(f);
+  counters.pairs = counts.pairs;
+  counters.confirmed = counts.confirmed(f);
   return counters;
 }
 
 // By all threads, when there is no room for so many pairs, or confirmed pairs. The grid waits first: a block that read
 // a cleared tally would not abort, and would wait for the others for ever.
-__device__ inline void abort_small(const GridTeam& grid, const SmallFrameView& f, const FewCounts& few,
+__device__ inline void abort_small(const GridTeam& grid, const SmallFrameView& f, const SmallCounts& counts,
                                    std::uint64_t confirmed) {
   grid.sync();
   if (blockIdx.x != 0 || threadIdx.x != 0) return;
-  Counters counters = counters_of(f, few);
+  Counters counters = counters_of(f, counts);
   counters.confirmed = max(std::uint64_t{counters.confirmed}, confirmed);
-  report_small(f, counters, few, true);
+  report_small(f, counters, counts, true);
 }
 
 // Contacts and faces, by all threads of one block.
-__device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs& pairs, const FewCounts& few,
+__device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs& pairs, const SmallCounts& counts,
                                      SmallScratch& scratch, unsigned char* shared) {
   if (BlockRoom::fits(f, pairs.count)) {
-    if (threadIdx.x == 0) scratch.counters = counters_of(f, few);
+    if (threadIdx.x == 0) scratch.counters = counters_of(f, counts);
     const BlockRoom room(shared, f.body_count, static_cast<std::uint32_t>(pairs.count));
     resolve_alone(f, pairs, room, scratch.counters);
-    if (threadIdx.x == 0) report_small(f, scratch.counters, few, !has_room_for_faces(f, scratch.counters));
+    if (threadIdx.x == 0) report_small(f, scratch.counters, counts, !has_room_for_faces(f, scratch.counters));
     return;
   }
   const BlockTeam team;
@@ -67,9 +67,9 @@ __device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs&
   });
   if (team.rank() != 0) return;
   Counters counters = *f.counters;
-  counters.pairs = few.pairs;
-  counters.confirmed = few.confirmed(f);
-  report_small(f, counters, few, !has_room_for_faces(f, counters));
+  counters.pairs = counts.pairs;
+  counters.confirmed = counts.confirmed(f);
+  report_small(f, counters, counts, !has_room_for_faces(f, counters));
 }
 
 // `shared`: what LaunchShape says, a block's own, and BlockShapes behind it. Always inlined: a call would take the view
@@ -79,43 +79,44 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
   // Until the frame before has ended, nothing is read that it writes.
   scratch.proximity.clear();
   shapes.begin(f);
-  const FewItem first(GridPlaces{}, f);
+  const RingItem first(GridPlaces{}, f);
   wait_for_launch_before();
 
   const GridTeam grid(f.barrier);
   mark_begin(grid, f.outcome);
-  const bool is_needed = integrate_and_find_few(grid, f, shapes, first);
+  const bool is_needed = integrate_and_find_pairs(grid, f, shapes, first);
   shapes.end(f);
   if (!is_needed) return;
   // With a vertex stage there is another barrier before anything of this is read but where a pair's bodies are.
-  FewCounts few = FewCounts::unpacked(grid.sync_and_read(&scratch.tally, f.has_vertex_stage));
+  SmallCounts counts = SmallCounts::unpacked(grid.sync_and_read(&scratch.tally, f.has_vertex_stage));
   mark_end(grid, f.outcome, core::Stage::kBroad);
   shapes.end_upper();
-  if (few.pairs > f.pairs.capacity) return abort_small(grid, f, few, 0);
+  if (counts.pairs > f.pairs.capacity) return abort_small(grid, f, counts, 0);
 
   // Where levels are left for the vertex stage, the confirmed pairs are among all that were found; with flat levels
   // they are these.
   const bool has_levels_left = are_levels_left(f);
-  const std::uint64_t confirmed = f.levels == core::Levels::kFlat || has_levels_left ? few.pairs : few.confirmed(f);
+  const std::uint64_t confirmed =
+      f.levels == core::Levels::kFlat || has_levels_left ? counts.pairs : counts.confirmed(f);
   mark_end(grid, f.outcome, core::Stage::kConfirm);
-  if (confirmed > f.confirmed.capacity) return abort_small(grid, f, few, confirmed);
+  if (confirmed > f.confirmed.capacity) return abort_small(grid, f, counts, confirmed);
 
   const NarrowPairs narrow{has_levels_left ? f.pairs.items : f.confirmed.items, confirmed, has_levels_left,
                            f.has_vertex_stage ? f.measured : nullptr, f.placed};
   if (f.has_vertex_stage) {
-    const FewLevels levels(f, shapes);
+    const SmallLevels levels(f, shapes);
     const ProximityStage stage(f, shapes.headers(f), levels, narrow, scratch.proximity, shared);
     if (confirmed > 0) stage.run();
     stage.share_rests([&] {
-      few = FewCounts::unpacked(grid.sync_and_read(&scratch.tally));
-      return few;
+      counts = SmallCounts::unpacked(grid.sync_and_read(&scratch.tally));
+      return counts;
     });
   }
   mark_end(grid, f.outcome, core::Stage::kVertices);
   let_next_launch_begin();
 
   if (f.has_vertex_stage && blockIdx.x == gridDim.x - 1) list_measured(f, narrow, &scratch.listed);
-  if (blockIdx.x == 0) resolve_small(f, narrow, few, scratch, shared);
+  if (blockIdx.x == 0) resolve_small(f, narrow, counts, scratch, shared);
 }
 
 }  // namespace broadside::gpu

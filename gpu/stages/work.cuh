@@ -28,7 +28,7 @@ __device__ inline Counted count_bulk_work(const GridPlaces& grid, const BroadWor
   return search.work();
 }
 
-// Few bodies' pairs are all tested, as tiles do.
+// A small frame tests all pairs, as tiles do.
 __device__ inline void count_broad_work(const BroadWorkView& view, BulkNotes& room) {
   const GridPlaces grid;
   const BroadView& b = view.broad;

@@ -3,15 +3,15 @@
 
 #include <cstdint>
 
+#include "gpu/frame/divisor.hpp"
 #include "gpu/frame/ring_shares.hpp"
-#include "gpu/frame/small_divisor.hpp"
 #include "gpu/stages/grid/team.cuh"
 
 namespace broadside::gpu {
 
 // Bodies on a ring: body i is paired with those 1 to n / 2 places on, so that every pair comes once without a root or a
 // triangle, and every body has as much to do as the next. An item is one body and `share` places on from it, a lane
-// each. Divisor: SmallDivisor where there are fewer items than it can divide, or WideDivisor.
+// each. Divisor: FloatDivisor where there are fewer items than it can divide, or IntegerDivisor.
 template <typename Divisor>
 class BodyRing {
  public:

@@ -67,9 +67,9 @@ __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, st
 template <typename Team, typename Work>
 __device__ void confirm_by_brute_force(const Team& team, const FrameView& f, Work& work) {
   constexpr std::uint32_t kShare = 4;
-  const BodyRing<WideDivisor> ring(f.body_count, kShare, WideDivisor(ring_shares(f.body_count, kShare)));
+  const BodyRing<IntegerDivisor> ring(f.body_count, kShare, IntegerDivisor(ring_shares(f.body_count, kShare)));
   for (std::uint64_t item = warp_rank(team); item < ring.items(); item += warp_count(team)) {
-    const BodyRing<WideDivisor>::RingPair own = ring.pair_of(item);
+    const BodyRing<IntegerDivisor>::RingPair own = ring.pair_of(item);
     const core::Pair pair = core::make_pair_of(own.i, own.j);
     unsigned left = __ballot_sync(kFullWarp, own.exists && !(is_static(f, own.i) && is_static(f, own.j)));
     unsigned hits = 0;

@@ -1,4 +1,4 @@
-// What stages for few bodies ask of shapes again and again, in a block's shared memory.
+// What the stages of a small frame read of shapes again and again, copied into a block's shared memory.
 #pragma once
 
 #include "core/method/levels.hpp"
@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// Beside what every kernel has there; of more shapes nothing is copied.
+// Behind what every kernel has there. Of scenes with more shapes nothing is copied.
 struct alignas(16) BlockShapes {
   static constexpr std::uint32_t kMost = 4;
   static constexpr std::uint32_t kMostUpper = 256;
@@ -20,7 +20,8 @@ struct alignas(16) BlockShapes {
   PackedBox upper[kMostUpper];
 };
 
-// Asked for while bodies are integrated, octrees only where levels come first: waited for where a pair goes down them.
+// Copies begin while bodies are integrated; octrees then only if levels come first. A warp that tests levels waits for
+// the octrees.
 class ShapesInBlock {
  public:
   __device__ ShapesInBlock(const SmallFrameView& f, unsigned char* shared, BlockCopy& octree_copy,
@@ -48,7 +49,7 @@ class ShapesInBlock {
   __device__ void end(const SmallFrameView& f) const {
     if (f.are_levels_first && is_ours()) end_octrees();
   }
-  // Upper nodes, asked for when bodies are there, by all threads of the block; and before anybody leaves it.
+  // Copies upper nodes, begun after bodies are loaded, ended before a thread leaves the block. By all its threads.
   __device__ void begin_upper(const SmallFrameView& f) const {
     if (has_upper_ && is_ours())
       upper_copy_.begin(room_->upper, f.shapes.tree_upper, f.shapes.tree_upper_count * sizeof(PackedBox));
@@ -56,7 +57,8 @@ class ShapesInBlock {
   __device__ void end_upper() const {
     if (has_upper_ && is_ours()) upper_copy_.wait();
   }
-  // The same of octrees alone, once a launch, by one warp: before anybody waits for them, and before it leaves.
+  // The same for octrees, once a launch, by one warp: begun before any thread waits for them, ended before the warp
+  // leaves.
   __device__ void begin_octrees(const SmallFrameView& f) const {
     if (has_octrees_)
       octree_copy_.begin(room_->octree, f.shapes.octree, f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox));

@@ -41,9 +41,9 @@ __device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, s
   return {static_cast<std::uint32_t*>(stacks) + std::uint64_t{first} * each * 3, count * each, count * each};
 }
 
-// Where nothing is ever left to be found out about pairs but how near they are; otherwise FewLevels.
+// Where nothing is ever left to be found out about pairs but how near they are; otherwise SmallLevels.
 struct NoLevels {
-  static constexpr bool kAreOfFewBodies = false;
+  static constexpr bool kIsSmallFrame = false;
   using View = FrameView;
 
   __device__ void begin() const {}
@@ -80,13 +80,13 @@ class ProximityStage {
     if (looks) levels_.end();
   }
 
-  // Of few bodies, what teams handed over, shared by the whole grid, until nothing is handed over any more.
-  // `sync`: the barrier of the grid; returns FewCounts since the frame began.
+  // In small frames: the whole grid shares the work that teams left, until none leaves any more.
+  // `sync`: the barrier of the grid; returns SmallCounts since the frame began.
   template <typename Sync>
   __device__ void share_rests(const Sync& sync) const {
     std::uint32_t before = 0;
     std::uint32_t turn = 0;
-    FewCounts counts = sync();
+    SmallCounts counts = sync();
     for (bool is_marked = counts.marked != 0; is_marked || counts.rests > before; ++turn) {
       const std::uint32_t count = is_marked ? __popcll(counts.marked) : min(counts.rests - before, most_rests());
       before = counts.rests;
@@ -97,7 +97,7 @@ class ProximityStage {
   }
 
  private:
-  using Cells = NearestByCells<Levels::kAreOfFewBodies>;
+  using Cells = NearestByCells<Levels::kIsSmallFrame>;
 
   // How many warps a pair has, as a power of two: the largest of which there are enough for so many pairs, at most a
   // block's.
@@ -138,7 +138,7 @@ class ProximityStage {
 
   // How many pairs were given out to warps.
   __device__ unsigned long long* given_out() const {
-    if constexpr (Levels::kAreOfFewBodies)
+    if constexpr (Levels::kIsSmallFrame)
       return f_.given_out;
     else
       return &f_.counters->measured;
@@ -151,9 +151,9 @@ class ProximityStage {
     const std::uint32_t members = 1U << shift;
     const WarpShare share{warp & (members - 1), members};
     const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
-    // Few bodies' kernel has cleared it when it began: a wait less. So early, in the kernels for more bodies, it makes
-    // contacts wait longer, 7 % of a pile's frame.
-    if constexpr (!Levels::kAreOfFewBodies) {
+    // A small frame's kernel clears it when it begins, which saves a barrier of the block. In a grid frame's kernel
+    // that makes a pile's frame 7 % slower.
+    if constexpr (!Levels::kIsSmallFrame) {
       scratch_.clear();
       __syncthreads();
     }
@@ -225,7 +225,7 @@ class ProximityStage {
     const TreePair trees(f_, headers_, bodies, &scratch_.bound[team]);
     if (headers_.upper_copy != nullptr) headers_.upper_copy->wait();
     const TeamCounts left = TreeStart(trees, all).begin();
-    if constexpr (Levels::kAreOfFewBodies) {
+    if constexpr (Levels::kIsSmallFrame) {
       RestOfPair rest(f_, f_.rests[0], has_marks(), 0, bodies, k, rounds_of_team(trees), &scratch_.place[team]);
       return nearest_by_trees(trees, all, left, rest);
     } else {
@@ -234,7 +234,7 @@ class ProximityStage {
     }
   }
 
-  // Whether there are as few pairs as FewCounts::marked has bits, and each has a block or more to be shared by.
+  // Whether there are as few pairs as SmallCounts::marked has bits, and each has a block or more to be shared by.
   __device__ bool has_marks() const { return pairs_.count <= min(RestsView::kMostMarked, gridDim.x); }
 
   // A barrier of the grid costs as much as some four rounds. The more levels are left to go down, the more there may be

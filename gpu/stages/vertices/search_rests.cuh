@@ -2,11 +2,11 @@
 // grid, most of which has nothing else to do.
 #pragma once
 
+#include "gpu/frame/divisor.hpp"
 #include "gpu/frame/frame_view.hpp"
 #include "gpu/frame/search_rest.hpp"
-#include "gpu/frame/small_divisor.hpp"
-#include "gpu/stages/few_counts.cuh"
 #include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/small_counts.cuh"
 #include "gpu/stages/vertices/search_stack.cuh"
 #include "gpu/stages/vertices/tree_search.cuh"
 
@@ -35,7 +35,7 @@ class RestOfPair {
         rounds_(rounds),
         asked_after_(rounds),
         place_(place),
-        is_refused_(before >= FewCounts::kMostRests) {}
+        is_refused_(before >= SmallCounts::kMostRests) {}
 
   __device__ bool is_asked_after(std::uint32_t round) {
     if (round != asked_after_) return false;
@@ -64,8 +64,8 @@ class RestOfPair {
  private:
   __device__ std::uint32_t asked_place(const SearchTeam& team) const {
     if (team.member == 0) {
-      const unsigned long long tally = add_by_first_lane(f_.barrier, FewCounts{0, 0, 1}.packed());
-      if (lane() == 0) *place_ = FewCounts::unpacked(tally).rests - before_;
+      const unsigned long long tally = add_by_first_lane(f_.barrier, SmallCounts{0, 0, 1}.packed());
+      if (lane() == 0) *place_ = SmallCounts::unpacked(tally).rests - before_;
     }
     team.sync();
     return *place_;
@@ -97,12 +97,12 @@ class RestPart {
   // By all threads of a block, which are the team; a barrier of the block must follow. `marked`: the places of the
   // rests, or 0: the first ones.
   __device__ RestPart(const RestsView& rests, std::uint32_t count, unsigned long long marked, const SearchTeam& team) {
-    const SmallDivisor by_count(count);
+    const FloatDivisor by_count(count);
     const std::uint32_t part = by_count.quotient(blockIdx.x);
     const std::uint32_t rank = blockIdx.x - part * count;
     const std::uint32_t parts = by_count.rounded_up(gridDim.x - rank);
     const std::uint32_t place = marked != 0 ? bit_of_rank(marked, rank) : rank;
-    const SmallDivisor by_parts(parts);
+    const FloatDivisor by_parts(parts);
     const auto up_to = [&](std::uint32_t end) { return end > part ? by_parts.rounded_up(end - part) : 0U; };
     const NodePair* entries = rests.entries + place * RestsView::kEntries;
     rest_ = fetched(rests.items + place);

@@ -7,8 +7,8 @@
 
 #include "core/method/levels.hpp"
 #include "core/scene/body_octree.hpp"
+#include "gpu/frame/divisor.hpp"
 #include "gpu/frame/frame_kernel.hpp"
-#include "gpu/frame/small_divisor.hpp"
 #include "gpu/stages/broad/body_ring.cuh"
 #include "gpu/stages/levels/confirm_stage.cuh"
 
@@ -18,9 +18,9 @@ namespace {
 // One warp.
 constexpr on_host::Launch kWarp{{1}, {32}, 0};
 
-TEST(SmallDivisor, GivesWholeQuotients) {
+TEST(FloatDivisor, GivesWholeQuotients) {
   for (std::uint32_t by = 1; by <= 512; ++by) {
-    const SmallDivisor divisor(by);
+    const FloatDivisor divisor(by);
     for (std::uint32_t multiple = 0; multiple + by <= 1U << 20; multiple += by) {
       ASSERT_EQ(divisor.quotient(multiple), multiple / by) << multiple << " by " << by;
       ASSERT_EQ(divisor.quotient(multiple + by - 1), multiple / by) << multiple + by - 1 << " by " << by;
@@ -35,7 +35,7 @@ TEST(BodyRing, MeetsEveryPairOnce) {
     for (std::uint32_t share : {1U, 3U, 4U, 7U, 32U}) {
       std::map<core::Pair, int> met;
       on_host::run(kWarp, 0, [&](unsigned char*) {
-        const BodyRing<SmallDivisor> ring(bodies, share, SmallDivisor(ring_shares(bodies, share)));
+        const BodyRing<FloatDivisor> ring(bodies, share, FloatDivisor(ring_shares(bodies, share)));
         for (std::uint32_t item = 0; item < ring.items(); ++item) {
           const auto own = ring.pair_of(item);
           if (own.exists) ++met[core::make_pair_of(own.i, own.j)];

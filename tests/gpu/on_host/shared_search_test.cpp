@@ -7,7 +7,7 @@
 
 #include "core/engine/engine.hpp"
 #include "gpu/frame/pipeline.hpp"
-#include "gpu/stages/few_counts.cuh"
+#include "gpu/stages/small_counts.cuh"
 #include "gpu/stages/vertices/search_rests.cuh"
 #include "reference/octree_cpu/engine.hpp"
 #include "tests/gpu/small_scenes.hpp"
@@ -16,22 +16,22 @@
 namespace broadside::gpu {
 namespace {
 
-TEST(FewCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
-  const FewCounts most{130816, 130816, (1U << 14) - 1};
-  for (const FewCounts& counts : {FewCounts{}, FewCounts{1, 2, 3}, most}) {
+TEST(SmallCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
+  const SmallCounts most{130816, 130816, (1U << 14) - 1};
+  for (const SmallCounts& counts : {SmallCounts{}, SmallCounts{1, 2, 3}, most}) {
     const unsigned long long word = counts.packed() + 131 * GridWord::kArrival + GridWord::kFlipped;
-    const FewCounts again = FewCounts::unpacked(word);
+    const SmallCounts again = SmallCounts::unpacked(word);
     EXPECT_EQ(again.pairs, counts.pairs);
     EXPECT_EQ(again.judged, counts.judged);
     EXPECT_EQ(again.rests, counts.rests);
     EXPECT_EQ(again.marked, 0U);
-    EXPECT_EQ(FewCounts::unpacked(GridTally{word, 5}).marked, 5U);
-    EXPECT_EQ(FewCounts::unpacked(GridTally{word, 5}).rests, counts.rests);
+    EXPECT_EQ(SmallCounts::unpacked(GridTally{word, 5}).marked, 5U);
+    EXPECT_EQ(SmallCounts::unpacked(GridTally{word, 5}).rests, counts.rests);
   }
 }
 
-TEST(FewCounts, OfLevelsThatAreLeftTheRejectedAreCounted) {
-  const FewCounts counts{10, 4, 0};
+TEST(SmallCounts, OfLevelsThatAreLeftTheRejectedAreCounted) {
+  const SmallCounts counts{10, 4, 0};
   SmallFrameView view;
   view.levels = core::Levels::kC;
   EXPECT_EQ(counts.confirmed(view), 6U);

@@ -9,12 +9,12 @@ namespace broadside::gpu {
 
 // Divides below 2^20 by the same number again and again, in a few steps instead of some thirty: half a unit above the
 // quotient is farther from the next whole number than roundings reach.
-class SmallDivisor {
+class FloatDivisor {
  public:
   using Number = std::uint32_t;
 
-  SmallDivisor() = default;
-  BROADSIDE_HD explicit SmallDivisor(std::uint32_t by) : by_(by), inverse_(1.0F / static_cast<float>(by)) {}
+  FloatDivisor() = default;
+  BROADSIDE_HD explicit FloatDivisor(std::uint32_t by) : by_(by), inverse_(1.0F / static_cast<float>(by)) {}
 
   BROADSIDE_HD std::uint32_t by() const { return by_; }
   BROADSIDE_HD std::uint32_t quotient(std::uint32_t of) const {
@@ -28,11 +28,11 @@ class SmallDivisor {
 };
 
 // The same of any numbers.
-class WideDivisor {
+class IntegerDivisor {
  public:
   using Number = std::uint64_t;
 
-  BROADSIDE_HD explicit WideDivisor(std::uint32_t by) : by_(by) {}
+  BROADSIDE_HD explicit IntegerDivisor(std::uint32_t by) : by_(by) {}
 
   BROADSIDE_HD std::uint32_t by() const { return by_; }
   BROADSIDE_HD std::uint32_t quotient(std::uint64_t of) const { return static_cast<std::uint32_t>(of / by_); }

@@ -1,15 +1,15 @@
-// All pairs of a few bodies. METHOD section 2.
+// Bodies of a small frame, and all their pairs: METHOD sections 1 and 2.
 #pragma once
 
 #include "core/method/levels.hpp"
 #include "gpu/frame/small_frame_view.hpp"
 #include "gpu/stages/body_stage.cuh"
 #include "gpu/stages/broad/body_ring.cuh"
-#include "gpu/stages/few_counts.cuh"
 #include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/levels/confirm_stage.cuh"
 #include "gpu/stages/levels/shapes_in_block.cuh"
+#include "gpu/stages/small_counts.cuh"
 
 namespace broadside::gpu {
 
@@ -17,9 +17,9 @@ namespace broadside::gpu {
 constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 
 // A warp's item of the ring at a time: a body and those that it is paired with, a lane each.
-class FewItem {
+class RingItem {
  public:
-  __device__ FewItem(const GridPlaces& team, const SmallFrameView& f)
+  __device__ RingItem(const GridPlaces& team, const SmallFrameView& f)
       : ring_(f.body_count, f.ring_share, f.ring_shares),
         item_(static_cast<std::uint32_t>(team.spread_rank() / 32)),
         stride_(static_cast<std::uint32_t>(warp_count(team))) {
@@ -31,22 +31,22 @@ class FewItem {
     item_ += stride_;
     enter();
   }
-  __device__ const BodyRing<SmallDivisor>::RingPair& pair() const { return pair_; }
+  __device__ const BodyRing<FloatDivisor>::RingPair& pair() const { return pair_; }
 
  private:
   __device__ void enter() {
     if (exists()) pair_ = ring_.pair_of(item_);
   }
 
-  BodyRing<SmallDivisor> ring_;
+  BodyRing<FloatDivisor> ring_;
   std::uint32_t item_;
   std::uint32_t stride_;
-  BodyRing<SmallDivisor>::RingPair pair_;
+  BodyRing<FloatDivisor>::RingPair pair_;
 };
 
 // By a whole warp, of a pair that level 0 found.
-__device__ inline bool is_confirmed_few(const SmallFrameView& f, const ShapesInBlock& shapes, const PlacedShape& a,
-                                        const PlacedShape& b) {
+__device__ inline bool is_confirmed_by_levels(const SmallFrameView& f, const ShapesInBlock& shapes,
+                                              const PlacedShape& a, const PlacedShape& b) {
   Uncounted work;
   if (!shapes.has_octrees()) return are_levels_overlapping<2>(f, OctreesInMemory{f.shapes.octree}, a, b, work);
   shapes.wait();
@@ -55,9 +55,9 @@ __device__ inline bool is_confirmed_few(const SmallFrameView& f, const ShapesInB
 
 // Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet. Of the bodies of an item,
 // before the frame.
-__device__ inline void find_few(const SmallFrameView& f, const ShapesInBlock& shapes,
-                                const BodyRing<SmallDivisor>::RingPair& at, const BodyBefore& before_i,
-                                const BodyBefore& before_j) {
+__device__ inline void find_small_pairs(const SmallFrameView& f, const ShapesInBlock& shapes,
+                                        const BodyRing<FloatDivisor>::RingPair& at, const BodyBefore& before_i,
+                                        const BodyBefore& before_j) {
   const BodyAtDetection now_i(f, at.i, before_i);
   const BodyAtDetection now_j(f, at.j, before_j);
   const PlacedShape placed_i{now_i.state.x, shape_of(f, at.i)};
@@ -72,11 +72,11 @@ __device__ inline void find_few(const SmallFrameView& f, const ShapesInBlock& sh
     const PlacedShape other{{__shfl_sync(kFullWarp, placed_j.x.x, source), __shfl_sync(kFullWarp, placed_j.x.y, source),
                              __shfl_sync(kFullWarp, placed_j.x.z, source)},
                             __shfl_sync(kFullWarp, placed_j.shape, source)};
-    if (is_confirmed_few(f, shapes, placed_i, other)) confirmed |= 1U << source;
+    if (is_confirmed_by_levels(f, shapes, placed_i, other)) confirmed |= 1U << source;
   }
-  const FewCounts here{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))};
+  const SmallCounts here{static_cast<std::uint32_t>(__popc(found)), static_cast<std::uint32_t>(__popc(confirmed))};
   const unsigned long long room = add_by_first_lane(f.barrier, here.packed());
-  const FewCounts first = FewCounts::unpacked(__shfl_sync(kFullWarp, room, 0));
+  const SmallCounts first = SmallCounts::unpacked(__shfl_sync(kFullWarp, room, 0));
   const core::Pair pair = core::make_pair_of(at.i, at.j);
   const auto place_among = [](unsigned lanes, std::uint32_t begin) {
     return (lanes >> lane() & 1U) != 0 ? begin + __popc(lanes & ((1U << lane()) - 1U)) : kNoPlace;
@@ -90,11 +90,10 @@ __device__ inline void find_few(const SmallFrameView& f, const ShapesInBlock& sh
     put(f.placed + measured_place, at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i});
 }
 
-// Bodies are integrated, and pairs found without waiting for that: where there are few, whoever looks at two of them
-// works out for itself where they are. Returns false, and has done nothing, behind an aborted frame.
-// `item`: the warp's first.
-__device__ inline bool integrate_and_find_few(const GridTeam& team, const SmallFrameView& f,
-                                              const ShapesInBlock& shapes, FewItem item) {
+// Integrates bodies and finds pairs with no barrier between: a warp that tests a pair integrates both bodies itself.
+// Returns false, and has done nothing, behind an aborted frame. `item`: the warp's first.
+__device__ inline bool integrate_and_find_pairs(const GridTeam& team, const SmallFrameView& f,
+                                                const ShapesInBlock& shapes, RingItem item) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
   const std::uint64_t first = first_body(team);
   // All of it is asked for before any of it is looked at.
@@ -120,7 +119,7 @@ __device__ inline bool integrate_and_find_few(const GridTeam& team, const SmallF
   // Those who ask for shapes have begun to.
   if (f.are_levels_first) __syncthreads();
   while (item.exists()) {
-    find_few(f, shapes, item.pair(), before_i, before_j);
+    find_small_pairs(f, shapes, item.pair(), before_i, before_j);
     item.next();
     if (!item.exists()) break;
     before_i = BodyBefore(f, item.pair().i);
@@ -130,14 +129,13 @@ __device__ inline bool integrate_and_find_few(const GridTeam& team, const SmallF
   return true;
 }
 
-// The levels of few bodies' pairs where they do not come first: gone down by warps of teams that have no pair, while
-// others measure the pairs.
-class FewLevels {
+// Levels that do not come first: warps of teams that have no pair test them while other teams search vertices.
+class SmallLevels {
  public:
-  static constexpr bool kAreOfFewBodies = true;
+  static constexpr bool kIsSmallFrame = true;
   using View = SmallFrameView;
 
-  __device__ FewLevels(const SmallFrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
+  __device__ SmallLevels(const SmallFrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
 
   // By one warp of the block, if any of it will look(): before that one does, and when it is done.
   __device__ void begin() const { shapes_.begin_octrees(f_); }
@@ -145,9 +143,9 @@ class FewLevels {
 
   // By a warp: tells whether pair k is rejected. Returns whether it is not.
   __device__ bool look(const PlacedPair& bodies, std::uint64_t k) const {
-    const bool is_kept = is_confirmed_few(f_, shapes_, bodies.i, bodies.j);
+    const bool is_kept = is_confirmed_by_levels(f_, shapes_, bodies.i, bodies.j);
     if (lane() == 0) f_.measured[k].is_rejected = is_kept ? 0 : 1;
-    if (!is_kept && lane() == 0) atomicAdd(f_.barrier, FewCounts{0, 1}.packed());
+    if (!is_kept && lane() == 0) atomicAdd(f_.barrier, SmallCounts{0, 1}.packed());
     return is_kept;
   }
 

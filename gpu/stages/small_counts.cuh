@@ -11,7 +11,7 @@
 namespace broadside::gpu {
 
 // One addition to the tally takes places in several lists, and every block knows all counts after the barrier.
-struct FewCounts {
+struct SmallCounts {
   // From here on nobody asks: those who do at the same time still fit.
   static constexpr std::uint32_t kMostRests = 1U << 13;
 
@@ -30,13 +30,13 @@ struct FewCounts {
     return pairs | std::uint64_t{judged} << kPairBits | std::uint64_t{rests} << 2 * kPairBits;
   }
   // Of the word, or of its tally alone.
-  __device__ static FewCounts unpacked(unsigned long long word) {
+  __device__ static SmallCounts unpacked(unsigned long long word) {
     const unsigned long long tally = word & GridWord::kTally;
     return {static_cast<std::uint32_t>(tally) & kMostPairs, static_cast<std::uint32_t>(tally >> kPairBits) & kMostPairs,
             static_cast<std::uint32_t>(tally >> 2 * kPairBits), 0};
   }
-  __device__ static FewCounts unpacked(const GridTally& read) {
-    FewCounts counts = unpacked(read.tally);
+  __device__ static SmallCounts unpacked(const GridTally& read) {
+    SmallCounts counts = unpacked(read.tally);
     counts.marked = read.behind;
     return counts;
   }
@@ -44,7 +44,7 @@ struct FewCounts {
  private:
   static constexpr std::uint32_t kPairBits = 17;
   static constexpr std::uint32_t kMostPairs = (1U << kPairBits) - 1;
-  static_assert(kFewBodies * (kFewBodies - 1) / 2 <= kMostPairs &&
+  static_assert(kMostSmallBodies * (kMostSmallBodies - 1) / 2 <= kMostPairs &&
                 GridWord::kTally >> 2 * kPairBits >= 2 * kMostRests - 1);
 };
 
