@@ -65,12 +65,13 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   return contacts_.reserve(count, "contacts");
 }
 
-core::Status FrameBuffers::reserve_rests() {
+core::Status FrameBuffers::reserve_leftovers() {
   if (body_count_ > kMostSmallBodies) return core::Done{};
-  BROADSIDE_TRY(rests_.reserve(2 * std::size_t{RestsView::kMost}, "shared searches"));
-  BROADSIDE_TRY(rest_entries_.reserve(2 * std::size_t{RestsView::kMost} * RestsView::kEntries, "shared searches"));
+  BROADSIDE_TRY(leftovers_.reserve(2 * std::size_t{LeftoverView::kMost}, "shared searches"));
+  BROADSIDE_TRY(
+      leftover_entries_.reserve(2 * std::size_t{LeftoverView::kMost} * LeftoverView::kEntries, "shared searches"));
   // They are read before it is known how many there are.
-  return rest_entries_.fill_bytes(0);
+  return leftover_entries_.fill_bytes(0);
 }
 
 core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_level0) {
@@ -109,8 +110,9 @@ void FrameBuffers::fill_small(SmallFrameView& view) const {
   view.measured = measured_.data();
   view.placed = placed_.data();
   view.given_out = barrier_.data() + 2;
-  view.rests[0] = {rests_.data(), rest_entries_.data()};
-  view.rests[1] = {rests_.data() + RestsView::kMost, rest_entries_.data() + RestsView::kMost * RestsView::kEntries};
+  view.leftovers[0] = {leftovers_.data(), leftover_entries_.data()};
+  view.leftovers[1] = {leftovers_.data() + LeftoverView::kMost,
+                       leftover_entries_.data() + LeftoverView::kMost * LeftoverView::kEntries};
 }
 
 void FrameBuffers::fill_grid(GridFrameView& view) const {
@@ -118,8 +120,8 @@ void FrameBuffers::fill_grid(GridFrameView& view) const {
 }
 
 std::uint64_t FrameBuffers::body_bytes() const {
-  return 6 * previous_.position.bytes() + boxes_.bytes() + 2 * degree_.bytes() + live_.bytes() + rests_.bytes() +
-         rest_entries_.bytes();
+  return 6 * previous_.position.bytes() + boxes_.bytes() + 2 * degree_.bytes() + live_.bytes() + leftovers_.bytes() +
+         leftover_entries_.bytes();
 }
 
 std::uint64_t FrameBuffers::appended_bytes() const {

@@ -28,7 +28,7 @@ class FrameBuffers {
   // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
   core::Status load(const core::Scene& scene);
   // Where small frames leave the rest of long searches to the whole grid.
-  core::Status reserve_rests();
+  core::Status reserve_leftovers();
   // For the frame that has so many others under way before it, none of which advance() was called for.
   void fill(FrameView& view, std::uint64_t under_way = 0) const;
   // What a small frame, or a grid frame, has beside that.
@@ -70,8 +70,8 @@ class FrameBuffers {
   DeviceBuffer<core::Proximity> proximity_;
   DeviceBuffer<MeasuredPair> measured_;
   DeviceBuffer<PlacedPair> placed_;
-  DeviceBuffer<SearchRest> rests_;
-  DeviceBuffer<NodePair> rest_entries_;
+  DeviceBuffer<LeftoverSearch> leftovers_;
+  DeviceBuffer<NodePair> leftover_entries_;
   DeviceBuffer<Link> links_;
   DeviceBuffer<unsigned long long> keys_;
   DeviceBuffer<ListEntry> lists_;

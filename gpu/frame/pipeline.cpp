@@ -69,7 +69,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   auto launch = frame_launch_shape(d.device_scene.tree_levels());
   if (!launch.ok()) return launch.error();
   d.launch = launch.value();
-  if (d.options.has_vertex_stage) BROADSIDE_TRY(d.buffers.reserve_rests());
+  if (d.options.has_vertex_stage) BROADSIDE_TRY(d.buffers.reserve_leftovers());
 
   d.view.levels = d.options.levels;
   d.view.solver = d.options.solver;

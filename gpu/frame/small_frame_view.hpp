@@ -6,8 +6,8 @@
 #include "core/attributes.hpp"
 #include "gpu/frame/divisor.hpp"
 #include "gpu/frame/frame_view.hpp"
+#include "gpu/frame/leftover_work.hpp"
 #include "gpu/frame/measured_pair.hpp"
-#include "gpu/frame/search_rest.hpp"
 
 namespace broadside::gpu {
 
@@ -19,7 +19,7 @@ struct SmallFrameView : FrameView {
   MeasuredPair* measured = nullptr;         // one per pair whose vertices are searched
   PlacedPair* placed = nullptr;             // likewise; PlacedShape::kNone between frames
   unsigned long long* given_out = nullptr;  // pairs that warps took to search; zero between frames
-  RestsView rests[2];
+  LeftoverView leftovers[2];
 };
 
 // Whether the vertex stage is given pairs whose levels are still to be tested.

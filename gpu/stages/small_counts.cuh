@@ -12,22 +12,22 @@ namespace broadside::gpu {
 
 // One addition to the tally takes places in several lists, and every block knows all counts after the barrier.
 struct SmallCounts {
-  // From here on nobody asks: those who do at the same time still fit.
-  static constexpr std::uint32_t kMostRests = 1U << 13;
+  // Teams ask no more once so many have asked; those that ask at the same moment still fit the bits.
+  static constexpr std::uint32_t kMostLeftovers = 1U << 13;
 
   std::uint32_t pairs = 0;
-  std::uint32_t judged = 0;  // of them by their levels: confirmed where levels come first, rejected where they are left
-  std::uint32_t rests = 0;   // how often a team asked to hand over what is left of its search
-  // Bit k: that of pair k was handed over, without asking, as its place is its own.
+  std::uint32_t judged = 0;  // pairs whose levels were tested: the confirmed, if levels come first; else the rejected
+  std::uint32_t leftovers = 0;  // how often a team asked for a place for leftover work
+  // Bit k: pair k's work was left in the place reserved for it.
   unsigned long long marked = 0;
 
-  // By levels below 0: of flat levels, none.
+  // Pairs that the levels below 0 keep; 0 for flat levels.
   __device__ std::uint32_t confirmed(const SmallFrameView& f) const {
     return are_levels_left(f) ? pairs - judged : judged;
   }
 
   __device__ unsigned long long packed() const {
-    return pairs | std::uint64_t{judged} << kPairBits | std::uint64_t{rests} << 2 * kPairBits;
+    return pairs | std::uint64_t{judged} << kPairBits | std::uint64_t{leftovers} << 2 * kPairBits;
   }
   // Of the word, or of its tally alone.
   __device__ static SmallCounts unpacked(unsigned long long word) {
@@ -45,7 +45,7 @@ struct SmallCounts {
   static constexpr std::uint32_t kPairBits = 17;
   static constexpr std::uint32_t kMostPairs = (1U << kPairBits) - 1;
   static_assert(kMostSmallBodies * (kMostSmallBodies - 1) / 2 <= kMostPairs &&
-                GridWord::kTally >> 2 * kPairBits >= 2 * kMostRests - 1);
+                GridWord::kTally >> 2 * kPairBits >= 2 * kMostLeftovers - 1);
 };
 
 }  // namespace broadside::gpu

@@ -107,7 +107,7 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
     const SmallLevels levels(f, shapes);
     const ProximityStage stage(f, shapes.headers(f), levels, narrow, scratch.proximity, shared);
     if (confirmed > 0) stage.run();
-    stage.share_rests([&] {
+    stage.share_leftovers([&] {
       counts = SmallCounts::unpacked(grid.sync_and_read(&scratch.tally));
       return counts;
     });

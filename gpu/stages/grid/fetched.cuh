@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/math/box.hpp"
+#include "gpu/frame/leftover_work.hpp"
 #include "gpu/frame/measured_pair.hpp"
 #include "gpu/frame/placed_shape.hpp"
-#include "gpu/frame/search_rest.hpp"
 #include "gpu/scene/packed_box.hpp"
 #include "gpu/stages/grid/device.cuh"
 
@@ -77,7 +77,7 @@ __device__ inline void take_away(PlacedPair* pair) {
   pair->i.shape = pair->j.shape = PlacedShape::kNone;
 }
 
-__device__ inline SearchRest fetched(const SearchRest* from) {
+__device__ inline LeftoverSearch fetched(const LeftoverSearch* from) {
   const uint4 last = reinterpret_cast<const uint4*>(from)[2];
   return {fetched(&from->bodies), last.x, __uint_as_float(last.y), last.z, last.w};
 }

@@ -5,8 +5,8 @@
 #include "gpu/frame/frame_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/vertices/cell_search.cuh"
+#include "gpu/stages/vertices/leftover_work.cuh"
 #include "gpu/stages/vertices/narrow_pairs.cuh"
-#include "gpu/stages/vertices/search_rests.cuh"
 #include "gpu/stages/vertices/search_stack.cuh"
 #include "gpu/stages/vertices/tree_search.cuh"
 #include "gpu/stages/vertices/tree_start.cuh"
@@ -83,14 +83,15 @@ class ProximityStage {
   // In small frames: the whole grid shares the work that teams left, until none leaves any more.
   // `sync`: the barrier of the grid; returns SmallCounts since the frame began.
   template <typename Sync>
-  __device__ void share_rests(const Sync& sync) const {
+  __device__ void share_leftovers(const Sync& sync) const {
     std::uint32_t before = 0;
     std::uint32_t turn = 0;
     SmallCounts counts = sync();
-    for (bool is_marked = counts.marked != 0; is_marked || counts.rests > before; ++turn) {
-      const std::uint32_t count = is_marked ? __popcll(counts.marked) : min(counts.rests - before, most_rests());
-      before = counts.rests;
-      search_part(f_.rests[turn % 2], count, is_marked ? counts.marked : 0, f_.rests[(turn + 1) % 2], before);
+    for (bool is_marked = counts.marked != 0; is_marked || counts.leftovers > before; ++turn) {
+      const std::uint32_t count =
+          is_marked ? __popcll(counts.marked) : min(counts.leftovers - before, most_leftovers());
+      before = counts.leftovers;
+      search_part(f_.leftovers[turn % 2], count, is_marked ? counts.marked : 0, f_.leftovers[(turn + 1) % 2], before);
       is_marked = false;
       counts = sync();
     }
@@ -173,26 +174,27 @@ class ProximityStage {
   }
 
   // This block's part of what was handed over: all its warps are one team.
-  __device__ void search_part(const RestsView& rests, std::uint32_t count, unsigned long long marked,
-                              const RestsView& to, std::uint32_t before) const {
+  __device__ void search_part(const LeftoverView& leftovers, std::uint32_t count, unsigned long long marked,
+                              const LeftoverView& to, std::uint32_t before) const {
     const std::uint32_t warp = threadIdx.x / 32;
     const std::uint32_t warps = blockDim.x / 32;
     const SearchTeam all{{warp, warps}, 0, stack_of_warps(f_, stacks_, 0, warps), scratch_.counts[0]};
-    const RestPart part(rests, count, marked, all);
-    const SearchRest& rest = part.rest();
+    const LeftoverPart part(leftovers, count, marked, all);
+    const LeftoverSearch& leftover = part.leftover();
     if (threadIdx.x == 0) {
-      scratch_.bound[0] = __float_as_uint(rest.bound_m2);
+      scratch_.bound[0] = __float_as_uint(leftover.bound_m2);
       scratch_.nearest[0] = ProximityScratch::kNoVertices;
       scratch_.counts[0][1] = {};
     }
     __syncthreads();
     if (part.counts().any()) {
-      RestOfPair next(f_, to, false, before, rest.bodies, rest.k, kRoundsOfBlock, &scratch_.place[0]);
-      tell_team(0, nearest_by_trees(TreePair(f_, headers_, rest.bodies, &scratch_.bound[0]), all, part.counts(), next));
+      LeftoverOfPair next(f_, to, false, before, leftover.bodies, leftover.k, kRoundsOfBlock, &scratch_.place[0]);
+      tell_team(
+          0, nearest_by_trees(TreePair(f_, headers_, leftover.bodies, &scratch_.bound[0]), all, part.counts(), next));
     }
     __syncthreads();
     if (threadIdx.x == 0 && scratch_.nearest[0] != ProximityScratch::kNoVertices)
-      improve(f_.measured + rest.k, nearest_of_team(0), rest.bound_m2 == INFINITY);
+      improve(f_.measured + leftover.k, nearest_of_team(0), leftover.bound_m2 == INFINITY);
   }
 
   // By all lanes of a team, after a barrier behind its search: the bound is the least distance then, and the lanes that
@@ -226,16 +228,17 @@ class ProximityStage {
     if (headers_.upper_copy != nullptr) headers_.upper_copy->wait();
     const TeamCounts left = TreeStart(trees, all).begin();
     if constexpr (Levels::kIsSmallFrame) {
-      RestOfPair rest(f_, f_.rests[0], has_marks(), 0, bodies, k, rounds_of_team(trees), &scratch_.place[team]);
-      return nearest_by_trees(trees, all, left, rest);
+      LeftoverOfPair leftover(f_, f_.leftovers[0], has_marks(), 0, bodies, k, rounds_of_team(trees),
+                              &scratch_.place[team]);
+      return nearest_by_trees(trees, all, left, leftover);
     } else {
-      NoRest rest;
-      return nearest_by_trees(trees, all, left, rest);
+      NoLeftover leftover;
+      return nearest_by_trees(trees, all, left, leftover);
     }
   }
 
   // Whether there are as few pairs as SmallCounts::marked has bits, and each has a block or more to be shared by.
-  __device__ bool has_marks() const { return pairs_.count <= min(RestsView::kMostMarked, gridDim.x); }
+  __device__ bool has_marks() const { return pairs_.count <= min(LeftoverView::kMostMarked, gridDim.x); }
 
   // A barrier of the grid costs as much as some four rounds. The more levels are left to go down, the more there may be
   // to hand over, and the sooner.

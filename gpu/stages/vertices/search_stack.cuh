@@ -3,7 +3,7 @@
 
 #include "core/method/proximity.hpp"
 #include "gpu/frame/frame_view.hpp"
-#include "gpu/frame/search_rest.hpp"
+#include "gpu/frame/leftover_work.hpp"
 #include "gpu/stages/grid/fetched.cuh"
 #include "gpu/stages/grid/team.cuh"
 

@@ -201,8 +201,8 @@ __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchS
   return trees.best();
 }
 
-// Worth handing over: pairs of nodes for a few warps, each of which may become many, or as many pairs of leaves, which
-// become no more, as sixteen warps visit in a round.
+// Whether there is enough to hand over: four pairs of nodes, each of which may become many, or as many pairs of leaves
+// as sixteen warps visit in a round; or a mix of both.
 __device__ inline bool is_much(const TeamCounts& left) {
   constexpr std::uint32_t kNodes = 4;
   constexpr std::uint32_t kLeaves = 64;
@@ -253,9 +253,11 @@ __device__ inline void put_for_team(const SearchTeam& team, const NearChildren& 
 // stack on. Where surfaces touch, nearly all the work is below one pair of upper nodes, so it cannot be dealt out
 // beforehand.
 //
-// `left`: what the stack holds. `rest`: a RestOfPair or NoRest (search_rests.cuh). Returns each lane's nearest.
-template <typename Rest>
-__device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, TeamCounts left, Rest& rest) {
+// `left`: what the stack holds. `leftover`: a LeftoverOfPair or NoLeftover (leftover_work.cuh). Returns each lane's
+// nearest.
+template <typename Leftover>
+__device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, TeamCounts left,
+                                            Leftover& leftover) {
   const SearchStack nodes = team.nodes();
   const SearchStack leaves = team.leaves();
   // One warp alone, opening one pair after the other, never adds more than this. Of others that are
@@ -287,7 +289,7 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
     put_for_team(team, near, kept, room);
     team.sync();
     left = {kept.nodes + added.nodes, kept.leaves + added.leaves};
-    if (rest.is_asked_after(round) && is_much(left) && rest.hand_over(team, left, trees.limit())) break;
+    if (leftover.is_asked_after(round) && is_much(left) && leftover.hand_over(team, left, trees.limit())) break;
   }
   return trees.best();
 }

@@ -8,7 +8,7 @@
 #include "core/engine/engine.hpp"
 #include "gpu/frame/pipeline.hpp"
 #include "gpu/stages/small_counts.cuh"
-#include "gpu/stages/vertices/search_rests.cuh"
+#include "gpu/stages/vertices/leftover_work.cuh"
 #include "reference/octree_cpu/engine.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"
@@ -23,10 +23,10 @@ TEST(SmallCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
     const SmallCounts again = SmallCounts::unpacked(word);
     EXPECT_EQ(again.pairs, counts.pairs);
     EXPECT_EQ(again.judged, counts.judged);
-    EXPECT_EQ(again.rests, counts.rests);
+    EXPECT_EQ(again.leftovers, counts.leftovers);
     EXPECT_EQ(again.marked, 0U);
     EXPECT_EQ(SmallCounts::unpacked(GridTally{word, 5}).marked, 5U);
-    EXPECT_EQ(SmallCounts::unpacked(GridTally{word, 5}).rests, counts.rests);
+    EXPECT_EQ(SmallCounts::unpacked(GridTally{word, 5}).leftovers, counts.leftovers);
   }
 }
 
@@ -49,49 +49,50 @@ TEST(GridWord, SharesOfAllBlocksFlipOneBit) {
   }
 }
 
-// All entries of three rests, over seven blocks: each entry in one block, as what it is. They lie in these places.
+// All entries of three leftovers, over seven blocks: each entry in one block, as what it is. They lie in these places.
 void expect_all_parts(const std::vector<std::uint32_t>& places, unsigned long long marked) {
   constexpr std::uint32_t kBlocks = 7;
   constexpr std::uint32_t kEntries = 64 * 4;
   const std::vector<TeamCounts> handed_over = {{40, 216}, {3, 0}, {0, 0}};
-  std::vector<SearchRest> items(RestsView::kMost);
-  std::vector<NodePair> entries(std::size_t{RestsView::kMost} * RestsView::kEntries, {999000, 999, 0});
+  std::vector<LeftoverSearch> items(LeftoverView::kMost);
+  std::vector<NodePair> entries(std::size_t{LeftoverView::kMost} * LeftoverView::kEntries, {999000, 999, 0});
   for (std::uint32_t r = 0; r < handed_over.size(); ++r) {
-    SearchRest& rest = items[places[r]];
-    rest.nodes = handed_over[r].nodes;
-    rest.leaves = handed_over[r].leaves;
-    for (std::uint32_t e = 0; e < RestsView::kEntries; ++e)
-      entries[places[r] * RestsView::kEntries + e] = {1000 * r + e, e, 0};
+    LeftoverSearch& leftover = items[places[r]];
+    leftover.nodes = handed_over[r].nodes;
+    leftover.leaves = handed_over[r].leaves;
+    for (std::uint32_t e = 0; e < LeftoverView::kEntries; ++e)
+      entries[places[r] * LeftoverView::kEntries + e] = {1000 * r + e, e, 0};
   }
   std::vector<std::vector<std::uint32_t>> stacks(kBlocks, std::vector<std::uint32_t>(3 * 2 * kEntries));
   std::vector<TeamCounts> counts(kBlocks);
   on_host::run({{kBlocks}, {64}, 0}, 0, [&](unsigned char*) {
     const WarpShare share{threadIdx.x / 32, 2};
     const SearchTeam team{share, 0, {stacks[blockIdx.x].data(), 2 * kEntries, 2 * kEntries}, nullptr};
-    const RestPart part({items.data(), entries.data()}, static_cast<std::uint32_t>(handed_over.size()), marked, team);
+    const LeftoverPart part({items.data(), entries.data()}, static_cast<std::uint32_t>(handed_over.size()), marked,
+                            team);
     if (threadIdx.x == 0) counts[blockIdx.x] = part.counts();
   });
-  std::vector<std::vector<int>> met(handed_over.size(), std::vector<int>(RestsView::kEntries, 0));
+  std::vector<std::vector<int>> met(handed_over.size(), std::vector<int>(LeftoverView::kEntries, 0));
   for (std::uint32_t b = 0; b < kBlocks; ++b) {
     const SearchTeam team{{0, 2}, 0, {stacks[b].data(), 2 * kEntries, 2 * kEntries}, nullptr};
     for (std::uint32_t k = 0; k < counts[b].nodes + counts[b].leaves; ++k) {
       const NodePair entry = team.at(counts[b], k);
-      const std::uint32_t rest = entry.a / 1000;
-      ASSERT_EQ(rest, b % handed_over.size());
-      EXPECT_EQ(entry.b < handed_over[rest].nodes, k < counts[b].nodes);
-      ++met[rest][entry.b];
+      const std::uint32_t leftover = entry.a / 1000;
+      ASSERT_EQ(leftover, b % handed_over.size());
+      EXPECT_EQ(entry.b < handed_over[leftover].nodes, k < counts[b].nodes);
+      ++met[leftover][entry.b];
     }
   }
   for (std::uint32_t r = 0; r < handed_over.size(); ++r)
-    for (std::uint32_t e = 0; e < RestsView::kEntries; ++e)
+    for (std::uint32_t e = 0; e < LeftoverView::kEntries; ++e)
       EXPECT_EQ(met[r][e], e < handed_over[r].nodes + handed_over[r].leaves ? 1 : 0) << r << ' ' << e;
 }
 
-TEST(RestPart, OfAllBlocksAreTheRest) {
+TEST(LeftoverPart, OfAllBlocksAreTheRest) {
   expect_all_parts({0, 1, 2}, 0);
 }
 
-TEST(RestPart, IsOfRestsWhereTheirBitsSay) {
+TEST(LeftoverPart, IsOfRestsWhereTheirBitsSay) {
   const std::vector<std::vector<std::uint32_t>> kPlaces = {{0, 1, 2}, {3, 31, 32}, {0, 5, 63}, {32, 40, 62}};
   for (const std::vector<std::uint32_t>& places : kPlaces) {
     unsigned long long marked = 0;

@@ -1,4 +1,5 @@
-// What is left of a long search for a pair's nearest vertices, when a team of warps hands it over to the whole grid.
+// Leftover work: what remains of a long search for a pair's nearest vertices when a team of warps leaves it to the
+// whole grid.
 #pragma once
 
 #include <cstdint>
@@ -18,24 +19,24 @@ struct NodePair {
   BROADSIDE_HD bool are_leaves() const { return level_of(a | b) == 0; }
 };
 
-struct SearchRest {
+struct LeftoverSearch {
   PlacedPair bodies;
   std::uint32_t k = 0;      // the pair's place among those that are measured
   float bound_m2 = 0.0F;    // the smallest squared distance so far
-  std::uint32_t nodes = 0;  // of so many entries; then come those of leaves
+  std::uint32_t nodes = 0;  // entries that are pairs of nodes; pairs of leaves follow them
   std::uint32_t leaves = 0;
 };
-static_assert(sizeof(SearchRest) == 48, "read in words of 16 bytes");
+static_assert(sizeof(LeftoverSearch) == 48, "read in words of 16 bytes");
 
-// Of one time that the grid shares. What it hands over again goes to the other of two.
-struct RestsView {
+// Room for the leftovers of one turn. There are two: while the grid works on one, it writes new leftovers to the other.
+struct LeftoverView {
   static constexpr std::uint32_t kMost = 128;
-  // Of so few pairs each has a place of its own.
+  // Up to so many pairs each have a place of their own.
   static constexpr std::uint32_t kMostMarked = 64;
   static constexpr std::uint32_t kEntries = 256;  // of each
 
-  SearchRest* items = nullptr;  // [kMost]
-  NodePair* entries = nullptr;  // [kMost * kEntries]
+  LeftoverSearch* items = nullptr;  // [kMost]
+  NodePair* entries = nullptr;      // [kMost * kEntries]
 };
 
 }  // namespace broadside::gpu
