@@ -110,7 +110,7 @@ void fill_row(Plugin& plugin) {
   plugin.row.capabilities = d.capabilities;
   plugin.row.what = d.what;
   plugin.row.settings = plugin.settings;
-  plugin.row.is_reference = true;  // in a child process, like every engine made of other people's code
+  plugin.row.runs_in_child = true;  // like every engine made of other people's code
   plugin.row.create = create;
   plugin.row.absent = d.on_device ? gpu::device_absent : nullptr;
 }

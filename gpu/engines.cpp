@@ -44,7 +44,7 @@ core::EngineRow octree_gpu_row() {
   row.capabilities = "broad dynamics";
   row.what = "the pipeline on CUDA, bit-identical to octree-cpu";
   row.settings = octree_settings();
-  row.is_reference = false;
+  row.runs_in_child = false;
   row.create = create_octree_gpu;
   row.absent = gpu_absent;
   return row;
@@ -56,7 +56,7 @@ core::EngineRow hash_gpu_row() {
   row.capabilities = "broad dynamics";
   row.what = "the paper's comparison on CUDA: a spatial hash as broad phase, bit-identical to hash-cpu";
   row.settings = hash_settings();
-  row.is_reference = false;
+  row.runs_in_child = false;
   row.create = create_hash_gpu;
   row.absent = gpu_absent;
   return row;

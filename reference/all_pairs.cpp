@@ -169,7 +169,7 @@ core::EngineRow all_pairs_row() {
           .capabilities = "broad",
           .what = "every pair of boxes by float comparison: exact, the arbiter of broad phases",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

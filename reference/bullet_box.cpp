@@ -112,7 +112,7 @@ core::EngineRow bullet_box_row() {
           .capabilities = "narrow",
           .what = "Bullet's box against box on the axis-aligned boxes of bodies: depth and direction when they meet",
           .settings = {},
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

@@ -160,7 +160,7 @@ core::EngineRow bullet_dbvt_row() {
           .capabilities = "broad",
           .what = "Bullet's btDbvtBroadphase on the same boxes",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

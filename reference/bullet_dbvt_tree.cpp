@@ -136,7 +136,7 @@ core::EngineRow bullet_dbvt_tree_row() {
           .capabilities = "broad",
           .what = "Bullet's bounding volume tree alone (btDbvt::collideTT), without its pair cache",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

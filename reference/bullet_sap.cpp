@@ -134,7 +134,7 @@ core::EngineRow bullet_sap_row() {
           .capabilities = "broad",
           .what = "Bullet's incremental sweep and prune (bt32BitAxisSweep3) on the same boxes",
           .settings = {},
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

@@ -161,7 +161,7 @@ core::EngineRow bullet_shapes_row() {
           .capabilities = "narrow",
           .what = "Bullet's GJK and EPA on boxes, spheres, capsules and convex meshes: signed distance",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

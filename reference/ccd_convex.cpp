@@ -255,7 +255,7 @@ core::EngineRow ccd_row() {
           .capabilities = "narrow",
           .what = "libccd on the hulls or boxes of bodies: touching, depth and direction; no distance when apart",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

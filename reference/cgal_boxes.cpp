@@ -128,7 +128,7 @@ core::EngineRow cgal_boxes_row() {
           .capabilities = "broad",
           .what = "CGAL's streamed segment tree for boxes (box_self_intersection_d)",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = absent};
 }

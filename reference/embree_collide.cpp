@@ -195,7 +195,7 @@ core::EngineRow embree_collide_row() {
           .capabilities = "broad",
           .what = "Embree's bounding volume hierarchy against itself (rtcCollide), on all threads",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

@@ -140,7 +140,7 @@ core::EngineRow fcl_box_row() {
           .capabilities = "narrow",
           .what = "FCL's box against box on the axis-aligned boxes of bodies: depth and direction, or distance",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

@@ -189,7 +189,7 @@ core::EngineRow fcl_tree_row() {
           .capabilities = "broad",
           .what = "FCL's dynamic AABB tree on the same boxes",
           .settings = tree_settings(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = [](const core::Settings& s) { return make_engine("fcl-tree", s); },
           .absent = [] { return std::string(); }};
 }
@@ -199,7 +199,7 @@ core::EngineRow fcl_sap_row() {
           .capabilities = "broad",
           .what = "FCL's sweep and prune, and its other broad-phase managers, on the same boxes",
           .settings = sap_settings(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = [](const core::Settings& s) { return make_engine("fcl-sap", s); },
           .absent = [] { return std::string(); }};
 }

@@ -163,7 +163,7 @@ core::EngineRow fcl_mesh_row() {
           .capabilities = "narrow",
           .what = "FCL's distance and collide on triangle meshes (OBBRSS trees)",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

@@ -236,7 +236,7 @@ core::EngineRow fcl_shapes_row() {
           .capabilities = "narrow",
           .what = "FCL on boxes, spheres, capsules and convex meshes: signed distance with both of its solvers",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

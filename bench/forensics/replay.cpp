@@ -68,7 +68,7 @@ core::Result<std::filesystem::path> record_again(const core::TraceReader& trace,
   request.folder = folder;
   request.driver_trace = trace.path();
   auto cell =
-      engine.row->is_reference ? record_cell_in_child(request, {kTimeLimit_s}) : record_cell(request, capability);
+      engine.row->runs_in_child ? record_cell_in_child(request, {kTimeLimit_s}) : record_cell(request, capability);
   if (!cell) return cell.error();
   if (cell.value().state != core::CellState::kRecorded)
     return core::Error{std::string(core::cell_state_word(cell.value().state)) + ": " + cell.value().reason,

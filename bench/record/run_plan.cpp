@@ -102,7 +102,7 @@ class Runner {
       done_.push_back(*std::move(reused));
       ++reused_;
     } else {
-      auto cell = spec.row->is_reference ? record_cell_in_child(request, plan_.limits) : record_cell(request);
+      auto cell = spec.row->runs_in_child ? record_cell_in_child(request, plan_.limits) : record_cell(request);
       if (!cell) return cell.error();
       done_.push_back(std::move(cell).value());
     }

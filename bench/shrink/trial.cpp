@@ -75,7 +75,7 @@ core::Result<std::filesystem::path> record_one(const core::Scene& scene, const C
   request.frames = scene.frames;
   request.folder = folder;
   request.driver_trace = driver;
-  auto cell = spec.row->is_reference ? record_cell_in_child(request, {kChildLimit_s}) : record_cell(request);
+  auto cell = spec.row->runs_in_child ? record_cell_in_child(request, {kChildLimit_s}) : record_cell(request);
   if (!cell) return cell.error();
   if (cell.value().state != core::CellState::kRecorded)
     return core::Error{std::string(core::cell_state_word(cell.value().state)) + ": " + cell.value().reason,
@@ -125,7 +125,7 @@ core::Result<Answer> ask(const Question& question, const core::Scene& scene) {
   const auto validator = find_validator(question.validator);
   if (!validator) return validator.error();
   const bool is_foreign =
-      question.engine.row->is_reference || (question.against && question.against->row->is_reference);
+      question.engine.row->runs_in_child || (question.against && question.against->row->runs_in_child);
   return is_foreign ? ask_child(question, scene) : ask_here(question, *validator.value(), scene);
 }
 

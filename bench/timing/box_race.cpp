@@ -127,7 +127,7 @@ core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const s
                                               std::uint32_t frames, const ChildLimits& limits, bool here) {
   std::vector<RaceRow> rows;
   for (const CellSpec& cell : cells) {
-    const bool is_apart = cell.row->is_reference && !here && why_absent(*cell.row).empty();
+    const bool is_apart = cell.row->runs_in_child && !here && why_absent(*cell.row).empty();
     auto row = is_apart ? race_in_child(stream, cell, frames, limits) : race(stream, cell, frames);
     if (!row) return row.error();
     rows.push_back(std::move(row).value());

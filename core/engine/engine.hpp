@@ -37,8 +37,9 @@ struct EngineRow {
   std::string_view capabilities;  // "broad narrow dynamics", for listings
   std::string_view what;
   std::span<const SettingRow> settings;
-  // References run in a child process: their libraries may abort or hang.
-  bool is_reference = true;
+  // Recorded, timed and asked for pairs in a child process: what is built on other people's code may abort or hang.
+  // False for this project's own pipelines, the CPU twin among them.
+  bool runs_in_child = true;
   Result<Engine> (*create)(const Settings& settings) = nullptr;
   // Why it cannot run here; empty when it can.
   std::string (*absent)() = nullptr;

@@ -118,7 +118,7 @@ core::EngineRow bullet_world_row() {
           .capabilities = "dynamics",
           .what = "Bullet's dynamics world: its broad phase, manifolds and sequential impulses on the same scene",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

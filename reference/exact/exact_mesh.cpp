@@ -118,7 +118,7 @@ core::EngineRow exact_mesh_row() {
           .capabilities = "narrow",
           .what = "least distance of triangle surfaces or of vertices in double: the arbiter of narrow phases",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

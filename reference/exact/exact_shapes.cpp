@@ -106,7 +106,7 @@ core::EngineRow exact_shapes_row() {
           .capabilities = "narrow",
           .what = "signed distance of boxes, spheres, capsules and convex meshes in closed form: the arbiter of these",
           .settings = setting_rows(),
-          .is_reference = true,
+          .runs_in_child = true,
           .create = create,
           .absent = [] { return std::string(); }};
 }

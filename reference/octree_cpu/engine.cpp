@@ -75,7 +75,7 @@ core::EngineRow octree_cpu_row() {
   row.capabilities = "broad dynamics";
   row.what = "the pipeline's own stage bodies on CPU threads: the twin of octree-gpu";
   row.settings = settings_table();
-  row.is_reference = false;
+  row.runs_in_child = false;
   row.create = create;
   return row;
 }

@@ -56,7 +56,7 @@ core::EngineRow hash_cpu_row() {
           .capabilities = "broad dynamics",
           .what = "the paper's comparison: a spatial hash as broad phase, then the pipeline's own later stages",
           .settings = setting_rows(),
-          .is_reference = false,
+          .runs_in_child = false,
           .create = create,
           .absent = [] { return std::string(); }};
 }

@@ -80,7 +80,7 @@ const core::EngineRow kRow{.id = "ahead",
                            .capabilities = "dynamics",
                            .what = "runs ahead",
                            .settings = {},
-                           .is_reference = false,
+                           .runs_in_child = false,
                            .create = create,
                            .absent = [] { return std::string(); }};
 
