@@ -1,11 +1,13 @@
 #include "bench/campaign/campaign_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "bench/campaign/job.hpp"
+#include "bench/campaign/varied_values.hpp"
+#include "bench/job_kinds.hpp"
 #include "datasets/scene_file/document.hpp"
 #include "datasets/scene_file/table_reader.hpp"
 
@@ -16,29 +18,12 @@ using datasets::FileErrors;
 using datasets::Node;
 using datasets::TableReader;
 
-using Values = std::map<std::string, std::vector<std::string>>;
 using Choice = std::map<std::string, std::string>;
 
 bool is_name(const std::string& text) {
   return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_';
   });
-}
-
-Values read_values(const Node* vary, FileErrors& errors) {
-  Values values;
-  if (vary == nullptr) return values;
-  for (const auto& [key, node] : vary->members) {
-    std::vector<std::string>& list = values[key];
-    for (const Node& item : node.items) {
-      if (item.kind == Node::Kind::kText) list.push_back(item.text);
-      if (item.kind == Node::Kind::kWhole) list.push_back(std::to_string(item.whole));
-    }
-    if (node.kind != Node::Kind::kArray || list.empty() || list.size() != node.items.size())
-      errors.add(node.line, "[vary] " + key + " is not a list of texts or whole numbers",
-                 "give for example n = [50, 100]");
-  }
-  return values;
 }
 
 // Every combination, the first key changing slowest.
@@ -76,13 +61,6 @@ std::string replaced(std::string text, const Choice& choice) {
   return text;
 }
 
-// 0 when it is no count of bodies.
-std::uint32_t count_of(const std::string& text) {
-  std::uint32_t count = 0;
-  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), count);
-  return bad == std::errc() && end == text.data() + text.size() ? count : 0;
-}
-
 struct Wanted {
   std::vector<std::string> scenes;
   std::vector<std::string> engines;
@@ -117,31 +95,6 @@ std::vector<CellWork> expanded(const Wanted& wanted) {
   return cells;
 }
 
-// The remaining keys of a file that names experiments of the paper.
-core::Status read_paper(TableReader& table, paper::PaperRequest& request, FileErrors& errors) {
-  std::string engine;
-  table.text("engine", engine);
-  table.whole("frames", 1U, 1'000'000U, request.plan.frames);
-  table.whole("repetitions", 1U, 10'000U, request.plan.runs);
-  table.flag("stand_in", request.allow_stand_in);
-  table.positive("limit_s", request.plan.limit_s);
-  for (const auto& [key, list] : read_values(table.table("vary"), errors)) {
-    if (key == "models") request.plan.models = list;
-    if (key == "counts")
-      for (const std::string& text : list) request.plan.counts.push_back(count_of(text));
-    if (key != "models" && key != "counts")
-      errors.add(table.line(), "[vary] " + key + " is nothing that the paper varies", "vary models and counts");
-  }
-  if (std::count(request.plan.counts.begin(), request.plan.counts.end(), 0U) > 0)
-    errors.add(table.line(), "[vary] counts has an entry that is not a whole number above 0",
-               "give for example counts = [50]");
-  if (errors.first) return *errors.first;
-  auto device = paper::choose_device(engine);
-  if (!device) return device.error();
-  request.device = std::move(device).value();
-  return core::Done{};
-}
-
 }  // namespace
 
 core::Result<CampaignFile> read_campaign_file(const std::filesystem::path& file) {
@@ -154,10 +107,11 @@ core::Result<CampaignFile> read_campaign_file(const std::filesystem::path& file)
   table.text("name", campaign.name);
   if (!is_name(campaign.name))
     errors.add(table.line(), "name is not 1 to 64 letters, digits, - and _", "give for example name = \"nightly\"");
-  if (table.has("paper")) {
-    campaign.paper.emplace();
-    table.texts("paper", campaign.paper->experiments);
-    if (core::Status s = read_paper(table, *campaign.paper, errors); !s) return s.error();
+  for (const JobKind& kind : job_kinds()) {
+    if (!table.has(kind.key)) continue;
+    auto job = kind.read(table, errors);
+    if (!job) return job.error();
+    campaign.job = std::move(job).value();
     table.finish();
     if (errors.first) return *errors.first;
     return campaign;

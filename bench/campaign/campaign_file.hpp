@@ -12,28 +12,20 @@
 //   [vary]                          # every combination replaces {n} in scenes and engines
 //   n = [50, 100]
 //
-// Or the paper's experiments, which bring scenes and engines of their own:
-//
-//   name = "paper"
-//   paper = ["table5", "tableA1"]   # or ["all"]
-//   engine = "octree-gpu"           # default: the best that runs where it is planned
-//   limit_s = 60                    # of a cell of 'beyond'
-//   frames, repetitions, stand_in   # default 3000, 5, false
-//   [vary]
-//   models = ["bunny"]              # default: the paper's four
-//   counts = [50]                   # default: the paper's
+// Or the keys of a job (bench/campaign/job.hpp), which plans its own cells: README.md has an example.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "bench/paper/paper_request.hpp"
 #include "core/result.hpp"
 
 namespace broadside::bench::campaign {
+
+class Job;
 
 // One cell after all {keys} are replaced.
 struct CellWork {
@@ -51,8 +43,8 @@ struct CellWork {
 
 struct CampaignFile {
   std::string name;
-  std::vector<CellWork> cells;  // in the file's order: scenes outermost, then values, then engines; no cell twice
-  std::optional<paper::PaperRequest> paper;  // instead of cells
+  std::vector<CellWork> cells;     // in the file's order: scenes outermost, then values, then engines; no cell twice
+  std::shared_ptr<const Job> job;  // instead of cells
 };
 
 // Errors name file, line and key: unknown keys, wrong types, a {word} that [vary] lacks, a value that nothing uses.

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/cell/cell_spec.hpp"
+#include "bench/build_facts.hpp"
+#include "bench/campaign/cell_id.hpp"
+#include "bench/campaign/job.hpp"
 #include "bench/cell/scene_arguments.hpp"
-#include "bench/paper/paper_scene.hpp"
-#include "bench/process/build_facts.hpp"
-#include "core/pair.hpp"
+#include "bench/job_kinds.hpp"
 #include "core/whole_file.hpp"
 
 namespace broadside::bench::campaign {
@@ -21,65 +21,11 @@ using nlohmann::json;
 constexpr const char* kFormat = "broadside-campaign";
 constexpr int kVersion = 2;
 
-std::uint64_t hashed(std::string_view text) {
-  std::uint64_t h = core::splitmix64(text.size());
-  for (const char c : text) h = core::splitmix64(h ^ static_cast<unsigned char>(c));
-  return h;
-}
-
 core::Result<std::uint64_t> digest_of_scene(const CellWork& work) {
   const SceneArguments arguments{work.scene, work.frames, work.stand_in};
   auto scene = arguments.make();
   if (!scene) return scene.error();
   return core::scene_digest(scene.value());
-}
-
-// `beside`: other facts that make two such cells different.
-core::Result<ManifestCell> planned(const CellWork& work, std::uint64_t scene_digest, const std::string& beside) {
-  auto spec = parse_cell_spec(work.engine);
-  if (!spec) return spec.error();
-  auto settings = core::Settings::parse(spec.value().row->id, spec.value().row->settings, spec.value().settings);
-  if (!settings) return settings.error();
-  if (!work.against.empty())
-    if (auto baseline = parse_cell_spec(work.against); !baseline) return baseline.error();
-  ManifestCell cell;
-  cell.work = work;
-  cell.needs_gpu = spec.value().row->id.ends_with("-gpu");
-  cell.id = fmt::format("{:016x}", hashed(fmt::format("{:016x}|{}|{}|{}|{}|{}|{}", scene_digest, spec.value().row->id,
-                                                      settings.value().canonical(), work.frames, work.repetitions,
-                                                      build_line(), beside)));
-  cell.turns = cell.id;
-  return cell;
-}
-
-// A scene that cannot be made here has no digest: its name takes that place, and its cells will say why.
-std::uint64_t digest_of_paper_scene(const paper::PaperCell& cell, bool allow_stand_in) {
-  const auto scene = paper::make_paper_scene(cell, allow_stand_in);
-  return scene ? core::scene_digest(scene.value()) : hashed(cell.scene);
-}
-
-core::Status add_paper_cells(const paper::PaperRequest& request, Manifest& manifest) {
-  auto cells = paper::plan_cells(request.experiments, request.plan, request.device);
-  if (!cells) return cells.error();
-  const paper::PaperCell* last = nullptr;
-  std::uint64_t digest = 0;
-  for (const paper::PaperCell& cell : cells.value()) {
-    if (last == nullptr || !paper::takes_turns(*last, cell))
-      digest = digest_of_paper_scene(cell, request.allow_stand_in);
-    last = &cell;
-    const CellWork work{.scene = cell.scene,
-                        .engine = cell.engine,
-                        .frames = static_cast<std::uint32_t>(cell.frames),
-                        .repetitions = cell.is_timed ? request.plan.runs : 0,
-                        .stand_in = request.allow_stand_in};
-    auto made = planned(work, digest,
-                        fmt::format("{}|{}|{}|{}", cell.every, cell.wants_memory, cell.left_out, request.machine));
-    if (!made) return made.error();
-    made.value().turns = fmt::format("{:016x}", hashed(fmt::format("{:016x}|{}|{}|{}|{}", digest, cell.frames,
-                                                                   cell.every, build_line(), request.machine)));
-    manifest.cells.push_back(std::move(made).value());
-  }
-  return core::Done{};
 }
 
 json to_json(const ManifestCell& cell) {
@@ -117,9 +63,11 @@ bool is_id(const std::string& text) {
 }  // namespace
 
 core::Result<Manifest> make_manifest(const CampaignFile& campaign) {
-  Manifest manifest{campaign.name, build_line(), {}, campaign.paper};
-  if (campaign.paper) {
-    if (core::Status s = add_paper_cells(*campaign.paper, manifest); !s) return s.error();
+  Manifest manifest{campaign.name, build_line(), {}, campaign.job};
+  if (campaign.job) {
+    auto cells = campaign.job->plan();
+    if (!cells) return cells.error();
+    manifest.cells = std::move(cells).value();
     return manifest;
   }
   std::map<std::pair<std::string, std::uint32_t>, std::uint64_t> digests;
@@ -131,7 +79,7 @@ core::Result<Manifest> make_manifest(const CampaignFile& campaign) {
       if (!digest) return digest.error();
       digests[key] = digest.value();
     }
-    auto cell = planned(work, digests[key], fmt::format("{}|{}", work.processes, work.against));
+    auto cell = identified(work, digests[key], fmt::format("{}|{}", work.processes, work.against));
     if (!cell) return cell.error();
     // Two spellings of one engine, or two names of one scene, are one cell.
     if (ids.insert(cell.value().id).second) manifest.cells.push_back(std::move(cell).value());
@@ -144,7 +92,7 @@ core::Status write_manifest(const std::filesystem::path& folder, const Manifest&
   for (const ManifestCell& cell : manifest.cells) rows.push_back(to_json(cell));
   json document{
       {"format", kFormat}, {"version", kVersion}, {"name", manifest.name}, {"build", manifest.build}, {"cells", rows}};
-  if (manifest.paper) document["paper"] = json::parse(paper::text_of(*manifest.paper));
+  if (manifest.job) document[std::string(manifest.job->key())] = json::parse(manifest.job->text());
   return core::write_whole_file(folder / "manifest.json", document.dump(1) + "\n");
 }
 
@@ -161,11 +109,12 @@ core::Result<Manifest> read_manifest(const std::filesystem::path& folder) {
       return core::Error{
           "it has version " + document.at("version").dump() + ", and this program knows " + std::to_string(kVersion),
           file.string(), "use the program that planned it"};
-    Manifest manifest{document.at("name"), document.at("build"), {}, std::nullopt};
-    if (document.contains("paper")) {
-      auto request = paper::request_from(document.at("paper").dump());
-      if (!request) return request.error();
-      manifest.paper = std::move(request).value();
+    Manifest manifest{document.at("name"), document.at("build"), {}, nullptr};
+    for (const JobKind& kind : job_kinds()) {
+      if (!document.contains(kind.key)) continue;
+      auto job = kind.from_text(document.at(std::string(kind.key)).dump());
+      if (!job) return job.error();
+      manifest.job = std::move(job).value();
     }
     for (const json& row : document.at("cells")) {
       manifest.cells.push_back(from_json(row));
@@ -189,18 +138,6 @@ std::vector<std::span<const ManifestCell>> groups_of(const Manifest& manifest) {
     first = end;
   }
   return groups;
-}
-
-core::Result<std::vector<paper::PaperCell>> paper_cells(const Manifest& manifest) {
-  auto cells = paper::plan_cells(manifest.paper->experiments, manifest.paper->plan, manifest.paper->device);
-  if (!cells) return cells.error();
-  if (cells.value().size() != manifest.cells.size())
-    return core::Error{"its cells are not those that the paper's experiments need", "manifest.json", "plan it again"};
-  for (std::size_t k = 0; k < manifest.cells.size(); ++k) {
-    cells.value()[k].id = manifest.cells[k].id;
-    cells.value()[k].turns = manifest.cells[k].turns;
-  }
-  return cells;
 }
 
 std::filesystem::path cell_folder(const std::filesystem::path& folder, const std::string& id) {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,16 +28,12 @@ struct Manifest {
   std::string name;
   std::string build;  // of the program that planned it; only that program may run its cells
   std::vector<ManifestCell> cells;
-  // For the paper's experiments: what was asked for. The cells are paper_cells() in the same order, so an id may come
-  // twice: one measurement that two experiments show.
-  std::optional<paper::PaperRequest> paper;
+  // Null = cells of scenes and engines. Otherwise the cells are those of the job's plan, in the same order.
+  std::shared_ptr<const Job> job;
 };
 
 // The cells that one process does together, group by group.
 std::vector<std::span<const ManifestCell>> groups_of(const Manifest& manifest);
-
-// The cells of a paper's campaign with their ids.
-core::Result<std::vector<paper::PaperCell>> paper_cells(const Manifest& manifest);
 
 // Makes every scene once: a scene, engine or setting that does not exist is found here, not on a node at night.
 core::Result<Manifest> make_manifest(const CampaignFile& campaign);

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <tuple>
 
+#include "bench/campaign/job.hpp"
 #include "bench/campaign/manifest.hpp"
-#include "bench/paper/campaign.hpp"
 #include "core/rows.hpp"
 
 namespace broadside::bench::campaign {
@@ -30,7 +30,7 @@ class Merger {
 
   core::Result<MergeSummary> merge() {
     summary_.cells = static_cast<std::uint32_t>(manifest_.cells.size());
-    std::set<std::string> taken;  // the paper shows some cells more than once
+    std::set<std::string> taken;  // a job may show a cell more than once
     for (const ManifestCell& cell : manifest_.cells)
       if (taken.insert(cell.id).second)
         if (core::Status s = take(cell); !s) return s.error();
@@ -38,10 +38,10 @@ class Merger {
     if (core::Status s = core::write_cells(out_ / "cells.json", rows_.cells); !s) return s.error();
     if (core::Status s = core::write_verdicts(out_ / "verdicts.json", rows_.verdicts); !s) return s.error();
     if (core::Status s = core::write_samples(out_ / "samples.json", rows_.samples); !s) return s.error();
-    if (manifest_.paper) {
-      auto rows = paper::rows_of_campaign(manifest_, folder_);
-      if (!rows) return rows.error();
-      if (core::Status s = paper::write_paper_rows(out_ / "rows.json", rows.value()); !s) return s.error();
+    if (manifest_.job) {
+      auto job = manifest_.job->open(manifest_.cells, folder_);
+      if (!job) return job.error();
+      if (core::Status s = job.value()->add_to_merge(out_); !s) return s.error();
     }
     return summary_;
   }

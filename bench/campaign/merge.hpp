@@ -19,8 +19,8 @@ struct MergeSummary {
   std::vector<std::string> notable;               // a line for each cell that is missing, crashed or timed out
 };
 
-// Writes cells.json, verdicts.json and samples.json, and of the paper's experiments rows.json, into `out`, which may be
-// the campaign's own folder; trace files keep their place and are named relative to it. A cell that is not finished
+// Writes cells.json, verdicts.json and samples.json, and what the campaign's job adds, into `out`, which may be the
+// campaign's own folder; trace files keep their place and are named relative to it. A cell that is not finished
 // becomes a row that says so. Errors: cells of different builds; two results of one stamp whose digests differ (named);
 // damaged rows.
 core::Result<MergeSummary> merge_cells(const std::filesystem::path& folder, const std::filesystem::path& out);

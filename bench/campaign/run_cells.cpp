@@ -6,15 +6,15 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <numeric>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "bench/build_facts.hpp"
 #include "bench/campaign/cell_lock.hpp"
-#include "bench/paper/cell_cost.hpp"
-#include "bench/paper/measure_group.hpp"
-#include "bench/process/build_facts.hpp"
+#include "bench/campaign/job.hpp"
 #include "bench/process/child.hpp"
 #include "bench/process/interrupt.hpp"
 #include "core/rows.hpp"
@@ -154,11 +154,11 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
   std::error_code failed;
   fs::create_directories(folder / "cells", failed);
   if (failed) return core::Error{"cannot write there: " + failed.message(), folder.string(), "check the folder"};
-  std::vector<paper::PaperCell> of_paper;
-  if (manifest.paper) {
-    auto cells = paper_cells(manifest);
-    if (!cells) return cells.error();
-    of_paper = std::move(cells).value();
+  std::unique_ptr<OpenJob> job;
+  if (manifest.job) {
+    auto opened = manifest.job->open(manifest.cells, folder);
+    if (!opened) return opened.error();
+    job = std::move(opened).value();
   }
 
   const auto finished = [&](std::span<const ManifestCell> cells) {
@@ -174,12 +174,10 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
   };
   std::vector<std::size_t> order(groups.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (manifest.paper) {
-    // Cheap cells first: after an interrupt the report has as many results as possible.
+  if (job) {
     std::vector<double> ranks(groups.size());
     for (std::size_t place = 0; place < groups.size(); ++place)
-      ranks[place] =
-          paper::rank_of(std::span(of_paper).subspan(first_of(place), groups[place].size()), manifest.paper->plan.runs);
+      ranks[place] = job->rank_of(first_of(place), groups[place].size());
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
   }
   for (const std::size_t place : order) {
@@ -199,19 +197,8 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
       tell({group, "busy", 0.0, first});
       continue;
     }
-    if (manifest.paper) {
-      auto rows = paper::measure_group(std::span(of_paper).subspan(first, group.size()),
-                                       {.folder = folder,
-                                        .runs = manifest.paper->plan.runs,
-                                        .allow_stand_in = manifest.paper->allow_stand_in,
-                                        .keeps_traces = manifest.paper->keeps_traces,
-                                        .progress = {},
-                                        .campaign = of_paper,
-                                        .limit_s = manifest.paper->plan.limit_s});
-      if (!rows && !is_interrupted()) return rows.error();
-    } else if (core::Status s = run_cell(folder, group.front()); !s) {
-      return s.error();
-    }
+    const core::Status ended = job ? job->do_group(first, group.size()) : run_cell(folder, group.front());
+    if (!ended) return ended.error();
     const std::uint32_t done = finished(group) - before;
     tally.done += done;
     tally.unfinished += missing - done;

@@ -41,9 +41,8 @@ using TellGroup = std::function<void(const GroupEnd&)>;
 
 // A cell is recorded and judged, and timed where its work says so, by this program in child processes with the cell's
 // time limit each; its folder appears whole or not at all. An engine that crashes or hangs is a result, and finishes
-// its cell; a harness that was killed or ran out of disk is not. Groups of the paper's experiments are measured in this
-// process, as bench/paper/measure_group says, those first that are expected to take the least time. Errors: no
-// manifest, another build, an unknown id.
+// its cell; a harness that was killed or ran out of disk is not. Groups of a job are done as the job says, in the order
+// of their ranks. Errors: no manifest, another build, an unknown id.
 core::Result<Tally> run_cells(const std::filesystem::path& folder, const Selection& selection, const TellGroup& tell);
 
 }  // namespace broadside::bench::campaign

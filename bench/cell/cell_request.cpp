@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/process/build_facts.hpp"
+#include "bench/build_facts.hpp"
 
 namespace broadside::bench {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bench/process/build_facts.hpp"
+#include "bench/build_facts.hpp"
 #include "core/engine/settings.hpp"
 #include "reference/worker_count.hpp"
 

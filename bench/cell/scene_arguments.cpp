@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/trace_scene.hpp"
 #include "bench/cell/transformed_spec.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "bench/engines.hpp"
 #include "core/engine/settings.hpp"
 #include "core/nearest_name.hpp"

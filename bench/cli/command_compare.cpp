@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "bench/timing/interleave.hpp"
 #include "core/rows.hpp"
 #include "reports/comparison.hpp"

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/main_job.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "reports/report.hpp"
 #include "reports/terminal_table.hpp"
 

@@ -12,9 +12,8 @@
 #include <system_error>
 #include <vector>
 
+#include "bench/build_facts.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/paper/paper_command.hpp"
-#include "bench/process/build_facts.hpp"
 #include "bench/process/interrupt.hpp"
 #include "core/nearest_name.hpp"
 

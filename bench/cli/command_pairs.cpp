@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/limit_arguments.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "bench/process/process_limits.hpp"
 #include "bench/timing/box_race.hpp"
 

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "bench/campaign/run_cells.hpp"
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/limit_arguments.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "bench/process/process_limits.hpp"
 #include "bench/record/record.hpp"
 #include "bench/record/run_plan.hpp"

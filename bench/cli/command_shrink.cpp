@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/cell/trace_scene.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "bench/shrink/case_text.hpp"
 #include "bench/shrink/shrink_boxes.hpp"
 #include "bench/shrink/shrink_scene.hpp"

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/limit_arguments.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "bench/engines.hpp"
 #include "bench/process/process_limits.hpp"
 #include "bench/record/run_plan.hpp"

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/step_selection.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "core/trace/view_file.hpp"
 
 namespace broadside::bench {

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bench/cli/more_than_zero.hpp"
+#include "bench/cell/more_than_zero.hpp"
 
 namespace broadside::bench {
 

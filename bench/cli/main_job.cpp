@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "bench/build_facts.hpp"
 #include "bench/cell/scene_meshes.hpp"
-#include "bench/process/build_facts.hpp"
 #include "bench/record/judging.hpp"
 #include "bench/record/playback_of_trace.hpp"
 #include "bench/record/run_plan.hpp"

@@ -10,7 +10,7 @@
 
 #include "bench/campaign/run_cells.hpp"
 #include "bench/paper/cell_cost.hpp"
-#include "bench/paper/cell_files.hpp"
+#include "bench/paper/paper_job.hpp"
 #include "bench/process/interrupt.hpp"
 
 namespace broadside::bench::paper {
@@ -25,9 +25,9 @@ std::string minutes(double seconds) {
 }  // namespace
 
 core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, const std::filesystem::path& folder) {
-  auto manifest = campaign::make_manifest({"paper", {}, request});
+  auto manifest = campaign::make_manifest({"paper", {}, paper_job(request)});
   if (!manifest) return manifest.error();
-  auto cells = campaign::paper_cells(manifest.value());
+  auto cells = planned_cells(request, manifest.value().cells);
   if (!cells) return cells.error();
   if (core::Status s = campaign::write_manifest(folder, manifest.value()); !s) return s.error();
 
@@ -62,17 +62,7 @@ core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, co
   if (is_interrupted())
     return core::Error{"interrupted: finished cells are kept", folder.string(), "the same command goes on from there",
                        core::Exit::kMissing};
-  return rows_of_campaign(manifest.value(), folder);
-}
-
-core::Result<std::vector<PaperRow>> rows_of_campaign(const campaign::Manifest& manifest,
-                                                     const std::filesystem::path& folder) {
-  auto cells = campaign::paper_cells(manifest);
-  if (!cells) return cells.error();
-  const CellFiles files(folder);
-  std::vector<PaperRow> rows;
-  for (const PaperCell& cell : cells.value()) rows.push_back(files.row(cell));
-  return rows;
+  return rows_of(cells.value(), folder);
 }
 
 }  // namespace broadside::bench::paper

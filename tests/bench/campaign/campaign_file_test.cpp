@@ -5,9 +5,11 @@
 #include <set>
 #include <string>
 
+#include "bench/campaign/job.hpp"
 #include "bench/campaign/manifest.hpp"
 #include "bench/campaign/run_cells.hpp"
 #include "bench/campaign/schedulers.hpp"
+#include "bench/paper/paper_job.hpp"
 #include "tests/bench/cli/program.hpp"
 
 namespace broadside {
@@ -170,10 +172,15 @@ TEST(Manifest, ThePapersExperimentsAreGroupsThatSurviveTheFile) {
   ASSERT_TRUE(bench::campaign::write_manifest(folder / ".", manifest.value()).ok());
   const auto again = bench::campaign::read_manifest(folder / ".");
   ASSERT_TRUE(again.ok()) << again.error().line();
-  const auto cells = bench::campaign::paper_cells(again.value());
+  ASSERT_EQ(again.value().cells.size(), 7U);
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(again.value().cells[k].id, manifest.value().cells[k].id);
+  ASSERT_NE(again.value().job, nullptr);
+  EXPECT_EQ(again.value().job->text(), manifest.value().job->text());
+  const auto request = bench::paper::request_from(again.value().job->text());
+  ASSERT_TRUE(request.ok()) << request.error().line();
+  const auto cells = bench::paper::planned_cells(request.value(), again.value().cells);
   ASSERT_TRUE(cells.ok()) << cells.error().line();
-  ASSERT_EQ(cells.value().size(), 7U);
-  for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(cells.value()[k].id, manifest.value().cells[k].id);
+  EXPECT_EQ(cells.value()[4].id, manifest.value().cells[4].id);
   EXPECT_EQ(cells.value()[4].method, "level 2");
 }
 

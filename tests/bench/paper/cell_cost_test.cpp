@@ -12,6 +12,7 @@
 #include "bench/campaign/run_cells.hpp"
 #include "bench/paper/beyond_forecast.hpp"
 #include "bench/paper/cell_files.hpp"
+#include "bench/paper/paper_job.hpp"
 #include "bench/paper/paper_plan.hpp"
 #include "bench/paper/paper_row.hpp"
 #include "tests/datasets/temporary_folder.hpp"
@@ -114,7 +115,7 @@ TEST(CellCost, TheCheapestSceneComesFirst) {
   request.plan.runs = 1;
   request.device = kCpu;
   request.allow_stand_in = true;
-  const auto manifest = campaign::make_manifest({"paper", {}, request});
+  const auto manifest = campaign::make_manifest({"paper", {}, paper_job(request)});
   ASSERT_TRUE(manifest.ok()) << manifest.error().line();
   ASSERT_TRUE(campaign::write_manifest(folder.path(), manifest.value()).ok());
   std::vector<std::string> order;

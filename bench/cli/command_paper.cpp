@@ -1,5 +1,3 @@
-#include "bench/paper/paper_command.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/build_facts.hpp"
+#include "bench/cell/more_than_zero.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/more_than_zero.hpp"
 #include "bench/paper/campaign.hpp"
 #include "bench/paper/paper_plan.hpp"
 #include "bench/paper/sections.hpp"
-#include "bench/process/build_facts.hpp"
 #include "bench/record/run_plan.hpp"
 #include "core/whole_file.hpp"
 

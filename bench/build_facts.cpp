@@ -1,4 +1,4 @@
-#include "bench/process/build_facts.hpp"
+#include "bench/build_facts.hpp"
 
 #include <link.h>
 #include <sys/sysinfo.h>

@@ -1,4 +1,4 @@
-#include "bench/cli/more_than_zero.hpp"
+#include "bench/cell/more_than_zero.hpp"
 
 #include <charconv>
 
