@@ -1,4 +1,4 @@
-"""Which folder may include which: the table of ARCHITECTURE.md, and vendor headers in .cpp files only."""
+"""Which folder may include which: the table of ARCHITECTURE.md, the rooms of bench, and vendor headers in .cpp files only."""
 
 import re
 
@@ -12,6 +12,31 @@ ALLOWED = {
     "bench": {"bench", "core", "gpu", "reference", "validation", "datasets", "reports"},
     "tests": {"tests", "bench", "core", "gpu", "reference", "validation", "datasets", "reports"},
 }
+# Rooms of bench/, and which others each may include, besides itself and the files of bench/ itself. A room includes only rooms above
+# it, so there is no cycle.
+ROOMS = {
+    "cell": set(),
+    "process": {"cell"},
+    "record": {"cell", "process"},
+    "mutants": {"cell", "process"},
+    "timing": {"cell", "process", "record"},
+    "agree": {"cell", "process"},
+    "forensics": {"cell", "process", "record"},
+    "shrink": {"cell", "process", "record"},
+    "campaign": {"cell", "process"},
+    "paper": {"cell", "process", "record", "timing", "campaign"},
+    "benchmarks": {"record"},
+    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "forensics", "shrink", "campaign", "paper"},
+}
+# Files of bench/ itself that wire rooms. Every other one includes no room.
+WIRING = {
+    "bench/main.cpp": {"cli"},
+    "bench/plugin_engines.cpp": {"process"},
+    "bench/job_kinds.hpp": {"campaign"},
+    "bench/job_kinds.cpp": {"paper"},
+}
+# Headers and folders that one folder alone may include: what a page consists of, and what its script is made of.
+PRIVATE = {"reports/page/": "reports", "reports/html_sections.hpp": "reports", "reports/page_json.hpp": "reports"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 LINKED = re.compile(r"\bbroadside_([a-z]+)\b")
 STANDARD = re.compile(r"^[a-z0-9_]+$")  # <vector>: no folder, no suffix
@@ -35,6 +60,7 @@ def violations(tree):
             if include and folder in ALLOWED:
                 found += [f"{name}:{number}: {text}" for text in _include_faults(folder, name, *include.groups())]
         found += _own_header_not_first(tree, name)
+    found += _absent_places(tree)
     for name in tree.paths:
         folder, _, rest = name.partition("/")
         if rest.endswith("CMakeLists.txt") and folder in ALLOWED:
@@ -49,12 +75,47 @@ def _include_faults(folder, name, mark, target):
             yield f'"{target}" does not start with a folder of the root'
         elif first not in ALLOWED[folder]:
             yield f'{folder}/ may not include "{target}"'
-        elif folder == "bench" and target.startswith("reports/web/"):
-            yield f'bench/ may not include the page\'s own part "{target}"'
+        else:
+            yield from _private_faults(folder, target)
+            yield from _room_faults(name, target)
     elif mark == "<" and name.endswith(".hpp") and not STANDARD.match(target) and target not in POSIX:
         vendors_own = {"tests": TESTED, "gpu": CUDA}.get(folder)
         if target not in WRAPPERS.get(name, ()) and not (vendors_own and vendors_own.match(target)):
             yield f"<{target}> is a vendor header; it belongs in a .cpp file"
+
+
+def _private_faults(folder, target):
+    for place, owner in PRIVATE.items():
+        if target.startswith(place) and folder not in (owner, "tests"):
+            yield f'{folder}/ may not include "{target}", which belongs to {owner}/ alone'
+
+
+def room_of(path):
+    """The room of a path under bench/, "" for the files of bench/ itself, None elsewhere."""
+    parts = path.split("/")
+    if parts[0] != "bench":
+        return None
+    return parts[1] if len(parts) > 2 else ""
+
+
+def _room_faults(name, target):
+    room, wanted = room_of(name), room_of(target)
+    if room is None or not wanted or room == wanted:
+        return
+    if room and room not in ROOMS:
+        yield f"bench/{room}/ has no row in ROOMS of include_boundaries.py: say what it may include"
+    elif wanted not in (ROOMS[room] if room else WIRING.get(name, set())):
+        yield f'{f"bench/{room}/" if room else name} may not include "{target}"'
+
+
+def _absent_places(tree):
+    """A rule about a place that is not there protects nothing."""
+    places = {**{f"bench/{room}/": "ROOMS" for room in ROOMS}, **dict.fromkeys(WIRING, "WIRING"),
+              **dict.fromkeys(PRIVATE, "PRIVATE"), **{f"{folder}/": "ALLOWED" for folder in ALLOWED},
+              **dict.fromkeys(WRAPPERS, "WRAPPERS")}
+    for place, table in places.items():
+        if not any(name == place or place.endswith("/") and name.startswith(place) for name in tree.paths):
+            yield f"{place}: {table} of include_boundaries.py names it, and it is not there"
 
 
 def _own_header_not_first(tree, name):

@@ -16,6 +16,9 @@ from source_tree import SourceTree
 CLEAN = {f"{folder}/README.md": "What it is for.\n" for folder in tree_rules.FOLDERS}
 CLEAN["core/body.hpp"] = "#pragma once\n\n#include <vector>\n"
 CLEAN["cmake/packages.txt"] = "# debian-12 ubuntu-24.04 for\nlibx-dev libx-dev X\n"
+for place in [*(f"bench/{room}/" for room in include_boundaries.ROOMS), *include_boundaries.WIRING, *include_boundaries.PRIVATE,
+              *include_boundaries.WRAPPERS]:
+    CLEAN[f"{place}README.md" if place.endswith("/") else place] = "#include \"bench/job_kinds.hpp\"\n" if ".cpp" in place else "#pragma once\n"
 CLEAN["CMakeLists.txt"] = "find_package(X REQUIRED)\n"
 
 
@@ -42,6 +45,35 @@ class PlantedViolation(unittest.TestCase):
     def test_include_that_does_not_start_at_the_root(self):
         self.one(include_boundaries, {"core/a.cpp": '#include "body.hpp"\n'}, "does not start with a folder")
         self.one(include_boundaries, {"core/a.cpp": '#include "../core/body.hpp"\n'}, "does not start with a folder")
+
+    def test_include_from_a_room_of_bench_that_the_table_forbids(self):
+        self.one(include_boundaries, {"bench/campaign/a.cpp": '#include "bench/paper/a.hpp"\n'}, "bench/campaign/ may not include")
+        self.one(include_boundaries, {"bench/record/a.cpp": '#include "bench/cli/commands.hpp"\n'}, "bench/record/ may not")
+        self.one(include_boundaries, {"bench/a.cpp": '#include "bench/cli/commands.hpp"\n'}, "bench/a.cpp may not include")
+        self.one(include_boundaries, {"bench/cellar/a.cpp": '#include "bench/cell/a.hpp"\n'}, "bench/cellar/ has no row")
+        self.assertEqual([], self.found(include_boundaries, {"bench/paper/a.cpp": '#include "bench/campaign/job.hpp"\n',
+                                                             "tests/bench/a_test.cpp": '#include "bench/cli/a.hpp"\n'}))
+
+    def test_rooms_of_bench_have_no_cycle(self):
+        above = set()
+        for room, wanted in include_boundaries.ROOMS.items():
+            self.assertLessEqual(wanted, above, f"{room}: a room includes rooms above it in the table")
+            above.add(room)
+
+    def test_include_of_what_belongs_to_one_folder(self):
+        self.one(include_boundaries, {"bench/paper/a.cpp": '#include "reports/html_sections.hpp"\n'}, "reports/ alone")
+
+    def test_rule_about_a_place_that_is_not_there(self):
+        for place in ("bench/shrink/", "reports/page/", "bench/main.cpp", "core/trace/hdf5_handle.hpp"):
+            with tempfile.TemporaryDirectory() as scratch:
+                for name, text in CLEAN.items():
+                    if not name.startswith(place):
+                        path = Path(scratch) / name
+                        path.parent.mkdir(parents=True, exist_ok=True)
+                        path.write_text(text, encoding="utf-8")
+                found = include_boundaries.violations(SourceTree(scratch))
+            self.assertEqual(1, len(found), found)
+            self.assertIn(f"{place}: ", found[0])
 
     def test_vendor_header_outside_a_source(self):
         self.one(include_boundaries, {"reference/a.hpp": "#include <fcl/fcl.h>\n"}, "vendor header")
