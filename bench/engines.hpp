@@ -1,4 +1,4 @@
-// The one table of engines.
+// The one table of engines: those of gpu/, then those of reference/engines.inc.
 #pragma once
 
 #include <map>

@@ -34,7 +34,7 @@ struct Subject {
   std::uint64_t frame_count = 0;  // the subject's recorded frames: validators that sample spread over them
 };
 
-// One row per validator in the one table (validation/table.cpp).
+// One row per validator in the one table (validation/validators.inc).
 struct ValidatorRow {
   std::string_view name;
   std::string_view law;               // holds when

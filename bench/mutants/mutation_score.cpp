@@ -15,9 +15,9 @@
 #include "bench/process/interrupt.hpp"
 #include "core/nearest_name.hpp"
 #include "core/scene/transformed_scene.hpp"
+#include "reference/engines.hpp"
 #include "reference/mutants/mutants.hpp"
 #include "reference/mutants/serial_pipeline.hpp"
-#include "reference/octree_cpu/engine.hpp"
 
 namespace broadside::bench {
 namespace {

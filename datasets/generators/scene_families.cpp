@@ -1,14 +1,13 @@
 #include "datasets/generators/scene_families.hpp"
 
-#include <array>
-
 namespace broadside::datasets {
 
 std::span<const SceneFamily> scene_families() {
-  static const std::array<SceneFamily, 12> kFamilies{freefall_family(),    random_move_family(), tower_family(),
-                                                     pyramid_family(),     domino_family(),      wall_family(),
-                                                     drum_family(),        funnel_family(),      hopper_family(),
-                                                     mixed_sizes_family(), same_point_family(),  static_family()};
+  static const SceneFamily kFamilies[] = {
+#define SCENE_FAMILY(function) function(),
+#include "datasets/generators/scene_families.inc"
+#undef SCENE_FAMILY
+  };
   return kFamilies;
 }
 

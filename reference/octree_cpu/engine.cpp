@@ -1,5 +1,3 @@
-#include "reference/octree_cpu/engine.hpp"
-
 #include <oneapi/tbb/version.h>
 
 #include <array>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "core/variant.hpp"
+#include "reference/engines.hpp"
 #include "reference/octree_cpu/pipeline.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
 

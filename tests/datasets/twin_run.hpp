@@ -9,7 +9,7 @@
 
 #include "core/engine/settings.hpp"
 #include "core/trace/trace_header.hpp"
-#include "reference/octree_cpu/engine.hpp"
+#include "reference/engines.hpp"
 #include "validation/judge.hpp"
 
 namespace broadside::tests {

@@ -10,7 +10,6 @@
 #include "gpu/engines.hpp"
 #include "gpu/engines_on_cuda.hpp"
 #include "reference/engines.hpp"
-#include "reference/octree_cpu/engine.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"
 

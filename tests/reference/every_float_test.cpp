@@ -10,7 +10,6 @@
 
 #include "core/engine/engine.hpp"
 #include "reference/engines.hpp"
-#include "reference/octree_cpu/engine.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::tests {

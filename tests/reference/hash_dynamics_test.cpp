@@ -10,7 +10,6 @@
 
 #include "core/engine/engine.hpp"
 #include "reference/engines.hpp"
-#include "reference/octree_cpu/engine.hpp"
 
 namespace broadside {
 namespace {

@@ -4,10 +4,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import contributing
 import formatting
 import include_boundaries
 import packages
 import readme_commands
+import releases
 import shell_scripts
 import tree_rules
 import wording
@@ -131,6 +133,27 @@ class PlantedViolation(unittest.TestCase):
             wrong = readme_commands.failures([("./broadside first >seen", 0), ("./broadside 3", 0)], program)
             self.assertEqual(1, len(wrong))
             self.assertIn("expected exit 0, saw 3", wrong[0])
+
+    def test_step_of_contributing_that_cannot_be_taken(self):
+        def page(step):
+            return {contributing.PAGE: f"<!-- {step} -->\n```cpp\nline\n```\n"}
+
+        self.one(contributing, page("file: core/body.hpp"), "is there already")
+        self.one(contributing, page("line of: core/other.inc"), "is not there")
+        self.one(contributing, page("line of: core/body.hpp, after: int b;"), "has no line")
+        self.assertEqual([], self.found(contributing, page("line of: core/body.hpp, after: #pragma once")))
+        step = contributing.steps(page("line of: a, after: two")[contributing.PAGE])[0]
+        self.assertEqual("one\n  two\nline\nthree\n", contributing.changed(step, "one\n  two\nthree\n"))
+
+    def test_release_or_version_that_the_changelog_lacks(self):
+        told = {"CMakeLists.txt": "project(p VERSION 2.0.0)\nfind_package(X REQUIRED)\n",
+                "core/trace/trace_header.hpp": "#pragma once\nconstexpr std::uint32_t kTraceFormatVersion = 3;\n",
+                "core/plugin/broadside_engine.h": "#define BROADSIDE_ENGINE_ABI 1\n",
+                "bench/campaign/manifest.cpp": "constexpr int kVersion = 2;\n",
+                releases.PAGE: "| trace | 1 |\n| trace | 3 |\n| engine plug-ins | 1 |\n| campaign's | 2 |\n\n## 2.0.0 (2026-01-01)\n"}
+        self.assertEqual([], self.found(releases, told))
+        self.one(releases, {**told, "CMakeLists.txt": "project(p VERSION 2.1.0)\n"}, "2.1.0")
+        self.one(releases, {**told, "core/trace/trace_header.hpp": "kTraceFormatVersion = 4"}, "says 4")
 
     def test_unformatted_source(self):
         try:

@@ -11,7 +11,7 @@
 #include "core/engine/settings.hpp"
 #include "core/scene/scene.hpp"
 #include "datasets/scenes.hpp"
-#include "reference/octree_cpu/engine.hpp"
+#include "reference/engines.hpp"
 #include "reference/octree_cpu/pipeline.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
 #include "tests/validation/sound_world.hpp"

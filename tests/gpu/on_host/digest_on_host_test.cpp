@@ -10,7 +10,7 @@
 
 #include "core/engine/engine.hpp"
 #include "gpu/frame/pipeline.hpp"
-#include "reference/octree_cpu/engine.hpp"
+#include "reference/engines.hpp"
 #include "tests/gpu/small_scenes.hpp"
 
 namespace broadside::gpu {

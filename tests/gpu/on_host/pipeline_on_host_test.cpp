@@ -11,7 +11,7 @@
 
 #include "core/engine/engine.hpp"
 #include "gpu/frame/pipeline.hpp"
-#include "reference/octree_cpu/engine.hpp"
+#include "reference/engines.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"
 

@@ -9,7 +9,7 @@
 #include "gpu/frame/pipeline.hpp"
 #include "gpu/stages/small_counts.cuh"
 #include "gpu/stages/vertices/leftover_work.cuh"
-#include "reference/octree_cpu/engine.hpp"
+#include "reference/engines.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"
 
