@@ -124,7 +124,7 @@ class AllPairs final : public core::BroadPhase {
     std::uint32_t k = 0;
     // Hits are rare: eight flags that are all 0 are skipped at a time.
     for (; k + 8 <= count; k += 8) {
-      std::uint64_t eight;
+      std::uint64_t eight = 0;
       std::memcpy(&eight, hit + k, sizeof(eight));
       if (eight == 0) continue;
       for (std::uint32_t m = k; m < k + 8; ++m) take(m);

@@ -1,9 +1,12 @@
 """Each check finds its kind of violation: one is planted in a small tree, and nothing else is reported."""
 
+import json
+import shutil
 import tempfile
 import unittest
 from pathlib import Path
 
+import clang_tidy
 import contributing
 import formatting
 import include_boundaries
@@ -13,6 +16,7 @@ import releases
 import shell_scripts
 import tree_rules
 import wording
+import workflows
 from source_tree import SourceTree
 
 CLEAN = {f"{folder}/README.md": "What it is for.\n" for folder in tree_rules.FOLDERS}
@@ -154,6 +158,45 @@ class PlantedViolation(unittest.TestCase):
         self.assertEqual([], self.found(releases, told))
         self.one(releases, {**told, "CMakeLists.txt": "project(p VERSION 2.1.0)\n"}, "2.1.0")
         self.one(releases, {**told, "core/trace/trace_header.hpp": "kTraceFormatVersion = 4"}, "says 4")
+
+    def test_sources_that_clang_tidy_looks_at(self):
+        paths = ["core/a.hpp", "core/a.cpp", "core/b.hpp", "bench/benchmarks/c.cpp", "tests/core/a_test.cpp", "core/plugin/examples/d.cpp"]
+        self.assertEqual(["core/a.cpp"], clang_tidy.sources_of(paths, paths))
+        self.assertEqual(["core/a.cpp"], clang_tidy.sources_of(["core/a.hpp", "core/gone.cpp"], paths))
+
+    def test_what_clang_tidy_finds(self):
+        program = shutil.which(f"clang-tidy-{clang_tidy.VERSION}")
+        if not program:
+            self.skipTest("no clang-tidy here")
+        with tempfile.TemporaryDirectory() as scratch:
+            root = Path(scratch).resolve()
+            (root / "core").mkdir()
+            (root / "core/a.cpp").write_text("int* two() {\n  int BadName = 2;\n  return new int(BadName);\n}\n", encoding="utf-8")
+            shutil.copy(Path(__file__).resolve().parents[2] / ".clang-tidy", root / ".clang-tidy")
+            (root / "compile_commands.json").write_text(json.dumps([{"directory": str(root), "file": "core/a.cpp",
+                                                                     "command": "c++ -Wno-restrict -c core/a.cpp"}]), encoding="utf-8")
+            found = clang_tidy.findings(program, root, root, "core/a.cpp")
+        self.assertEqual(1, len(found), found)
+        self.assertIn("core/a.cpp:2: invalid case style for variable 'BadName'", found.pop())
+
+    def test_workflow_that_the_forge_cannot_run(self):
+        def workflow(step, head="on: push"):
+            text = f"name: a\n{head}\njobs:\n  b:\n    runs-on: c\n    timeout-minutes: 5\n    steps:\n      - {step}\n"
+            return {f"{workflows.FOLDER}a.yml": text}
+
+        try:
+            self.assertEqual([], self.found(workflows, workflow("run: cat x")))
+        except formatting.Absent as reason:
+            self.skipTest(str(reason))
+        self.assertEqual([], self.found(workflows, workflow("uses: actions/checkout@v4")))
+        self.one(workflows, workflow("run: .ci/nothing here"), ".ci/nothing is not there")
+        self.one(workflows, workflow("run: sudo no-such-program"), "no program of this machine")
+        self.one(workflows, workflow("uses: actions/checkout"), "no version")
+        self.one(workflows, workflow("name: idle"), "either an action")
+        self.one(workflows, workflow("{run: cat x, wiht: 3}"), "the key wiht")
+        self.one(workflows, workflow("run: 'cat ${{ secrets.word }}'"), "is not one that this check knows")
+        self.one(workflows, workflow("run: cat x", head="env: {}"), "nothing that starts it")
+        self.one(workflows, {f"{workflows.FOLDER}a.yml": "name: [\n"}, "no YAML")
 
     def test_unformatted_source(self):
         try:

@@ -23,9 +23,9 @@ class SourceTree:
         if answer.returncode == 0 and Path(top.stdout.strip()).resolve() == self.root.resolve():
             names = [name for name in answer.stdout.decode().split("\0") if name]
             return [name for name in names if (self.root / name).is_file()]
-        skipped = ("build", "out", ".git", ".cache", "node_modules")
+        skipped = ("build", "out", ".cache", "node_modules")
         found = (path.relative_to(self.root) for path in self.root.rglob("*") if path.is_file())
-        return [str(path) for path in found if not path.parts[0].startswith(skipped) and "node_modules" not in path.parts]
+        return [str(path) for path in found if not path.parts[0].startswith(skipped) and not {".git", "node_modules"} & set(path.parts)]
 
     def with_suffix(self, suffixes):
         return [name for name in self.paths if Path(name).suffix in suffixes]

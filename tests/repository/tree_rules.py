@@ -5,7 +5,7 @@ from pathlib import Path
 
 TOP = {
     "CMakeLists.txt", "CMakePresets.json", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE",
-    "broadside", "core", "gpu", "reference", "validation", "bench", "datasets", "reports", "tests", "cmake", ".ci",
+    "broadside", "core", "gpu", "reference", "validation", "bench", "datasets", "reports", "tests", "cmake", ".ci", ".github",
     ".clang-format", ".clang-tidy", ".gitignore", ".gitattributes", ".editorconfig", ".clangd",
 }
 FOLDERS = ("core", "gpu", "reference", "validation", "bench", "datasets", "reports", "tests")
