@@ -69,7 +69,13 @@ core::Error unknown_subcommand(const CLI::App& program, const std::string& typed
 core::Exit parse_and_run(int argc, char** argv) {
   CLI::App program{
       "Runs collision engines side by side on identical scenes, proves what each got right, and times only "
-      "what it proved.",
+      "what it proved.\n\n"
+      "First:  broadside demo                                  then open out/demo/report.html in a browser\n"
+      "Then:   broadside list engines                          also: list scenes, list validators\n"
+      "        broadside run SCENE --engine ENGINE --out DIR   records a trace; your engine: --engine ./libmine.so\n"
+      "        broadside check DIR/*.h5 --json DIR/verdicts.json\n"
+      "        broadside time SCENE --engine ENGINE --out DIR/samples.json\n"
+      "        broadside report DIR --html DIR/report.html     the page of these\n",
       "broadside"};
   program.require_subcommand(1);
   program.set_version_flag("--version", build_line);
@@ -78,8 +84,10 @@ core::Exit parse_and_run(int argc, char** argv) {
       "cell that was asked for is missing; 4 internal. 'broadside SUBCOMMAND --help' explains each.");
   core::Exit exit = core::Exit::kGood;
   for (const AddCommand add : kCommands) add(program, exit);
-  if (argc > 1 && argv[1][0] != '-' && !knows_subcommand(program, argv[1]))
-    return complain(unknown_subcommand(program, argv[1]));
+  if (argc < 2)
+    return complain({"no subcommand", "command line",
+                     "begin with 'broadside demo', which leaves out/demo/report.html, or see broadside --help"});
+  if (argv[1][0] != '-' && !knows_subcommand(program, argv[1])) return complain(unknown_subcommand(program, argv[1]));
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

@@ -144,7 +144,8 @@ class Launcher(unittest.TestCase):
         self.assertEqual(2, self.call().returncode)
         helped = self.call("--help")
         self.assertEqual(0, helped.returncode)
-        self.assertIn("./broadside demo", helped.stdout)
+        self.assertLess(helped.stdout.index("./broadside demo"), helped.stdout.index("./broadside run"), "what to do first")
+        self.assertIn("out/demo/report.html", helped.stdout)
         self.assertEqual([], self.calls)
 
     @unittest.skipUnless(os.geteuid() == 0 and shutil.which("setpriv"), "only root can become a user without rights")

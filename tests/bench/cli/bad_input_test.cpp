@@ -28,7 +28,7 @@ TEST_P(BadArguments, GetOneClearLineAndExitCode2) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadArguments,
     testing::Values(
-        BadCase{"NoSubcommand", {}, "subcommand"}, BadCase{"UnknownSubcommand", {"rnu"}, "rnu"},
+        BadCase{"NoSubcommand", {}, "broadside demo"}, BadCase{"UnknownSubcommand", {"rnu"}, "rnu"},
         BadCase{"UnknownScene", {"run", "frefall:bunny:50", "--engine", "octree-cpu"}, "freefall"},
         BadCase{"MissingSceneFile", {"run", "no-such.toml", "--engine", "octree-cpu"}, "no-such.toml"},
         BadCase{"UnknownEngine", {"run", "errata:E3", "--engine", "octree-cup"}, "octree-cpu"},
