@@ -30,8 +30,8 @@ struct Engine {
   std::function<std::vector<DefectHits>()> defects;
 };
 
-// One row per engine in the one table (reference/engines.inc, bench/engines.cpp). A row exists also where the engine cannot run on this
-// machine; then absent() says why ("not measured: no device") and create is not called.
+// One row per engine in the one table (reference/engines.inc, bench/engines.cpp). A row exists also where the engine
+// cannot run on this machine; then absent() says why ("not measured: no device") and create is not called.
 struct EngineRow {
   std::string_view id;
   std::string_view capabilities;  // "broad narrow dynamics", for listings
