@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/frame/frame_view.hpp"
+#include "gpu/stages/grid/device.cuh"
 
 namespace broadside::gpu {
 
