@@ -21,9 +21,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/check_gltf.hpp"
 #include "core/mesh/check_off.hpp"
 #include "core/mesh/check_ply.hpp"
 #include "core/mesh/placement.hpp"
+#include "core/mesh/regular_files.hpp"
 #include "core/nearest_name.hpp"
 
 namespace broadside::core {
@@ -120,10 +122,32 @@ std::uint64_t unreferenced_count(const aiScene& scene) {
   return count;
 }
 
+// assimp cuts a polygon by looking for one ear after another among all of its corners: the cube of the corners where
+// few are ears, as in a spiral (4,000 corners: 6 s). Corners of one face, and the sum of their cubes where there are
+// more than four: about 5 s.
+constexpr std::uint64_t kMostPolygonCorners = 3'600;
+constexpr std::uint64_t kMostPolygonWork = 50'000'000'000;
+
+Status check_polygon(const std::filesystem::path& path, std::uint64_t corners, std::uint64_t& work) {
+  if (corners > kMostPolygonCorners)
+    return bad(path,
+               "a face has " + std::to_string(corners) + " corners, and " + std::to_string(kMostPolygonCorners) +
+                   " are the most that are read",
+               "cut it into triangles first");
+  work += corners > 4 ? corners * corners * corners : 0;
+  if (work > kMostPolygonWork)
+    return bad(path,
+               "its polygons' corners cubed add up to more than " + std::to_string(kMostPolygonWork) +
+                   ", the most that are read",
+               "cut them into triangles first");
+  return Done{};
+}
+
 // Called before assimp's post-processing: joining uses vertex indices unchecked, triangulation aborts on a face without
 // corners, and a scene of points alone fails without a clear message.
 Status check_faces(const std::filesystem::path& path, const aiScene& scene) {
   bool has_area = false;
+  std::uint64_t polygon_work = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
@@ -131,6 +155,7 @@ Status check_faces(const std::filesystem::path& path, const aiScene& scene) {
       if (face.mNumIndices == 0)
         return bad(path, "face " + std::to_string(f) + " has no corners", "repair the mesh file");
       has_area = has_area || face.mNumIndices >= 3;
+      if (Status s = check_polygon(path, face.mNumIndices, polygon_work); !s) return s;
       for (unsigned k = 0; k < face.mNumIndices; ++k)
         if (face.mIndices[k] >= part.mNumVertices)
           return bad(path, "a face names vertex " + std::to_string(face.mIndices[k]) + ", which does not exist",
@@ -153,12 +178,17 @@ class NodeGatherer {
  public:
   NodeGatherer(const std::filesystem::path& path, const aiScene& scene) : path_(path), scene_(scene) {}
 
-  Status walk(const aiNode& node, const Matrix& parent) {
-    const Matrix here = product(parent, node.mTransformation);
-    if (node.mNumMeshes > 0)
-      if (Status s = add(node, here); !s) return s;
-    for (unsigned k = 0; k < node.mNumChildren; ++k)
-      if (Status s = walk(*node.mChildren[k], here); !s) return s;
+  // Parents before their children, in the file's order; without recursion, because the file says how deep they nest.
+  Status walk(const aiNode& root) {
+    std::vector<std::pair<const aiNode*, Matrix>> waiting{{&root, kIdentity}};
+    while (!waiting.empty()) {
+      const auto [node, parent] = waiting.back();
+      waiting.pop_back();
+      const Matrix here = product(parent, node->mTransformation);
+      if (node->mNumMeshes > 0)
+        if (Status s = add(*node, here); !s) return s;
+      for (unsigned k = node->mNumChildren; k-- > 0;) waiting.emplace_back(node->mChildren[k], here);
+    }
     return Done{};
   }
   LoadedNodes nodes() && { return std::move(loaded_); }
@@ -201,14 +231,17 @@ struct Imported {
 constexpr unsigned kCleaning = aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
 
 // When the reader for a file's extension refuses it, assimp tries its forty other readers, which nothing above has
-// checked. So only the reader for the extension stays registered.
+// checked. So only the reader for the extension stays registered; of the two for glTF the one for version 2, because
+// the other one loads the file to see its version.
 void keep_reader_of(Assimp::Importer& importer, const std::filesystem::path& path) {
   const std::string wanted = lower_extension(path).substr(1);
   for (std::size_t k = importer.GetImporterCount(); k-- > 0;) {
     Assimp::BaseImporter* reader = importer.GetImporter(k);
     std::set<std::string> extensions;
     reader->GetExtensionList(extensions);
-    if (extensions.contains(wanted) || importer.UnregisterLoader(reader) != aiReturn_SUCCESS) continue;
+    const bool is_old_gltf = std::string_view(reader->GetInfo()->mName) == "glTF Importer";
+    if ((extensions.contains(wanted) && !is_old_gltf) || importer.UnregisterLoader(reader) != aiReturn_SUCCESS)
+      continue;
     delete reader;  // UnregisterLoader gives up ownership
   }
 }
@@ -221,6 +254,14 @@ Result<const aiScene*> read_checked(Assimp::Importer& importer, const std::files
                                                           aiComponent_TEXTURES | aiComponent_LIGHTS |
                                                           aiComponent_CAMERAS | aiComponent_MATERIALS);
   keep_reader_of(importer, path);
+  const std::string extension = lower_extension(path);
+  if (extension == ".gltf" || extension == ".glb") {
+    Result<std::string> content = checked_gltf(path, extension == ".glb");
+    if (!content) return content.error();
+    importer.SetIOHandler(new RegularFiles(path, std::move(content).value()));
+  } else {
+    importer.SetIOHandler(new RegularFiles);
+  }
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr)
     return bad(path, "not a readable mesh: " + one_line(importer.GetErrorString()), "check that the file is whole");
@@ -250,7 +291,7 @@ Result<LoadedNodes> imported_nodes(const std::filesystem::path& path) {
   if (scene == nullptr)
     return bad(path, "cannot be prepared: " + one_line(importer.GetErrorString()), "repair the mesh file");
   NodeGatherer gatherer(path, *scene);
-  if (Status s = gatherer.walk(*scene->mRootNode, kIdentity); !s) return s.error();
+  if (Status s = gatherer.walk(*scene->mRootNode); !s) return s.error();
   return std::move(gatherer).nodes();
 }
 

@@ -26,7 +26,7 @@ struct LoadedMesh {
 // polygons are cut into triangles, points and lines are left out, every node's transform is applied, and the result is
 // cleaned. A binary PLY of shared vertices keeps its bits and its order.
 // Errors, each one line: missing, not a file, unreadable, too large, unknown format, broken, no vertices, no triangles,
-// a vertex that is NaN or infinite, no triangle with area.
+// a vertex that is NaN or infinite, no triangle with area, polygons of too many corners; and those of check_gltf.hpp.
 Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
 
 // A node of a file that has triangles: a mesh, and where it is in the world.
