@@ -7,6 +7,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "datasets/scene_file/toml_nesting.hpp"
+
 namespace broadside::datasets {
 namespace {
 
@@ -57,6 +59,16 @@ Result<std::string> content_of(const std::filesystem::path& path) {
   return std::move(content).str();
 }
 
+core::Status check_nesting(std::string_view text, const std::filesystem::path& path) {
+  const TomlNesting nesting = toml_nesting(text);
+  if (nesting.line == 0) return core::Done{};
+  const bool is_name = nesting.name_parts > kMostNameParts;
+  return Error{std::string(is_name ? "a name has more than " : "brackets nest more than ") +
+                   std::to_string(is_name ? kMostNameParts : kDeepestToml) +
+                   (is_name ? " parts, the most that are read" : " levels deep, the most that are read"),
+               path.string() + ":" + std::to_string(nesting.line), "check that it is a file for this program"};
+}
+
 }  // namespace
 
 Node::Node() = default;
@@ -69,6 +81,7 @@ Node::~Node() = default;
 Result<Node> parse_toml(const std::filesystem::path& path) {
   const Result<std::string> content = content_of(path);
   if (!content) return content.error();
+  if (core::Status s = check_nesting(content.value(), path); !s) return s.error();
   try {
     return converted(toml::parse(std::string_view(content.value()), path.string()));
   } catch (const toml::parse_error& e) {

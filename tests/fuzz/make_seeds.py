@@ -44,6 +44,7 @@ def scenes():
                        "filled-cube": "fill = 0.2\ntop_speed_m_s = 5"}.items():
         yield kind, f'[[mesh]]\nshape = "box"\nsegments = [1, 1, 1]\n[generator]\nkind = "{kind}"\ncount = 5\nmass_kg = 1\n{keys}\n'
     yield "file", domain + '[[mesh]]\nfile = "none.ply"\n' + body
+    yield "name-of-many-parts", "[" + ".".join("a" * 50000) + "]\nx = 1\n"
     yield "catalogue", domain + '[[mesh]]\ncatalogue = "bunny"\n' + body
 
 
@@ -88,6 +89,12 @@ def meshes():
     import base64
     document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
     yield "gltf", b"4" + json.dumps(document).encode()
+    levels = 40  # a copy of the mesh for each way down, if a node may have two parents
+    document["nodes"] = [{"children": [k + 1, k + 1]} for k in range(levels)] + [{"mesh": 0}]
+    yield "gltf-shared-children", b"4" + json.dumps(document).encode()
+    document["nodes"] = [{"children": [k + 1]} for k in range(levels)] + [{"children": [0], "mesh": 0}]
+    yield "gltf-node-within-itself", b"4" + json.dumps(document).encode()
+    yield "glb-lies-about-length", b"5glTF" + struct.pack("<III4s", 2, 0xFFFFFFF0, 0xFFFFFFF0, b"JSON")
 
 
 def fill_trace(file, groups, **storage):
