@@ -34,6 +34,12 @@ void print_table(const std::vector<RaceRow>& rows) {
       fmt::print("{:<28} {:>12} {:>12} {:#018x} {:>12.3f} {:>12.3f} {:>12.3f} {:>12.3f}\n", r.label, r.pairs, r.raw,
                  r.digest, r.update_s * 1e3, r.find_s * 1e3, r.filter_s * 1e3, r.read_back_s * 1e3);
   }
+  // All engines had the same boxes.
+  for (const RaceRow& r : rows) {
+    if (r.remark.empty()) continue;
+    fmt::print("{}\n", r.remark);
+    break;
+  }
 }
 
 // The engines that answered must agree; exit 3 when one did not answer.

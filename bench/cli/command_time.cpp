@@ -51,6 +51,8 @@ std::vector<std::string> own_arguments(const TimeArguments& a) {
   if (a.scene.frames > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(a.scene.frames)});
   if (a.narrow_every > 0) arguments.insert(arguments.end(), {"--narrow-every", std::to_string(a.narrow_every)});
   if (a.scene.allow_stand_in) arguments.emplace_back("--stand-in");
+  if (a.limits.are_asked) arguments.insert(arguments.end(), {"--time-limit", fmt::format("{}", a.limits.seconds)});
+  append_memory_limit(arguments, a.limits);
   return arguments;
 }
 

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,8 +75,9 @@ class StderrTail {
       }
     }
   }
-  // The line without the codes that clear it.
+  void pass_no_more_on() { passes_on_ = false; }
   [[nodiscard]] std::string last_line() const {
+    // Without the codes that clear it.
     const std::string& line = line_.empty() ? last_ : line_;
     constexpr std::string_view kClear = "\033[K";
     return line.starts_with(kClear) ? line.substr(kClear.size()) : line;
@@ -113,21 +115,30 @@ bool drain(int from, Take&& take) {
   return got > 0 || (got < 0 && errno == EINTR);
 }
 
+// An interrupted child has ended itself by now, unless it blocks signals.
+constexpr double kAfterInterrupt_s = 0.8;
+
 // Reads both pipes until the child closes them, then reaps it; returns its status.
 int attend(pid_t child, int out, int err, StderrTail tail, double time_limit_s, ChildEnding& ending) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  bool told = false;
+  const auto elapsed_s = [](Clock::time_point since) {
+    return std::chrono::duration<double>(Clock::now() - since).count();
+  };
+  std::optional<Clock::time_point> told;
+  bool is_killed = false;
   std::array<pollfd, 2> waiting{pollfd{err, POLLIN, 0}, pollfd{out, POLLIN, 0}};
   while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
     const int ready = poll(waiting.data(), waiting.size(), 100);
     if (is_interrupted() && !told) {
       kill(child, SIGINT);
-      told = true;
+      told = Clock::now();
+      tail.pass_no_more_on();
     }
-    if (std::chrono::duration<double>(Clock::now() - start).count() > time_limit_s && !ending.timed_out) {
-      ending.timed_out = true;
+    if (!told && elapsed_s(start) > time_limit_s) ending.timed_out = true;
+    if (!is_killed && (ending.timed_out || (told && elapsed_s(*told) > kAfterInterrupt_s))) {
       kill(child, SIGKILL);
+      is_killed = true;
     }
     if (ready <= 0) continue;
     if (waiting[0].revents != 0 && !drain(err, [&](const char* data, std::size_t size) { tail.take(data, size); }))
@@ -148,7 +159,11 @@ void name_ending(ChildEnding& ending, int status, double time_limit_s) {
   if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) ending.signal = WTERMSIG(status);
   ending.is_good = !ending.timed_out && ending.exit_code == 0;
-  if (ending.timed_out) {
+  // A crash of the engine is not told from the end that it was asked for.
+  ending.is_interrupted = !ending.is_good && is_interrupted();
+  if (ending.is_interrupted) {
+    ending.words = "interrupted";
+  } else if (ending.timed_out) {
     ending.words = fmt::format("no end after {:g} s", time_limit_s);
   } else if (WIFSIGNALED(status)) {
     ending.words = fmt::format("signal {} ({}){}", WTERMSIG(status), strsignal(WTERMSIG(status)), after);
@@ -159,7 +174,9 @@ void name_ending(ChildEnding& ending, int status, double time_limit_s) {
 
 core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, const std::vector<std::string>& args) {
   core::Cell cell;
-  cell.state = ending.timed_out ? core::CellState::kTimedOut : core::CellState::kCrashed;
+  cell.state = ending.is_interrupted ? core::CellState::kInterrupted
+               : ending.timed_out    ? core::CellState::kTimedOut
+                                     : core::CellState::kCrashed;
   cell.reason = ending.words;
   auto settings = core::Settings::parse(request.row->id, request.row->settings, request.settings);
   core::Engine nameless;
@@ -221,6 +238,7 @@ void append_memory_limit(std::vector<std::string>& arguments, const ChildLimits&
 
 std::string_view class_of(const ChildEnding& ending) {
   if (ending.is_good) return {};
+  if (ending.is_interrupted) return "interrupted";
   if (ending.timed_out) return "time-out";
   if (ending.signal != 0) return ending.signal == SIGABRT ? "abort" : "crash";
   // vendor_call's text for std::bad_alloc, and the runtime's text for one that was not caught.

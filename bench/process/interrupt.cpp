@@ -1,20 +1,64 @@
 #include "bench/process/interrupt.hpp"
 
+#include <sys/time.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <ctime>
+
+#include "core/result.hpp"
 
 namespace broadside::bench {
 namespace {
 
+// Work in one long call never asks for the flag: it is ended with one line and exit code 3. Work that has asked gets
+// time to write what it recorded. Nothing is left half under its final name, which files get by a rename when they are
+// whole.
+constexpr suseconds_t kUnheard_us = 600'000;
+constexpr time_t kHeard_s = 10;
+// A terminal sends Ctrl-C to a child too, and its parent passes it on: within this time they are one.
+constexpr double kSameSignal_s = 0.4;
+
 volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t heard = 0;
+timespec first_signal{};
+
+double seconds_since_first_signal() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec - first_signal.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec - first_signal.tv_nsec);
+}
+
+// Async-signal-safe on Linux, where setitimer is a plain system call.
+void end_after(time_t seconds, suseconds_t microseconds) {
+  const itimerval once{{0, 0}, {seconds, microseconds}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
 
 void on_signal(int signal) {
+  if (interrupted != 0) {  // a second signal ends the program at once
+    if (seconds_since_first_signal() < kSameSignal_s) return;
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+    return;
+  }
+  clock_gettime(CLOCK_MONOTONIC, &first_signal);
   interrupted = 1;
-  std::signal(signal, SIG_DFL);
+  end_after(0, kUnheard_us);
+}
+
+void on_time_out(int) {
+  constexpr char kLine[] = "broadside: interrupted\n";
+  // Nothing can be done about a line that cannot be written.
+  if (write(STDERR_FILENO, kLine, sizeof kLine - 1) < 0) _exit(static_cast<int>(core::Exit::kMissing));
+  _exit(static_cast<int>(core::Exit::kMissing));
 }
 
 }  // namespace
 
 void watch_for_interrupt() {
+  std::signal(SIGALRM, on_time_out);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   // A write past `ulimit -f` then fails with an error line instead of ending the process by a signal.
@@ -22,6 +66,10 @@ void watch_for_interrupt() {
 }
 
 bool is_interrupted() {
+  if (interrupted != 0 && heard == 0) {
+    heard = 1;
+    end_after(kHeard_s, 0);
+  }
   return interrupted != 0;
 }
 

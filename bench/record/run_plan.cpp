@@ -102,7 +102,7 @@ class Runner {
       done_.push_back(*std::move(reused));
       ++reused_;
     } else {
-      auto cell = spec.row->runs_in_child ? record_cell_in_child(request, plan_.limits) : record_cell(request);
+      auto cell = is_apart(spec) ? record_cell_in_child(request, plan_.limits) : record_cell(request);
       if (!cell) return cell.error();
       done_.push_back(std::move(cell).value());
     }
@@ -110,6 +110,9 @@ class Runner {
     say_done(done_.back(), done_.size(), std::max(plan_.cells.size(), done_.size()));
     return save();
   }
+
+  // Other people's code may abort; a limit that was asked for binds a process.
+  [[nodiscard]] bool is_apart(const CellSpec& spec) const { return spec.row->is_reference || plan_.limits.are_asked; }
 
   void note_driver(const CellSpec& spec) {
     const core::Cell& cell = done_.back();

@@ -10,12 +10,18 @@
 
 #include "bench/engines.hpp"
 #include "bench/plugin_engines.hpp"
+#include "bench/process/interrupt.hpp"
 #include "datasets/box_streams/box_stream.hpp"
+#include "datasets/box_streams/long_boxes.hpp"
 
 namespace broadside::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+core::Error pairs_interrupted() {
+  return {"interrupted", "pairs", "", core::Exit::kMissing};
+}
 
 core::Status run_frame(core::BroadPhase& broad, const std::vector<core::Box>& boxes, std::uint64_t frame,
                        RaceRow& row) {
@@ -60,10 +66,12 @@ core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell,
   RaceRow row;
   row.label = label_of(cell);
   row.boxes = stream.boxes.size();
+  row.remark = datasets::long_boxes_remark(stream.boxes);
   const std::vector<std::uint8_t> is_static(stream.boxes.size());
   if (core::Status s = broad->load(stream.boxes, is_static); !s) return s.error();
   const std::uint32_t count = frames > 0 ? std::min(frames, stream.frames) : stream.frames;
   for (std::uint32_t k = 0; k < count; ++k) {
+    if (is_interrupted()) return pairs_interrupted();
     if (k > 0)
       if (core::Status s = stream.advance(stream.boxes); !s) return s.error();
     if (core::Status s = run_frame(*broad, stream.boxes, k, row); !s) return s.error();
@@ -85,6 +93,7 @@ core::Result<RaceRow> row_of_json(const std::string& text) {
     row.find_s = out.at("find_s");
     row.filter_s = out.at("filter_s");
     row.read_back_s = out.at("read_back_s");
+    row.remark = out.value("remark", "");
     return row;
   } catch (const std::exception& e) {
     return core::Error{std::string("its answer cannot be read: ") + e.what(), "child process", "",
@@ -104,8 +113,9 @@ core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& c
     args.push_back(std::to_string(frames));
   }
   append_memory_limit(args, limits);
-  auto ended = run_self(args, limits, Keeps::kOutput);
+  auto ended = run_self(args, limits, Keeps::kOutputAndErrors);
   if (!ended) return ended.error();
+  if (ended.value().is_interrupted) return pairs_interrupted();
   if (ended.value().is_good) return row_of_json(ended.value().output);
   if (ended.value().exit_code == static_cast<int>(core::Exit::kBadInput)) {
     std::string_view line = ended.value().last_line;
@@ -127,7 +137,7 @@ core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const s
                                               std::uint32_t frames, const ChildLimits& limits, bool here) {
   std::vector<RaceRow> rows;
   for (const CellSpec& cell : cells) {
-    const bool is_apart = cell.row->runs_in_child && !here && why_absent(*cell.row).empty();
+    const bool is_apart = (cell.row->runs_in_child || limits.are_asked) && !here && why_absent(*cell.row).empty();
     auto row = is_apart ? race_in_child(stream, cell, frames, limits) : race(stream, cell, frames);
     if (!row) return row.error();
     rows.push_back(std::move(row).value());
@@ -152,6 +162,7 @@ std::string race_json(const std::vector<RaceRow>& rows) {
                    {"find_s", r.find_s},
                    {"filter_s", r.filter_s},
                    {"read_back_s", r.read_back_s}});
+    if (!r.remark.empty()) out.back()["remark"] = r.remark;
   }
   return out.dump(2);
 }

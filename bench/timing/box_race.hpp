@@ -23,14 +23,16 @@ struct RaceRow {
   double find_s = 0.0;
   double filter_s = 0.0;     // of read_back_s: the engine's raw pairs filtered on the given boxes
   double read_back_s = 0.0;  // copies, the engine's own filter, canonical order
+  std::string remark;        // on the set of the first frame, where its shape slows engines; else empty
   std::string absent;        // why a reference's process gave no answer; empty when it did
   std::string verdict;       // then: "abort", "time-out", ... (class_of in bench/process/child.hpp)
   std::string repeat;        // and the command that repeats it; the boxes follow from their name, or are its file
 };
 
-// frames: at most this many; 0 = all of the stream. References run in child processes, unless `here`. Errors: unknown
-// or malformed boxes, an engine without a broad phase or without its device, an engine that fails in this process. An
-// engine whose child process dies leaves a row that says so.
+// frames: at most this many; 0 = all of the stream. References run in child processes, and all engines where limits
+// were asked for, unless `here`. Errors: interrupted, unknown or malformed boxes, an engine without a broad phase or
+// without its device, an engine that fails in this process. An engine whose child process dies leaves a row that says
+// so.
 core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const std::vector<CellSpec>& cells,
                                               std::uint32_t frames, const ChildLimits& limits, bool here);
 

@@ -171,7 +171,7 @@ std::uint64_t process_name() {
 }
 
 bool goes_to_a_child(const RunPlan& plan, const CellSpec& spec) {
-  return spec.row->runs_in_child && !plan.times_here;
+  return (spec.row->runs_in_child || plan.limits.are_asked) && !plan.times_here;
 }
 
 class Timer {
