@@ -98,7 +98,7 @@ std::vector<CellWork> expanded(const Wanted& wanted) {
 }  // namespace
 
 core::Result<CampaignFile> read_campaign_file(const std::filesystem::path& file) {
-  auto document = datasets::parse_toml(file);
+  auto document = datasets::parse_toml(file, "campaign file");
   if (!document) return document.error();
   FileErrors errors{file.string(), std::nullopt};
   TableReader table(document.value(), "the campaign", errors);
@@ -118,12 +118,15 @@ core::Result<CampaignFile> read_campaign_file(const std::filesystem::path& file)
   }
   table.texts("scenes", wanted.scenes);
   table.texts("engines", wanted.engines);
-  table.whole("frames", 1U, 1'000'000'000U, wanted.each.frames);
-  table.whole("repetitions", 0U, 10'000U, wanted.each.repetitions);
-  table.whole("processes", 1U, 10'000U, wanted.each.processes);
+  table.whole("frames", 1U, kMostFrames, wanted.each.frames);
+  table.whole("repetitions", 0U, kMostRepetitions, wanted.each.repetitions);
+  table.whole("processes", 1U, kMostRepetitions, wanted.each.processes);
   table.text("against", wanted.each.against);
   table.flag("stand_in", wanted.each.stand_in);
   table.positive("time_limit_s", wanted.each.time_limit_s);
+  if (wanted.each.time_limit_s > kLongestLimit_s)
+    errors.add(table.line(), "time_limit_s is longer than 1e7 seconds",
+               "give the seconds that a part of a cell may take");
   wanted.values = read_values(table.table("vary"), errors);
   table.finish();
   if (wanted.scenes.empty()) errors.add(table.line(), "there is no scene", "add scenes = [\"freefall:cube:50\"]");

@@ -25,6 +25,11 @@
 
 namespace broadside::bench::campaign {
 
+// What a campaign file may ask for, and so what a manifest may hold.
+inline constexpr std::uint32_t kMostFrames = 1'000'000'000;
+inline constexpr std::uint32_t kMostRepetitions = 10'000;  // of a cell, and processes
+inline constexpr double kLongestLimit_s = 1e7;             // of a part of a cell: 116 days
+
 class Job;
 
 // One cell after all {keys} are replaced.

@@ -9,8 +9,11 @@
 #include "bench/build_facts.hpp"
 #include "bench/campaign/cell_id.hpp"
 #include "bench/campaign/job.hpp"
+#include "bench/cell/cell_spec.hpp"
+#include "bench/cell/json_number.hpp"
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/job_kinds.hpp"
+#include "core/json_depth.hpp"
 #include "core/whole_file.hpp"
 
 namespace broadside::bench::campaign {
@@ -20,6 +23,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "broadside-campaign";
 constexpr int kVersion = 2;
+constexpr std::size_t kDeepestManifest = 16;  // it has 4 levels; writing a part of it out takes stack for each
 
 core::Result<std::uint64_t> digest_of_scene(const CellWork& work) {
   const SceneArguments arguments{work.scene, work.frames, work.stand_in};
@@ -46,18 +50,38 @@ ManifestCell from_json(const json& row) {
   return {.id = row.at("id"),
           .work = {.scene = row.at("scene"),
                    .engine = row.at("engine"),
-                   .frames = row.at("frames"),
-                   .repetitions = row.at("repetitions"),
-                   .processes = row.at("processes"),
+                   .frames = whole_number(row, "frames", 0, kMostFrames),
+                   .repetitions = whole_number(row, "repetitions", 0, kMostRepetitions),
+                   .processes = whole_number(row, "processes", 1, kMostRepetitions),
                    .against = row.at("against"),
                    .stand_in = row.at("stand_in"),
-                   .time_limit_s = row.at("time_limit_s")},
+                   .time_limit_s = positive_number(row, "time_limit_s", kLongestLimit_s)},
           .needs_gpu = row.at("needs_gpu"),
           .turns = row.at("turns")};
 }
 
 bool is_id(const std::string& text) {
   return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+core::Status read_cells(const json& rows, const std::filesystem::path& file, Manifest& manifest) {
+  std::set<std::string> ids;
+  for (const json& row : rows) {
+    const auto bad = [&](const std::string& what) {
+      return core::Error{"cell " + std::to_string(manifest.cells.size()) + what, file.string(), "plan it again"};
+    };
+    ManifestCell cell;
+    try {
+      cell = from_json(row);
+    } catch (const RefusedNumber& refused) {
+      return bad(": " + refused.what);
+    }
+    if (!is_id(cell.id) || !is_id(cell.turns)) return bad(" has no proper id");
+    // Two experiments of the paper may show one measurement.
+    if (!ids.insert(cell.id).second && !manifest.paper) return bad(" has the id of an earlier one, " + cell.id);
+    manifest.cells.push_back(std::move(cell));
+  }
+  return core::Done{};
 }
 
 }  // namespace
@@ -101,6 +125,9 @@ core::Result<Manifest> read_manifest(const std::filesystem::path& folder) {
   auto text = core::read_whole_file(file);
   if (!text)
     return core::Error{"there is no manifest", folder.string(), "make one: broadside plan CAMPAIGN.toml --out DIR"};
+  if (core::json_depth(text.value()) > kDeepestManifest)
+    return core::Error{"it is damaged: it nests more than " + std::to_string(kDeepestManifest) + " levels deep",
+                       file.string(), "plan it again"};
   try {
     const json document = json::parse(text.value());
     if (document.at("format") != kFormat)
@@ -116,12 +143,7 @@ core::Result<Manifest> read_manifest(const std::filesystem::path& folder) {
       if (!job) return job.error();
       manifest.job = std::move(job).value();
     }
-    for (const json& row : document.at("cells")) {
-      manifest.cells.push_back(from_json(row));
-      if (!is_id(manifest.cells.back().id) || !is_id(manifest.cells.back().turns))
-        return core::Error{"cell " + std::to_string(manifest.cells.size() - 1) + " has no proper id", file.string(),
-                           "plan it again"};
-    }
+    if (core::Status s = read_cells(document.at("cells"), file, manifest); !s) return s.error();
     return manifest;
   } catch (const json::exception& e) {
     return core::Error{std::string("it is damaged: ") + e.what(), file.string(), "plan it again"};

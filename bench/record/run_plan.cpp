@@ -112,7 +112,7 @@ class Runner {
   }
 
   // Other people's code may abort; a limit that was asked for binds a process.
-  [[nodiscard]] bool is_apart(const CellSpec& spec) const { return spec.row->is_reference || plan_.limits.are_asked; }
+  [[nodiscard]] bool is_apart(const CellSpec& spec) const { return spec.row->runs_in_child || plan_.limits.are_asked; }
 
   void note_driver(const CellSpec& spec) {
     const core::Cell& cell = done_.back();

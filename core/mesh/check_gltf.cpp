@@ -1,6 +1,5 @@
 #include "core/mesh/check_gltf.hpp"
 
-#include <algorithm>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/json_depth.hpp"
 #include "core/mesh/gltf_file.hpp"
 #include "core/mesh/gltf_nodes.hpp"
 #include "core/mesh/regular_files.hpp"
@@ -20,27 +20,6 @@ using nlohmann::json;
 // Offsets and lengths beyond this are refused; sums and products of those below it do not overflow.
 constexpr std::uint64_t kLargestNumber = std::uint64_t{1} << 40U;
 constexpr std::uint64_t kLargestStride = 1U << 16U;
-
-// Brackets open at one place, outside of strings.
-std::size_t depth_of(std::string_view text) {
-  std::size_t depth = 0;
-  std::size_t most = 0;
-  bool is_string = false;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const char c = text[k];
-    if (is_string) {
-      if (c == '\\') ++k;
-      is_string = c != '"';
-    } else if (c == '"') {
-      is_string = true;
-    } else if (c == '{' || c == '[') {
-      most = std::max(most, ++depth);
-    } else if ((c == '}' || c == ']') && depth > 0) {
-      --depth;
-    }
-  }
-  return most;
-}
 
 // The array of this name; empty where there is none.
 const json& list_of(const json& document, const char* name) {
@@ -253,7 +232,7 @@ Result<std::string> checked_gltf(const std::filesystem::path& path, bool is_bina
   };
   GltfFile file;
   if (Status s = read_gltf_file(path, is_binary, file); !s) return s.error();
-  if (const std::size_t depth = depth_of(file.json); depth > kDeepestGltfJson)
+  if (const std::size_t depth = json_depth(file.json); depth > kDeepestGltfJson)
     return bad("its JSON nests " + std::to_string(depth) + " levels deep, and " + std::to_string(kDeepestGltfJson) +
                " are the most that are read");
   const json document = json::parse(file.json.begin(), file.json.end(), nullptr, false);

@@ -41,16 +41,16 @@ Node converted(const toml::node& from) {
   return node;
 }
 
-Result<std::string> content_of(const std::filesystem::path& path) {
+Result<std::string> content_of(const std::filesystem::path& path, std::string_view kind) {
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
   if (status.type() == std::filesystem::file_type::not_found)
-    return Error{"no such scene file", path.string(), "check the path, or name a built-in scene"};
+    return Error{"no such " + std::string(kind), path.string(), "check the path"};
   if (status.type() != std::filesystem::file_type::regular)
-    return Error{"not a file", path.string(), "give a scene file"};
+    return Error{"not a file", path.string(), "give a " + std::string(kind)};
   const auto size = std::filesystem::file_size(path, failed);
   if (!failed && size > kMaxSceneFileBytes)
-    return Error{"the file is larger than a scene file may be (1024 MiB)", path.string(), "use a generator"};
+    return Error{"the file is larger than 1024 MiB, the most that is read", path.string(), "use a generator"};
   std::ifstream file(path, std::ios::binary);
   std::ostringstream content;
   content << file.rdbuf();
@@ -78,8 +78,8 @@ Node& Node::operator=(const Node&) = default;
 Node& Node::operator=(Node&&) noexcept = default;
 Node::~Node() = default;
 
-Result<Node> parse_toml(const std::filesystem::path& path) {
-  const Result<std::string> content = content_of(path);
+Result<Node> parse_toml(const std::filesystem::path& path, std::string_view kind) {
+  const Result<std::string> content = content_of(path, kind);
   if (!content) return content.error();
   if (core::Status s = check_nesting(content.value(), path); !s) return s.error();
   try {

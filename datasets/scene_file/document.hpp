@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct Node {
 // Larger files are refused: a body takes about 100 bytes, so this is the ten million bodies that a scene may have.
 inline constexpr std::uint64_t kMaxSceneFileBytes = std::uint64_t{1} << 30;
 
-// Errors: missing, not a file, unreadable, too large, or not TOML (with file:line).
-core::Result<Node> parse_toml(const std::filesystem::path& path);
+// `kind` is what an error calls the file. Errors: missing, not a file, unreadable, too large, names or brackets that
+// nest too deeply (toml_nesting.hpp), or not TOML (both with file:line).
+core::Result<Node> parse_toml(const std::filesystem::path& path, std::string_view kind = "scene file");
 
 }  // namespace broadside::datasets

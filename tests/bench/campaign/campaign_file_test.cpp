@@ -134,6 +134,46 @@ TEST(Manifest, ADamagedOrLaterOneIsRefused) {
             std::string::npos);
 }
 
+// A manifest may come from a stranger: with "frames": -5 a cell ran four thousand million frames.
+TEST(Manifest, NumbersThatNoCampaignFileCouldAskForAreRefused) {
+  const tests::ScratchFolder folder;
+  const std::string cell =
+      R"({"id": "0000000000000001", "scene": "s", "engine": "e", "frames": 1, "repetitions": 0, "processes": 1,
+    "against": "", "stand_in": false, "time_limit_s": 1, "needs_gpu": false, "turns": "0000000000000001"})";
+  const auto read_cells = [&](const std::string& cells, const std::string& more = "") {
+    std::ofstream(folder / "manifest.json")
+        << R"({"format": "broadside-campaign", "version": 2, "name": "a", "build": "b", "cells": [)" << cells << "]"
+        << more << "}";
+    const auto manifest = bench::campaign::read_manifest(folder / ".");
+    return manifest.ok() ? std::string("accepted") : manifest.error().line();
+  };
+  const auto with = [&](const std::string& key, const std::string& value) {
+    std::string text = cell;
+    const std::size_t at = text.find("\"" + key + "\": ") + key.size() + 4;
+    text.replace(at, text.find_first_of(",}", at) - at, value);
+    return read_cells(text);
+  };
+  ASSERT_EQ(read_cells(cell), "accepted");
+  EXPECT_EQ(with("frames", "0"), "accepted") << "the scene's own";
+  for (const char* key : {"frames", "repetitions", "processes"})
+    for (const char* value : {"-5", "1e30", "1.5", "4294967297", "\"7\"", "null", "[1]"}) {
+      const std::string line = with(key, value);
+      EXPECT_NE(line.find(std::string("cell 0: ") + key + " is "), std::string::npos) << line;
+    }
+  EXPECT_NE(with("processes", "0").find("cell 0: processes is 0"), std::string::npos);
+  for (const char* value : {"-1", "0", "1e30", "\"1\""})
+    EXPECT_NE(with("time_limit_s", value).find("cell 0: time_limit_s is "), std::string::npos) << value;
+  EXPECT_NE(read_cells(cell + "," + cell).find("cell 1 has the id of an earlier one"), std::string::npos);
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  EXPECT_NE(read_cells(cell, ", \"paper\": " + deep).find("nests more than 16 levels"), std::string::npos);
+  EXPECT_NE(read_cells(cell, R"(, "paper": {"experiments": ["table5"], "models": [], "counts": [-5], "frames": 3})")
+                .find("counts is -5"),
+            std::string::npos);
+  EXPECT_NE(read_cells(cell, R"(, "paper": {"experiments": ["table5"], "models": [], "counts": [], "frames": -3})")
+                .find("frames is -3"),
+            std::string::npos);
+}
+
 constexpr const char* kPaper = R"(
 name = "paper"
 paper = ["table5", "figure4", "tableA1"]
