@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "bench/forensics/replay_rule.hpp"
 #include "bench/process/child.hpp"
 #include "bench/record/record.hpp"
+#include "bench/record/resume.hpp"
 #include "validation/subject_facts.hpp"
 
 namespace broadside::bench {
@@ -55,6 +57,19 @@ core::Result<std::string> choose(const core::TraceReader& trace, const CellSpec&
                      where, "a broad phase needs boxes and pairs, a narrow phase poses and separations"};
 }
 
+// The steps that the trace has. Which of them are recorded decides more than which can be compared: a body octree that
+// was true for all recorded steps is recorded once.
+core::Result<StepSelection> selection_of(const core::TraceReader& trace) {
+  const std::string windows = windows_of(trace.header());
+  std::vector<std::string> each;
+  for (std::size_t at = 0; at < windows.size();) {
+    const std::size_t end = std::min(windows.find(',', at), windows.size());
+    each.push_back(windows.substr(at, end - at));
+    at = end + 1;
+  }
+  return StepSelection::parse(std::max(1U, trace.header().every), each);
+}
+
 core::Result<std::filesystem::path> record_again(const core::TraceReader& trace, const core::Scene& scene,
                                                  const CellSpec& engine, const std::string& capability,
                                                  const std::filesystem::path& folder) {
@@ -67,6 +82,11 @@ core::Result<std::filesystem::path> record_again(const core::TraceReader& trace,
   request.level = trace.header().groups == 0 ? core::RecordLevel::kDigest : core::RecordLevel::kFull;
   request.folder = folder;
   request.driver_trace = trace.path();
+  if (capability == "dynamics") {
+    auto selection = selection_of(trace);
+    if (!selection) return selection.error();
+    request.selection = std::move(selection).value();
+  }
   auto cell =
       engine.row->runs_in_child ? record_cell_in_child(request, {kTimeLimit_s}) : record_cell(request, capability);
   if (!cell) return cell.error();
