@@ -51,6 +51,8 @@ class BulletDbvt final : public core::BroadPhase {
     return {.exact = true, .margin_m = static_cast<double>(margin_), .keeps_stale_pairs = true};
   }
 
+  // Bullet finds the pairs of a box as the box enters, which is work that is timed: boxes enter in the first update or
+  // find, and here they are only kept.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     if (Status status = given_.load(kId, boxes, is_static); !status) return status;
     return vendor_call("bullet-dbvt: load", [&]() -> Status {
@@ -58,15 +60,6 @@ class BulletDbvt final : public core::BroadPhase {
       // Without a pair cache of ours, the broad phase makes and owns its hashed one.
       broad_phase_ = std::make_unique<btDbvtBroadphase>();
       broad_phase_->m_deferedcollide = is_deferred_;
-      for (std::uint32_t i = 0; i < given_.count(); ++i) {
-        // As btCollisionWorld does it: two static bodies are no pair; all other pairs pass.
-        const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
-        const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
-                                           : static_cast<int>(btBroadphaseProxy::AllFilter);
-        void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
-        proxies_.push_back(broad_phase_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE,
-                                                     body, group, mask, nullptr));
-      }
       return core::Done{};
     });
   }
@@ -75,6 +68,7 @@ class BulletDbvt final : public core::BroadPhase {
   Status update(std::span<const core::Box> boxes) override {
     if (Status status = given_.update(kId, boxes); !status) return status;
     return vendor_call("bullet-dbvt: update", [&]() -> Status {
+      if (enter()) return core::Done{};
       const MarginScope scope(margin_);
       for (std::size_t i = 0; i < proxies_.size(); ++i)
         broad_phase_->setAabb(proxies_[i], bullet(boxes[i].min), bullet(boxes[i].max), nullptr);
@@ -85,6 +79,7 @@ class BulletDbvt final : public core::BroadPhase {
   Status find() override {
     if (broad_phase_ == nullptr) return core::Done{};
     return vendor_call("bullet-dbvt: find", [&]() -> Status {
+      enter();
       broad_phase_->calculateOverlappingPairs(nullptr);
       return core::Done{};
     });
@@ -107,6 +102,24 @@ class BulletDbvt final : public core::BroadPhase {
   ~BulletDbvt() override { destroy_proxies(); }
 
  private:
+  // False when the boxes are in already.
+  bool enter() {
+    if (!proxies_.empty()) return false;
+    const std::span<const core::Box> boxes = given_.boxes();
+    const std::span<const std::uint8_t> is_static = given_.is_static();
+    proxies_.reserve(boxes.size());
+    for (std::uint32_t i = 0; i < given_.count(); ++i) {
+      // As btCollisionWorld does it: two static bodies are no pair; all other pairs pass.
+      const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
+      const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
+                                         : static_cast<int>(btBroadphaseProxy::AllFilter);
+      void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
+      proxies_.push_back(broad_phase_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE,
+                                                   body, group, mask, nullptr));
+    }
+    return true;
+  }
+
   // Bullet leaves proxies to their creator. Its destroyProxy looks through all pairs for each proxy, minutes for
   // 100,000 boxes. Here all of them go at once, so it is enough to give the memory back, which createProxy allocated.
   void destroy_proxies() {

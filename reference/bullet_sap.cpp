@@ -51,6 +51,8 @@ class BulletSap final : public core::BroadPhase {
   // and clamping are monotone, so no pair is lost, and some are added.
   [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
 
+  // Bullet finds the pairs of a box as the box enters, which is work that is timed: boxes enter in the first update or
+  // find, and here they are only kept.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     if (Status status = given_.load(kId, boxes, is_static); !status) return status;
     return vendor_call("bullet-sap: load", [&]() -> Status {
@@ -59,14 +61,6 @@ class BulletSap final : public core::BroadPhase {
       // Nothing casts rays here, and the tree for rays would be updated in the timed zone.
       sweep_ = std::make_unique<bt32BitAxisSweep3>(bullet(world.min), bullet(world.max), given_.count() + 1, nullptr,
                                                    /*disableRaycastAccelerator=*/true);
-      for (std::uint32_t i = 0; i < given_.count(); ++i) {
-        const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
-        const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
-                                           : static_cast<int>(btBroadphaseProxy::AllFilter);
-        void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
-        proxies_.push_back(sweep_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE, body,
-                                               group, mask, nullptr));
-      }
       return core::Done{};
     });
   }
@@ -75,6 +69,7 @@ class BulletSap final : public core::BroadPhase {
   Status update(std::span<const core::Box> boxes) override {
     if (Status status = given_.update(kId, boxes); !status) return status;
     return vendor_call("bullet-sap: update", [&]() -> Status {
+      if (enter()) return core::Done{};
       for (std::size_t i = 0; i < proxies_.size(); ++i)
         sweep_->setAabb(proxies_[i], bullet(boxes[i].min), bullet(boxes[i].max), nullptr);
       return core::Done{};
@@ -84,6 +79,7 @@ class BulletSap final : public core::BroadPhase {
   Status find() override {
     if (sweep_ == nullptr) return core::Done{};
     return vendor_call("bullet-sap: find", [&]() -> Status {
+      enter();
       sweep_->calculateOverlappingPairs(nullptr);
       return core::Done{};
     });
@@ -102,6 +98,23 @@ class BulletSap final : public core::BroadPhase {
   }
 
  private:
+  // False when the boxes are in already.
+  bool enter() {
+    if (!proxies_.empty()) return false;
+    const std::span<const core::Box> boxes = given_.boxes();
+    const std::span<const std::uint8_t> is_static = given_.is_static();
+    proxies_.reserve(boxes.size());
+    for (std::uint32_t i = 0; i < given_.count(); ++i) {
+      const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
+      const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
+                                         : static_cast<int>(btBroadphaseProxy::AllFilter);
+      void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
+      proxies_.push_back(sweep_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE, body,
+                                             group, mask, nullptr));
+    }
+    return true;
+  }
+
   void destroy_proxies() {
     if (sweep_ == nullptr) return;
     for (btBroadphaseProxy* proxy : proxies_) sweep_->destroyProxy(proxy, nullptr);

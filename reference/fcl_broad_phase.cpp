@@ -111,13 +111,16 @@ class FclBroadPhase final : public core::BroadPhase {
     return {.exact = manager_name_ == "tree" || manager_name_ == "tree-array" || manager_name_ == "ssap"};
   }
 
+  // The incremental manager finds the pairs of its objects as they enter, which is work that is timed: they enter in
+  // the first update or find. The other managers only sort and build here.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     if (Status status = given_.load(id_, boxes, is_static); !status) return status;
     return vendor_call(id_ + ": load", [&]() -> Status {
       manager_ = make_manager(manager_name_, given_.boxes());
       objects_.assign(given_.boxes());
-      manager_->registerObjects(objects_.pointers());
-      manager_->setup();
+      raw_.clear();
+      has_entered_ = false;
+      if (manager_name_ != "sap") enter();
       return core::Done{};
     });
   }
@@ -126,7 +129,7 @@ class FclBroadPhase final : public core::BroadPhase {
     if (Status status = given_.update(id_, boxes); !status) return status;
     return vendor_call(id_ + ": update", [&]() -> Status {
       objects_.update(boxes);
-      if (!boxes.empty()) manager_->update();
+      if (!enter() && !boxes.empty()) manager_->update();
       return core::Done{};
     });
   }
@@ -135,6 +138,7 @@ class FclBroadPhase final : public core::BroadPhase {
     raw_.clear();
     if (given_.count() < 2) return core::Done{};
     return vendor_call(id_ + ": find", [&]() -> Status {
+      enter();
       manager_->collide(&raw_, collect);
       return core::Done{};
     });
@@ -143,11 +147,21 @@ class FclBroadPhase final : public core::BroadPhase {
   core::Result<core::PairSet> read_back() override { return given_.tighten(raw_); }
 
  private:
+  // False when the objects are in already.
+  bool enter() {
+    if (has_entered_) return false;
+    has_entered_ = true;
+    manager_->registerObjects(objects_.pointers());
+    manager_->setup();
+    return true;
+  }
+
   std::string id_;
   std::string manager_name_;
   GivenBoxes given_;
   BoxObjects objects_;
   std::unique_ptr<Manager> manager_;
+  bool has_entered_ = false;
   std::vector<core::Pair> raw_;
 };
 

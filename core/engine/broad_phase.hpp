@@ -31,7 +31,7 @@ class BroadPhase {
   virtual ~BroadPhase() = default;
 
   [[nodiscard]] virtual BroadPhaseTraits traits() const = 0;
-  // Not timed. is_static[i] != 0 marks body i; two static bodies are no pair. Both spans have one entry per body.
+  // Not timed: finds no pair. is_static[i] != 0 marks body i; two static are no pair. Both have one entry per body.
   virtual Status load(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) = 0;
   // Timed. As many boxes as were loaded, in the same order. All finite, min <= max.
   virtual Status update(std::span<const Box> boxes) = 0;
