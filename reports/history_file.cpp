@@ -75,6 +75,10 @@ std::int64_t pragma(sqlite3* db, const char* text) {
 }
 
 core::Result<Database> open(const std::filesystem::path& file, int flags) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return core::Error{"is a folder, and a history is one file", file.string(),
+                       "give the file; a run's folder is appended with --add"};
   sqlite3* made = nullptr;
   const int status = sqlite3_open_v2(file.c_str(), &made, flags, nullptr);
   Database db(made);

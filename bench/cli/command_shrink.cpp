@@ -134,6 +134,13 @@ core::Exit write_case(const ShrinkArguments& a, const Question& q, const ShrunkS
   return core::Exit::kGood;
 }
 
+// --out names files by what they begin with. A folder gets them inside, under a name of ours.
+std::string beginning_of(const std::string& out) {
+  std::error_code ignored;
+  const bool is_folder = out.ends_with('/') || std::filesystem::is_directory(out, ignored);
+  return is_folder ? (std::filesystem::path(out) / "shrunk").string() : out;
+}
+
 core::Exit shrink(const ShrinkArguments& a) {
   auto engine = one_engine(a);
   if (!engine) return complain(engine.error());
@@ -170,7 +177,9 @@ void add_shrink(CLI::App& program, core::Exit& exit) {
   a->engines.add_to(*command);
   command->add_option("--validator", a->validator, "The validator that fails (not for boxes: pairs are compared)");
   command->add_option("--against", a->against, "For validators that compare: the other engine (default: a second run)");
-  command->add_option("--out", a->out, "Writes OUT.toml with its meshes and OUT_test.cpp, or OUT.boxes")
+  command
+      ->add_option("--out", a->out,
+                   "Writes OUT.toml with its meshes and OUT_test.cpp, or OUT.boxes; into a folder: shrunk.toml ...")
       ->capture_default_str();
   command->add_option("--time-limit", a->time_limit_s, "Seconds after which the best so far is taken")
       ->check(more_than_zero, "POSITIVE")
@@ -178,7 +187,10 @@ void add_shrink(CLI::App& program, core::Exit& exit) {
   command->footer(
       "SCENE may also be a trace (.h5) or boxes (boxes:uniform:N, FILE.boxes). Exit codes: 0 a case was written;\n"
       "2 bad input, or the verdict is no fault; 3 the engine is not on this machine.");
-  command->callback([a, &exit] { exit = shrink(*a); });
+  command->callback([a, &exit] {
+    a->out = beginning_of(a->out);
+    exit = shrink(*a);
+  });
 }
 
 }  // namespace broadside::bench

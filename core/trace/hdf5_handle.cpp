@@ -24,7 +24,15 @@ herr_t notice_no_memory(unsigned /*n*/, const H5E_error2_t* entry, void* is_out_
 
 }  // namespace
 
+// Every handle is closed by its owner. When the program ends, HDF5 1.10 would close itself once more, and after some
+// damaged files it says "infinite loop closing library" then.
+void never_close_at_exit() {
+  static const herr_t once = H5dont_atexit();
+  static_cast<void>(once);
+}
+
 QuietHdf5::QuietHdf5() : alone_(hdf5_mutex()) {
+  never_close_at_exit();
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

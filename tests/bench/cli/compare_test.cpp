@@ -134,10 +134,11 @@ TEST(Run, JsonIsOnTheOutputAloneAndTheTableFitsAHundredColumns) {
   EXPECT_NE(table.out.find("1 of 1 cell recorded in"), std::string::npos) << table.out;
 }
 
-// The output of a run on a terminal.
+// The output of a run on a terminal; empty where there is none to be had.
 std::string on_terminal(const std::vector<std::string>& arguments, bool no_color) {
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child < 0) return {};
   if (child == 0) {
     setenv("TERM", "xterm", 1);
     unsetenv("NO_COLOR");
@@ -166,6 +167,7 @@ TEST(Run, ATerminalShowsALinePerEngineInColorUnlessNoColorIsSet) {
       "run",        "errata:E4", "--frames",    "5",     "--engine",
       "octree-cpu", "--engine",  "bullet-dbvt", "--out", (folder / "out").string()};
   const std::string colored = on_terminal(arguments, false);
+  if (colored.empty()) GTEST_SKIP() << "no pseudo-terminal here: /dev/ptmx and /dev/pts are needed";
   EXPECT_NE(colored.find("[1 of 2] octree-cpu: \033[32mrecorded, 5 frames in "), std::string::npos) << colored;
   EXPECT_NE(colored.find("[2 of 2] bullet-dbvt: "), std::string::npos) << colored;
   const std::string plain = on_terminal(arguments, true);
