@@ -8,8 +8,15 @@ namespace {
 
 using reports::html;
 
+// A wide table scrolls sideways. A shadow at an edge says that columns go on there: it stays at the edge, and what
+// covers it scrolls with the table, so that it is seen until the last column is.
 constexpr std::string_view kBlockStyle =
-    ".wide{overflow-x:auto;margin:.4rem 0 1.2rem}.wide table{width:auto;min-width:60%}\n"
+    ".wide{overflow-x:auto;margin:.4rem 0 1.2rem;scrollbar-width:thin;scrollbar-color:var(--soft) transparent;"
+    "background:linear-gradient(to right,var(--paper) 60%,transparent) left/2.5rem 100% no-repeat local,"
+    "linear-gradient(to left,var(--paper) 60%,transparent) right/2.5rem 100% no-repeat local,"
+    "linear-gradient(to right,var(--soft),transparent) left/.9rem 100% no-repeat scroll,"
+    "linear-gradient(to left,var(--soft),transparent) right/.9rem 100% no-repeat scroll}\n"
+    ".wide table{width:auto;min-width:60%}\n"
     ".wide th,.wide td{white-space:nowrap}\n"
     "figure.drawing{margin:1rem 0;display:inline-block;vertical-align:top;max-width:100%}\n"
     "figure.drawing figcaption{font-size:.8rem;color:var(--soft);max-width:40rem}\n"

@@ -51,6 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
                 {"run", "errata:E3", "--engine", "all-pairs", "--record", "digest"},
                 "does not simulate: it is fed by all frames"},
         BadCase{"NoSuchTrace", {"check", "no-such.h5"}, "no-such.h5"},
+        BadCase{"NoSuchCampaignFile", {"plan", "no-such.toml", "--out", "x"}, "no such campaign file"},
+        BadCase{"HistoryOfAFolder", {"history", "/"}, "is a folder, and a history is one file"},
         BadCase{"NoSuchFolder", {"report", "no-such-folder", "--html", "x.html"}, "no-such-folder"},
         BadCase{"NoSuchPart", {"recover", "no-such.h5.part"}, "no-such.h5.part"}),
     [](const auto& instance) { return instance.param.name; });

@@ -152,6 +152,16 @@ TEST_F(Forensics, ShrinkOfBoxesLeavesALostPair) {
   EXPECT_EQ(raced.exit_code, 1) << raced.out << raced.err;
 }
 
+// Earlier, --out DIR wrote DIR.boxes beside the folder.
+TEST_F(Forensics, ShrinkWritesIntoAFolderThatIsThere) {
+  std::filesystem::create_directory(folder_ / "place");
+  const Ended shrunk = run_program({"shrink", "boxes:uniform:300", "--engine", "octree-cpu[variant=printed-E2]",
+                                    "--out", (folder_ / "place").string()});
+  ASSERT_EQ(shrunk.exit_code, 0) << shrunk.out << shrunk.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "place" / "shrunk.boxes")) << shrunk.out;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "place.boxes"));
+}
+
 // bullet-dbvt runs in a child process, fed by octree-cpu.
 TEST_F(Forensics, ShrinkOfARightEngineSaysSo) {
   for (const char* engine : {"octree-cpu", "bullet-dbvt"}) {
