@@ -143,5 +143,13 @@ TEST(BadOutput, UnwritableFolder) {
   EXPECT_EQ(read_text(folder / "a-file"), "in the way");
 }
 
+// HDF5 said "infinite loop closing library" behind our line, when the program ended.
+TEST(BadTrace, ADamagedOneIsOneClearLine) {
+  const Ended ended =
+      run_program({"check", std::string(BROADSIDE_SOURCE_DIR) + "/tests/fuzz/corpus/trace/closed-twice"});
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+}
+
 }  // namespace
 }  // namespace broadside::tests
