@@ -58,10 +58,10 @@ class Runner {
         continue;
       }
       if (!offers(*spec.row, "dynamics") && driver_.empty()) {
-        if (core::Status s = run_cell({driver_row(), {}}); !s) return s.error();
+        if (core::Status s = run_cell({driver_row(), {}}, false); !s) return s.error();
         if (driver_.empty()) return no_driver();
       }
-      if (core::Status s = run_cell(spec); !s) return s.error();
+      if (core::Status s = run_cell(spec, true); !s) return s.error();
     }
     if (core::Status s = save(); !s) return s.error();
     return RunOutcome{done_, reused_};
@@ -87,7 +87,7 @@ class Runner {
             std::string(kDriver), "run it alone to see why", core::Exit::kMissing};
   }
 
-  core::Status run_cell(const CellSpec& spec) {
+  core::Status run_cell(const CellSpec& spec, bool is_asked_for) {
     const std::string reason = why_absent(*spec.row);
     if (!reason.empty()) {
       done_.push_back(absent_cell(plan_, spec, reason));
@@ -102,7 +102,7 @@ class Runner {
       done_.push_back(*std::move(reused));
       ++reused_;
     } else {
-      auto cell = is_apart(spec) ? record_cell_in_child(request, plan_.limits) : record_cell(request);
+      auto cell = is_apart(spec, is_asked_for) ? record_cell_in_child(request, plan_.limits) : record_cell(request);
       if (!cell) return cell.error();
       done_.push_back(std::move(cell).value());
     }
@@ -111,8 +111,11 @@ class Runner {
     return save();
   }
 
-  // Other people's code may abort; a limit that was asked for binds a process.
-  [[nodiscard]] bool is_apart(const CellSpec& spec) const { return spec.row->runs_in_child || plan_.limits.are_asked; }
+  // Other people's code may abort; a limit that was asked for binds a process. It is meant for the engines that were
+  // asked for, and not for a driver that only feeds them.
+  [[nodiscard]] bool is_apart(const CellSpec& spec, bool is_asked_for) const {
+    return spec.row->runs_in_child || (is_asked_for && plan_.limits.are_asked);
+  }
 
   void note_driver(const CellSpec& spec) {
     const core::Cell& cell = done_.back();
