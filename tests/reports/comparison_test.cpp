@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "tests/reports/sample_rows.hpp"
 
@@ -226,6 +228,29 @@ TEST(Comparison, CountersGateOnAnyMachineWithoutTolerance) {
   core::RunRows shorter = base;
   shorter.cells[0].frames = 2;
   EXPECT_EQ(compare(base, shorter).exit(), Exit::kGood) << "fewer frames are other work, not less of the same";
+}
+
+// Alone, because the exit code of a run is its worst: a rise beside it would hide what this one leads to.
+TEST(Comparison, EachWayForACounterToChangeHasItsExitCode) {
+  struct Way {
+    std::map<std::string, std::uint64_t> now;
+    ChangeKind kind;
+    Exit exit;
+  };
+  for (const Way& way : {Way{{}, ChangeKind::kCounterVanished, Exit::kMissing},
+                         Way{{{"box tests", 11}}, ChangeKind::kMoreWork, Exit::kFailed},
+                         Way{{{"box tests", 9}}, ChangeKind::kLessWork, Exit::kGood}}) {
+    core::RunRows base = one_cell();
+    base.samples.clear();
+    core::RunRows head = base;
+    base.cells[0].counters = {{"box tests", 10}};
+    head.cells[0].counters.clear();
+    for (const auto& [name, count] : way.now) head.cells[0].counters[name] = count;
+    const Comparison c = compare(base, head);
+    ASSERT_EQ(c.changes.size(), 1U);
+    EXPECT_EQ(c.changes[0].kind, way.kind);
+    EXPECT_EQ(c.exit(), way.exit);
+  }
 }
 
 TEST(Comparison, AStageThatIsNoLongerTimedIsMissing) {

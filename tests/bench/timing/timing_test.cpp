@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -13,6 +14,8 @@
 #include <vector>
 
 #include "core/engine/runs_ahead.hpp"
+#include "core/trace/trace_writer.hpp"
+#include "datasets/scenes.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -139,6 +142,64 @@ TEST(Timing, NobodyRunsAheadInTurns) {
   EXPECT_EQ(told.steps, kWarmUpFrames + kFrames);
   EXPECT_TRUE(told.runs.empty());
   EXPECT_EQ(series(samples.value()[0], "frame").size(), kFrames);
+}
+
+// Its own filter takes a second, it says.
+class Filtering final : public core::BroadPhase {
+ public:
+  [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
+  core::Status load(std::span<const core::Box>, std::span<const std::uint8_t>) override { return core::Done{}; }
+  core::Status update(std::span<const core::Box>) override { return core::Done{}; }
+  core::Status find() override { return core::Done{}; }
+  core::Result<core::PairSet> read_back() override { return core::PairSet{{{0, 1}}, 1, 1, 1.0}; }
+};
+
+TEST(Timing, AFrameOfABroadPhaseContainsItsFilter) {
+  const core::EngineRow row{.id = "filtering",
+                            .capabilities = "broad",
+                            .what = "filters for a second",
+                            .settings = {},
+                            .is_reference = false,
+                            .create = [](const core::Settings& settings) -> core::Result<core::Engine> {
+                              core::Engine engine;
+                              engine.id = "filtering";
+                              engine.settings = settings;
+                              engine.broad_phase = std::make_unique<Filtering>();
+                              return engine;
+                            },
+                            .absent = [] { return std::string(); }};
+  auto scene = datasets::make_scene("two-body:apart");
+  ASSERT_TRUE(scene.ok()) << scene.error().line();
+  RunPlan plan;
+  plan.scene = std::move(scene).value();
+  plan.frames = 3;
+  plan.cells = {{&row, {}}};
+  plan.folder = std::filesystem::path(testing::TempDir()) / "timing_of_a_filter";
+  std::filesystem::remove_all(plan.folder);
+  std::filesystem::create_directories(plan.folder);
+  core::TraceHeader header;
+  header.scene = plan.scene;
+  header.stamp = {
+      .scene_name = plan.scene.name, .scene_digest = core::scene_digest(plan.scene), .engine = "octree-cpu"};
+  header.groups = core::bit(core::Group::kDetection);
+  auto writer = core::TraceWriter::create(plan.folder / "octree-cpu.h5", header);
+  ASSERT_TRUE(writer.ok()) << writer.error().line();
+  for (std::uint64_t step = 1; step <= plan.frames; ++step) {
+    core::FrameRecord frame;
+    frame.step = step;
+    frame.detected_position.resize(plan.scene.bodies.size());
+    frame.detected_velocity.resize(plan.scene.bodies.size());
+    frame.boxes.resize(plan.scene.bodies.size());
+    ASSERT_TRUE(writer.value().append(frame).ok());
+  }
+  ASSERT_TRUE(writer.value().finish().ok());
+  auto sample = time_run(plan, plan.cells[0], plan.frames);
+  ASSERT_TRUE(sample.ok()) << sample.error().line();
+  EXPECT_EQ(series(sample.value(), "filter"), (std::vector<double>{1, 1, 1}));
+  for (std::size_t k = 0; k < plan.frames; ++k)
+    EXPECT_NEAR(series(sample.value(), "frame")[k],
+                series(sample.value(), "update")[k] + series(sample.value(), "find")[k] + 1.0, 1e-9);
+  std::filesystem::remove_all(plan.folder);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <random>
 #include <string>
 
@@ -110,6 +112,36 @@ TEST(PartFile, LeavesWhatWasCommittedAloneUntilTheNextCommit) {
   EXPECT_EQ(seen, flush.new_content) << "HDF5 must read what it wrote";
   ASSERT_TRUE(file.commit());
   EXPECT_EQ(read(folder / "t.part"), flush.new_content);
+}
+
+// How many bytes the file has at most while a commit writes: those of a journal lie behind the content.
+std::size_t committed_with(PartFile& file, const std::filesystem::path& path, std::size_t limit_bytes) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = limit_bytes;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const bool was_enough = file.commit();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  return was_enough ? read(path).size() : 0;
+}
+
+// Two pages cannot be written as one, so a kill between them needs the journal: no room for it, no commit. One page
+// needs none.
+TEST(PartFile, TwoPagesAreJournalledAndOneIsNot) {
+  for (const std::size_t pages : {1U, 2U, 3U}) {
+    const Folder folder;
+    const Flush flush;
+    auto part = PartFile::create(folder / "t.part");
+    ASSERT_TRUE(part.ok());
+    PartFile& file = *part.value();
+    write(file, 0, flush.old_content);
+    ASSERT_TRUE(file.commit());
+    for (std::size_t k = 0; k < pages; ++k) write(file, k * kPageBytes, "changed");
+    EXPECT_EQ(committed_with(file, folder / "t.part", kOldBytes) > 0, pages == 1) << pages << " pages";
+  }
 }
 
 TEST(PartFile, RollsBackToTheLastCommit) {
