@@ -11,7 +11,8 @@ namespace broadside::validation {
 // Fail before inconclusive before pass before not applicable; no verdicts at all are not applicable.
 core::Outcome worst_outcome(std::span<const core::Verdict> verdicts);
 
-// fail -> 1, inconclusive -> 3, pass and not applicable -> 0.
+// fail -> 1, inconclusive -> 3, pass and not applicable -> 0: a cell of a run may have no law that applies. `check`,
+// which was asked to judge, makes 3 of nothing judged.
 core::Exit exit_of(core::Outcome outcome);
 
 }  // namespace broadside::validation

@@ -7,6 +7,7 @@
 #include "bench/record/judging.hpp"
 #include "reports/report.hpp"
 #include "reports/terminal_table.hpp"
+#include "validation/outcome.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -19,6 +20,21 @@ struct CheckArguments {
   std::string junit;
   std::string energy;
 };
+
+// Says which traces no law was judged on, and why; false when there is none.
+bool tell_unjudged(const std::vector<core::CellVerdicts>& rows) {
+  bool any = false;
+  for (const core::CellVerdicts& row : rows) {
+    const auto worst = validation::worst_outcome(row.verdicts);
+    if (worst != core::Outcome::kNotApplicable) continue;
+    any = true;
+    std::string why;
+    for (const core::Verdict& v : row.verdicts)
+      if (why.empty()) why = ": " + v.validator + ": " + v.explanation;
+    fmt::print("\nnothing was judged in {}{}\n", row.trace_file, why);
+  }
+  return any;
+}
 
 core::Exit check(const CheckArguments& a) {
   core::RunRows rows;
@@ -41,7 +57,8 @@ core::Exit check(const CheckArguments& a) {
   if (!a.junit.empty()) {
     if (core::Status s = reports::write_junit(rows, {}, a.junit); !s) return complain(s.error());
   }
-  return exit_of(rows.verdicts);
+  const core::Exit exit = exit_of(rows.verdicts);
+  return tell_unjudged(rows.verdicts) && exit == core::Exit::kGood ? core::Exit::kMissing : exit;
 }
 
 }  // namespace
