@@ -17,12 +17,14 @@ class Capacity final : public Validator {
     const double missing = static_cast<double>(frame.pairs_demanded) - static_cast<double>(frame.pairs.size());
     tally_.check(std::abs(missing), {0.0, "pairs", "demanded = stored: counts are exact"},
                  Where::frame(frame.step, "pairs"));
+    tally_.check(static_cast<double>(frame.pairs.size()) - static_cast<double>(frame.pairs_raw),
+                 {0.0, "pairs", "filtering only removes pairs: raw >= stored"}, Where::frame(frame.step, "pairs.raw"));
   }
 
   core::Verdict conclude() override { return tally_.conclude("no frames"); }
 
  private:
-  Tally tally_{"capacity", "pair lists", "demanded = stored: counts are exact"};
+  Tally tally_{"capacity", "counts of pairs", "demanded = stored: counts are exact"};
 };
 
 std::string why_not(const Subject& subject) {

@@ -144,6 +144,10 @@ class ContactNormal final : public Validator {
     const double overshoot = is_upper ? static_cast<double>(box.max[face_axis]) - scene_.domain.max[face_axis]
                                       : static_cast<double>(scene_.domain.min[face_axis]) - box.min[face_axis];
     judge_depth(c, overshoot);
+    tally_.require(c.color == core::kFaceColor, "SCHEMA.md: faces come after all colors, and have color 0xFFFFFFFF",
+                   at(c, "contact.color"));
+    tally_.require(c.pre_b == core::Kinematics{} && c.post_b == core::Kinematics{},
+                   "SCHEMA.md: a face has neither position nor velocity, before and after", at(c, "contact.b"));
   }
 
   void judge_depth(const core::Contact& c, double expected) {

@@ -51,6 +51,7 @@ class FrictionEnergy final : public Validator {
     if (app.approach_before >= band) {
       const double changed = length(app.sliding_after - app.sliding_before) + std::abs(c.tangent_impulse_n_s);
       tally_.check(changed, {0.0, "m/s", "a separating contact changes nothing (METHOD 6)"}, at("contact.post.v"));
+      tally_.check(largest_component(Vec3d(c.tangent)), {0.0, "", kNoTangent}, at("contact.tangent"));
       return 0.0;
     }
 
@@ -68,9 +69,16 @@ class FrictionEnergy final : public Validator {
         length(unexplained),
         {after_error, "m/s", "the recorded impulse made the change of v_t, to the additions to both velocities"},
         at("contact.tangent_impulse"));
-    // A direction is meaningful only when the sliding is larger than its own rounding error.
-    if (speed > slide) {
-      const double off = recorded == 0.0 ? 0.0 : length(tangent - (1.0 / speed) * app.sliding_before);
+    // Along an axis neither the normal's products nor the difference of equal components round: zero is exact.
+    if (is_axis(app.normal) && speed == 0.0) {
+      tally_.check(std::abs(recorded), {0.0, "N s", kNoTangent}, at("contact.tangent_impulse"));
+      tally_.check(largest_component(tangent), {0.0, "", kNoTangent}, at("contact.tangent"));
+    }
+    // A direction is meaningful only when the sliding is larger than its own rounding error. A contact that may have
+    // counted as separating may have none.
+    const bool has_none = app.approach_before >= -band && recorded == 0.0 && c.tangent == core::Vec3{};
+    if (speed > slide && !has_none) {
+      const double off = length(tangent - (1.0 / speed) * app.sliding_before);
       tally_.check(off, {slide / (speed - 0.5 * slide) + rounding(4), "rad", "tangent = v_t / |v_t|, to S / |v_t|"},
                    at("contact.tangent"));
     }
@@ -108,6 +116,14 @@ class FrictionEnergy final : public Validator {
          "stick: -|v_t| / (wA + wB) up to mu_s J_n, S and 5 operations; slide: -mu_k J_n, 3 operations (METHOD 6)"},
         where);
   }
+
+  static bool is_axis(Vec3d n) {
+    int others = 0;
+    for (int k = 0; k < 3; ++k) others += n[k] == 0.0 ? 1 : 0;
+    return others == 2;
+  }
+
+  static constexpr std::string_view kNoTangent = "where nothing slides there is no tangent and no friction (METHOD 6)";
 
   ContactBodies bodies_;
   Tally tally_{"friction-energy", "energies, impulses and directions", "METHOD 6 and E6: friction opposes sliding"};

@@ -19,7 +19,8 @@ namespace broadside::validation {
 //   - stick: S / (wA + wB) and 5 operations (|v_t|'s, the sum of inverse masses, a quotient); slide: 3 on mu_k J_n (mu
 //     a product and its root); the choice between them: both, with 3 on the cone. Where that decides, or whether the
 //     contact approaches at all, either answer holds;
-//   - the change of v_t: B. The tangent: S / (|v_t| - S / 2) and 4 operations, where |v_t| > S.
+//   - the change of v_t: B. The tangent: S / (|v_t| - S / 2) and 4 operations, where |v_t| > S; 0 where v_t is zero
+//     along a normal that is an axis, and where the contact separates: nothing rounds there.
 ValidatorRow friction_energy_row();
 
 }  // namespace broadside::validation

@@ -113,7 +113,8 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
       baseline != nullptr && baseline->header.stamp.scene_digest != subject.header.stamp.scene_digest;
   std::uint32_t groups = options.observed_groups;
   std::uint32_t baseline_groups = 0;
-  const Subject facts{subject.header, baseline != nullptr ? &baseline->header : nullptr, subject.steps.size()};
+  const Subject facts{subject.header, baseline != nullptr ? &baseline->header : nullptr, subject.steps.size(),
+                      &subject.statistics, subject.is_cut_off};
   std::vector<Entry> entries = make_entries(facts, options, groups, baseline_groups);
 
   BaselineFrames baseline_frames(baseline, baseline_groups);

@@ -33,6 +33,8 @@ struct FrameSource {
   std::span<const std::uint64_t> steps;  // rising
   // Frame by index, with at least the asked-for groups that the header names.
   std::function<core::Result<core::FrameRecord>(std::uint64_t index, std::uint32_t groups)> read;
+  std::vector<core::PenetrationStatistics> statistics = {};
+  bool is_cut_off = false;  // the file was not finished
 };
 
 // One verdict per validator, in the table's order; those that do not apply say why. With a baseline, validators that

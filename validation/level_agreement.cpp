@@ -15,7 +15,6 @@ namespace broadside::validation {
 namespace {
 
 constexpr std::string_view kOrigin = "METHOD 2: a child box lies inside its parent's box; boxes are compared as floats";
-constexpr std::uint64_t kFramesRecomputed = 256;
 
 // The last level whose boxes are tested; nothing when the settings do not say.
 std::optional<int> last_level(const core::Stamp& stamp) {
@@ -48,7 +47,6 @@ class LevelAgreement final : public Validator {
   explicit LevelAgreement(const Subject& subject)
       : header_(subject.header), shapes_(core::build_shapes(header_.scene)), level_(last_level(header_.stamp)) {
     for (const core::Body& body : header_.scene.bodies) is_static_.push_back(body.inverse_mass > 0.0F ? 0 : 1);
-    stride_ = std::max<std::uint64_t>(1, subject.frame_count / kFramesRecomputed);
     if (subject.baseline == nullptr || !level_) return;
     const core::TraceHeader& base = *subject.baseline;
     constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
@@ -60,13 +58,12 @@ class LevelAgreement final : public Validator {
 
   void look(const Evidence& evidence) override {
     const core::FrameRecord& frame = evidence.frame;
-    if (level_ && seen_++ % stride_ == 0 && frame.detected_position.size() == is_static_.size()) recompute(frame);
+    if (level_ && frame.detected_position.size() == is_static_.size()) recompute(frame);
     if (baseline_level_ && evidence.baseline != nullptr) compare(frame, *evidence.baseline);
   }
 
   core::Verdict conclude() override {
     std::string notes = std::to_string(recomputed_) + " frames recomputed";
-    if (stride_ > 1) notes += " (every " + std::to_string(stride_) + "th)";
     if (compared_ > 0 || parted_ > 0) {
       notes += ", " + std::to_string(compared_) + " compared with the baseline";
       if (parted_ > 0) notes += ", " + std::to_string(parted_) + " not: their boxes differ";
@@ -84,13 +81,27 @@ class LevelAgreement final : public Validator {
     expected_.clear();
     for (const core::Pair p : start) {
       if (p.i >= is_static_.size() || p.j >= is_static_.size()) continue;
-      const core::BodyOctree& a = shapes_.shapes[shapes_.shape_of_body[p.i]].octree;
-      const core::BodyOctree& b = shapes_.shapes[shapes_.shape_of_body[p.j]].octree;
-      if (meet_at(*level_, a, 0, frame.detected_position[p.i], b, 0, frame.detected_position[p.j]))
-        expected_.push_back(p);
+      if (is_expected(frame, p)) expected_.push_back(p);
     }
+    last_position_ = frame.detected_position;
+    last_start_.assign(start.begin(), start.end());
+    last_expected_ = expected_;
     judge(expected_, frame.confirmed, frame.step, "confirmed: lost");
     judge(frame.confirmed, expected_, frame.step, "confirmed: too many");
+  }
+
+  // A pair that has not moved since the frame before has that frame's answer.
+  bool is_expected(const core::FrameRecord& frame, core::Pair p) const {
+    const auto& x = frame.detected_position;
+    const auto is_in = [p](const std::vector<core::Pair>& pairs) {
+      return std::binary_search(pairs.begin(), pairs.end(), p);
+    };
+    const bool has_moved =
+        last_position_.empty() || !(last_position_[p.i] == x[p.i]) || !(last_position_[p.j] == x[p.j]);
+    if (!has_moved && is_in(last_start_)) return is_in(last_expected_);
+    const core::BodyOctree& a = shapes_.shapes[shapes_.shape_of_body[p.i]].octree;
+    const core::BodyOctree& b = shapes_.shapes[shapes_.shape_of_body[p.j]].octree;
+    return meet_at(*level_, a, 0, x[p.i], b, 0, x[p.j]);
   }
 
   void compare(const core::FrameRecord& frame, const core::FrameRecord& baseline) {
@@ -122,11 +133,13 @@ class LevelAgreement final : public Validator {
   std::optional<int> baseline_level_;
   std::string baseline_;
   std::vector<std::uint8_t> is_static_;
-  std::uint64_t stride_ = 1;
-  std::uint64_t seen_ = 0;
   OverlapJoin join_;
   std::vector<core::Pair> expected_;
   std::vector<core::Pair> difference_;
+  // Of the frame before.
+  std::vector<core::Vec3> last_position_;
+  std::vector<core::Pair> last_start_;
+  std::vector<core::Pair> last_expected_;
   Tally tally_{"level-agreement", "lists of confirmed pairs", kOrigin};
   std::uint64_t recomputed_ = 0;
   std::uint64_t compared_ = 0;

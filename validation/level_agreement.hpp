@@ -11,9 +11,9 @@ namespace broadside::validation {
 //
 // Alone: confirmed pairs are recomputed from the body octrees' boxes at the recorded positions. The start is the
 // recorded candidates when the engine has a broad phase (so that a pair which the broad phase lost is not counted
-// twice), otherwise the exact overlap set. At most 256 frames evenly spread, said in the verdict. With a baseline that
-// differs in its level or broad-phase settings only, every frame is compared as long as the recorded boxes are
-// bit-equal; once flat's own dynamics part the trajectories, there is nothing to compare.
+// twice), otherwise the exact overlap set. Every frame is judged; a pair that stands still is computed once. With a
+// baseline that differs in its level or broad-phase settings only, every frame is compared as long as the recorded
+// boxes are bit-equal; once flat's own dynamics part the trajectories, there is nothing to compare.
 //
 // Limits: 0 pairs. Boxes are translated in float32 as recorded boxes are, and compared as floats.
 ValidatorRow level_agreement_row();

@@ -29,6 +29,7 @@ class StateSanity final : public Validator {
         scene_(header_.scene),
         bodies_(scene_),
         is_method_(why_not_method_response(header_).empty() && header_.driver.empty()),
+        translates_(is_method_ && has(header_, core::Group::kDetection)),
         is_colored_(is_method_ && setting(header_.stamp, "solver") == "colored" &&
                     setting(header_.stamp, "variant") != "printed-E8" && has(header_, core::Group::kContacts)) {
     const core::ShapeTable table = core::build_shapes(scene_);
@@ -86,8 +87,17 @@ class StateSanity final : public Validator {
       tally_.check(std::abs(square - 1.0),
                    {2.0 * rounding(5), "", "normalizing in float: 5 operations a component, doubled by the square"},
                    Where::body(step_, i, "bodies.orientation"));
+      if (translates_) judge_turning(frame, i);
     }
     return true;
+  }
+
+  // A body of the method translates only: it keeps the orientation that it had, and has no angular velocity.
+  void judge_turning(const FrameRecord& frame, std::uint32_t i) {
+    if (!(scene_.bodies[i].angular_velocity == Vec3{})) return;
+    tally_.require(frame.angular_velocity[i] == Vec3{}, kTranslates, Where::body(step_, i, "bodies.angular_velocity"));
+    tally_.require(frame.orientation[i] == scene_.bodies[i].orientation, kTranslates,
+                   Where::body(step_, i, "bodies.orientation"));
   }
 
   bool judge_detection(const FrameRecord& frame) {
@@ -172,7 +182,11 @@ class StateSanity final : public Validator {
     }
     for (std::uint32_t i = 0; i < scene_.body_count(); ++i) {
       // Whether a static body may move at all is checked by center-of-mass.
-      if (!(scene_.bodies[i].inverse_mass > 0.0F)) continue;
+      if (!(scene_.bodies[i].inverse_mass > 0.0F)) {
+        tally_.check(largest_component(Vec3d(frame.velocity[i]) - Vec3d(frame.detected_velocity[i])),
+                     {0.0, "m/s", kChain}, Where::body(step_, i, "bodies.velocity"));
+        continue;
+      }
       const double v_max = scene_.parameters.v_max_m_s;
       const Vec3d clipped{std::clamp<double>(state_[i].v.x, -v_max, v_max),
                           std::clamp<double>(state_[i].v.y, -v_max, v_max),
@@ -226,12 +240,14 @@ class StateSanity final : public Validator {
 
   static constexpr std::string_view kFinite = "every number of a state is finite";
   static constexpr std::string_view kIntegration = "P(2), P(3): one product and one addition (float32)";
+  static constexpr std::string_view kTranslates = "METHOD 1: bodies only translate, so they keep their orientation";
   static constexpr std::string_view kChain = "states are handed on from contact to contact unchanged";
 
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   ContactBodies bodies_;
   bool is_method_;
+  bool translates_;
   bool is_colored_;
   std::vector<core::Box> local_;
   std::vector<std::uint8_t> has_spring_;

@@ -41,7 +41,7 @@ std::string body_text(std::uint32_t body) {
 bool Tally::check(double measured, const Limit& limit, const Where& where) {
   ++checked_;
   const bool holds = measured <= limit.value;
-  if (!holds) ++violations_;
+  if (!holds && violations_++ == 0) first_violation_ = where;
   // A value that breaks its limit always outranks one that holds, also when the limit is NaN.
   double ratio = ratio_of(measured, limit.value);
   if (!holds && !(ratio > 1.0)) ratio = std::numeric_limits<double>::infinity();
@@ -82,10 +82,11 @@ core::Verdict Tally::conclude(std::string_view nothing, const std::string& notes
   verdict.worst.field = worst_where_.field;
   if (violations_ > 0) {
     verdict.outcome = core::Outcome::kFail;
+    const bool began_before = first_violation_.step < worst_where_.step;
     verdict.explanation = std::to_string(violations_) + " of " + std::to_string(checked_) + " " + std::string(things_) +
-                          " break the law, worst at " + where_text(worst_where_) + ": " + number_text(worst_measured_) +
-                          " where " + number_text(worst_limit_.value) + " " + std::string(worst_limit_.unit) +
-                          " is allowed";
+                          " break the law, " + (began_before ? "first at " + where_text(first_violation_) + ", " : "") +
+                          "worst at " + where_text(worst_where_) + ": " + number_text(worst_measured_) + " where " +
+                          number_text(worst_limit_.value) + " " + std::string(worst_limit_.unit) + " is allowed";
   } else {
     verdict.outcome = core::Outcome::kPass;
     verdict.explanation = std::to_string(checked_) + " " + std::string(things_) + " hold";

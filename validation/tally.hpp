@@ -73,6 +73,7 @@ class Tally {
   double worst_measured_ = 0.0;
   Limit worst_limit_;
   Where worst_where_;
+  Where first_violation_;
 };
 
 }  // namespace broadside::validation

@@ -5,8 +5,10 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/trace/frame.hpp"
+#include "core/trace/statistics.hpp"
 #include "core/trace/trace_header.hpp"
 #include "core/verdict.hpp"
 
@@ -31,7 +33,9 @@ class Validator {
 struct Subject {
   const core::TraceHeader& header;
   const core::TraceHeader* baseline = nullptr;
-  std::uint64_t frame_count = 0;  // the subject's recorded frames: validators that sample spread over them
+  std::uint64_t frame_count = 0;                                         // the subject's recorded frames
+  const std::vector<core::PenetrationStatistics>* statistics = nullptr;  // the subject's rows; null = not told
+  bool is_cut_off = false;  // the subject's file was not finished: it may lack the statistics of its last windows
 };
 
 // One row per validator in the one table (validation/validators.inc).

@@ -22,7 +22,49 @@ void restate(Contact& c, float factor) {
   }
 }
 
+// The first contact of this kind is taken out of its frame.
+template <typename Fits>
+void erase_contact(Specimen& r, Fits fits) {
+  for (FrameRecord& frame : r.frames)
+    for (auto c = frame.contacts.begin(); c != frame.contacts.end(); ++c)
+      if (fits(*c)) {
+        frame.contacts.erase(c);
+        return;
+      }
+  r.is_spoilable = false;
+}
+
+// Inside the slop and separating: no state changes.
+bool is_idle(const Contact& c) {
+  return c.pre_a == c.post_a && c.pre_b == c.post_b;
+}
+
 constexpr Tampering kTable[] = {
+    {"contact-set", "a lost contact", [](Specimen& r) { erase_contact(r, is_shared); }},
+    {"contact-set", "a lost contact that changed nothing", [](Specimen& r) { erase_contact(r, is_idle); }},
+    {"contact-set", "a lost contact with a face", [](Specimen& r) { erase_contact(r, is_on_face); }},
+    {"contact-set", "a contact of bodies that are apart",
+     [](Specimen& r) {
+       Contact& c = contact_that(r, is_shared);
+       c.a = 1;
+       c.b = 5;
+     }},
+    {"contact-set", "one contact twice",
+     [](Specimen& r) {
+       for (FrameRecord& frame : r.frames)
+         for (const Contact& c : frame.contacts)
+           if (is_shared(c)) {
+             const Contact again = c;
+             frame.contacts.push_back(again);
+             return;
+           }
+     }},
+    {"contact-normal", "a face that moves",
+     [](Specimen& r) {
+       Contact& c = contact_that(r, is_on_face);
+       c.pre_b.v = c.post_b.v = {1.0F, 0.0F, 0.0F};
+     }},
+    {"contact-normal", "a face with a color of its own", [](Specimen& r) { contact_that(r, is_on_face).color = 3; }},
     {"contact-normal", "a flipped sign", [](Specimen& r) { scale(contact_that(r, is_shared).normal, -1.0F); }},
     {"contact-normal", "a flipped sign at a face",
      [](Specimen& r) { scale(contact_that(r, is_on_face).normal, -1.0F); }},

@@ -41,6 +41,8 @@ constexpr Tampering kTable[] = {
     {"candidate-set", "boxes missing", [](Specimen& r) { r.frames[3].boxes.pop_back(); }},
     {"capacity", "a truncated pair list", [](Specimen& r) { frame_with_pairs(r).pairs.pop_back(); }},
     {"capacity", "more stored than demanded", [](Specimen& r) { frame_with_pairs(r).pairs_demanded = 0; }},
+    {"capacity", "fewer raw pairs than were left of them", [](Specimen& r) { frame_with_pairs(r).pairs_raw = 0; }},
+    {"proximity-bound", "no proximities in one frame", [](Specimen& r) { touch_of(r).frame->proximity.clear(); }},
     {"level-agreement", "a confirmed pair lost",
      [](Specimen& r) {
        FrameRecord& frame = frame_with_pairs(r);

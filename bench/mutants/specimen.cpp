@@ -1,5 +1,6 @@
 #include "bench/mutants/specimen.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "core/scene/scene.hpp"
@@ -15,9 +16,11 @@ std::vector<std::uint64_t> steps_of(const Specimen& specimen) {
 }
 
 validation::FrameSource source_of(const Specimen& specimen, const std::vector<std::uint64_t>& steps) {
-  return {specimen.header, steps, [&specimen](std::uint64_t index, std::uint32_t) {
+  return {specimen.header, steps,
+          [&specimen](std::uint64_t index, std::uint32_t) {
             return core::Result<core::FrameRecord>(specimen.frames[index]);
-          }};
+          },
+          specimen.statistics};
 }
 
 }  // namespace
@@ -32,12 +35,18 @@ core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics&
   stamp.settings = settings;
   specimen.header.groups = dynamics.groups();
   if (core::Status s = dynamics.load(specimen.header.scene); !s) return s.error();
+  core::PenetrationCounter counter(scene.parameters.delta_m);
+  const auto keep = [&specimen](const std::optional<core::PenetrationStatistics>& row) {
+    if (row) specimen.statistics.push_back(*row);
+  };
   for (std::uint32_t step = 0; step < scene.frames; ++step) {
     if (core::Status s = dynamics.step(scene.dt_s); !s) return s.error();
     core::FrameRecord frame;
     if (core::Status s = dynamics.read_back(frame, core::RecordLevel::kFull); !s) return s.error();
+    keep(counter.add(frame.step, frame.contacts));
     specimen.frames.push_back(std::move(frame));
   }
+  keep(counter.rest());
   return specimen;
 }
 

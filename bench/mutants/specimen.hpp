@@ -9,6 +9,7 @@
 #include "core/engine/dynamics.hpp"
 #include "core/result.hpp"
 #include "core/trace/frame.hpp"
+#include "core/trace/statistics.hpp"
 #include "core/trace/trace_header.hpp"
 #include "core/verdict.hpp"
 
@@ -17,6 +18,7 @@ namespace broadside::bench {
 struct Specimen {
   core::TraceHeader header;
   std::vector<core::FrameRecord> frames;
+  std::vector<core::PenetrationStatistics> statistics;
   bool is_spoilable = true;  // false when a tampering found nothing of the kind that it spoils
 };
 

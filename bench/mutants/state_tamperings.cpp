@@ -50,6 +50,31 @@ constexpr Tampering kTable[] = {
      [](Specimen& r) { contact_that(r, is_shared).b = 77; }},
     {"state-sanity", "a missing body", [](Specimen& r) { r.frames[9].velocity.pop_back(); }},
     {"state-sanity", "time that runs wrong", [](Specimen& r) { r.frames[9].time_s += 0.001; }},
+    {"state-sanity", "an orientation that jumps",
+     [](Specimen& r) {
+       r.frames[9].orientation[1] = {0.6F, 0.0F, 0.8F, 0.0F};
+     }},
+    {"state-sanity", "an angular velocity of a million",
+     [](Specimen& r) {
+       r.frames[9].angular_velocity[1] = {0.0F, 1e6F, 0.0F};
+     }},
+    {"state-sanity", "a static body with a velocity", [](Specimen& r) { r.frames.back().velocity[2].x = 1.0F; }},
+    {"frame-digest", "zeros for digests",
+     [](Specimen& r) {
+       for (FrameRecord& frame : r.frames) frame.digest = 0;
+     }},
+    {"frame-digest", "a digest of another frame", [](Specimen& r) { r.frames[9].digest = r.frames[8].digest; }},
+    {"frame-digest", "a digest that does not see the tangent impulse",
+     [](Specimen& r) { contact_that(r, is_slide).tangent_impulse_n_s *= 1.0000002F; }},
+    {"recording", "a level that is not that of the frames",
+     [](Specimen& r) { r.header.level = core::RecordLevel::kDigest; }},
+    {"recording", "a step left out",
+     [](Specimen& r) {
+       r.statistics.clear();
+       r.frames.erase(r.frames.begin() + 9);
+     }},
+    {"recording", "statistics without one contact", [](Specimen& r) { --r.statistics.front().body_contacts; }},
+    {"recording", "another mean depth", [](Specimen& r) { r.statistics.front().mean_depth_m *= 1.0 + 1e-9; }},
     {"determinism", "one bit of a position",
      [](Specimen& r) { r.frames[20].position[1].x = std::nextafter(r.frames[20].position[1].x, 100.0F); }, true},
     {"determinism", "a zero of the other sign", [](Specimen& r) { r.frames[20].angular_velocity[1].x = -0.0F; }, true},

@@ -74,6 +74,14 @@ constexpr Tampering kTable[] = {
        c.post_a.v = c.pre_a.v;
        c.post_b.v = c.pre_b.v;
      }},
+    {"restitution", "half of the floor's impulse",
+     [](Specimen& r) {
+       Contact& c = contact_that(r, is_bounce);
+       r.header.scene.parameters.impulse_min_n_s = 1e6F;
+       push(r, c, -0.5 * c.normal_impulse_n_s);
+     }},
+    {"restitution", "a floor that nothing reached",
+     [](Specimen& r) { r.header.scene.parameters.impulse_min_n_s = 1e6F; }},
     {"restitution", "NaN", [](Specimen& r) { contact_that(r, is_bounce).post_a.v.y = kNoNumber; }},
     {"normal-energy", "a bounce faster than the approach",
      [](Specimen& r) {
@@ -133,6 +141,11 @@ constexpr Tampering kTable[] = {
        Contact& c = contact_that(r, [](const Contact& k) { return is_separating(k) && approach(k) > 0.01; });
        c.tangent = {c.normal.y, c.normal.z, c.normal.x};
        drag(r, c, -0.01F);
+     }},
+    {"friction-energy", "a tangent at a separating contact",
+     [](Specimen& r) {
+       Contact& c = contact_that(r, [](const Contact& k) { return is_separating(k) && approach(k) > 0.01; });
+       c.tangent = {c.normal.y, c.normal.z, c.normal.x};
      }},
     {"friction-energy", "NaN", [](Specimen& r) { contact_that(r, is_slide).tangent_impulse_n_s = kNoNumber; }},
     {"velocity-cap", "a component above v_max",

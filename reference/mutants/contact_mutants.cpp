@@ -45,6 +45,26 @@ void moved(Contact& c, float factor_a, float factor_b) {
 
 std::span<const Mutant> table() {
   static const auto kTable = std::to_array<Mutant>({
+      {"loses-a-contact",
+       "the last pair of a frame that touches has no contact",
+       "contact-set",
+       "mixed",
+       {.order =
+            [](const World&, Order& order) {
+              if (order.pairs.empty()) return;
+              order.pairs.pop_back();
+              order.color.pop_back();
+            }}},
+      {"skips-faces-in-the-slop",
+       "a body that is inside the slop of a face has no contact with it",
+       "contact-set",
+       "mixed",
+       {.face_geometry =
+            [](const World& w, std::uint32_t, int, const ContactGeometry& sound) {
+              ContactGeometry g = sound;
+              g.exists = g.exists && g.depth_m > w.scene->parameters.delta_m;
+              return g;
+            }}},
       {"normal-from-a-to-b",
        "the normal points from A to B",
        "contact-normal",

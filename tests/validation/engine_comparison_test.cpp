@@ -108,6 +108,52 @@ TEST(ProximityBound, HoldsAgainstFclOnOverlappingMeshes) {
   }
 }
 
+// METHOD 3's bound to a millimeter, on cubes of which every face is two triangles: rho of a right triangle with legs of
+// 1 m is half its longest side, so rho_A + rho_B = sqrt(2) m. Their faces, and so their nearest vertices, are 2 m
+// apart.
+TEST(ProximityBound, IsTheDistancePlusBothCoveringRadii) {
+  core::Scene scene;
+  scene.name = "far";
+  scene.meshes = {grid_cube(1)};
+  scene.bodies = {body_at({0, 0, 0}, {}, 1.0F), body_at({3, 0, 0}, {}, 1.0F)};
+  Recording subject;
+  subject.header.scene = scene;
+  subject.header.groups = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
+  FrameRecord& frame = subject.frames.emplace_back();
+  frame.step = 1;
+  frame.detected_position = {{0, 0, 0}, {3, 0, 0}};
+  frame.detected_velocity.resize(2);
+  frame.boxes = {{{-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}}, {{2.5F, -0.5F, -0.5F}, {3.5F, 0.5F, 0.5F}}};
+  frame.confirmed = {{0, 1}};
+  Recording baseline = subject;
+  baseline.header.groups = core::bit(core::Group::kNarrow) | core::bit(core::Group::kDetection);
+  baseline.header.stamp.engine = "exact-mesh";
+  baseline.frames[0].measured = {{0, 1}};
+  const auto outcome_at = [&](double distance_m) {
+    baseline.frames[0].separations.assign(1, {});
+    baseline.frames[0].separations[0].distance_m = distance_m;
+    return verdict_of("proximity-bound", subject, &baseline).outcome;
+  };
+  const double cover = std::sqrt(2.0);
+  // Not touching: d >= theta - rho_A - rho_B.
+  subject.header.scene.parameters.theta_m = baseline.header.scene.parameters.theta_m = 1.875F;
+  frame.proximity.assign(1, {});
+  EXPECT_EQ(outcome_at(1.875 - cover + 1e-3), Outcome::kPass);
+  EXPECT_EQ(outcome_at(1.875 - cover - 1e-3), Outcome::kFail);
+  // Touching: d <= d_vv <= d + rho_A + rho_B.
+  subject.header.scene.parameters.theta_m = baseline.header.scene.parameters.theta_m = 3.0F;
+  std::uint32_t right = 0;  // a vertex with x = 1/2; the same place on the other cube has x = 5/2
+  const auto& vertices = scene.meshes[0]->vertices;
+  while (vertices[right].x < 0.0F) ++right;
+  std::uint32_t left = 0;
+  while (!(vertices[left] == Vec3{-0.5F, vertices[right].y, vertices[right].z})) ++left;
+  frame.proximity[0] = {4.0F, right, left};
+  EXPECT_EQ(outcome_at(2.0 - cover + 1e-3), Outcome::kPass);
+  EXPECT_EQ(outcome_at(2.0 - cover - 1e-3), Outcome::kFail);
+  EXPECT_EQ(outcome_at(2.0 - 1e-3), Outcome::kPass);
+  EXPECT_EQ(outcome_at(2.0 + 1e-3), Outcome::kFail);
+}
+
 // d_vv between the surfaces' distance and that plus both covering radii; a baseline outside that is refused.
 TEST(ProximityBound, RejectsDistancesThatTheVerticesContradict) {
   const Recording subject = record(named_scene("two-body:glancing"), {});

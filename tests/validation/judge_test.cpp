@@ -1,6 +1,7 @@
 // The pass itself: which validators run, how frames are matched, what is refused, and the exit codes of verdicts.
 #include "validation/judge.hpp"
 
+#include <map>
 #include <utility>
 
 #include "tests/validation/sound_world.hpp"
@@ -90,8 +91,26 @@ TEST(Judge, MatchesTheBaselineByStep) {
 TEST(Judge, EveryKthFrameIsJudgedWithoutItsMissingPredecessors) {
   Recording sparse = sound();
   std::erase_if(sparse.frames, [](const FrameRecord& f) { return f.step % 7 != 0; });
+  sparse.header.every = 7;
+  sparse.statistics.clear();
   for (const core::Verdict& v : judged(sparse))
     EXPECT_TRUE(v.outcome == Outcome::kPass || v.outcome == Outcome::kNotApplicable) << line(v);
+}
+
+TEST(Judge, TheFrameBeforeIsThatOfTheStepBeforeOrNone) {
+  Recording sparse = sound();
+  std::erase_if(sparse.frames, [](const FrameRecord& f) { return f.step == 3 || f.step == 4; });
+  const auto steps = steps_of(sparse);
+  validation::JudgeOptions options;
+  std::map<std::uint64_t, std::uint64_t> before;  // step of the frame before, by step; 0 = none
+  options.observe = [&](const validation::Evidence& e) {
+    before[e.frame.step] = e.previous != nullptr ? e.previous->step : 0;
+  };
+  ASSERT_TRUE(validation::judge(source_of(sparse, steps), nullptr, options).ok());
+  EXPECT_EQ(before[1], 0U);
+  EXPECT_EQ(before[2], 1U);
+  EXPECT_EQ(before[5], 0U) << "steps 3 and 4 were not recorded";
+  EXPECT_EQ(before[6], 5U);
 }
 
 TEST(Judge, AWrongFrameIsNamed) {
@@ -107,6 +126,7 @@ TEST(Judge, AWrongFrameIsNamed) {
 TEST(Judge, MissingGroupsAreNotApplicableAndSaySo) {
   Recording digests = sound();
   digests.header.groups = 0;
+  digests.header.level = core::RecordLevel::kDigest;
   for (const core::Verdict& v : judged(digests)) {
     EXPECT_EQ(v.outcome, Outcome::kNotApplicable) << line(v);
     EXPECT_FALSE(v.explanation.empty()) << v.validator;

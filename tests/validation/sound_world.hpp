@@ -7,16 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "bench/mutants/specimen.hpp"
 #include "bench/mutants/specimen_scenes.hpp"
+#include "core/method/frame_digest.hpp"
 #include "core/scene/body_octree.hpp"
 #include "core/scene/scene.hpp"
 #include "core/trace/frame.hpp"
+#include "core/trace/statistics.hpp"
 #include "core/trace/trace_header.hpp"
 #include "validation/judge.hpp"
 
@@ -60,6 +61,16 @@ inline std::shared_ptr<const core::Mesh> grid_cube(int cells) {
   return mesh;
 }
 
+// By core/method, which the validators do not use.
+inline std::uint64_t digest_of(const FrameRecord& frame) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t i = 0; i < frame.position.size(); ++i)
+    sum += core::body_digest(i, frame.position[i], frame.orientation[i], frame.velocity[i], frame.angular_velocity[i]);
+  for (const Pair p : frame.confirmed) sum += core::confirmed_digest(p);
+  for (const Contact& c : frame.contacts) sum += core::contact_digest(c);
+  return sum;
+}
+
 inline core::Body body_at(Vec3 x, Vec3 v, float mass) {
   core::Body body;
   body.position = x;
@@ -91,6 +102,9 @@ class SoundWorld {
     for (const core::Body& body : scene().bodies) state_.push_back({body.position, body.velocity});
     local_ = core::bounds(*scene().meshes[0]);
     for (std::uint32_t step = 1; step <= scene().frames; ++step) advance(step);
+    core::PenetrationCounter counter(scene().parameters.delta_m);
+    for (const FrameRecord& frame : recording_.frames) counter.add(frame.step, frame.contacts);
+    recording_.statistics = {*counter.rest()};  // fewer steps than a window has
     return std::move(recording_);
   }
 
@@ -246,7 +260,6 @@ class SoundWorld {
 
   void finish(FrameRecord& frame) {
     const float v_max = scene().parameters.v_max_m_s;
-    std::uint64_t digest = 0;
     for (std::size_t i = 0; i < state_.size(); ++i) {
       if (!is_static(static_cast<std::uint32_t>(i)))
         for (int k = 0; k < 3; ++k) state_[i].v[k] = std::clamp(state_[i].v[k], -v_max, v_max);
@@ -254,13 +267,8 @@ class SoundWorld {
       frame.velocity.push_back(state_[i].v);
       frame.orientation.push_back(scene().bodies[i].orientation);
       frame.angular_velocity.push_back({});
-      for (int k = 0; k < 3; ++k) {
-        std::uint32_t bits = 0;
-        std::memcpy(&bits, &state_[i].x[k], sizeof bits);
-        digest = digest * 31 + bits;
-      }
     }
-    frame.digest = digest;
+    frame.digest = digest_of(frame);
   }
 
   Recording recording_;

@@ -94,11 +94,12 @@ def write(path, start, mesh, frames):
         scene["mesh/triangles"], scene["mesh/triangle_offsets"] = triangles, np.array([0, len(triangles)], U64)
 
         file.create_group("provenance").attrs["engine"] = np.bytes_("foreign-cubes")
+        file.create_group("provenance/notes").attrs["digest"] = np.bytes_("none")
 
         trace = file.create_group("trace")
         steps = np.arange(1, FRAMES + 1, dtype=U64)
         trace["step"], trace["time"] = steps, steps * np.float64(DT)
-        trace["digest"] = np.zeros(FRAMES, U64)  # 0 in every frame: none
+        trace["digest"] = np.zeros(FRAMES, U64)  # zeros: none, as the provenance says
         still = np.zeros((FRAMES, BODIES, 3), F32)
         trace["body/position"] = np.stack([f["end_position"] for f in frames])
         trace["body/velocity"] = np.stack([f["end_velocity"] for f in frames])
