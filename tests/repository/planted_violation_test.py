@@ -10,6 +10,7 @@ import clang_tidy
 import contributing
 import formatting
 import include_boundaries
+import mutations
 import packages
 import readme_commands
 import releases
@@ -197,6 +198,13 @@ class PlantedViolation(unittest.TestCase):
         self.one(workflows, workflow("run: 'cat ${{ secrets.word }}'"), "is not one that this check knows")
         self.one(workflows, workflow("run: cat x", head="env: {}"), "nothing that starts it")
         self.one(workflows, {f"{workflows.FOLDER}a.yml": "name: [\n"}, "no YAML")
+
+    def test_change_that_no_longer_applies(self):
+        change = "file: core/body.hpp\nold: {}\nnew: x\ntarget: t\ntests: ^core\n"
+        self.assertEqual([], self.found(mutations, {"tests/mutate/changes.txt": change.format("#pragma once")}))
+        self.one(mutations, {"tests/mutate/changes.txt": change.format("#pragma twice")}, "is 0 times in core/body.hpp")
+        self.one(mutations, {"tests/mutate/changes.txt": change.format("e")}, "times in core/body.hpp")
+        self.one(mutations, {"tests/mutate/changes.txt": "file: core/body.hpp\n"}, "no old")
 
     def test_unformatted_source(self):
         try:
