@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "bench/mutants/specimen_parts.hpp"
 #include "tests/validation/sound_world.hpp"
 #include "validation/outcome.hpp"
 
@@ -156,6 +157,21 @@ TEST(CandidateSet, SupersetEnginesMayHaveMoreButMissNothing) {
   EXPECT_EQ(more.outcome, Outcome::kPass) << line(more);
   EXPECT_NE(more.explanation.find("1 too many"), std::string::npos) << more.explanation;
   for (FrameRecord& frame : superset.frames) frame.pairs.clear();
+  EXPECT_EQ(verdict_of("candidate-set", superset).outcome, Outcome::kFail);
+}
+
+// A repeated pair is no pair too many: of a superset engine only the form of its list tells.
+TEST(CandidateSet, SupersetEnginesNameEachPairOnceAndInOrder) {
+  Recording superset = sound();
+  superset.header.broad_is_exact = false;
+  FrameRecord& frame = bench::frame_with_pairs(superset);
+  const std::vector<Pair> pairs = frame.pairs;
+  frame.pairs.push_back(pairs.back());
+  EXPECT_EQ(verdict_of("candidate-set", superset).outcome, Outcome::kFail);
+  frame.pairs = pairs;
+  frame.pairs.push_back({pairs.back().i, pairs.back().j + 1});
+  EXPECT_EQ(verdict_of("candidate-set", superset).outcome, Outcome::kPass);
+  std::swap(frame.pairs[pairs.size() - 1], frame.pairs[pairs.size()]);
   EXPECT_EQ(verdict_of("candidate-set", superset).outcome, Outcome::kFail);
 }
 
