@@ -93,7 +93,8 @@ class Scratch:
             return False, "no end within the time"
         if "No tests were found" in answer.stdout:
             raise ValueError(f"no test is named {tests}")
-        failed = [line.strip() for line in answer.stdout.splitlines() if "(Failed)" in line or "***" in line]
+        marks = ("***Failed", "***Timeout", "***Exception")
+        failed = [line.strip() for line in answer.stdout.splitlines() if any(mark in line for mark in marks)]
         return answer.returncode == 0, failed[0] if failed else ""
 
     def judge(self, change):
