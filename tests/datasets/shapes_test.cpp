@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "datasets/shapes/box_mesh.hpp"
+#include "datasets/shapes/convex_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
 #include "tests/core/mesh/mesh_topology.hpp"
 
@@ -75,6 +76,14 @@ TEST(LumpyMesh, IsClosedOutwardSeededAndNotASphere) {
   }
   EXPECT_EQ(lumpy_mesh(4968, 1).value().vertices, mesh.vertices);
   EXPECT_NE(lumpy_mesh(4968, 2).value().vertices, mesh.vertices);
+}
+
+// Three corners have two faces, front and back, which Euler's formula for closed bodies would let pass.
+TEST(ConvexMesh, NeedsFourCorners) {
+  EXPECT_TRUE(datasets::convex_mesh({1, 1, 1}, 4, 1).ok());
+  EXPECT_FALSE(datasets::convex_mesh({1, 1, 1}, 3, 1).ok());
+  EXPECT_FALSE(datasets::convex_mesh({1, 1, 1}, 65, 1).ok());
+  EXPECT_FALSE(datasets::convex_mesh({1, 0, 1}, 8, 1).ok());
 }
 
 TEST(Shapes, RefuseWhatHasNoShape) {

@@ -135,6 +135,7 @@ TEST(Comparison, AnotherSceneUnderTheSameNameIsSaid) {
   const Comparison c = compare(one_cell(), head);
   ASSERT_EQ(c.changes.size(), 1U);
   EXPECT_EQ(c.changes[0].kind, ChangeKind::kSceneChanged);
+  EXPECT_EQ(c.exit(), Exit::kMissing) << "no cell of the base's scene is left to compare with";
   ASSERT_EQ(c.times.size(), 1U);
   EXPECT_EQ(c.times[0].speed, Speed::kNotComparable);
 }
