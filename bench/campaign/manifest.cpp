@@ -78,7 +78,7 @@ core::Status read_cells(const json& rows, const std::filesystem::path& file, Man
     }
     if (!is_id(cell.id) || !is_id(cell.turns)) return bad(" has no proper id");
     // Two experiments of the paper may show one measurement.
-    if (!ids.insert(cell.id).second && !manifest.paper) return bad(" has the id of an earlier one, " + cell.id);
+    if (!ids.insert(cell.id).second && manifest.job == nullptr) return bad(" has the id of an earlier one, " + cell.id);
     manifest.cells.push_back(std::move(cell));
   }
   return core::Done{};

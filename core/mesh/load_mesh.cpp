@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
@@ -258,9 +259,9 @@ Result<const aiScene*> read_checked(Assimp::Importer& importer, const std::files
   if (extension == ".gltf" || extension == ".glb") {
     Result<std::string> content = checked_gltf(path, extension == ".glb");
     if (!content) return content.error();
-    importer.SetIOHandler(new RegularFiles(path, std::move(content).value()));
+    importer.SetIOHandler(regular_files(path, std::move(content).value()).release());
   } else {
-    importer.SetIOHandler(new RegularFiles);
+    importer.SetIOHandler(regular_files().release());
   }
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr)

@@ -159,7 +159,7 @@ TEST(Timing, AFrameOfABroadPhaseContainsItsFilter) {
                             .capabilities = "broad",
                             .what = "filters for a second",
                             .settings = {},
-                            .is_reference = false,
+                            .runs_in_child = false,
                             .create = [](const core::Settings& settings) -> core::Result<core::Engine> {
                               core::Engine engine;
                               engine.id = "filtering";
