@@ -4,6 +4,7 @@
 #include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/kernel_launch.cuh"
 #include "gpu/stages/digest.cuh"
+#include "gpu/stages/grid/dependent_launch.cuh"
 #include "gpu/stages/grid_frame.cuh"
 #include "gpu/stages/small_frame.cuh"
 
@@ -44,19 +45,9 @@ LaunchShape small_shape(LaunchShape shape) {
   return shape;
 }
 
-// When a small frame begins, all of whose blocks but one end before its response. Early, but not where processes share
-// the GPU side by side (MPS): blocks of another process may hold the place that a block waits for. And only if the
-// kernel has the instruction that waits for the launch before, which depends on what it was compiled for: the driver
-// may have translated code that was meant for an older GPU.
 LaunchBegin small_begin() {
-  static const bool can_be_early = [] {
-    cudaFuncAttributes kernel = {};
-    const auto shares = attribute(cudaDevAttrMpsEnabled);
-    return shares.ok() && shares.value() == 0 &&
-           cudaFuncGetAttributes(&kernel, reinterpret_cast<const void*>(small_frame_kernel)) == cudaSuccess &&
-           kernel.ptxVersion >= 90;
-  }();
-  return can_be_early ? LaunchBegin::kEarly : LaunchBegin::kTogether;
+  static const bool can_be = can_be_dependent(reinterpret_cast<const void*>(small_frame_kernel));
+  return can_be ? LaunchBegin::kDependent : LaunchBegin::kTogether;
 }
 
 }  // namespace

@@ -42,9 +42,6 @@ using std::min;
 inline void relax() {
   on_host::yield();
 }
-// Launches of the host follow each other.
-inline void wait_for_launch_before() {}
-inline void let_next_launch_begin() {}
 class GridBarrier {
  public:
   explicit GridBarrier(unsigned long long* word) : word_(word) {}

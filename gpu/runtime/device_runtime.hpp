@@ -31,7 +31,8 @@ struct MappedMemory {
 core::Result<MappedMemory> allocate_mapped_bytes(std::size_t bytes);
 void release_mapped_bytes(const MappedMemory& memory);
 
-// The stream of all pipelines of this process: their frames never run side by side (LaunchBegin::kEarly says why).
+// The stream of all pipelines of this process: their frames never run side by side (stages/grid/dependent_launch.cuh
+// says why).
 core::Result<StreamHandle> frame_stream();
 core::Result<StreamHandle> create_stream();
 void release_stream(StreamHandle stream);

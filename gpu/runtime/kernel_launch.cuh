@@ -32,11 +32,9 @@ inline core::Status fit(const void* kernel, LaunchShape& shape) {
 enum class LaunchBegin : std::uint8_t {
   // When all of them are resident at once: CUDA's cooperative launch.
   kTogether,
-  // While the launch before it in the stream ends, each as soon as there is room: CUDA's programmatic dependent launch.
-  // There is none that is both, so nothing but their number vouches for all of them becoming resident. They do, if what
-  // else runs ends without them: so of launches like this, whose blocks wait for each other, all are in one stream
-  // (frame_stream), where none has a block before all those of the one before are resident.
-  kEarly,
+  // While the launch before it in the stream ends, each as soon as there is room: dependent_launch.cuh says why all of
+  // them become resident.
+  kDependent,
 };
 
 template <typename View>

@@ -6,6 +6,7 @@
 #include "gpu/frame/small_frame_view.hpp"
 #include "gpu/stages/broad/small_stage.cuh"
 #include "gpu/stages/frame_report.cuh"
+#include "gpu/stages/grid/dependent_launch.cuh"
 #include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/response/frame_response.cuh"

@@ -14,23 +14,6 @@ namespace broadside::gpu {
 // slower.
 __device__ inline void relax() {}
 
-// Of a launch that began early (LaunchBegin::kEarly): until the launch before it in the stream has ended, and what that
-// wrote is there. Before it only what no launch changes may be read, and nothing written. Otherwise it waits for
-// nothing.
-__device__ inline void wait_for_launch_before() {
-#if __CUDA_ARCH__ >= 900
-  asm volatile("griddepcontrol.wait;" ::: "memory");
-#endif
-}
-
-// By all blocks: from then on the launch behind this one may begin, as far as there is room beside its blocks. So all
-// of these are resident before any of those is.
-__device__ inline void let_next_launch_begin() {
-#if __CUDA_ARCH__ >= 900
-  asm volatile("griddepcontrol.launch_dependents;" ::: "memory");
-#endif
-}
-
 // The barrier of one team of warps of a block, at most 15 teams a block. By whole warps.
 __device__ inline void sync_warps(std::uint32_t team, std::uint32_t warps) {
   asm volatile("bar.sync %0, %1;" ::"r"(team + 1), "r"(warps * 32) : "memory");
