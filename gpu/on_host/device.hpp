@@ -142,9 +142,6 @@ T atomicOr(T* to, T value) {
   return old;
 }
 
-inline void set_bits(unsigned long long* of, unsigned long long bits) {
-  *of |= bits;
-}
 inline unsigned long long add_by_first_lane(unsigned long long* to, unsigned long long value) {
   return threadIdx.x % 32 == 0 ? atomicAdd(to, value) : 0;
 }

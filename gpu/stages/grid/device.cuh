@@ -8,7 +8,13 @@
 
 #if defined(__CUDACC__)
 
+#include <cuda/ptx>
+
 namespace broadside::gpu {
+
+// Inline assembly stands where CUDA's C++ has no form with the same machine code: cuda::atomic_ref addresses memory
+// generically and keeps results that nothing reads, which makes a barrier's arrival and wait longer; and predicated
+// loads, whole words of 16 bytes and barriers of some warps of a block have no form at all.
 
 // A spin on another thread's write goes through here. Nothing to do: sleeping for 32 ns makes a pile's contacts 5 %
 // slower.
@@ -76,11 +82,6 @@ class GridBarrier {
   unsigned long long* word_;
   unsigned long long seen_ = 0;
 };
-
-// Sets bits of a word of global memory. Nothing is waited for.
-__device__ inline void set_bits(unsigned long long* of, unsigned long long bits) {
-  asm volatile("red.relaxed.gpu.global.or.b64 [%0], %1;" ::"l"(of), "l"(bits) : "memory");
-}
 
 // Adds to a word of global memory, by the first lane of a whole warp, to whom it returns what was there. That is waited
 // for where it is used: behind an if it would be waited for at the end of the if.
@@ -220,8 +221,8 @@ class BlockCopy {
   // By one thread. A barrier of the block must follow before any other call.
   __device__ void init() {
 #if __CUDA_ARCH__ >= 900
-    asm volatile("mbarrier.init.shared.b64 [%0], 1; fence.proxy.async.shared::cta;" ::"r"(in_shared(&done_))
-                 : "memory");
+    cuda::ptx::mbarrier_init(reinterpret_cast<std::uint64_t*>(&done_), 1);
+    cuda::ptx::fence_proxy_async(cuda::ptx::space_shared);
 #else
     done_ = 0;
 #endif
@@ -247,11 +248,9 @@ class BlockCopy {
   }
   __device__ void wait() const {
 #if __CUDA_ARCH__ >= 900
-    asm volatile(
-        "{ .reg .pred is_done;\n"
-        "again: mbarrier.try_wait.parity.shared.b64 is_done, [%0], 0;\n"
-        "@!is_done bra again; }" ::"r"(in_shared(&done_))
-        : "memory");
+    auto* done = reinterpret_cast<std::uint64_t*>(const_cast<unsigned long long*>(&done_));
+    while (!cuda::ptx::mbarrier_try_wait_parity(done, 0)) {
+    }
 #else
     while (*static_cast<const volatile unsigned long long*>(&done_) == 0) relax();
     __threadfence_block();
@@ -273,9 +272,7 @@ __device__ inline std::uint32_t clamped_sums(std::uint32_t a, std::uint32_t b, s
 }
 
 __device__ inline unsigned long long now_ns() {
-  unsigned long long t;
-  asm volatile("mov.u64 %0, %globaltimer;" : "=l"(t));
-  return t;
+  return cuda::ptx::get_sreg_globaltimer();
 }
 
 __device__ inline std::uint32_t warp_min(std::uint32_t value) {

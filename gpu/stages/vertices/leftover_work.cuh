@@ -49,7 +49,7 @@ class LeftoverOfPair {
     const bool is_first = team.member == 0 && lane() == 0;
     auto place = static_cast<std::uint32_t>(k_);
     if (is_marked_) {
-      if (is_first) set_bits(f_.barrier + 1, 1ULL << k_);
+      if (is_first) atomicOr(f_.barrier + 1, 1ULL << k_);
     } else {
       place = asked_place(team);
       is_refused_ = place >= most_leftovers();
