@@ -47,7 +47,7 @@ std::uint64_t grid_buckets(std::uint64_t bodies);
 
 class BroadBuffers {
  public:
-  // `bins`: of BinsView, in a launch of so many blocks.
+  // `bins`: of BinsView; `blocks`: of the launch that sorts.
   core::Status load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
                     std::uint32_t bins = 0, std::uint32_t blocks = 0);
   // The facts that a new set of boxes may change.

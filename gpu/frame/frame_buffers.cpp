@@ -70,7 +70,7 @@ core::Status FrameBuffers::reserve_leftovers() {
   BROADSIDE_TRY(leftovers_.reserve(2 * std::size_t{LeftoverView::kMost}, "shared searches"));
   BROADSIDE_TRY(
       leftover_entries_.reserve(2 * std::size_t{LeftoverView::kMost} * LeftoverView::kEntries, "shared searches"));
-  // They are read before it is known how many there are.
+  // Kernels read entries before they know how many there are.
   return leftover_entries_.fill_bytes(0);
 }
 

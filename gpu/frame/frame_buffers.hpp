@@ -29,7 +29,7 @@ class FrameBuffers {
   core::Status load(const core::Scene& scene);
   // Where small frames leave the rest of long searches to the whole grid.
   core::Status reserve_leftovers();
-  // For the frame that has so many others under way before it, none of which advance() was called for.
+  // For a frame behind `under_way` launched frames for which advance() was not called yet.
   void fill(FrameView& view, std::uint64_t under_way = 0) const;
   // What a small frame, or a grid frame, has beside that.
   void fill_small(SmallFrameView& view) const;

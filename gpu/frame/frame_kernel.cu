@@ -88,7 +88,7 @@ core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, 
 }
 
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {
-  // Of contacts nobody knows yet how many there are; a heap has some seven a body.
+  // The host does not know yet how many contacts there are; a heap has some seven a body.
   const std::uint32_t blocks =
       std::clamp(view.body_count / (kDigestThreads / 8), 1U, kDigestBlocksPerMultiprocessor * multiprocessors);
   digest_kernel<<<blocks, kDigestThreads, 0, stream>>>(view);

@@ -24,7 +24,7 @@
 
 namespace broadside::gpu {
 
-// Of pairs, confirmed or not, there is room for so many at least.
+// The least capacity of candidate pairs and of confirmed pairs.
 constexpr std::uint64_t kLeastPairs = 1024;
 
 enum class Solver : std::uint32_t { kColored, kJacobi, kRacing };
@@ -141,7 +141,7 @@ struct FrameView {
   bool is_behind_unseen = false;
 };
 
-// Of one shape nobody has to ask which.
+// A scene with one shape needs no load.
 BROADSIDE_HD std::uint32_t shape_of(const FrameView& f, std::uint32_t body) {
   return f.shapes.count == 1 ? 0U : f.shape_of_body[body];
 }

@@ -37,7 +37,7 @@ struct Pipeline::Impl {
   std::uint64_t repeats = 0;
   std::uint64_t pairs_tested = 0;
   std::uint64_t all_pairs = 0;  // of the scene, without those of two static bodies
-  // The step whose digest was asked for last, and how long after the one before. 0 before the first.
+  // The last step whose digest was read, and how many steps after the one before. 0 before the first.
   std::uint64_t asked_step = 0;
   std::uint64_t asked_stride = 0;
   bool has_digest = false;  // that of the last step is on its way: its kernel is in the stream

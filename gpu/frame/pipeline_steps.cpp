@@ -53,7 +53,7 @@ GridFrameView Pipeline::Impl::grid_view() const {
 // The only one under way.
 core::Status Pipeline::Impl::wait_for_frame() {
   if (!has_digest) return frames.wait();
-  // The digest is added up while the host sees to its next launch: only the frame is waited for.
+  // The host waits for the frame alone: the digest is added up while the host prepares the next launch.
   BROADSIDE_TRY(frame_end.set(stream));
   BROADSIDE_TRY(start_digest(view.next, steps + 1));
   return frame_end.wait("a frame");
@@ -116,7 +116,7 @@ core::Status Pipeline::Impl::run_alone() {
 core::Status Pipeline::run(float dt_s, std::uint64_t steps, const StepDone& step_done) {
   impl_->view.dt_s = dt_s;
   if (!impl_->work.is_asked()) return impl_->settled(impl_->run_ahead(steps, step_done));
-  // What a frame left is looked at before the next one.
+  // Work is counted from what a frame left, so no frame is launched ahead.
   bool goes_on = true;
   for (std::uint64_t k = 0; k < steps && goes_on; ++k) {
     BROADSIDE_TRY(step(dt_s));
@@ -127,7 +127,7 @@ core::Status Pipeline::run(float dt_s, std::uint64_t steps, const StepDone& step
 
 core::Status Pipeline::Impl::run_ahead(std::uint64_t steps_asked, const StepDone& step_done) {
   std::uint64_t end = steps + steps_asked;
-  bool is_told = true;  // whoever asked, of each step
+  bool is_told = true;  // step_done is called for each step
   while (steps < end) {
     while (frames.under_way() < FrameQueue::kMost && steps + frames.under_way() < end) BROADSIDE_TRY(launch_frame());
     BROADSIDE_TRY(frames.wait());
@@ -144,7 +144,7 @@ core::Status Pipeline::Impl::run_ahead(std::uint64_t steps_asked, const StepDone
   return core::Done{};
 }
 
-// Of the frame that was just computed; nothing where nobody asked.
+// Counts the work of the frame that was just computed, if work is to be counted.
 core::Status Pipeline::Impl::count_work() {
   const BroadWorkView of_broad{broad_view, {}, view.boxes, view.body_count, view.counters};
   BROADSIDE_TRY(work.count_broad(of_broad, launch.multiprocessors, stream));

@@ -32,7 +32,7 @@ core::Result<void*> allocate_device_bytes(std::size_t bytes, const char* what) {
 }
 
 void release_device_bytes(void* memory) {
-  cudaFree(memory);  // an error here has nobody to hear it
+  cudaFree(memory);  // a destructor calls this: an error cannot be returned
 }
 
 core::Status copy_to_device(void* to, const void* from, std::size_t bytes) {

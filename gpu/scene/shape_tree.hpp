@@ -23,7 +23,7 @@ constexpr std::uint32_t stack_entries_of(std::uint32_t levels) {
 }
 
 // What a node's box says of what is below it: the node's level, and which block of eight, of `nodes` or, of a leaf, of
-// `vertices`. So who looks at a box knows where its children are.
+// `vertices`: a thread that has loaded a box knows where its children are.
 BROADSIDE_HD constexpr std::uint32_t node_word(std::uint32_t level, std::uint32_t block) {
   return level << 28 | block;
 }

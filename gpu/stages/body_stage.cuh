@@ -56,9 +56,9 @@ struct BodyAtDetection {
   }
 };
 
-// Whether the frame before was aborted and the host does not know yet. This one must leave everything as it is then:
-// what it would write is the state to repeat from. All threads see that alike: the counters are cleared only where
-// there is nothing to see. Not 0 if it was: a word, not a bool, so that it is waited for where it is looked at.
+// Not 0 if the frame before was aborted and the host does not know yet. This frame then must write nothing: it would
+// overwrite the state to repeat from. All threads read the same, as the counters are cleared only if the frame was not
+// aborted. A word and not a bool, so that threads wait for the load where they use it.
 __device__ inline std::uint32_t is_behind_aborted(const FrameView& f) {
   return load_fresh_if(f.is_behind_unseen, &f.counters->is_aborted);
 }
@@ -75,8 +75,8 @@ __device__ inline void start_body(const FrameView& f, std::uint32_t body, const 
   f.degree[body] = 0;
 }
 
-// The body with which a thread begins, by the last warps, one of a block: the first block waits longest for the
-// kernel's parameters, and other warps have something else to see to meanwhile.
+// The body with which a thread begins. The last warp of each block has the first bodies, from the last block on: the
+// first block waits longest for the kernel's parameters, and a block's first warps have other work meanwhile.
 __device__ inline std::uint64_t first_body(const GridPlaces& grid) {
   return grid.size() - 1 - grid.spread_rank();
 }
@@ -95,7 +95,7 @@ __device__ inline bool integrate(const GridPlaces& grid, const GridFrameView& f)
     if (f.broad.start == Start::kGrid) grid_count(f.broad.grid, i, now.box);
     if (f.broad.start == Start::kOctree) octree_count(f.broad.octree, i, now.box);
   }
-  // Looked at here by those who have no body. Before the loop, all would wait for it before they ask for a body.
+  // Warps without a body test this here. Before the loop, all warps would wait for it before they load a body.
   if (is_aborted != 0) return false;
   if (grid.rank() == 0) *f.counters = Counters{};
   return true;
@@ -112,7 +112,7 @@ __device__ inline unsigned faces_before(const FrameView& f, const core::Box& loc
 }
 
 // A moving body at the six half-spaces of the domain, in their order, then P(23); the state that this leaves. By whole
-// warps, whoever has no body to move with them: each lane looks for its next face, so that lanes whose faces differ are
+// warps, with lanes that have no body to move: each lane finds its own next face, so that lanes whose faces differ are
 // resolved together. `material`: called for the body's.
 template <typename Count, typename Material>
 __device__ core::Kinematics settled_at_faces(const FrameView& f, std::uint32_t body, bool moves, const core::Box& local,

@@ -59,8 +59,8 @@ __device__ inline void count_broad_work(const BroadWorkView& view, BulkNotes& ro
   add_of_warp(&view.work->broad_nodes, work.node_count);
 }
 
-// Hits of a first level one at a time, however many the frame looked at together: how many that were depends on the
-// GPU.
+// Descends hits of a first level one at a time, where a frame may descend several at once: how many depends on the GPU,
+// and counts must not.
 __device__ inline void count_level_work(const LevelWorkView& view) {
   const GridPlaces grid;
   Counted work;

@@ -17,7 +17,8 @@ class WorkCounter {
   // At load, before the device is waited for: nothing was done yet.
   core::Status reset();
 
-  // After a frame or a search that was not aborted, before the next; where nobody asked they do nothing. They wait.
+  // After a frame or a search that was not aborted, before the next. They do nothing before ask(), and wait for the
+  // device.
   core::Status count_broad(const BroadWorkView& view, std::uint32_t multiprocessors, StreamHandle stream);
   core::Status count_levels(const FrameView& frame, Start start, std::uint32_t multiprocessors, StreamHandle stream);
 

@@ -1,4 +1,4 @@
-// Ranges of entries for buckets: what a counting sort needs where nobody needs the order of the buckets.
+// Ranges of entries for buckets: a counting sort whose buckets lie in no order.
 #pragma once
 
 #include "gpu/broad/broad_view.hpp"

@@ -13,7 +13,7 @@
 
 namespace broadside::gpu {
 
-// In no list.
+// The place of a pair that goes to no list.
 constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 
 // A warp's item of the ring at a time: a body and those that it is paired with, a lane each.
@@ -53,8 +53,8 @@ __device__ inline bool is_confirmed_by_levels(const SmallFrameView& f, const Sha
   return are_levels_overlapping<2>(f, shapes, a, b, work);
 }
 
-// Level 0, and the levels below it where they come first; otherwise nothing is confirmed yet. Of the bodies of an item,
-// before the frame.
+// Level 0 for the pairs of an item, whose bodies are given as they were before the frame; and the levels below it, if
+// they come first. If they do not, nothing is confirmed yet.
 __device__ inline void find_small_pairs(const SmallFrameView& f, const ShapesInBlock& shapes,
                                         const BodyRing<FloatDivisor>::RingPair& at, const BodyBefore& before_i,
                                         const BodyBefore& before_j) {
@@ -96,7 +96,7 @@ __device__ inline bool integrate_and_find_pairs(const GridTeam& team, const Smal
                                                 const ShapesInBlock& shapes, RingItem item) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
   const std::uint64_t first = first_body(team);
-  // All of it is asked for before any of it is looked at.
+  // All of this is loaded before any of it is used, so that the warp waits once.
   BodyBefore own;
   BodyBefore before_i;
   BodyBefore before_j;
@@ -116,7 +116,7 @@ __device__ inline bool integrate_and_find_pairs(const GridTeam& team, const Smal
   if (team.rank() == 0) *f.counters = Counters{};
   mark_end(team, f.outcome, core::Stage::kIntegrate);
   shapes.begin_upper(f);
-  // Those who ask for shapes have begun to.
+  // The warp that copies shapes has set up the copies before this.
   if (f.are_levels_first) __syncthreads();
   while (item.exists()) {
     find_small_pairs(f, shapes, item.pair(), before_i, before_j);
@@ -141,7 +141,7 @@ class SmallLevels {
   __device__ void begin() const { shapes_.begin_octrees(f_); }
   __device__ void end() const { shapes_.end_octrees(); }
 
-  // By a warp: tells whether pair k is rejected. Returns whether it is not.
+  // By a warp: writes whether the levels reject pair k. Returns whether they keep it.
   __device__ bool look(const PlacedPair& bodies, std::uint64_t k) const {
     const bool is_kept = is_confirmed_by_levels(f_, shapes_, bodies.i, bodies.j);
     if (lane() == 0) f_.measured[k].is_rejected = is_kept ? 0 : 1;

@@ -83,8 +83,8 @@ class GridBarrier {
   unsigned long long seen_ = 0;
 };
 
-// Adds to a word of global memory, by the first lane of a whole warp, to whom it returns what was there. That is waited
-// for where it is used: behind an if it would be waited for at the end of the if.
+// Adds to a word of global memory by the first lane of a whole warp, and returns to it what was there. Predicated, as
+// above: the warp waits where it uses the result.
 __device__ inline unsigned long long add_by_first_lane(unsigned long long* to, unsigned long long value) {
   unsigned long long before = 0;
   asm volatile(
@@ -102,8 +102,8 @@ __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
   return before;
 }
 
-// A word that others write meanwhile, asked for by the threads for which `asks`; 0 for others. That is waited for where
-// it is used: behind an if it would be waited for at the end of the if.
+// Loads a word that other blocks may be writing, for threads with `asks`; 0 for others. A predicated load, so that a
+// thread waits where it uses the word: after a load inside an if, it would wait at the end of the if.
 __device__ inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* from) {
   std::uint32_t v = 0;
   asm volatile("{ .reg .pred asks; setp.ne.u32 asks, %2, 0; @asks ld.relaxed.gpu.global.u32 %0, [%1]; }"
@@ -113,8 +113,8 @@ __device__ inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* fr
   return v;
 }
 
-// Two words of 16 bytes, asked for at once, each in one access that is never torn: each is of one moment, both together
-// need not be. In global memory they are never served from this multiprocessor's own cache.
+// Two words of 16 bytes, loaded at once, each in one access that is never torn. Each is of one moment; both together
+// need not be. In global memory the multiprocessor's own cache is bypassed.
 struct GridWords {
   __device__ static void load_two_whole(const uint4* from, uint4 (&words)[2]) {
     unsigned long long part[4];
@@ -142,8 +142,8 @@ struct GridWords {
                  : "memory");
     return unpacked(part[0], part[1]);
   }
-  // Puts `v` there if it still holds `seen`, which gets what it holds. Returns whether it did. The highest bit of the
-  // last word is nobody else's: where there is no such instruction, it locks the word.
+  // Compare and swap: stores `v` if the word still is `seen`, which gets what the word was. Returns whether it stored.
+  // The highest bit of the last 4 bytes is reserved: without such an instruction, it locks the word.
   __device__ static bool replace_whole(uint4* at, uint4& seen, uint4 v) {
 #if __CUDA_ARCH__ >= 900
     const unsigned long long before[2] = {low(seen), high(seen)};
@@ -209,13 +209,13 @@ struct BlockWords {
   }
 };
 
-// 16 bytes that nobody needs again: the first to leave the caches.
+// Loads 16 bytes that are not needed again: the first to leave the caches.
 __device__ inline uint4 load_once(const uint4* from) {
   return __ldcs(from);
 }
 
-// A copy from global to shared memory, both on 16 bytes, that one warp asks for and any thread of the block waits for.
-// In shared memory; used once a launch at most. Nobody leaves before what was begun is there.
+// A copy from global to shared memory, both aligned to 16 bytes. One warp begins it, any thread of the block may wait
+// for it. Lies in shared memory; for one copy a launch. A block must not end before its copy has.
 class BlockCopy {
  public:
   // By one thread. A barrier of the block must follow before any other call.

@@ -16,8 +16,8 @@ __device__ inline core::Box box_of(const uint4& low, const uint4& high) {
           {__uint_as_float(high.x), __uint_as_float(high.y), __uint_as_float(high.z)}};
 }
 
-// In one access of 16 bytes, two for a box: left to itself, the compiler fetches word by word what it needs first, and
-// lines of the cache that are looked up are what a search has fewest of.
+// One load of 16 bytes, two for a box. The compiler alone would load word by word, and look-ups of cache lines are what
+// limits a search.
 __device__ inline PackedVec3 fetched(const PackedVec3* from) {
   const uint4 word = *reinterpret_cast<const uint4*>(from);
   return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, __uint_as_float(word.w)};
@@ -72,7 +72,7 @@ __device__ inline PlacedPair awaited(const PlacedPair* from) {
   };
   return {shape(words[0]), shape(words[1])};
 }
-// When nobody looks at it any more.
+// When no thread reads it any more in this frame.
 __device__ inline void take_away(PlacedPair* pair) {
   pair->i.shape = pair->j.shape = PlacedShape::kNone;
 }

@@ -89,13 +89,14 @@ __device__ inline unsigned lane() {
   return threadIdx.x % 32;
 }
 
-// Between what a whole warp asks memory for and the first look at any of it: one wait. Without it the compiler, to have
-// fewer registers in use, looks at one word before it asks for the next; it moves no access past a barrier of the warp.
+// Between the loads of a whole warp and the first use of any of them, so that the warp waits once. Without it the
+// compiler, to use fewer registers, waits for one word before it loads the next; it moves no access past a barrier of
+// the warp.
 __device__ inline void ask_for_all() {
   __syncwarp();
 }
 
-// Of a whole warp, the first of so many places.
+// Takes `count` places for a whole warp; returns the first.
 __device__ inline std::uint32_t room_for_warp(std::uint32_t count, std::uint32_t* taken) {
   std::uint32_t first = 0;
   if (lane() == 0) first = atomicAdd(taken, count);

@@ -218,7 +218,7 @@ class BulkSearch {
   Work work_;
   CellCorner fine_min_;
   CellCorner fine_max_;
-  CoarseBox coarse_;  // on the level that is looked at
+  CoarseBox coarse_;  // on the level that is searched
   std::uint32_t body_ = 0;
   std::uint32_t place_ = 0;
   int own_level_ = 0;
@@ -242,7 +242,7 @@ __device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* 
   while (width > 4 && count <= warps * (width / 2)) width /= 2;
   // Of many, as many turns at once as leave some sixteen: all warps take from one word, some 2 ns each.
   const std::uint32_t turns = min(static_cast<std::uint32_t>(count / (team.size() * 16)), 3U) + 1;
-  // The first turns are everybody's own; few boxes are spread over all multiprocessors.
+  // The first turns are fixed, one a warp; small numbers of boxes are spread over all multiprocessors.
   std::uint64_t first = team.spread_rank() / 32 * width * turns;
   while (first < count) {
     std::uint64_t next = 0;

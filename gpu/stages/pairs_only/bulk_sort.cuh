@@ -11,7 +11,7 @@ namespace broadside::gpu {
 // Several boxes a thread at once: it waits for all their loads together.
 constexpr std::uint32_t kBoxesAtOnce = 4;
 
-// Runs are read by fours: those past the last entry are found by nobody.
+// Runs are read by fours: four entries behind the last one hold a tag that matches no cell.
 template <typename Team>
 __device__ void end_entries(const Team& team, const BulkView& g, std::uint32_t count) {
   if (team.rank() < 4) g.entries[count + team.rank()] = {{}, 0, kNoCellTag};

@@ -12,7 +12,7 @@
 
 namespace broadside::gpu {
 
-// By one thread, before anybody counts.
+// By one thread, before any thread counts.
 __device__ inline void start_counts(const PairsView& view) {
   *view.counters = Counters{};
   if (view.broad.start == Start::kBulk) *view.bulk.turns = 0;

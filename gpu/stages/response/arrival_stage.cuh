@@ -1,5 +1,5 @@
-// Contacts of more bodies than there are threads, in the order of their keys: whoever resolves the last contact that
-// another waited for goes on to it.
+// Contacts of more bodies than there are threads, in the order of their keys. The thread that resolves the last contact
+// for which another one waits resolves that one next.
 #pragma once
 
 #include "gpu/frame/frame_view.hpp"
@@ -9,18 +9,17 @@
 
 namespace broadside::gpu {
 
-// What is left of a body's contacts before one of them, as its rank says: nothing before the first, nothing ever for a
-// body that is not written.
+// Whether no contact of the body comes before the one of this rank. A body that is never written has no order.
 __device__ inline bool is_first(std::uint32_t rank) {
   return rank == 0 || rank == kNoRank;
 }
 
-// What says whose turn it is, where the keys were: they have done their work when every contact has its ranks.
+// Which contacts may be resolved. In the memory of the keys, which are not needed once every contact has its ranks.
 struct Turns {
   std::uint32_t* arrived;  // [contacts] whether one of its bodies has come to it; 0 at the start
-  std::uint32_t* queue;    // [contacts] those whose turn has come and whom nobody went on to, and one; 0: not yet
-  // Of the queue: places that threads wait at, and that have a contact. And contacts done. Far from each other: they
-  // are written by everybody.
+  std::uint32_t* queue;    // [contacts] the work queue: 1 + a contact whose turn has come; 0: not yet
+  // Places of the queue that threads took, places that have a contact, and contacts done. They lie in different cache
+  // lines, as all warps write them.
   std::uint32_t* taken;
   std::uint32_t* given;
   std::uint32_t* done;
@@ -53,7 +52,8 @@ __device__ inline void queue_turns(const Turns& turns, bool has_one, std::uint32
     *static_cast<volatile std::uint32_t*>(turns.queue + first + __popc(pushing & ((1U << lane()) - 1U))) = contact + 1;
 }
 
-// A body that has just done its contact of this rank, if it has another: is it the last that this one waited for?
+// For a body whose contact of this rank is done: gets its next contact, if it has one. Returns whether that waited for
+// this body alone.
 __device__ inline bool arrives(const FrameView& f, const Turns& turns, std::uint32_t body, std::uint32_t rank,
                                ListEntry& entry) {
   if (rank == kNoRank || rank + 1 == f.degree[body]) return false;
@@ -71,7 +71,7 @@ template <typename Live>
 __device__ void resolve_link(const FrameView& f, const Live& live, std::uint32_t place, const Link& link) {
   LiveBody a;
   LiveBody b;
-  // Whoever said that they have come wrote their states before.
+  // Both states were written before the contact's turn came, but may become visible later.
   for (;;) {
     a = live.fetch(link.i);
     b = live.fetch(link.j);
@@ -87,7 +87,7 @@ __device__ void resolve_link(const FrameView& f, const Live& live, std::uint32_t
   store_contact(f.contacts + place, contact);
 }
 
-// Those that wait for nothing, by contact: where all threads begin.
+// Queues all contacts that wait for no other: where threads begin.
 template <typename Team>
 __device__ void queue_first_turns(const Team& team, const FrameView& f, const Turns& turns, std::uint64_t count) {
   const std::uint64_t rounds = (count + team.size() - 1) / team.size();
@@ -98,8 +98,8 @@ __device__ void queue_first_turns(const Team& team, const FrameView& f, const Tu
   }
 }
 
-// Links have their final ranks. A lane that has no contact waits for one at a place of the queue that is its own, so
-// that what is put there goes to who waited longest.
+// Links have their final ranks. A lane without a contact takes a place of the queue and waits there, so that the lane
+// that waited longest gets the next contact.
 template <typename Team, typename Live>
 __device__ void resolve_by_arrival(const Team& team, const FrameView& f, std::uint64_t count, const Live& live) {
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -111,7 +111,7 @@ __device__ void resolve_by_arrival(const Team& team, const FrameView& f, std::ui
   std::uint32_t contact = 0;
   Link link;
   bool has_turn = false;
-  std::uint32_t done = 0;  // by the warp, and not told yet
+  std::uint32_t done = 0;  // contacts that the warp resolved and has not added to turns.done
   std::uint32_t idle = 0;
   for (;;) {
     const bool asks = !has_turn && place == kNone;
@@ -134,7 +134,7 @@ __device__ void resolve_by_arrival(const Team& team, const FrameView& f, std::ui
     if (busy == 0) {
       if (lane() == 0 && done != 0) atomicAdd(turns.done, done);
       done = 0;
-      // Seldom, because everybody asks at the same place; by one for all, so that none goes on alone.
+      // Seldom, because all warps load the same word; one lane decides, so that the warp stays together.
       if (++idle % kLooksBetween == 0) {
         const std::uint32_t by_all = *static_cast<volatile std::uint32_t*>(turns.done);
         if (__shfl_sync(kFullWarp, by_all, 0) == count) return;

@@ -88,12 +88,12 @@ __device__ void resolve_in_block(const FrameView& f, const NarrowPairs& pairs, c
   const std::uint32_t body = threadIdx.x;
   const bool is_body = body < f.body_count;
   const BlockLive live{room.live};
-  // Everything is asked for before any of it is looked at.
+  // All of this is loaded before any of it is used, so that a thread waits once.
   const NarrowPair first(f, pairs, threadIdx.x);
   PackedVec3 x;
   PackedVec3 v;
   ContactSide side;
-  core::Material material;  // whoever resolves a contact of this body asks for it too, and finds it near
+  core::Material material;  // loaded early: the threads that resolve the body's contacts then find it in the cache
   if (is_body) {
     x = f.detected.position[body];
     v = f.detected.velocity[body];

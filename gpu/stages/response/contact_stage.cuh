@@ -129,8 +129,9 @@ class BodyTurn {
     }
   }
 
-  // Resolves the contact if its turn has come. The body itself stays as it is from then on, and is read once; both are
-  // asked for before either is looked at, and the other is not kept: it would have no registers.
+  // Resolves the contact if its turn has come. From then on no other thread writes the body itself, so it is loaded
+  // once. Both bodies are loaded before either is tested. The other is loaded again each time, as there are no
+  // registers for it.
   __device__ bool try_resolve() {
     if (!has_own_) own_ = live_.fetch(body_);
     const LiveBody other = live_.fetch(entry_.other);
@@ -179,8 +180,8 @@ class BodyTurn {
 };
 
 // All contacts in the order of their keys, without a barrier: a contact waits for the earlier ones of its own bodies
-// and for nothing else. No more bodies than threads, one each; every thread of the team is resident, so the first
-// contact left always has somebody who comes to it.
+// and for nothing else. No more bodies than threads, one each; every thread of the team is resident, so a
+// thread always comes to the first contact that is left.
 template <typename Team, typename Live>
 __device__ void resolve_by_looking(const Team& team, const FrameView& f, const Live& live) {
   // Lonely threads where there are many warps for them; otherwise neighbors, whose words lie side by side.

@@ -49,7 +49,8 @@ __device__ inline std::uint32_t keys_before(const unsigned long long* keys, std:
   return before;
 }
 
-// Who resolves a contact of these ranks: whoever is written alone; of two, a hash of the ids chooses.
+// Whether body i's thread resolves a contact of these ranks: the body that alone is written does; of two, a hash of the
+// ids chooses.
 __device__ inline bool is_resolved_by_i(core::Pair p, std::uint32_t rank_i, std::uint32_t rank_j) {
   return rank_j == kNoRank || (rank_i != kNoRank && ((p.i * 0x9E3779B1U ^ p.j * 0x85EBCA6BU) >> 31) != 0);
 }

@@ -10,7 +10,8 @@
 
 namespace broadside::gpu {
 
-// Which of a pair's bodies asks and which answers by its cells; neither where no lists are right.
+// Which body's vertices are looked up in the cells of the other. No cells: bodies are so far from the origin that lists
+// may be wrong.
 struct CellRoles {
   bool has_cells = false;
   bool is_asked_by_j = false;
@@ -31,8 +32,8 @@ __device__ inline CellRoles cell_roles(const FrameView& f, const ShapeHeaders& h
   return {i_answers || j_answers, is_asked_by_j};
 }
 
-// The tree's nodes of so many vertices are looked at two by two, each lane with two vertices of either: shapes with
-// cells have at most 128 of them.
+// A warp takes two nodes of kRunVertices vertices at a time, each lane two vertices of either. Shapes with cells have
+// at most 128 such nodes.
 constexpr std::uint32_t kRunLevel = 1;
 constexpr std::uint32_t kRunVertices = kLeafVertices * kFanOut;
 static_assert(kRunVertices == 64, "two a lane");
@@ -40,8 +41,8 @@ static_assert(kRunVertices == 64, "two a lane");
 // As TreePair, with another way to the nearest: the asking body's vertices whose box is near the answering body's are
 // looked up in its cells; those that find something near enough wait until a lane each has one.
 //
-// `kAsksForAll`: whoever has nothing to look at asks for something all the same, so that a warp waits once. Where warps
-// are many and hide each other's waits, what is asked for is what takes the time.
+// `kAsksForAll`: lanes without work load too, so that the loads of a warp go out together and it waits once. In grid
+// frames other warps hide that wait, and superfluous loads cost more than they save.
 template <bool kAsksForAll>
 class NearestByCells {
  public:
@@ -135,7 +136,7 @@ class NearestByCells {
     uint2 place[4];
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) {
-      // The last run may be short: its last vertex is then looked at again.
+      // The last run may be short: lanes past its end take its last vertex again.
       vertex[k] = min((k < 2 ? one : other) * kRunVertices + k % 2 * 32 + lane(), last_);
       place[k] = *reinterpret_cast<const uint2*>(quantized_ + vertex[k]);
     }
@@ -185,7 +186,7 @@ class NearestByCells {
         static_cast<std::uint32_t>(__clz(static_cast<int>(count - 1))) - 27U;  // 32 / count, rounded down
     const std::uint32_t lanes = 1U << shift;
     const std::uint32_t own = lane() >> shift;
-    // Lanes without a vertex of their own look at the last one's, and have no list.
+    // Lanes without a vertex of their own load the last one, and have no list.
     const std::uint32_t at = waiting_ + min(own, count - 1);
     const std::uint32_t cell = queue_.b()[at];
     const PackedVec3 mine = fetched(vertices_ + queue_.a()[at]);
@@ -197,7 +198,7 @@ class NearestByCells {
     const std::uint32_t length = own < count ? list.length : 0U;
     std::uint32_t step = lane() & (lanes - 1U);
     if constexpr (kAsksForAll) {
-      // What the next step of a list names is asked for together with this one's vertices.
+      // The next entry of a list is loaded together with the vertices of this one.
       uint2 four = step < length ? *reinterpret_cast<const uint2*>(entries + step) : uint2{0, 0};
       while (__any_sync(kFullWarp, step < length)) {
         const bool has_four = step < length;

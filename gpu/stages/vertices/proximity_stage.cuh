@@ -34,14 +34,14 @@ struct ProximityScratch {
   }
 };
 
-// Of so many warps side by side.
+// The stack of `count` neighboring warps, as one.
 __device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, std::uint32_t first,
                                              std::uint32_t count) {
   const std::uint32_t each = f.stack_entries;
   return {static_cast<std::uint32_t*>(stacks) + std::uint64_t{first} * each * 3, count * each, count * each};
 }
 
-// Where nothing is ever left to be found out about pairs but how near they are; otherwise SmallLevels.
+// For frames whose levels were tested before; otherwise SmallLevels.
 struct NoLevels {
   static constexpr bool kIsSmallFrame = false;
   using View = FrameView;
@@ -60,8 +60,8 @@ class ProximityStage {
                             ProximityScratch& scratch, void* stacks)
       : f_(f), headers_(headers), levels_(levels), pairs_(pairs), scratch_(scratch), stacks_(stacks) {}
 
-  // When there are fewer pairs than warps, several warps of a block share a pair, and where levels are left so many
-  // warps remain that there is one for each pair's. The block's warps are a power of two.
+  // When there are fewer pairs than warps, several warps of a block share a pair. Where levels are left, one warp for
+  // each pair is kept free to test them. The block's warps are a power of two.
   __device__ void run() const {
     const std::uint32_t warps = blockDim.x / 32;
     const std::uint32_t all_warps = gridDim.x * warps;
@@ -69,7 +69,7 @@ class ProximityStage {
     const std::uint32_t besides = pairs_.are_levels_left ? count : 0;
     const std::uint32_t shift = shift_of_members(count, all_warps - besides, warps);
     const std::uint32_t teams = warps >> shift;  // of a block
-    // The last of a block's teams has no pair, if any of them has none: its last warp sees to what the others look at.
+    // If any team of a block has no pair, the last one has none: its last warp copies the octrees that levels need.
     const bool looks = pairs_.are_levels_left && threadIdx.x / 32 == warps - 1 &&
                        (shift == 0 || (teams - 1) * gridDim.x + blockIdx.x >= pairs_.count);
     if (looks) levels_.begin();
@@ -145,7 +145,7 @@ class ProximityStage {
       return &f_.counters->measured;
   }
 
-  // There are as many teams as pairs, or more. Where levels are left, the warps of those that have no pair see to them.
+  // There are as many teams as pairs, or more. Where levels are left, warps of teams without a pair test them.
   __device__ void measure_by_teams(std::uint32_t shift) const {
     const std::uint32_t warp = threadIdx.x / 32;
     const std::uint32_t team = warp >> shift;

@@ -48,7 +48,7 @@ class NearChildren {
 };
 
 // The two trees of a pair, and the nearest vertices that this lane has found. `bound`, in shared memory, has the bits
-// of the smallest squared distance that anybody found (of non-negative floats, bits order as values do).
+// of the smallest squared distance that any lane found (of non-negative floats, bits order as values do).
 class TreePair {
  public:
   __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies, std::uint32_t* bound)
@@ -81,14 +81,14 @@ class TreePair {
   // How many levels there are below these nodes.
   __device__ std::uint32_t upper_level() const { return max(a_.upper_level, b_.upper_level); }
 
-  // By the whole warp: both nodes are opened, but a leaf stays as it is. All boxes are asked for before any of them is
-  // looked at: one wait.
+  // By the whole warp: opens both nodes; a leaf stays as it is. All boxes are loaded before any is used, so that the
+  // warp waits once.
   __device__ NearChildren open(const NodePair& parents, float limit) const {
     const bool opens_a = level_of(parents.a) != 0;
     const bool opens_b = level_of(parents.b) != 0;
     const std::uint32_t p = lane() / 8;
     const std::uint32_t q = lane() % 8;
-    // Of a leaf all lanes have its own box, and the first of them takes it.
+    // All lanes load the box of a leaf; the first of them uses it.
     const auto place = [](bool opens, std::uint32_t word, std::uint32_t child, std::uint32_t leaf_offset) {
       return opens ? block_of(word) * kFanOut + child : word + leaf_offset;
     };
@@ -144,7 +144,7 @@ class TreePair {
   }
 
  private:
-  // What a search asks of a tree again and again, read once: headers may lie in either memory.
+  // The fields of a tree that a search needs often, loaded once: headers lie in global or in shared memory.
   struct Tree {
     __device__ Tree(const TreeHeader& header, const PackedBox* all_upper)
         : root(header.root),
@@ -221,7 +221,7 @@ struct SearchTeam : WarpShare {  // of two or more
   // The stack is two: a round makes no more than 64 pairs of leaves a warp.
   __device__ SearchStack nodes() const { return stack.first(stack.entries - 64 * members); }
   __device__ SearchStack leaves() const { return stack.from(stack.entries - 64 * members); }
-  // Entry k of a stack that holds so many.
+  // Entry k of a stack that holds `of`: nodes first, then leaves.
   __device__ void put(const TeamCounts& of, std::uint32_t k, const NodePair& p) const {
     k < of.nodes ? nodes().put(k, p) : leaves().put(k - of.nodes, p);
   }
@@ -240,7 +240,7 @@ __device__ inline std::uint32_t room_for_near(const NearChildren& near, TeamCoun
   if (near.are_any() && lane() == 0) room = atomicAdd(near.are_leaves() ? &added.leaves : &added.nodes, near.count());
   return room;
 }
-// And it goes there, behind what is kept.
+// Puts what is near there, behind what is kept.
 __device__ inline void put_for_team(const SearchTeam& team, const NearChildren& near, const TeamCounts& kept,
                                     std::uint32_t room) {
   if (!near.are_any()) return;
@@ -264,7 +264,7 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
   // opened at once each may add 63; by 64 is sooner divided.
   const std::uint32_t reserve = 63 * trees.top();
   for (std::uint32_t round = 1; left.any(); ++round) {
-    // What all members do follows from what is left, so that they agree without a word.
+    // All members compute the same division of work from `left`, so they need not communicate.
     const std::uint32_t groups = min(team.members, left.nodes > 0 ? left.leaves / 4 : (left.leaves + 3) / 4);
     const std::uint32_t visited = min(4 * groups, left.leaves);
     std::uint32_t opened = min(min(team.members - groups, left.nodes), (leaves.entries - (left.leaves - visited)) / 64);
@@ -283,7 +283,7 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
     if (visits) trees.visit_leaves<kLeafVertices>(leaf < visited, own, limit);
     if (opens && own.gap2 <= limit) near = trees.open(own, limit);
     const std::uint32_t room = room_for_near(near, added);
-    // By now all have taken their own off the stack.
+    // After this barrier all members have read their entries, and the stack may be written.
     team.sync();
     const TeamCounts kept{left.nodes - opened, left.leaves - visited};
     put_for_team(team, near, kept, room);

@@ -17,7 +17,7 @@ class TreeStart {
  public:
   __device__ TreeStart(const TreePair& trees, const SearchTeam& team) : trees_(trees), team_(team) {}
 
-  // Returns what the stack holds. Where it has no room for so many pairs, the roots are where to begin.
+  // Returns what the stack holds: pairs of upper nodes or, if there is no room for these, the roots.
   __device__ TeamCounts begin() const {
     if (trees_.roots().are_leaves()) return begin_at_roots();
     list_near_roots();
