@@ -87,7 +87,7 @@ __device__ inline bool integrate(const GridPlaces& grid, const GridFrameView& f)
   for (std::uint64_t i = first_body(grid); __any_sync(kFullWarp, i < f.body_count); i += grid.size()) {
     const auto body = static_cast<std::uint32_t>(min(i, std::uint64_t{f.body_count} - 1));
     const BodyBefore before(f, body);
-    ask_for_all();
+    group_loads();
     if (is_aborted != 0) return false;
     if (i >= f.body_count) continue;
     const BodyAtDetection now(f, body, before);

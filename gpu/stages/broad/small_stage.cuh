@@ -106,7 +106,7 @@ __device__ inline bool integrate_and_find_pairs(const GridTeam& team, const Smal
     before_i = BodyBefore(f, item.pair().i);
     before_j = BodyBefore(f, item.pair().j);
   }
-  ask_for_all();
+  group_loads();
   if (is_aborted != 0) return false;
   for (std::uint64_t i = first; i < f.body_count; i += team.size()) {
     const auto body = static_cast<std::uint32_t>(i);
@@ -124,7 +124,7 @@ __device__ inline bool integrate_and_find_pairs(const GridTeam& team, const Smal
     if (!item.exists()) break;
     before_i = BodyBefore(f, item.pair().i);
     before_j = BodyBefore(f, item.pair().j);
-    ask_for_all();
+    group_loads();
   }
   return true;
 }

@@ -92,7 +92,7 @@ __device__ inline unsigned lane() {
 // Between the loads of a whole warp and the first use of any of them, so that the warp waits once. Without it the
 // compiler, to use fewer registers, waits for one word before it loads the next; it moves no access past a barrier of
 // the warp.
-__device__ inline void ask_for_all() {
+__device__ inline void group_loads() {
   __syncwarp();
 }
 

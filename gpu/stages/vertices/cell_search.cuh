@@ -41,9 +41,9 @@ static_assert(kRunVertices == 64, "two a lane");
 // As TreePair, with another way to the nearest: the asking body's vertices whose box is near the answering body's are
 // looked up in its cells; those that find something near enough wait until a lane each has one.
 //
-// `kAsksForAll`: lanes without work load too, so that the loads of a warp go out together and it waits once. In grid
+// `kLoadsAlways`: lanes without work load too, so that the loads of a warp go out together and it waits once. In grid
 // frames other warps hide that wait, and superfluous loads cost more than they save.
-template <bool kAsksForAll>
+template <bool kLoadsAlways>
 class NearestByCells {
  public:
   __device__ NearestByCells(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies,
@@ -91,7 +91,7 @@ class NearestByCells {
       const std::uint32_t run = first + lane() * share_.members;  // dealt out to the pair's warps
       const core::Box box = fetched(boxes + min(run, runs - 1));
       const core::Box other_box = fetched(root);
-      ask_for_all();
+      group_loads();
       const float gap2 = squared_gap(core::translated(box, x_), core::translated(other_box, other_x_));
       const bool is_near = run < runs && gap2 < theta2_ && gap2 <= limit();
       for (unsigned left = __ballot_sync(kFullWarp, is_near); left != 0;) {
@@ -140,14 +140,14 @@ class NearestByCells {
       vertex[k] = min((k < 2 ? one : other) * kRunVertices + k % 2 * 32 + lane(), last_);
       place[k] = *reinterpret_cast<const uint2*>(quantized_ + vertex[k]);
     }
-    ask_for_all();
+    group_loads();
     std::uint32_t lower[4];
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) {
       cell[k] = cell_of(place[k].x, place[k].y);
-      lower[k] = kAsksForAll || k < 2 || are_two ? lower_[cell[k]] : 255U;
+      lower[k] = kLoadsAlways || k < 2 || are_two ? lower_[cell[k]] : 255U;
     }
-    if constexpr (kAsksForAll) ask_for_all();
+    if constexpr (kLoadsAlways) group_loads();
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) keeps[k] = (k < 2 || are_two) && lower[k] <= most_;
 #pragma unroll
@@ -191,13 +191,13 @@ class NearestByCells {
     const std::uint32_t cell = queue_.b()[at];
     const PackedVec3 mine = fetched(vertices_ + queue_.a()[at]);
     const NearList list = unpacked_list(f_.shapes.near_lists[cells_.first_list + cell]);
-    ask_for_all();
+    group_loads();
     const core::Vec3 v = mine.v + x_;
     const NearEntry* entries = f_.shapes.near_entries + cells_.first_entry + list.begin;
     const PackedVec3* others = f_.shapes.tree_vertices + other_tree_.vertex_begin;
     const std::uint32_t length = own < count ? list.length : 0U;
     std::uint32_t step = lane() & (lanes - 1U);
-    if constexpr (kAsksForAll) {
+    if constexpr (kLoadsAlways) {
       // The next entry of a list is loaded together with the vertices of this one.
       uint2 four = step < length ? *reinterpret_cast<const uint2*>(entries + step) : uint2{0, 0};
       while (__any_sync(kFullWarp, step < length)) {
@@ -208,7 +208,7 @@ class NearestByCells {
         const PackedVec3 fourth = fetched(others + (four.y >> 16U));
         step += lanes;
         if (step < length) four = *reinterpret_cast<const uint2*>(entries + step);
-        ask_for_all();
+        group_loads();
         if (!has_four) continue;
         visit_two(v, mine.w, first, second);
         visit_two(v, mine.w, third, fourth);

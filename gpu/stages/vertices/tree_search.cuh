@@ -95,7 +95,7 @@ class TreePair {
     FetchedNode low = fetched_node(nodes_ + place(opens_a, parents.a, p, a_.leaf_offset));
     FetchedNode high = fetched_node(nodes_ + place(opens_a, parents.a, p + 4, a_.leaf_offset));
     FetchedNode of_b = fetched_node(nodes_ + place(opens_b, parents.b, q, b_.leaf_offset));
-    ask_for_all();
+    group_loads();
     low.box = core::translated(low.box, xa_);
     high.box = core::translated(high.box, xa_);
     of_b.box = core::translated(of_b.box, xb_);
@@ -126,7 +126,7 @@ class TreePair {
       PackedVec3 others[kAtOnce];
 #pragma unroll
       for (std::uint32_t t = 0; t < kAtOnce; ++t) others[t] = fetched(of_b + first + t);
-      ask_for_all();
+      group_loads();
 #pragma unroll
       for (std::uint32_t t = 0; t < kAtOnce; ++t) {
         const float d2 = core::squared_distance(va, others[t].v + xb_);
