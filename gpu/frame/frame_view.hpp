@@ -38,7 +38,7 @@ struct ShapesView {
   const TreeHeader* trees = nullptr;            // [shapes]
   const PackedBox* tree_nodes = nullptr;
   const PackedBox* tree_upper = nullptr;
-  std::uint32_t tree_upper_count = 0;  // of all shapes; 0: no trees are descended but where a body is far outside
+  std::uint32_t tree_upper_count = 0;  // of all shapes; 0: trees are descended only if a body is far outside the domain
   const PackedVec3* tree_vertices = nullptr;
   const NearCells* near_cells = nullptr;  // [shapes]
   const std::uint8_t* near_lower = nullptr;

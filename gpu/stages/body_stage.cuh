@@ -63,8 +63,8 @@ __device__ inline std::uint32_t is_behind_aborted(const FrameView& f) {
   return load_fresh_if(f.is_behind_unseen, &f.counters->is_aborted);
 }
 
-// Where a body is from now on, and clean slates for the frame's later stages. The previous state stays as it is, so
-// that a frame whose buffers turn out too small can be repeated.
+// Writes a body's state at detection, and clears what later stages count. The previous state is not written, so that a
+// frame whose buffers are too small can be repeated.
 __device__ inline void start_body(const FrameView& f, std::uint32_t body, const BodyBefore& before,
                                   const BodyAtDetection& now) {
   const PackedVec3 x{now.state.x, before.x.w};
@@ -118,7 +118,7 @@ template <typename Count, typename Material>
 __device__ core::Kinematics settled_at_faces(const FrameView& f, std::uint32_t body, bool moves, const core::Box& local,
                                              float inverse_mass, const Material& material, core::Kinematics state,
                                              Count* demanded) {
-  unsigned left = moves ? (1U << core::kFaceCount) - 1U : 0U;  // faces that are not behind us
+  unsigned left = moves ? (1U << core::kFaceCount) - 1U : 0U;  // faces that come after the last one resolved
   for (;;) {
     const unsigned faces = left == 0 ? 0U : faces_before(f, local, state.x) & left;
     const bool has_one = faces != 0;

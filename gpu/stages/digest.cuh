@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// `block_sum`: of the block's shared memory. The last block that enters its share tells the host.
+// `block_sum`: in the block's shared memory. The last block that adds its sum writes the digest for the host.
 __device__ inline void run_digest(const DigestView& view, unsigned long long* block_sum) {
   Counters& counters = *view.counters;
   if (counters.is_aborted != 0) return;
@@ -21,7 +21,7 @@ __device__ inline void run_digest(const DigestView& view, unsigned long long* bl
     sum += core::body_digest(static_cast<std::uint32_t>(i), view.state.position[i].v, view.orientation[i],
                              view.state.velocity[i].v, core::Vec3{});
   const std::uint64_t confirmed = view.is_confirmed_by_level0 ? counters.pairs : counters.confirmed;
-  // Where all confirmed pairs touch, contacts name them.
+  // If all confirmed pairs touch, they are those of the contacts, and need not be loaded.
   const bool all_touch = counters.touching == confirmed;
   if (!all_touch)
     for (std::uint64_t k = grid.rank(); k < confirmed; k += grid.size())

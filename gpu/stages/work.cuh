@@ -15,7 +15,7 @@ __device__ inline void add_of_warp(unsigned long long* sum, unsigned long long o
   if (lane() == 0 && own != 0) atomicAdd(sum, own);
 }
 
-// Boxes in the order of their entries, whichever warp took which: of the turns of bulk_find nothing shows.
+// Boxes in the order of their entries: the counts do not depend on which warp takes which box, as it does in bulk_find.
 __device__ inline Counted count_bulk_work(const GridPlaces& grid, const BroadWorkView& view, BulkNotes& notes) {
   const volatile std::uint32_t* known = view.bulk.levels;
   const LevelMarks marks{known[0], known[1]};

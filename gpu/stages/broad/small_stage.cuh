@@ -137,7 +137,8 @@ class SmallLevels {
 
   __device__ SmallLevels(const SmallFrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
 
-  // By one warp of the block, if any of it will look(): before that one does, and when it is done.
+  // Copies the octrees: begun before a warp of the block calls look(), ended before the warp that calls these ends. By
+  // one warp.
   __device__ void begin() const { shapes_.begin_octrees(f_); }
   __device__ void end() const { shapes_.end_octrees(); }
 

@@ -1,5 +1,5 @@
-// What device code takes from CUDA beyond the language, in one place: nvcc gives it, and in a build for the host
-// gpu/on_host does, where the threads of a kernel are fibers. So the stages run, and are tested, where there is no GPU.
+// What stages need of CUDA beyond the language, in one place. gpu/on_host/device.hpp has the same for the host, where
+// the threads of a kernel are fibers: so the stages run, and are tested, without a GPU.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace broadside::gpu {
 // generically and keeps results that nothing reads, which makes a barrier's arrival and wait longer; and predicated
 // loads, whole words of 16 bytes and barriers of some warps of a block have no form at all.
 
-// A spin on another thread's write goes through here. Nothing to do: sleeping for 32 ns makes a pile's contacts 5 %
-// slower.
+// Called in each round of a loop that waits for another thread's write. Does nothing: sleeping for 32 ns makes a pile's
+// contacts 5 % slower.
 __device__ inline void relax() {}
 
 // The barrier of one team of warps of a block, at most 15 teams a block. By whole warps.
@@ -25,7 +25,7 @@ __device__ inline void sync_warps(std::uint32_t team, std::uint32_t warps) {
   asm volatile("bar.sync %0, %1;" ::"r"(team + 1), "r"(warps * 32) : "memory");
 }
 
-// One more arrival at *arrived, and waiting until there were `awaited`; orders memory over the grid. By one thread.
+// Counts an arrival at *arrived and waits until there are `awaited`; orders memory over the grid. By one thread.
 __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
   asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived) : "memory");
   std::uint32_t seen = 0;
@@ -95,7 +95,7 @@ __device__ inline unsigned long long add_by_first_lane(unsigned long long* to, u
   return before;
 }
 
-// One more arrival at *arrived; orders memory over the grid. Returns how many there were before.
+// Counts an arrival at *arrived; orders memory over the grid. Returns how many there were before.
 __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
   std::uint32_t before = 0;
   asm volatile("atom.acq_rel.gpu.global.add.u32 %0, [%1], 1;" : "=r"(before) : "l"(arrived) : "memory");
@@ -227,7 +227,7 @@ class BlockCopy {
     done_ = 0;
 #endif
   }
-  // By a whole warp. With compute capability 9, one thread asks for all of it at once.
+  // By a whole warp. With compute capability 9, one thread starts one copy of the bulk copy engine.
   __device__ void begin(void* to, const void* from, std::uint32_t bytes) {
 #if __CUDA_ARCH__ >= 900
     if (threadIdx.x % 32 == 0)

@@ -1,4 +1,4 @@
-// Who works on a stage together: the whole grid, or one block where the work is too small to share.
+// Teams: the threads that work on a stage together. The whole grid, its first blocks, or one block.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,16 @@ constexpr unsigned kFullWarp = 0xFFFFFFFFU;
 // The grid of a kernel that has no barrier.
 struct GridPlaces {
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
-  // Likewise each thread's own, but warp by warp over all blocks: little work is spread over all multiprocessors.
+  // Another numbering: the first warp of every block, then the second of each. A small number of items is then spread
+  // over all multiprocessors.
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * gridDim.x + blockIdx.x) * 32 + threadIdx.x % 32;
   }
   __device__ std::uint64_t size() const { return std::uint64_t{gridDim.x} * blockDim.x; }
 };
 
-// sync() waits for all threads of the grid and makes their writes visible: the kernel must be launched cooperatively.
+// sync() waits for all threads of the grid and makes their writes visible. All blocks must be resident together: a
+// cooperative launch, or one of dependent_launch.cuh.
 class GridTeam : public GridPlaces {
  public:
   // `barrier`: the word of GridBarrier.
@@ -54,8 +56,8 @@ struct PartialGridTeam {
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x) * 32 + threadIdx.x % 32;
   }
-  // Likewise, but first a lane of every warp, then the next lane of each: threads that wait for each other get in each
-  // other's way least.
+  // A third numbering: the first lane of every warp, then the second of each. Threads that wait for each other's
+  // contacts are then in different warps, as long as there are warps enough.
   __device__ std::uint64_t lonely_rank() const {
     const std::uint64_t warps = std::uint64_t{blocks} * (blockDim.x / 32);
     return threadIdx.x % 32 * warps + std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x;
@@ -69,7 +71,7 @@ struct PartialGridTeam {
   }
 };
 
-// Which of the warps that share something this is.
+// The place of a warp among those that share a piece of work.
 struct WarpShare {
   std::uint32_t member = 0;
   std::uint32_t members = 1;

@@ -28,7 +28,7 @@ struct EightByEightHits {
   __device__ friend EightByEightHits operator|(const EightByEightHits& p, const EightByEightHits& q) {
     return {p.low | q.low, p.high | q.high};
   }
-  // The lowest bit leaves; of none, it is 63.
+  // Removes the lowest set bit and returns its number; 63 if there is none.
   __device__ std::uint32_t take() {
     const bool is_low = low != 0;
     const std::uint32_t bit = static_cast<std::uint32_t>(__ffs(static_cast<int>(is_low ? low : high)) - 1) % 32;
@@ -72,9 +72,9 @@ __device__ EightByEight second_level(const Octrees& octrees, const PlacedShape& 
   return {octrees, a.first_box() + kFirst + bit / 8 * 8, a.x, b.first_box() + kFirst + bit % 8 * 8, b.x};
 }
 
-// core::descent_overlaps by a warp: empty boxes overlap nothing, so they need no care. So many of the first level's
-// hits at a time: two where what takes the time is waiting for boxes, one where warps are many and hide each other's
-// waits.
+// core::descent_overlaps by a warp. Empty boxes overlap nothing, so they need no test of their own. kAtOnce of the
+// first level's hits are descended at a time: two where waiting for boxes takes the time, one where other warps hide
+// that wait.
 template <unsigned kAtOnce, typename Octrees, typename Work>
 __device__ bool descends(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b, Work& work) {
   static_assert(kAtOnce == 1 || kAtOnce == 2);
@@ -83,7 +83,8 @@ __device__ bool descends(const Octrees& octrees, const PlacedShape& a, const Pla
     work.tests(EightByEight::kTestsOfLane * kAtOnce);
     const EightByEight one = second_level(octrees, a, b, hits.take());
     if constexpr (kAtOnce == 2) {
-      // Where there is no other hit, children of a pair that is none are tested: they do not overlap either.
+      // If there is no second hit, the children of box pair 63 are tested, which do not overlap unless their parents
+      // do.
       const EightByEight other = second_level(octrees, a, b, hits.take());
       if ((one.hits() | other.hits()).any()) return true;
     } else if (one.hits().any()) {
@@ -140,7 +141,7 @@ __device__ bool are_levels_overlapping(const FrameView& f, core::Pair p, Work& w
 }
 
 // From pairs to confirmed. Each warp takes a run of pairs and appends what it confirms with one atomic; runs are short
-// while there are more warps than pairs, so that few pairs are done at once.
+// while there are more warps than pairs, so that a small number of pairs is tested at once.
 template <typename Team, typename Work>
 __device__ void confirm_pairs(const Team& team, const FrameView& f, Work& work) {
   const std::uint64_t count = f.counters->pairs;

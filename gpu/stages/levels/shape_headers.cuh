@@ -11,7 +11,7 @@ struct ShapeHeaders {
   const TreeHeader* trees = nullptr;
   const NearCells* cells = nullptr;
   const PackedBox* upper = nullptr;
-  const BlockCopy* upper_copy = nullptr;  // if it is on its way there: to be waited for
+  const BlockCopy* upper_copy = nullptr;  // the copy to wait for, if upper nodes are copied
 };
 
 }  // namespace broadside::gpu

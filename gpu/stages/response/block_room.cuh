@@ -19,7 +19,7 @@ class BlockLink {
   };
 
   BlockLink() = default;
-  // Places past kNone are none.
+  // A place of kNone or more means none.
   __device__ BlockLink(core::Pair p, std::uint32_t place_i, std::uint32_t place_j)
       : i_(p.i | min(place_i, kNone) << 16U), j_(p.j | min(place_j, kNone) << 16U) {}
 
@@ -59,7 +59,7 @@ class BlockEntry {
 };
 static_assert(ListEntry::kIsOurs == 1U << 31);
 
-// As in Counters, in half as many bits: atomics on these are sooner done.
+// As in Counters, but of 32 bits: atomics on these are faster.
 struct alignas(16) BlockCounts {
   std::uint32_t touching = 0;
   std::uint32_t listed = 0;
@@ -67,7 +67,7 @@ struct alignas(16) BlockCounts {
   std::uint32_t colors = 0;
 };
 
-// The number of a body's contacts while they are counted; of a body that is never written, what says so.
+// The number of a body's contacts while they are counted, or a mark for a body that is never written.
 class BlockDegree {
  public:
   __device__ static std::uint32_t zero(bool is_written) { return is_written ? 0U : kUnwritten; }

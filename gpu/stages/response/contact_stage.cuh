@@ -35,9 +35,9 @@ __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint3
   return true;
 }
 
-// Live bodies that others look at while they are written: a reader knows from the two words alone whether they are of
-// one moment, so that one round trip is the price of a contact's turn. Words: load_two_whole and store_whole for where
-// they lie.
+// Live bodies: threads read them while others write. A reader sees from the two words alone whether they are of one
+// moment, so waiting for a contact's turn costs one round trip to memory. Words: GridWords or BlockWords, for the
+// memory in which they lie.
 template <typename Words>
 struct LiveBodies {
   LiveBody* bodies;
@@ -151,7 +151,7 @@ class BodyTurn {
     return true;
   }
 
-  // Word by word: a choice between two objects would put both into memory.
+  // Chosen word by word: the compiler would put two whole objects into local memory.
   __device__ static core::Vec3 chosen(bool first, core::Vec3 p, core::Vec3 q) {
     return {first ? p.x : q.x, first ? p.y : q.y, first ? p.z : q.z};
   }
@@ -184,7 +184,8 @@ class BodyTurn {
 // thread always comes to the first contact that is left.
 template <typename Team, typename Live>
 __device__ void resolve_by_looking(const Team& team, const FrameView& f, const Live& live) {
-  // Lonely threads where there are many warps for them; otherwise neighbors, whose words lie side by side.
+  // If there are enough warps, bodies of neighboring ids go to different warps; otherwise to neighboring lanes, whose
+  // words lie side by side.
   const std::uint64_t body = std::uint64_t{f.body_count} * 2 <= team.size() ? team.lonely_rank() : team.spread_rank();
   if (body >= f.body_count) return;
   const auto own = static_cast<std::uint32_t>(body);
@@ -217,7 +218,7 @@ __device__ inline bool fill_from_next(const FrameView& f, const Link& link, core
                       {f.next.position[link.j].v, f.next.velocity[link.j].v}, contact);
 }
 
-// E8: every contact at once, one's write over the other's, in whatever order the hardware comes to them.
+// E8: all contacts at once. They overwrite each other's results, in whatever order the hardware runs them.
 template <typename Team>
 __device__ void resolve_racing(const Team& team, const FrameView& f, std::uint64_t count) {
   for (std::uint64_t k = team.rank(); k < count; k += team.size()) {

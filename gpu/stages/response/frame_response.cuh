@@ -40,7 +40,7 @@ __device__ void resolve_by_team(const Team& team, const FrameView& f, const Narr
   mark_end(team, f.outcome, core::Stage::kFaces);
 }
 
-// So many contacts, by a thread for each body, which waits for the body's turn at each of them.
+// Resolves `count` contacts by a thread for each body, which waits for the body's turn at each of them.
 template <typename Team, typename Live>
 __device__ void resolve_body_by_body(const Team& team, const FrameView& f, std::uint64_t count, const Live& live) {
   start_live(team, f, live);

@@ -55,8 +55,9 @@ __device__ inline bool is_resolved_by_i(core::Pair p, std::uint32_t rank_i, std:
   return rank_j == kNoRank || (rank_i != kNoRank && ((p.i * 0x9E3779B1U ^ p.j * 0x85EBCA6BU) >> 31) != 0);
 }
 
-// Each written body's list of its contacts, in their order: a contact's rank is the number of keys below its own, so
-// nothing is sorted, and whatever order the pairs came in is gone. kKeepsRanks: links get these ranks.
+// Makes each written body's list of its contacts, in their order. A contact's rank is the number of keys below its own,
+// so nothing is sorted, and the result does not depend on the order in which pairs were found. kKeepsRanks: links get
+// these ranks.
 template <bool kKeepsRanks, typename Team>
 __device__ void list_contacts(const Team& team, const FrameView& f, std::uint64_t count) {
   const std::uint64_t turns = (f.body_count + team.size() - 1) / team.size();

@@ -10,8 +10,8 @@
 
 namespace broadside::gpu {
 
-// Which body's vertices are looked up in the cells of the other. No cells: bodies are so far from the origin that lists
-// may be wrong.
+// Which body's vertices are looked up in the cells of the other. No cells: neither shape has them, or bodies are so far
+// from the origin that lists may be wrong.
 struct CellRoles {
   bool has_cells = false;
   bool is_asked_by_j = false;

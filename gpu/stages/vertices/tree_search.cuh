@@ -10,7 +10,7 @@
 
 namespace broadside::gpu {
 
-// What a warp finds near in a pair of nodes that it opens: of their 64 pairs of children a lane has two, with the same
+// The near pairs among the 64 pairs of children of two nodes that a warp opened. A lane has two of them, with the same
 // child of B.
 class NearChildren {
  public:
@@ -230,7 +230,7 @@ struct SearchTeam : WarpShare {  // of two or more
   }
 };
 
-// Rounds add to these by turns: what one adds to is clear, being cleared in the round before.
+// Rounds add to these in turn; each is cleared in the round before the one that adds to it.
 constexpr std::uint32_t kTeamTurns = 4;
 
 // By one warp of a team: room for what is near among all that this round adds. Returns its place, to the first lane:
@@ -260,8 +260,8 @@ __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& te
                                             Leftover& leftover) {
   const SearchStack nodes = team.nodes();
   const SearchStack leaves = team.leaves();
-  // One warp alone, opening one pair after the other, never adds more than this. Of others that are
-  // opened at once each may add 63; by 64 is sooner divided.
+  // One warp alone, opening one pair after the other, never adds more than this. Each further pair that is opened at
+  // the same time may add 63; a division by 64 is faster.
   const std::uint32_t reserve = 63 * trees.top();
   for (std::uint32_t round = 1; left.any(); ++round) {
     // All members compute the same division of work from `left`, so they need not communicate.
