@@ -13,7 +13,7 @@ std::string version_text(int version) {
   return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
 }
 
-core::Result<core::Engine> engine_of(std::string_view id, const core::Settings& settings,
+core::Result<core::Engine> engine_of(std::string_view id, std::string_view twin_of, const core::Settings& settings,
                                      const PipelineOptions& options, const PairFinderOptions& alone) {
   if (const std::string why = gpu_absent(); !why.empty())
     return core::Error{why, std::string(id), "run on a machine with an NVIDIA GPU", core::Exit::kMissing};
@@ -21,6 +21,7 @@ core::Result<core::Engine> engine_of(std::string_view id, const core::Settings& 
   engine.id = id;
   engine.build = "Broadside, float32, CUDA " + version_text(CUDART_VERSION) + ", " + device_name();
   engine.settings = settings;
+  engine.declaration = core::method_declaration(twin_of);
   engine.broad_phase = std::make_unique<PairFinder>(alone);
   engine.dynamics = std::make_unique<Pipeline>(options);
   return engine;
@@ -48,7 +49,7 @@ core::Result<core::Engine> create_octree_gpu(const core::Settings& settings) {
   if (solver == "jacobi") options.solver = Solver::kJacobi;
   if (solver == "printed-E8" || options.variant == core::Variant::kE8) options.solver = Solver::kRacing;
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
-  return engine_of("octree-gpu", settings, options, {options.broad, options.variant});
+  return engine_of("octree-gpu", "octree-cpu", settings, options, {options.broad, options.variant});
 }
 
 core::Result<core::Engine> create_hash_gpu(const core::Settings& settings) {
@@ -58,7 +59,7 @@ core::Result<core::Engine> create_hash_gpu(const core::Settings& settings) {
   options.levels = *core::levels_named(settings.text("levels"));
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
   const float alone_m = options.hash_cell_m > 0.0F ? options.hash_cell_m : core::Parameters{}.hash_cell_m;
-  return engine_of("hash-gpu", settings, options, {Broad::kHash, core::Variant::kSound, alone_m});
+  return engine_of("hash-gpu", "hash-cpu", settings, options, {Broad::kHash, core::Variant::kSound, alone_m});
 }
 
 std::string device_name() {

@@ -207,7 +207,7 @@ class ContactSet final : public Validator {
 std::string why_not(const Subject& subject) {
   constexpr std::uint32_t kNeeded = core::bit(core::Group::kContacts) | core::bit(core::Group::kBodies);
   if (std::string text = lacking(subject.header, kNeeded); !text.empty()) return text;
-  return why_not_method_response(subject.header);
+  return why_not_method(subject.header);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ std::string why_not(const Subject& subject) {
   if (subject.baseline == nullptr) return "no second run of the same stamp was given";
   const core::Stamp& a = subject.header.stamp;
   const core::Stamp& b = subject.baseline->stamp;
-  if (!are_twins(a.engine, b.engine)) return "the baseline is another engine (" + b.engine + ")";
+  if (!are_twins(subject.header, *subject.baseline)) return "the baseline is another engine (" + b.engine + ")";
   if (!same_settings_but(a, b, {"threads"})) return "the baseline has other settings (" + b.label() + ")";
   if (subject.header.driver != subject.baseline->driver) return "the two were fed by different engines";
   return {};

@@ -45,7 +45,7 @@ std::string why_not(const Subject& subject) {
   constexpr std::uint32_t kRead =
       core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) | core::bit(core::Group::kContacts);
   if (std::string text = lacking(subject.header, kRead); !text.empty()) return text;
-  if (std::string text = why_not_method_response(subject.header); !text.empty()) return text;
+  if (std::string text = why_not_method(subject.header); !text.empty()) return text;
   if (!subject.header.driver.empty()) return "the states are those of another engine";
   if (setting(subject.header.stamp, "solver") != "colored" || setting(subject.header.stamp, "variant") == "printed-E8")
     return "contacts are not applied one after another, so their works do not add up";

@@ -136,7 +136,7 @@ class FrictionEnergy final : public Validator {
 
 std::string why_not(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
-  return why_not_method_response(subject.header);
+  return why_not_method(subject.header);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ class LevelAgreement final : public Validator {
     if (subject.baseline == nullptr || !level_) return;
     const core::TraceHeader& base = *subject.baseline;
     constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
-    if (!are_twins(base.stamp.engine, header_.stamp.engine) || !lacking(base, kBoth).empty()) return;
+    if (!are_twins(base, header_) || !lacking(base, kBoth).empty()) return;
     if (!same_settings_but(base.stamp, header_.stamp, {"broad", "levels", "threads"})) return;
     baseline_level_ = last_level(base.stamp);
     baseline_ = base.stamp.label();

@@ -263,7 +263,7 @@ std::string why_not(const Subject& subject) {
     return "the baseline is of the same scene, not of a transformed one";
   const core::Stamp& a = subject.header.stamp;
   const core::Stamp& b = subject.baseline->stamp;
-  if (!are_twins(a.engine, b.engine)) return "the baseline is another engine (" + b.engine + ")";
+  if (!are_twins(subject.header, *subject.baseline)) return "the baseline is another engine (" + b.engine + ")";
   if (!same_settings_but(a, b, {"threads"})) return "the baseline has other settings (" + b.label() + ")";
   for (const core::TraceHeader* header : {&subject.header, subject.baseline})
     if (std::string text = lacking(*header, core::bit(Group::kDetection)); !text.empty()) return text;

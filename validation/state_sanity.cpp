@@ -28,7 +28,7 @@ class StateSanity final : public Validator {
       : header_(subject.header),
         scene_(header_.scene),
         bodies_(scene_),
-        is_method_(why_not_method_response(header_).empty() && header_.driver.empty()),
+        is_method_(why_not_method(header_).empty() && header_.driver.empty()),
         translates_(is_method_ && has(header_, core::Group::kDetection)),
         is_colored_(is_method_ && setting(header_.stamp, "solver") == "colored" &&
                     setting(header_.stamp, "variant") != "printed-E8" && has(header_, core::Group::kContacts)) {

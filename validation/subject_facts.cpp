@@ -62,17 +62,16 @@ bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initiali
   return agrees(a, b) && agrees(b, a);
 }
 
-bool are_twins(std::string_view engine, std::string_view other) {
-  const auto family = [](std::string_view id) {
-    return id.ends_with("-cpu") || id.ends_with("-gpu") ? id.substr(0, id.size() - 4) : id;
+bool are_twins(const core::TraceHeader& a, const core::TraceHeader& b) {
+  const auto origin = [](const core::TraceHeader& h) {
+    return h.declaration.declares("twin_of") ? h.declaration.text("twin_of") : std::string_view(h.stamp.engine);
   };
-  return family(engine) == family(other);
+  return origin(a) == origin(b);
 }
 
-std::string why_not_method_response(const core::TraceHeader& header) {
-  if (header.stamp.engine.starts_with("bullet-"))
-    return "Bullet resolves contacts by its own iterated solver, not by the method's response";
-  return {};
+std::string why_not_method(const core::TraceHeader& header) {
+  if (header.declaration.follows_method()) return {};
+  return "the engine does not declare the method of METHOD (" + std::string(core::kMethodName) + ")";
 }
 
 }  // namespace broadside::validation

@@ -22,11 +22,10 @@ std::string_view setting(const core::Stamp& stamp, std::string_view key);
 // keys of their own, such as a device's; then only keys that both have are compared.
 bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initializer_list<std::string_view> but);
 
-// octree-cpu and octree-gpu (and hash-cpu and hash-gpu) are twins: one method, bit-identical by design.
-bool are_twins(std::string_view engine, std::string_view other);
+// Two runs of one engine, or of engines of which one declares that it repeats the other's bits, or both a third's.
+bool are_twins(const core::TraceHeader& a, const core::TraceHeader& b);
 
-// Why METHOD 4 to 6 do not describe how this engine resolves contacts; empty when they do, or when nothing is known
-// about the engine.
-std::string why_not_method_response(const core::TraceHeader& header);
+// Why the laws of METHOD do not hold for this engine; empty when it declares that it follows METHOD.
+std::string why_not_method(const core::TraceHeader& header);
 
 }  // namespace broadside::validation

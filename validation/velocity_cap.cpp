@@ -30,8 +30,7 @@ class VelocityCap final : public Validator {
 
 std::string why_not(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
-  if (subject.header.stamp.engine.starts_with("bullet-")) return "Bullet does not clip velocities";
-  return {};
+  return why_not_method(subject.header);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 using core::Quat;
 using core::Vec3;
 using datasets::RandomStream;
-using reference::Point;
+using exact::Point;
 
 constexpr int kShapes = 24;       // of each kind; plates and needles have a third as many
 constexpr int kOrientations = 8;  // of meshes
@@ -119,10 +119,10 @@ core::Status PairSource::add(core::Result<core::Mesh> made) {
   auto mesh = std::make_shared<const core::Mesh>(std::move(made).value());
   double reach = 0.0;
   for (const Vec3 v : mesh->vertices)
-    reach = std::max(reach, std::sqrt(dot(reference::to_point(v), reference::to_point(v))));
+    reach = std::max(reach, std::sqrt(dot(exact::to_point(v), exact::to_point(v))));
   const Vec3 size = core::bounds(*mesh).max - core::bounds(*mesh).min;
   if (is_convex_) {
-    auto core = reference::convex_core_of(*mesh);
+    auto core = exact::convex_core_of(*mesh);
     if (!core) return core::Error{"mesh '" + mesh->name + "' is not convex", "agree", "", core::Exit::kInternal};
     cores_.push_back(std::move(*core));
   }
@@ -230,26 +230,26 @@ void PairSource::place(TestPair& pair, Draw& draw, std::uint64_t index) {
       pair.degeneracy == Degeneracy::kParallelFaces || (kind_ == PairKind::kKissing && index % 3 != 2);
   if (is_aligned) {
     const auto axis = static_cast<int>(draw.random.below(3));
-    along = reference::to_point(core::rotate(pair.pose_a.orientation, core::axis_vector(axis, 1.0F)));
+    along = exact::to_point(core::rotate(pair.pose_a.orientation, core::axis_vector(axis, 1.0F)));
     Vec3 beside;
     for (int k = 0; k < 3; ++k)
       if (k != axis) beside[k] = static_cast<float>(draw.random.between(-1.0, 1.0) * s);
     if (kind_ == PairKind::kKissing)
       for (int k = 0; k < 3; ++k) beside[k] = static_cast<float>(on_grid(beside[k]));
-    offset = reference::to_point(core::rotate(pair.pose_a.orientation, beside));
+    offset = exact::to_point(core::rotate(pair.pose_a.orientation, beside));
   }
   const double t = move_to(pair, along, offset, target);
   // Bodies parallel to the axes lie on the grid (middles on half of it), but for what rounding left of t: such boxes
   // touch exactly.
   if (kind_ == PairKind::kKissing && index % 3 == 0)
-    pair.pose_b.position = to_core(reference::to_point(pair.pose_a.position) + offset + 0.5 * on_grid(2.0 * t) * along);
+    pair.pose_b.position = to_core(exact::to_point(pair.pose_a.position) + offset + 0.5 * on_grid(2.0 * t) * along);
 }
 
 // Newton's method from outside. Along a line the signed distance of convex bodies is convex, so no step goes too far.
 // For meshes it only comes near the target, so the separation reached is measured afterwards.
 double PairSource::move_to(TestPair& pair, Point along, Point offset, double target) {
   double t = reach_m_[pair.mesh_a] + reach_m_[pair.mesh_b] + std::max(0.0, target);
-  const Point origin = reference::to_point(pair.pose_a.position);
+  const Point origin = exact::to_point(pair.pose_a.position);
   // Meshes are used at whatever separation they reach, because each step costs a search of two trees.
   const double near_enough = is_convex_ ? 1e-8 : 0.1 * std::abs(target);
   for (int step = 0; step < 16; ++step) {
@@ -263,25 +263,25 @@ double PairSource::move_to(TestPair& pair, Point along, Point offset, double tar
   return t;
 }
 
-const reference::TriangleTree& PairSource::tree(std::uint32_t mesh, Quat q) {
+const exact::TriangleTree& PairSource::tree(std::uint32_t mesh, Quat q) {
   for (std::size_t k = 0; k < trees_.size(); ++k)
     if (mesh_of_tree_[k] == mesh && trees_[k].first == q) return *trees_[k].second;
   mesh_of_tree_.push_back(mesh);
-  trees_.emplace_back(q, std::make_unique<reference::TriangleTree>(*meshes_[mesh], q));
+  trees_.emplace_back(q, std::make_unique<exact::TriangleTree>(*meshes_[mesh], q));
   return *trees_.back().second;
 }
 
 void PairSource::arbitrate(TestPair& pair) {
   if (is_convex_) {
-    const reference::SignedDistance found = reference::signed_distance(
-        reference::placed(cores_[pair.mesh_a], pair.pose_a), reference::placed(cores_[pair.mesh_b], pair.pose_b));
+    const exact::SignedDistance found = exact::signed_distance(
+        exact::placed(cores_[pair.mesh_a], pair.pose_a), exact::placed(cores_[pair.mesh_b], pair.pose_b));
     pair.distance_m = found.distance_m;
     pair.normal = found.normal;
   } else {
     tree(pair.mesh_a, pair.pose_a.orientation);  // both exist before either is referred to
-    const reference::TriangleTree& b = tree(pair.mesh_b, pair.pose_b.orientation);
-    const reference::TriangleTree& a = tree(pair.mesh_a, pair.pose_a.orientation);
-    const reference::Nearest near = reference::nearest_of_trees(a, pair.pose_a.position, b, pair.pose_b.position);
+    const exact::TriangleTree& b = tree(pair.mesh_b, pair.pose_b.orientation);
+    const exact::TriangleTree& a = tree(pair.mesh_a, pair.pose_a.orientation);
+    const exact::Nearest near = exact::nearest_of_trees(a, pair.pose_a.position, b, pair.pose_b.position);
     pair.distance_m = std::sqrt(near.squared_m2);
     pair.normal = pair.distance_m > 0.0 ? (1.0 / pair.distance_m) * (near.on_a - near.on_b) : Point{};
   }
@@ -300,8 +300,8 @@ void PairSource::arbitrate(TestPair& pair) {
 }
 
 double PairSource::overlap_along(const TestPair& pair, Point direction) const {
-  return reference::overlap_along(reference::placed(cores_[pair.mesh_a], pair.pose_a),
-                                  reference::placed(cores_[pair.mesh_b], pair.pose_b), direction);
+  return exact::overlap_along(exact::placed(cores_[pair.mesh_a], pair.pose_a),
+                                  exact::placed(cores_[pair.mesh_b], pair.pose_b), direction);
 }
 
 }  // namespace broadside::bench

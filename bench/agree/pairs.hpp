@@ -12,8 +12,8 @@
 #include "core/engine/narrow_phase.hpp"
 #include "core/result.hpp"
 #include "core/scene/mesh.hpp"
-#include "reference/exact/convex_core.hpp"
-#include "reference/exact/triangle_tree.hpp"
+#include "core/exact/convex_core.hpp"
+#include "core/exact/triangle_tree.hpp"
 
 namespace broadside::bench {
 
@@ -41,7 +41,7 @@ struct TestPair {
   Degeneracy degeneracy = Degeneracy::kNone;
   // The arbiter's: signed for convex bodies, 0 where the surfaces of meshes meet.
   double distance_m = 0.0;
-  reference::Point normal;  // unit, from B to A; zero where meshes meet
+  exact::Point normal;  // unit, from B to A; zero where meshes meet
   Separated separation = Separated::kFar;
 };
 
@@ -60,7 +60,7 @@ class PairSource {
   [[nodiscard]] const std::vector<std::shared_ptr<const core::Mesh>>& meshes() const { return meshes_; }
   [[nodiscard]] bool has_depth() const { return is_convex_; }
   // How far A must move along a unit direction, from B to A, to part from B. For convex bodies only.
-  [[nodiscard]] double overlap_along(const TestPair& pair, reference::Point direction) const;
+  [[nodiscard]] double overlap_along(const TestPair& pair, exact::Point direction) const;
 
  private:
   struct Draw;
@@ -68,8 +68,8 @@ class PairSource {
   core::Status add_shapes(const std::string& mesh);
   core::Status add(core::Result<core::Mesh> mesh);
   void place(TestPair& pair, Draw& draw, std::uint64_t index);
-  double move_to(TestPair& pair, reference::Point along, reference::Point offset, double target);
-  const reference::TriangleTree& tree(std::uint32_t mesh, core::Quat q);
+  double move_to(TestPair& pair, exact::Point along, exact::Point offset, double target);
+  const exact::TriangleTree& tree(std::uint32_t mesh, core::Quat q);
 
   PairKind kind_ = PairKind::kBoxes;
   std::uint64_t seed_ = 0;
@@ -77,9 +77,9 @@ class PairSource {
   std::vector<std::shared_ptr<const core::Mesh>> meshes_;
   std::vector<double> reach_m_;       // farthest vertex from the origin
   std::vector<double> least_half_m_;  // least half side of the box
-  std::vector<reference::ConvexCore> cores_;
+  std::vector<exact::ConvexCore> cores_;
   // Turned meshes: few orientations each, because a tree of a large mesh takes a second to build.
-  std::vector<std::pair<core::Quat, std::unique_ptr<reference::TriangleTree>>> trees_;
+  std::vector<std::pair<core::Quat, std::unique_ptr<exact::TriangleTree>>> trees_;
   std::vector<std::uint32_t> mesh_of_tree_;
   // Ranges of meshes_: general shapes first, then plates, then needles.
   std::uint32_t general_ = 0;

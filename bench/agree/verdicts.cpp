@@ -12,7 +12,7 @@
 namespace broadside::bench {
 namespace {
 
-using reference::Point;
+using exact::Point;
 
 bool is_zero(core::Vec3 v) {
   return v == core::Vec3{};
@@ -25,7 +25,7 @@ bool is_number(const core::Separation& s) {
 
 // Between the answer's normal and the arbiter's, rad.
 double angle_between(core::Vec3 n, Point truth) {
-  const Point p = reference::to_point(n);
+  const Point p = exact::to_point(n);
   const Point c = cross(p, truth);
   return std::atan2(std::sqrt(dot(c, c)), dot(p, truth));
 }
@@ -45,7 +45,7 @@ Agreement judge_apart(const PairSource& source, const TestPair& pair, const core
   if (!is_number(s)) return Agreement::kNoNumber;
   if (std::abs(s.distance_m - pair.distance_m) > kTouchingBand_m) return Agreement::kDistanceOff;
   if (is_zero(s.normal)) return Agreement::kAgree;
-  const Point n = reference::to_point(s.normal);
+  const Point n = exact::to_point(s.normal);
   if (shows_the_gap(source, pair, n)) return Agreement::kAgree;
   return shows_the_gap(source, pair, -1.0 * n) ? Agreement::kConvention : Agreement::kNormalOff;
 }
@@ -56,7 +56,7 @@ Agreement judge_overlap(const PairSource& source, const TestPair& pair, const co
   if (!is_number(s) || is_zero(s.normal)) return Agreement::kNoNumber;
   if (std::abs(s.distance_m - pair.distance_m) > kTouchingBand_m) return Agreement::kDepthOff;
   // Several directions may be equally short; any of them is right.
-  const Point n = reference::to_point(s.normal);
+  const Point n = exact::to_point(s.normal);
   const double most = -pair.distance_m + kTouchingBand_m;
   if (source.overlap_along(pair, n) <= most) return Agreement::kAgree;
   return source.overlap_along(pair, -1.0 * n) <= most ? Agreement::kConvention : Agreement::kNormalOff;

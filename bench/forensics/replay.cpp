@@ -155,7 +155,7 @@ core::Status compare_flights(const core::TraceReader& a, const core::TraceReader
 }
 
 core::Status compare_simulations(const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
-  if (!validation::are_twins(a.header().stamp.engine, b.header().stamp.engine)) {
+  if (!validation::are_twins(a.header(), b.header())) {
     if (a.header().groups == 0)
       return core::Error{"it records digests alone, and those of another engine mean something else", a.path().string(),
                          "record it with --record full"};

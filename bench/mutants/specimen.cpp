@@ -33,6 +33,7 @@ core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics&
   stamp.scene_digest = core::scene_digest(scene);
   stamp.engine = "octree-cpu";
   stamp.settings = settings;
+  specimen.header.declaration = core::method_declaration();
   specimen.header.groups = dynamics.groups();
   if (core::Status s = dynamics.load(specimen.header.scene); !s) return s.error();
   core::PenetrationCounter counter(scene.parameters.delta_m);

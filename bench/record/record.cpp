@@ -25,6 +25,7 @@ using core::Group;
 core::TraceHeader header_for(const CellRequest& request, const core::Engine& engine) {
   core::TraceHeader header;
   header.stamp = stamp_of(*request.scene, engine);
+  header.declaration = engine.declaration;
   header.scene = *request.scene;
   header.level = request.level;
   header.every = request.selection.every;

@@ -49,6 +49,7 @@ core::Result<std::unique_ptr<EngineStream>> EngineStream::start(const core::Scen
 core::Status EngineStream::load() {
   header_.scene = scene_;
   header_.stamp = stamp_of(scene_, engine_);
+  header_.declaration = engine_.declaration;
   for (std::uint64_t step = 1; step <= scene_.frames; ++step) steps_.push_back(step);
   if (engine_.dynamics) {
     header_.groups = engine_.dynamics->groups();

@@ -101,6 +101,29 @@ Status check_spring(const Scene& scene, std::size_t index) {
   return Done{};
 }
 
+Status check_motion(const Scene& scene) {
+  if (scene.motion == Motion::kTranslate && scene.mass_properties.empty()) return Done{};
+  if (!scene.mass_properties.empty() && scene.mass_properties.size() != scene.bodies.size())
+    return bad(scene, "bodies", "some bodies have mass properties and some have none", "give them for every body");
+  if (scene.motion == Motion::kRigid && !scene.springs.empty())
+    return bad(scene, "springs", "springs hold bodies that translate", "leave out springs, or motion = \"rigid\"");
+  for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
+    if (!(scene.bodies[i].inverse_mass > 0.0F)) continue;
+    if (scene.mass_properties.empty()) continue;
+    if (const Status s = check_mass_properties(scene.mass_properties[i]); !s)
+      return bad(scene, "body " + std::to_string(i), s.error().what, s.error().advice);
+  }
+  // Bodies of one mesh and mass have one inertia, so each mesh is tried once.
+  if (scene.motion == Motion::kTranslate || !scene.mass_properties.empty()) return Done{};
+  std::vector<std::uint8_t> is_tried(scene.meshes.size());
+  for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
+    const Body& b = scene.bodies[i];
+    if (!(b.inverse_mass > 0.0F) || is_tried[b.mesh]++ != 0) continue;
+    if (const auto derived = mass_properties_of(scene, i); !derived) return derived.error();
+  }
+  return Done{};
+}
+
 class CanonicalHash {
  public:
   CanonicalHash() : state_(XXH64_createState()) { XXH64_reset(state_, 0); }
@@ -136,10 +159,23 @@ Status check_scene(const Scene& scene) {
     return bad(scene, "gravity_m_s2", "it is NaN or infinite", "give three finite numbers, in m/s^2");
   if (!(scene.dt_s > 0.0F && std::isfinite(scene.dt_s)))
     return bad(scene, "dt_s", "it is zero, negative or not finite", "give a step above zero, in s");
+  if (Status s = check_motion(scene); !s) return s;
   const Box& d = scene.domain;
   if (!(is_finite(d.min) && is_finite(d.max) && d.min.x < d.max.x && d.min.y < d.max.y && d.min.z < d.max.z))
     return bad(scene, "domain", "it has no volume or is not finite", "give min below max on every axis, in m");
   return check_parameters(scene);
+}
+
+std::string_view motion_word(Motion motion) {
+  return motion == Motion::kRigid ? "rigid" : "translate";
+}
+
+Result<MassProperties> mass_properties_of(const Scene& scene, std::uint32_t body) {
+  if (!scene.mass_properties.empty()) return scene.mass_properties[body];
+  const Body& b = scene.bodies[body];
+  auto derived = uniform_mass_properties(*scene.meshes[b.mesh], 1.0 / static_cast<double>(b.inverse_mass));
+  if (derived) return derived;
+  return bad(scene, "body " + std::to_string(body), derived.error().what, derived.error().advice);
 }
 
 std::uint64_t scene_digest(const Scene& scene) {
@@ -162,6 +198,11 @@ std::uint64_t scene_digest(const Scene& scene) {
   hash.add(scene.frames), hash.add(scene.seed), hash.add(scene.parameters);
   // Only where there are some: the digests of scenes without springs are older than springs.
   for (const Spring& s : scene.springs) hash.add(s);
+  // Likewise: scenes whose bodies translate have the digests that they had before bodies could turn.
+  if (scene.motion != Motion::kTranslate || !scene.mass_properties.empty()) {
+    hash.add(scene.motion);
+    for (const MassProperties& p : scene.mass_properties) hash.add(p.center_of_mass_m), hash.add(p.inertia_kg_m2);
+  }
   return hash.value();
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/material.hpp"
@@ -12,6 +13,7 @@
 #include "core/math/vec3.hpp"
 #include "core/parameters.hpp"
 #include "core/result.hpp"
+#include "core/scene/mass_properties.hpp"
 #include "core/scene/mesh.hpp"
 #include "core/scene/spring.hpp"
 
@@ -20,12 +22,17 @@ namespace broadside::core {
 struct Body {
   std::uint32_t mesh = 0;     // index into Scene::meshes
   Vec3 position;              // of the mesh's origin, m
-  Quat orientation;           // constant during a run: the method's bodies translate only
+  Quat orientation;           // world from body; constant during a run where the scene's bodies translate only
   Vec3 velocity;              // m/s
   Vec3 angular_velocity;      // rad/s; must be zero for the pipeline's engines
   float inverse_mass = 1.0F;  // 1/kg; 0 = static
   Material material;
 };
+
+// Whether the bodies of a scene may turn. METHOD's bodies translate.
+enum class Motion : std::uint32_t { kTranslate = 0, kRigid = 1 };
+
+std::string_view motion_word(Motion motion);
 
 struct Scene {
   std::string name;         // "freefall:bunny:50", or the name in the scene file
@@ -40,6 +47,11 @@ struct Scene {
   std::uint32_t frames = 1;
   std::uint64_t seed = 0;
   Parameters parameters;
+  Motion motion = Motion::kTranslate;
+  // One per body where the scene gives them; otherwise none, and mass_properties_of derives them.
+  std::vector<MassProperties> mass_properties;
+  // The name of the formula that says how this scene ends (validation/closed_form); empty = none is known.
+  std::string answer;
 
   [[nodiscard]] std::uint32_t body_count() const { return static_cast<std::uint32_t>(bodies.size()); }
 };
@@ -47,6 +59,9 @@ struct Scene {
 // Everything that an engine may rely on: finite numbers, masses and parameters in range, unit quaternions, indices that
 // exist, meshes with triangles, a domain with volume. The first violation is named with its body and field.
 Status check_scene(const Scene& scene);
+
+// What the scene gives, or a body of uniform density. The error of a mesh without inertia names the body.
+Result<MassProperties> mass_properties_of(const Scene& scene, std::uint32_t body);
 
 // XXH64 over the canonical little-endian bytes of everything but name, description and mesh provenance.
 std::uint64_t scene_digest(const Scene& scene);

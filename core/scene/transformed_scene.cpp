@@ -31,6 +31,10 @@ Scene scaled_scene(const Scene& scene, float factor) {
   for (Spring& s : out.springs) s.anchor = factor * s.anchor;
   out.domain = {factor * scene.domain.min, factor * scene.domain.max};
   out.gravity_m_s2 = factor * scene.gravity_m_s2;
+  for (MassProperties& m : out.mass_properties) {
+    for (double& c : m.center_of_mass_m) c *= factor;
+    for (double& i : m.inertia_kg_m2) i *= double{factor} * factor;
+  }
   Parameters& p = out.parameters;
   for (float* length :
        {&p.delta_m, &p.v_threshold_m_s, &p.impulse_min_n_s, &p.v_max_m_s, &p.epsilon_m, &p.theta_m, &p.hash_cell_m})
@@ -56,6 +60,12 @@ Scene mirrored_scene(const Scene& scene, int axis) {
   }
   for (Spring& s : out.springs) mirror(s.anchor);
   mirror(out.gravity_m_s2);
+  for (MassProperties& m : out.mass_properties) {
+    m.center_of_mass_m[static_cast<std::size_t>(axis)] *= -1.0;
+    // Of xy, xz and yz, the two that have the mirrored axis change their sign.
+    for (int k = 0; k < 3; ++k)
+      if (k != 2 - axis) m.inertia_kg_m2[static_cast<std::size_t>(3 + k)] *= -1.0;
+  }
   out.domain.min[axis] = -scene.domain.max[axis];
   out.domain.max[axis] = -scene.domain.min[axis];
   return out;
@@ -69,6 +79,8 @@ Scene renumbered_scene(const Scene& scene, std::span<const std::uint32_t> order)
     place[order[k]] = k;
   }
   for (Spring& s : out.springs) s.body = place[s.body];
+  if (!scene.mass_properties.empty())
+    for (std::uint32_t k = 0; k < order.size(); ++k) out.mass_properties[k] = scene.mass_properties[order[k]];
   return out;
 }
 

@@ -19,6 +19,9 @@ constexpr std::uint32_t kOfConfirmed = bit(Group::kConfirmed);
 constexpr std::uint32_t kOfContacts = bit(Group::kContacts);
 constexpr std::uint32_t kOfNarrow = bit(Group::kNarrow);
 constexpr std::uint32_t kOfOctree = bit(Group::kOctree);
+constexpr std::uint32_t kOfWideBodies = bit(Group::kWideBodies);
+constexpr std::uint32_t kOfDetectedOrientation = bit(Group::kDetectedOrientation);
+constexpr std::uint32_t kOfPoints = bit(Group::kPoints);
 constexpr std::uint32_t kOfBodyOctree = bit(Group::kBodyOctree);
 
 constexpr std::size_t in_contact(std::size_t kinematics, std::size_t field) {
@@ -38,9 +41,18 @@ constexpr std::array kColumns{
     Column{"/trace/body/velocity", kOfBodies, kFrameBodies, kF32, 3, Records::kVelocity, 0, "m/s"},
     Column{"/trace/body/angular_velocity", kOfBodies, kFrameBodies, kF32, 3, Records::kAngularVelocity, 0, "rad/s"},
 
+    Column{"/trace/body/position", kOfWideBodies, kFrameBodies, kF64, 3, Records::kWidePosition, 0, "m"},
+    Column{"/trace/body/orientation", kOfWideBodies, kFrameBodies, kF64, 4, Records::kWideOrientation, 0, "1"},
+    Column{"/trace/body/velocity", kOfWideBodies, kFrameBodies, kF64, 3, Records::kWideVelocity, 0, "m/s"},
+    Column{"/trace/body/angular_velocity", kOfWideBodies, kFrameBodies, kF64, 3, Records::kWideAngularVelocity, 0,
+           "rad/s"},
+
     Column{"/trace/detection/position", kOfDetection, kFrameBodies, kF32, 3, Records::kDetectedPosition, 0, "m"},
     Column{"/trace/detection/velocity", kOfDetection, kFrameBodies, kF32, 3, Records::kDetectedVelocity, 0, "m/s"},
     Column{"/trace/detection/boxes", kOfDetection, kFrameBodies, kF32, 6, Records::kBoxes, 0, "m"},
+
+    Column{"/trace/detection/orientation", kOfDetectedOrientation, kFrameBodies, kF32, 4, Records::kDetectedOrientation,
+           0, "1"},
 
     Column{"/trace/pairs/pairs", kOfPairs, kRows, kU32, 2, Records::kPairs, 0, "1"},
     Column{"/trace/pairs/offsets", kOfPairs, kOffsets, kU64, 1, Records::kPairs, 0, "1"},
@@ -84,6 +96,16 @@ constexpr std::array kColumns{
     Column{"/trace/contact/post_velocity_b", kOfContacts, kRows, kF32, 3, Records::kContacts,
            in_contact(offsetof(Contact, post_b), kV), "m/s"},
     Column{"/trace/contact/offsets", kOfContacts, kOffsets, kU64, 1, Records::kContacts, 0, "1"},
+
+    Column{"/trace/point/a", kOfPoints, kRows, kU32, 1, Records::kPoints, offsetof(ContactPoint, a), "1"},
+    Column{"/trace/point/b", kOfPoints, kRows, kU32, 1, Records::kPoints, offsetof(ContactPoint, b), "1"},
+    Column{"/trace/point/point", kOfPoints, kRows, kF32, 3, Records::kPoints, offsetof(ContactPoint, point), "m"},
+    Column{"/trace/point/normal", kOfPoints, kRows, kF32, 3, Records::kPoints, offsetof(ContactPoint, normal), "1"},
+    Column{"/trace/point/gap", kOfPoints, kRows, kF32, 1, Records::kPoints, offsetof(ContactPoint, gap_m), "m"},
+    Column{"/trace/point/impulse", kOfPoints, kRows, kF32, 3, Records::kPoints, offsetof(ContactPoint, impulse), "N s"},
+    Column{"/trace/point/feature", kOfPoints, kRows, kU32, 1, Records::kPoints, offsetof(ContactPoint, feature), "1",
+           true},
+    Column{"/trace/point/offsets", kOfPoints, kOffsets, kU64, 1, Records::kPoints, 0, "1"},
 
     Column{"/trace/narrow/pairs", kOfNarrow, kRows, kU32, 2, Records::kMeasured, 0, "1"},
     Column{"/trace/narrow/distance", kOfNarrow, kRows, kF64, 1, Records::kSeparations, offsetof(Separation, distance_m),
@@ -137,9 +159,10 @@ constexpr std::array kGroupRows{
     GroupRow{Group::kPairs, "/trace/pairs"},      GroupRow{Group::kConfirmed, "/trace/confirmed"},
     GroupRow{Group::kContacts, "/trace/contact"}, GroupRow{Group::kNarrow, "/trace/narrow"},
     GroupRow{Group::kOctree, "/trace/octree"},    GroupRow{Group::kBodyOctree, "/trace/body_octree"},
+    GroupRow{Group::kPoints, "/trace/point"},     GroupRow{Group::kDetectedOrientation, "/trace/detection/orientation", true},
 };
 
-static_assert(sizeof(Vec3) == 12 && sizeof(Quat) == 16 && sizeof(Box) == 24 && sizeof(Pair) == 8 && sizeof(bool) == 1,
+static_assert(sizeof(Vec3) == 12 && sizeof(Quat) == 16 && sizeof(Box) == 24 && sizeof(WideVec3) == 24 && sizeof(WideQuat) == 32 && sizeof(Pair) == 8 && sizeof(bool) == 1,
               "rows are copied as they lie in memory");
 
 // The one place that knows which member an enumerator means. visit gets a vector or a single value.
@@ -190,6 +213,18 @@ auto visit_records(Frame& f, Records which, Visit visit) {
       return visit(f.body_octree_boxes);
     case Records::kLeafOfVertex:
       return visit(f.leaf_of_vertex);
+    case Records::kWidePosition:
+      return visit(f.wide.position);
+    case Records::kWideOrientation:
+      return visit(f.wide.orientation);
+    case Records::kWideVelocity:
+      return visit(f.wide.velocity);
+    case Records::kWideAngularVelocity:
+      return visit(f.wide.angular_velocity);
+    case Records::kDetectedOrientation:
+      return visit(f.detected_orientation);
+    case Records::kPoints:
+      return visit(f.points);
     case Records::kStep:
     case Records::kStatistics:
       break;

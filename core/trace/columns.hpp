@@ -52,6 +52,12 @@ enum class Records : std::uint8_t {
   kBodyOctreeBoxes,
   kLeafOfVertex,
   kStatistics,
+  kWidePosition,
+  kWideOrientation,
+  kWideVelocity,
+  kWideAngularVelocity,
+  kDetectedOrientation,
+  kPoints,
 };
 
 struct Column {
@@ -63,16 +69,20 @@ struct Column {
   Records records;
   std::size_t offset;     // of the first element in a record, bytes
   std::string_view unit;  // "1" = a pure number
+  bool is_optional = false;  // a file may lack it, and then its fields keep their defaults
 };
 
 // In the order in which they are written.
 std::span<const Column> columns();
 
-// The HDF5 group that holds a Group's datasets: its being there says that the trace has the Group.
+// The HDF5 object whose being there says that the trace has the Group: the HDF5 group that holds its datasets, or where
+// it has one dataset in another's group, that dataset.
 struct GroupRow {
   Group group;
   std::string_view path;
+  bool is_dataset = false;
 };
+// Without kWideBodies, which stands in kBodies' place when its datasets are float64.
 std::span<const GroupRow> group_rows();
 
 // Separations are one per measured pair and share its offsets; every other array of rows has offsets of its own.

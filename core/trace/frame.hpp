@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "core/contact.hpp"
+#include "core/contact_point.hpp"
 #include "core/engine/narrow_phase.hpp"
 #include "core/math/box.hpp"
 #include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
+#include "core/math/wide.hpp"
 #include "core/method/proximity.hpp"
 #include "core/pair.hpp"
 #include "core/scene/octree_node.hpp"
@@ -27,11 +29,22 @@ enum class Group : std::uint32_t {
   kNarrow = 1U << 5,      // separations measured by a narrow-phase engine
   kOctree = 1U << 6,      // the scene octree, and the node that each body is stored in
   kBodyOctree = 1U << 7,  // the octrees over the shapes' vertices, told once: with the first frame that is recorded
+  kDetectedOrientation = 1U << 8,  // orientations that collision detection saw, of engines whose bodies turn
+  kPoints = 1U << 9,               // points of contact with the totals of the step
+  kWideBodies = 1U << 10,          // the states of kBodies in float64; a trace with it has kBodies too
 };
 
 constexpr std::uint32_t bit(Group g) {
   return static_cast<std::uint32_t>(g);
 }
+
+// Body states in float64. n = body count.
+struct WideStates {
+  std::vector<WideVec3> position;  // [n] m
+  std::vector<WideQuat> orientation;
+  std::vector<WideVec3> velocity;  // [n] m/s
+  std::vector<WideVec3> angular_velocity;  // [n] rad/s
+};
 
 // Vectors of a group that the trace does not have are empty. n = body count.
 struct FrameRecord {
@@ -43,9 +56,11 @@ struct FrameRecord {
   std::vector<Quat> orientation;
   std::vector<Vec3> velocity;  // [n] m/s
   std::vector<Vec3> angular_velocity;
+  WideStates wide;  // the same in float64, of kWideBodies; the vectors above are its numbers rounded
 
   std::vector<Vec3> detected_position;
   std::vector<Vec3> detected_velocity;
+  std::vector<Quat> detected_orientation;
   std::vector<Box> boxes;  // [n] at detection: the exact candidate set is defined by these
 
   std::vector<Pair> pairs;
@@ -56,6 +71,7 @@ struct FrameRecord {
   std::vector<Proximity> proximity;  // one per confirmed pair; empty when the vertex stage was off
 
   std::vector<Contact> contacts;
+  std::vector<ContactPoint> points;
 
   std::vector<Pair> measured;
   std::vector<Separation> separations;

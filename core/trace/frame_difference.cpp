@@ -28,7 +28,13 @@ constexpr std::array kStages{
     Stage{Records::kPairs, bit(Group::kPairs)},
     Stage{Records::kConfirmed, bit(Group::kConfirmed)},
     Stage{Records::kProximity, bit(Group::kConfirmed)},
+    Stage{Records::kDetectedOrientation, bit(Group::kDetectedOrientation)},
     Stage{Records::kContacts, bit(Group::kContacts)},
+    Stage{Records::kPoints, bit(Group::kPoints)},
+    Stage{Records::kWidePosition, bit(Group::kWideBodies)},
+    Stage{Records::kWideOrientation, bit(Group::kWideBodies)},
+    Stage{Records::kWideVelocity, bit(Group::kWideBodies)},
+    Stage{Records::kWideAngularVelocity, bit(Group::kWideBodies)},
     Stage{Records::kPosition, bit(Group::kBodies)},
     Stage{Records::kOrientation, bit(Group::kBodies)},
     Stage{Records::kVelocity, bit(Group::kBodies)},
@@ -103,6 +109,8 @@ class Comparison {
       d.body_count = 1;
     } else if (column.records == Records::kContacts) {
       name(frame.contacts[d.record].a, frame.contacts[d.record].b);
+    } else if (column.records == Records::kPoints) {
+      name(frame.points[d.record].a, frame.points[d.record].b);
     } else if (column.records == Records::kProximity) {
       name_pair(frame.confirmed);
     } else if (column.records == Records::kSeparations) {

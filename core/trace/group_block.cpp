@@ -25,6 +25,7 @@ void normalize_flags(std::vector<std::byte>& flags) {
 GroupBlock::GroupBlock(Group group, std::uint64_t bodies, Hdf5Source& source) : group_(group) {
   for (const Column& c : columns()) {
     if (c.groups != bit(group) || c.layout == Layout::kWindows || c.layout == Layout::kOffsets) continue;
+    if (c.is_optional && !source.has(std::string(c.path))) continue;
     columns_.push_back({&c, source.array(std::string(c.path), c.element, inner_dimensions(c, bodies)), {}});
   }
 }

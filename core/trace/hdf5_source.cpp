@@ -246,6 +246,14 @@ std::vector<std::uint64_t> Hdf5Source::shape(const std::string& path) {
   return {dims.begin(), dims.end()};
 }
 
+bool Hdf5Source::has_elements(const std::string& path, Element element) {
+  if (!ok() || !has(path)) return false;
+  const Handle set(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set) return false;
+  const Handle type(H5Dget_type(set.get()), H5Tclose);
+  return is_type(type.get(), element);
+}
+
 OpenArray Hdf5Source::array(const std::string& path, Element element, const std::vector<std::uint64_t>& inner) {
   OpenArray a;
   if (!ok()) return a;

@@ -43,6 +43,8 @@ class Hdf5Source {
   void numbers(const std::string& path, const std::string& name, Element element, void* values, std::size_t count);
   std::string text(const std::string& path, const std::string& name);
 
+  // Whether the object is a dataset of these elements; false where it is anything else.
+  bool has_elements(const std::string& path, Element element);
   // Dimensions of the dataset; empty when there is none, which array() then reports.
   std::vector<std::uint64_t> shape(const std::string& path);
   // Dimensions after the first must be these; none = a plain list.

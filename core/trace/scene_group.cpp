@@ -110,6 +110,50 @@ std::vector<Row> read_rows(Hdf5Source& source, const std::string& group, const T
   return rows;
 }
 
+constexpr const char* kInertia = "/scene/body/inertia";
+constexpr const char* kCenterOfMass = "/scene/body/center_of_mass";
+
+void write_mass_properties(Hdf5Sink& sink, const std::vector<MassProperties>& rows) {
+  std::vector<double> inertia;
+  std::vector<double> center;
+  for (const MassProperties& m : rows) {
+    inertia.insert(inertia.end(), m.inertia_kg_m2.begin(), m.inertia_kg_m2.end());
+    center.insert(center.end(), m.center_of_mass_m.begin(), m.center_of_mass_m.end());
+  }
+  sink.array(kInertia, Element::kF64, 6, rows.size(), inertia.data(), "kg m^2");
+  sink.array(kCenterOfMass, Element::kF64, 3, rows.size(), center.data(), "m");
+}
+
+// Inertia without a center of mass is about the mesh's origin.
+std::vector<MassProperties> read_mass_properties(Hdf5Source& source, std::size_t bodies) {
+  if (!source.has(kInertia)) {
+    if (source.has(kCenterOfMass))
+      source.fail(kCenterOfMass, "it is given without the inertia", std::string("give ") + kInertia + " too");
+    return {};
+  }
+  const auto inertia = source.whole<std::array<double, 6>>(kInertia, Element::kF64, 6);
+  std::vector<std::array<double, 3>> center(bodies);
+  if (source.ok() && source.has(kCenterOfMass))
+    center = source.whole<std::array<double, 3>>(kCenterOfMass, Element::kF64, 3);
+  if (!source.ok()) return {};
+  if (inertia.size() != bodies || center.size() != bodies) {
+    source.fail(inertia.size() != bodies ? kInertia : kCenterOfMass, "it does not have one row per body",
+                "give every array of /scene/body the same length");
+    return {};
+  }
+  std::vector<MassProperties> rows;
+  for (std::size_t i = 0; i < bodies; ++i) rows.push_back({center[i], inertia[i]});
+  return rows;
+}
+
+Motion read_motion(Hdf5Source& source) {
+  if (!source.has_attribute("/scene", "motion")) return Motion::kTranslate;
+  const std::string word = source.text("/scene", "motion");
+  if (source.ok() && word != motion_word(Motion::kRigid) && word != motion_word(Motion::kTranslate))
+    source.fail("/scene@motion", "there is no motion \"" + word + "\"", "give translate or rigid");
+  return word == motion_word(Motion::kRigid) ? Motion::kRigid : Motion::kTranslate;
+}
+
 void write_meshes(Hdf5Sink& sink, const std::vector<std::shared_ptr<const Mesh>>& meshes) {
   std::vector<std::string> names;
   std::vector<std::string> sources;
@@ -187,6 +231,9 @@ void write_scene(Hdf5Sink& sink, const Scene& scene) {
   sink.group("/scene/face_material");
   write_attributes(sink, "/scene/face_material", kMaterialFields, &scene.face_material);
   write_rows(sink, "/scene/body", kBodyFields, scene.bodies);
+  sink.text("/scene", "motion", std::string(motion_word(scene.motion)));
+  if (!scene.answer.empty()) sink.text("/scene", "answer", scene.answer);
+  if (!scene.mass_properties.empty()) write_mass_properties(sink, scene.mass_properties);
   if (!scene.springs.empty()) write_rows(sink, "/scene/spring", kSpringFields, scene.springs);
   write_meshes(sink, scene.meshes);
 }
@@ -198,7 +245,10 @@ Scene read_scene(Hdf5Source& source) {
   read_attributes(source, "/scene", kSceneFields, &scene);
   read_attributes(source, "/scene/parameters", kParameterFields, &scene.parameters);
   read_attributes(source, "/scene/face_material", kMaterialFields, &scene.face_material);
+  scene.motion = read_motion(source);
+  if (source.has_attribute("/scene", "answer")) scene.answer = source.text("/scene", "answer");
   scene.bodies = read_rows<Body>(source, "/scene/body", kBodyFields, "body");
+  if (source.ok()) scene.mass_properties = read_mass_properties(source, scene.bodies.size());
   if (source.ok() && source.has("/scene/spring"))
     scene.springs = read_rows<Spring>(source, "/scene/spring", kSpringFields, "spring");
   scene.meshes = read_meshes(source);

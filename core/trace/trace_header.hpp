@@ -6,17 +6,20 @@
 #include <optional>
 #include <string>
 
+#include "core/engine/declaration.hpp"
 #include "core/scene/scene.hpp"
 #include "core/stamp.hpp"
 #include "core/trace/frame.hpp"
 
 namespace broadside::core {
 
-// Raised whenever a reader of the previous version would misread a file. CHANGELOG.md lists the breaks.
-constexpr std::uint32_t kTraceFormatVersion = 1;
+// Raised whenever a reader of the previous version would misread a file. CHANGELOG.md lists the breaks. Format 1, which
+// has no declaration, still opens (core/trace/format1.hpp).
+constexpr std::uint32_t kTraceFormatVersion = 2;
 
 struct TraceHeader {
   Stamp stamp;
+  Declaration declaration;  // of the engine that made the trace
   Scene scene;
   std::uint32_t groups = 0;  // bit(Group) of each group that the frames have
   RecordLevel level = RecordLevel::kFull;

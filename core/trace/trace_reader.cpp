@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/trace/columns.hpp"
+#include "core/trace/declaration_group.hpp"
+#include "core/trace/format1.hpp"
 #include "core/trace/frame_index.hpp"
 #include "core/trace/group_block.hpp"
 #include "core/trace/hdf5_source.hpp"
@@ -15,17 +17,35 @@
 namespace broadside::core {
 namespace {
 
-void check_format(Hdf5Source& source) {
-  if (!source.has_attribute("/", "format") || source.text("/", "format") != "broadside-trace")
-    return source.fail("/@format", "it is an HDF5 file but no Broadside trace",
-                       "give a trace file as broadside run --record writes it");
+// The file's format version, 1 or 2; what it is not is noted in source.
+std::uint32_t read_format(Hdf5Source& source) {
+  if (!source.has_attribute("/", "format") || source.text("/", "format") != "broadside-trace") {
+    source.fail("/@format", "it is an HDF5 file but no Broadside trace",
+                "give a trace file as broadside run --record writes it");
+    return 0;
+  }
   const auto version = source.number<std::uint32_t>("/", "format_version");
-  if (!source.ok() || version == kTraceFormatVersion) return;
-  source.fail(
-      "/@format_version",
-      "it is of trace format " + std::to_string(version) + ", and this program reads format " +
-          std::to_string(kTraceFormatVersion),
-      version > kTraceFormatVersion ? "use a newer Broadside" : "record it again, or use the Broadside that wrote it");
+  if (source.ok() && (version == 0 || version > kTraceFormatVersion))
+    source.fail("/@format_version",
+                "it is of trace format " + std::to_string(version) + ", and this program reads formats 1 to " +
+                    std::to_string(kTraceFormatVersion),
+                "use a newer Broadside");
+  return version;
+}
+
+// Its elements say whether the states are float32 or float64.
+constexpr const char* kBodyPosition = "/trace/body/position";
+
+// The numbers of kBodies from those of kWideBodies.
+void narrow_states(FrameRecord& record) {
+  const auto narrow = [](const auto& from, auto& to) {
+    to.clear();
+    for (const auto& value : from) to.push_back(narrowed(value));
+  };
+  narrow(record.wide.position, record.position);
+  narrow(record.wide.orientation, record.orientation);
+  narrow(record.wide.velocity, record.velocity);
+  narrow(record.wide.angular_velocity, record.angular_velocity);
 }
 
 bool is_bad(Pair p, std::uint32_t bodies) {
@@ -36,7 +56,9 @@ bool any_bad(const std::vector<Pair>& pairs, std::uint32_t bodies) {
   return std::any_of(pairs.begin(), pairs.end(), [bodies](Pair p) { return is_bad(p, bodies); });
 }
 
-bool is_bad(const Contact& c, std::uint32_t bodies) {
+// Contacts and points alike.
+template <typename Row>
+bool is_bad(const Row& c, std::uint32_t bodies) {
   const bool is_known_face = is_face(c.b) && c.b - kFirstFace < kFaceCount;
   return c.a >= bodies || (c.b >= bodies && !is_known_face);
 }
@@ -46,7 +68,8 @@ const char* bad_body(const FrameRecord& r, std::uint32_t bodies) {
   if (any_bad(r.pairs, bodies)) return "/trace/pairs/pairs";
   if (any_bad(r.confirmed, bodies)) return "/trace/confirmed/pairs";
   if (any_bad(r.measured, bodies)) return "/trace/narrow/pairs";
-  const auto bad = [bodies](const Contact& c) { return is_bad(c, bodies); };
+  const auto bad = [bodies](const auto& c) { return is_bad(c, bodies); };
+  if (std::any_of(r.points.begin(), r.points.end(), bad)) return "/trace/point";
   return std::any_of(r.contacts.begin(), r.contacts.end(), bad) ? "/trace/contact" : "";
 }
 
@@ -77,14 +100,18 @@ struct TraceReader::Impl {
   }
 
   void open() {
-    check_format(source);
+    const std::uint32_t version = read_format(source);
     if (source.ok()) header.scene = read_scene(source);
     if (source.ok()) read_provenance(source, header);
+    if (source.ok())
+      header.declaration = version == 1 ? declaration_of_format1(header.stamp.engine) : read_declaration(source);
     if (source.ok()) check_stamp();
     for (const GroupRow& row : group_rows()) {
       if (!source.ok() || !source.has(std::string(row.path))) continue;
       header.groups |= bit(row.group);
-      groups.emplace_back(row.group, header.scene.bodies.size(), source);
+      const bool is_wide = row.group == Group::kBodies && source.has_elements(kBodyPosition, Element::kF64);
+      if (is_wide) header.groups |= bit(Group::kWideBodies);
+      groups.emplace_back(is_wide ? Group::kWideBodies : row.group, header.scene.bodies.size(), source);
     }
     if (source.ok()) index = read_index(source, header.groups);
     if (source.ok()) keep_frames();
@@ -120,8 +147,12 @@ struct TraceReader::Impl {
     record.step = index.steps[frame];
     record.time_s = index.times[frame];
     record.digest = index.digests[frame];
+    // States are taken in the precision that the file has.
+    if ((wanted & (bit(Group::kBodies) | bit(Group::kWideBodies))) != 0U)
+      wanted |= bit(Group::kBodies) | bit(Group::kWideBodies);
     for (GroupBlock& g : groups)
       if ((bit(g.group()) & wanted) != 0U && !g.read(index, frame, source, record)) return source.error();
+    if ((header.groups & wanted & bit(Group::kWideBodies)) != 0U) narrow_states(record);
     const std::string step = "step " + std::to_string(record.step);
     if (const char* at = bad_body(record, header.scene.body_count()); *at != '\0')
       source.fail(at, step + " names a body that the scene does not have", "ids count from 0 in /scene/body");

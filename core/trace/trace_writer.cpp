@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/trace/column_buffer.hpp"
+#include "core/trace/declaration_group.hpp"
 #include "core/trace/finished_file.hpp"
 #include "core/trace/part_file.hpp"
 #include "core/trace/scene_group.hpp"
@@ -38,6 +39,9 @@ Status check_header(const std::filesystem::path& path, const TraceHeader& header
   if (const Status s = check_scene(header.scene); !s) return s;
   if (header.stamp.scene_digest != scene_digest(header.scene))
     return misuse(path, "the stamp's scene_digest is not the digest of the scene", "stamp the scene that is recorded");
+  const auto has = [&header](Group g) { return (header.groups & bit(g)) != 0U; };
+  if ((has(Group::kWideBodies) && !has(Group::kBodies)) || (has(Group::kDetectedOrientation) && !has(Group::kDetection)))
+    return misuse(path, "a group is there without the one that it adds to", "give float64 states with the group of states");
   if (header.every == 0) return misuse(path, "every is 0", "record every 1st frame or fewer");
   for (const auto& [name, value] : header.notes)
     if (name.empty()) return misuse(path, "a note has no name", "name every note");
@@ -49,9 +53,10 @@ void write_once(Hdf5Sink& sink, const TraceHeader& header) {
   sink.number("/", "format_version", Element::kU32, &kTraceFormatVersion);
   write_scene(sink, header.scene);
   write_provenance(sink, header);
+  write_declaration(sink, header.declaration);
   sink.group("/trace");
   for (const GroupRow& row : group_rows())
-    if ((header.groups & bit(row.group)) != 0U) sink.group(std::string(row.path));
+    if ((header.groups & bit(row.group)) != 0U && !row.is_dataset) sink.group(std::string(row.path));
   if ((header.groups & bit(Group::kContacts)) != 0U) sink.group("/trace/statistics");
 }
 
@@ -223,6 +228,7 @@ Result<TraceWriter> TraceWriter::create(const std::filesystem::path& path, const
     write_once(sink, header);
     for (const Column& c : columns()) {
       if (c.groups != 0 && (c.groups & header.groups) == 0) continue;
+      if (c.groups == bit(Group::kBodies) && (header.groups & bit(Group::kWideBodies)) != 0U) continue;
       impl->columns.emplace_back(c, impl->bodies, sink.growing(c, impl->bodies));
     }
     // From here on a kill at any moment leaves a file that opens.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -51,6 +52,7 @@ class SceneFileReader {
     if (const Node* node = top.table("generator")) read_generator(*node);
     if (const Node* node = top.table("import")) read_import(*node);
     for (const Node* node : top.tables("body")) read_body(*node);
+    complete_mass();
     for (const Node* node : top.tables("spring")) read_spring(*node);
     top.finish();
     if (!has_domain_)
@@ -69,9 +71,60 @@ class SceneFileReader {
     read_seed(top);
     top.number("dt_s", scene_.dt_s);
     top.vec3("gravity_m_s2", scene_.gravity_m_s2);
+    top.text("answer", scene_.answer);
+    read_motion(top);
     for (const char* key : {"dt_s", "gravity_m_s2"}) lines_[key] = top.line_of(key);
     scene_.frames = options_.frames.value_or(scene_.frames);
     scene_.seed = options_.seed.value_or(scene_.seed);
+  }
+
+  void read_motion(TableReader& top) {
+    std::string word;
+    if (!top.text("motion", word)) return;
+    constexpr std::array kMotions{core::Motion::kTranslate, core::Motion::kRigid};
+    std::vector<std::string_view> known;
+    for (const core::Motion motion : kMotions) {
+      known.push_back(core::motion_word(motion));
+      if (known.back() == word) scene_.motion = motion;
+    }
+    if (core::motion_word(scene_.motion) != word)
+      top.fail("motion", "there is no motion '" + word + "'", core::advise_name(word, known));
+  }
+
+  // Where one body has an inertia of its own, every other gets that of its mesh.
+  void read_mass(TableReader& table, const Body& body) {
+    std::vector<double> inertia;
+    std::vector<double> center;
+    const bool has_inertia = table.numbers("inertia_kg_m2", 6, inertia);
+    const bool has_center = table.numbers("center_of_mass_m", 3, center);
+    if (has_center && !has_inertia)
+      table.fail("center_of_mass_m", "it is given without the inertia", "give inertia_kg_m2 = [xx, yy, zz, xy, xz, yz]");
+    if (!has_inertia || errors_.first) return;
+    core::MassProperties given;
+    std::copy(inertia.begin(), inertia.end(), given.inertia_kg_m2.begin());
+    std::copy(center.begin(), center.end(), given.center_of_mass_m.begin());
+    if (!(body.inverse_mass > 0.0F)) table.fail("inertia_kg_m2", "a static body has an inertia", "leave it out");
+    given_mass_[scene_.bodies.size()] = given;
+  }
+
+  void complete_mass() {
+    if (given_mass_.empty() || errors_.first) return;
+    for (std::uint32_t i = 0; i < scene_.body_count(); ++i) {
+      const auto given = given_mass_.find(i);
+      if (given != given_mass_.end()) {
+        scene_.mass_properties.push_back(given->second);
+        continue;
+      }
+      core::MassProperties derived;
+      if (scene_.bodies[i].inverse_mass > 0.0F) {
+        Scene without = scene_;
+        without.mass_properties.clear();
+        const auto made = core::mass_properties_of(without, i);
+        if (!made) return errors_.add(1, made.error().what, made.error().advice);
+        derived = made.value();
+      }
+      scene_.mass_properties.push_back(derived);
+    }
   }
 
   // TOML's whole numbers end at 2^63 - 1; a larger seed is written as a text of digits.
@@ -178,6 +231,7 @@ class SceneFileReader {
     table.vec3("angular_velocity_rad_s", body.angular_velocity);
     std::vector<double> q;
     if (table.numbers("orientation_wxyz", 4, q)) body.orientation = unit(table, q);
+    read_mass(table, body);
     table.finish();
     lines_["body " + std::to_string(scene_.bodies.size())] = node.line;
     scene_.bodies.push_back(body);
@@ -333,6 +387,7 @@ class SceneFileReader {
   bool has_face_material_ = false;
   bool has_theta_ = false;
   std::map<std::string, std::uint32_t> lines_;
+  std::map<std::size_t, core::MassProperties> given_mass_;  // by body
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -61,7 +62,17 @@ std::string mesh_name(std::size_t m) {
   return "mesh" + std::to_string(m);
 }
 
-std::string body(const core::Body& b, const core::Material& common) {
+std::string list(std::span<const double> values) {
+  std::string text;
+  for (const double v : values) text += (text.empty() ? "[" : ", ") + digits(v, 17);
+  return text + "]";
+}
+
+std::string mass(const core::MassProperties& m) {
+  return "center_of_mass_m = " + list(m.center_of_mass_m) + "\ninertia_kg_m2 = " + list(m.inertia_kg_m2) + "\n";
+}
+
+std::string body(const core::Body& b, const core::MassProperties* m, const core::Material& common) {
   std::string text = "\n[[body]]\nmesh = " + quoted(mesh_name(b.mesh)) + "\nposition_m = " + vec3(b.position) + "\n";
   if (!(b.orientation == core::Quat{}))
     text += "orientation_wxyz = [" + number(b.orientation.w) + ", " + number(b.orientation.x) + ", " +
@@ -70,6 +81,7 @@ std::string body(const core::Body& b, const core::Material& common) {
   text += "angular_velocity_rad_s = " + vec3(b.angular_velocity) + "\n";
   // 1 / w is off by 2^-53 of itself, so its inverse rounds to the float w again.
   text += b.inverse_mass > 0.0F ? "mass_kg = " + digits(1.0 / double{b.inverse_mass}, 17) + "\n" : "static = true\n";
+  if (m != nullptr && b.inverse_mass > 0.0F) text += mass(*m);
   if (!(b.material == common)) text += "[body.material]\n" + material(b.material);
   return text;
 }
@@ -79,7 +91,9 @@ std::string whole_scene(const Scene& scene, const std::string& stem) {
   const std::string seed = std::to_string(scene.seed);
   std::string text = "name = " + quoted(scene.name) + "\ndescription = " + quoted(scene.description) +
                      "\nframes = " + std::to_string(scene.frames) + "\nseed = " + (is_large ? quoted(seed) : seed) +
-                     "\ndt_s = " + number(scene.dt_s) + "\ngravity_m_s2 = " + vec3(scene.gravity_m_s2) +
+                     "\ndt_s = " + number(scene.dt_s) +
+                     (scene.motion == core::Motion::kTranslate ? "" : "\nmotion = \"rigid\"") +
+                     (scene.answer.empty() ? "" : "\nanswer = " + quoted(scene.answer)) + "\ngravity_m_s2 = " + vec3(scene.gravity_m_s2) +
                      "\n\n[domain]\nmin_m = " + vec3(scene.domain.min) + "\nmax_m = " + vec3(scene.domain.max) +
                      "\n\n[parameters]\n" + parameters(scene.parameters) + "\n[face_material]\n" +
                      material(scene.face_material);
@@ -88,7 +102,8 @@ std::string whole_scene(const Scene& scene, const std::string& stem) {
   for (std::size_t m = 0; m < scene.meshes.size(); ++m)
     text +=
         "\n[[mesh]]\nname = " + quoted(mesh_name(m)) + "\nfile = " + quoted(stem + "." + mesh_name(m) + ".ply") + "\n";
-  for (const core::Body& b : scene.bodies) text += body(b, common);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    text += body(scene.bodies[i], scene.mass_properties.empty() ? nullptr : &scene.mass_properties[i], common);
   for (const core::Spring& s : scene.springs)
     text += "\n[[spring]]\nbody = " + std::to_string(s.body) + "\nanchor_m = " + vec3(s.anchor) +
             "\nstiffness_n_m = " + number(s.stiffness_n_m) + "\ndamping_n_s_m = " + number(s.damping_n_s_m) + "\n";

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "core/scene/refuse_turning.hpp"
 #include "core/scene/springs_of_bodies.hpp"
 #include "gpu/frame/pipeline_parts.hpp"
 
@@ -33,11 +34,7 @@ Start Pipeline::Impl::chosen_start() const {
 }
 
 core::Status Pipeline::load(const core::Scene& scene) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (!(scene.bodies[i].angular_velocity == core::Vec3{}))
-      return core::Error{"angular_velocity is not zero, and this pipeline's bodies translate only",
-                         scene.name + ": body " + std::to_string(i), "set angular_velocity to 0 0 0"};
-  }
+  if (core::Status s = core::refuse_turning(scene); !s) return s;
   Impl& d = *impl_;
   BROADSIDE_TRY(core::check_spring_step(scene, d.options.variant));
   d.scene = &scene;

@@ -244,7 +244,8 @@ class BulletWorld final : public core::Dynamics {
 }  // namespace
 
 bool bullet_world_rotates(const core::Scene& scene, const BulletWorldOptions& options) {
-  return options.always_rotates || std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const core::Body& b) {
+  return options.always_rotates || scene.motion == core::Motion::kRigid ||
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const core::Body& b) {
            return !(b.angular_velocity == core::Vec3{});
          });
 }

@@ -106,6 +106,18 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = bullet_build();
   engine.settings = settings;
+  // Bodies turn where the scene's do (bullet_world_rotates), which only the scene can say.
+  engine.declaration = core::Declaration::of({{"method", "none"},
+                                              {"motion", "rigid"},
+                                              {"detection_at", "start"},
+                                              {"contacts", "totals"},
+                                              {"integrator", "semi-implicit Euler"},
+                                              {"iterations", std::to_string(std::max(1, options.iterations))},
+                                              {"friction", "pyramid"},
+                                              {"contact_margin_m", number(gContactBreakingThreshold)},
+                                              {"correction", "position"},
+                                              {"correction_rate", number(btContactSolverInfo().m_erp2)},
+                                              {"precision", "f32"}});
   engine.dynamics = make_bullet_world(options);
   engine.equivalence = [options](const core::Scene& scene) { return card_of(scene, options); };
   return engine;

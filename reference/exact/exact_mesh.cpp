@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reference/engines.hpp"
-#include "reference/exact/triangle_tree.hpp"
+#include "core/exact/triangle_tree.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/turned_shapes.hpp"
 #include "reference/vendor_build.hpp"
@@ -22,6 +22,9 @@ namespace {
 
 using core::Separation;
 using core::Status;
+using exact::Nearest;
+using exact::Point;
+using exact::TriangleTree;
 
 constexpr std::string_view kId = "exact-mesh";
 
@@ -104,9 +107,9 @@ core::Result<core::Engine> create(const core::Settings& settings) {
     card.push_back({"tolerance", "none: rounding of double", ""});
     return card;
   };
-  engine.narrow_phase = std::make_unique<ExactMesh>(method == "surface-tree"    ? nearest_of_trees
-                                                    : method == "surface-brute" ? nearest_by_brute_force
-                                                                                : nearest_vertices,
+  engine.narrow_phase = std::make_unique<ExactMesh>(method == "surface-tree"    ? exact::nearest_of_trees
+                                                    : method == "surface-brute" ? exact::nearest_by_brute_force
+                                                                                : exact::nearest_vertices,
                                                     workers);
   return engine;
 }

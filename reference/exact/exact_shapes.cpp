@@ -10,7 +10,7 @@
 
 #include "core/scene/primitive.hpp"
 #include "reference/engines.hpp"
-#include "reference/exact/convex_core.hpp"
+#include "core/exact/convex_core.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
@@ -21,6 +21,9 @@ namespace {
 
 using core::Separation;
 using core::Status;
+using exact::ConvexCore;
+using exact::Point;
+using exact::SignedDistance;
 
 constexpr std::string_view kId = "exact-shapes";
 
@@ -36,7 +39,7 @@ class ExactShapes final : public core::NarrowPhase {
     cores_.clear();
     mesh_of_body_.clear();
     for (const auto& mesh : scene.meshes) {
-      auto core = convex_core_of(*mesh);
+      auto core = exact::convex_core_of(*mesh);
       if (!core) return no_shape(kId, *mesh);
       cores_.push_back(std::move(*core));
     }

@@ -9,6 +9,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/method/integrate.hpp"
+#include "core/scene/refuse_turning.hpp"
 #include "core/scene/springs_of_bodies.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
 #include "reference/octree_cpu/vertex_stage.hpp"
@@ -48,11 +49,7 @@ Pipeline::Pipeline(PipelineOptions options)
 Pipeline::~Pipeline() = default;
 
 core::Status Pipeline::load(const core::Scene& scene) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (!(scene.bodies[i].angular_velocity == core::Vec3{}))
-      return core::Error{"angular_velocity is not zero, and this pipeline's bodies translate only",
-                         scene.name + ": body " + std::to_string(i), "set angular_velocity to 0 0 0"};
-  }
+  if (core::Status s = core::refuse_turning(scene); !s) return s;
   scene_ = &scene;
   bodies_ = make_bodies(scene);
   rules_ = {scene.parameters, options_.variant, options_.solver, scene.domain, scene.face_material};

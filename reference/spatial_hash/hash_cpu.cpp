@@ -45,6 +45,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
       "Broadside, float32, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
   engine.broad_phase = make_hash_broad_phase(given_m > 0.0F ? given_m : core::Parameters{}.hash_cell_m, workers);
+  engine.declaration = core::method_declaration();
   engine.dynamics = std::make_unique<Pipeline>(std::move(options));
   return engine;
 }

@@ -34,6 +34,7 @@ inline TwinRun run_twin(const core::Scene& scene, const std::string& variant = "
     EXPECT_TRUE(dynamics.read_back(frame, core::RecordLevel::kFull).ok());
   }
   run.header.scene = scene;
+  run.header.declaration = engine.value().declaration;
   run.header.groups = dynamics.groups();
   run.header.stamp.scene_name = scene.name;
   run.header.stamp.scene_digest = core::scene_digest(scene);

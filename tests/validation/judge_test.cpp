@@ -142,7 +142,7 @@ TEST(Judge, NoFramesProveNothing) {
 
 TEST(Judge, AnotherSolverIsNotHeldToTheMethodsLaws) {
   Recording bullet = sound();
-  bullet.header.stamp.engine = "bullet-world";
+  bullet.header.declaration = core::Declaration::of({{"contacts", "totals"}});
   for (const char* name : {"contraction", "restitution", "friction-energy", "velocity-cap"})
     EXPECT_EQ(verdict_of(name, bullet).outcome, Outcome::kNotApplicable) << name;
   bullet.frames[9].position[5].y = std::numeric_limits<float>::quiet_NaN();
@@ -192,9 +192,12 @@ TEST(Determinism, ComparesOnlyTheSameStampAndTwins) {
   other.header.stamp.settings = "broad=tree,levels=flat,solver=colored,threads=2,variant=sound,vertex_stage=on";
   EXPECT_EQ(verdict_of("determinism", sound(), &other).outcome, Outcome::kPass) << "threads change no bit";
   other.header.stamp.engine = "octree-gpu";
+  EXPECT_EQ(verdict_of("determinism", sound(), &other).outcome, Outcome::kNotApplicable) << "a name says nothing";
+  other.header.declaration = core::method_declaration("octree-cpu");
   other.header.stamp.settings = "block=256,broad=tree,levels=flat,solver=colored,variant=sound,vertex_stage=on";
   EXPECT_EQ(verdict_of("determinism", sound(), &other).outcome, Outcome::kPass) << "the twin";
   other.header.stamp.engine = "hash-cpu";
+  other.header.declaration = core::method_declaration();
   EXPECT_EQ(verdict_of("determinism", sound(), &other).outcome, Outcome::kNotApplicable);
 }
 

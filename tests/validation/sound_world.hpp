@@ -93,6 +93,7 @@ class SoundWorld {
     stamp.scene_digest = core::scene_digest(recording_.header.scene);
     stamp.engine = "octree-cpu";
     stamp.settings = "broad=tree,levels=flat,solver=colored,threads=1,variant=sound,vertex_stage=on";
+    recording_.header.declaration = core::method_declaration();
     recording_.header.groups = core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) |
                                core::bit(core::Group::kPairs) | core::bit(core::Group::kConfirmed) |
                                core::bit(core::Group::kContacts);

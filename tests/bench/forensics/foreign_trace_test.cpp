@@ -72,6 +72,7 @@ TEST(ForeignPage, SaysForEachValidatorWhatItReads) {
     // A trace with the needed groups alone is judged; a baseline is the trace itself.
     core::TraceHeader header;
     header.stamp.engine = "foreign";
+    header.declaration = core::method_declaration();
     // What laws need to know about the settings and the scene.
     header.stamp.settings = "levels=C,solver=colored";
     header.scene.bodies.emplace_back();

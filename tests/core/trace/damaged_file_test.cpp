@@ -113,7 +113,7 @@ TEST_F(DamagedFile, OfAnotherFormatVersion) {
   expect_fault({"/@format_version", "format " + std::to_string(later), "use a newer Broadside"});
   const std::uint32_t earlier = 0;
   raw_set_attribute(path_, "/", "format_version", H5T_NATIVE_UINT32, &earlier);
-  expect_fault({"/@format_version", "format 0", "record it again"});
+  expect_fault({"/@format_version", "format 0", "formats 1 to 2"});
 }
 
 TEST_F(DamagedFile, WithoutAnyOneOfItsDatasets) {

@@ -21,7 +21,8 @@ using core::Group;
 
 constexpr std::uint32_t kAllGroups = bit(Group::kBodies) | bit(Group::kDetection) | bit(Group::kPairs) |
                                      bit(Group::kConfirmed) | bit(Group::kContacts) | bit(Group::kNarrow) |
-                                     bit(Group::kOctree) | bit(Group::kBodyOctree);
+                                     bit(Group::kOctree) | bit(Group::kBodyOctree) | bit(Group::kPoints) |
+                                     bit(Group::kDetectedOrientation);
 
 inline core::Scene tetrahedra_scene(std::uint32_t bodies) {
   auto mesh = std::make_shared<core::Mesh>();
@@ -46,6 +47,7 @@ inline core::Scene tetrahedra_scene(std::uint32_t bodies) {
   scene.parameters.theta_m = 0.03125F;
   scene.parameters.alpha = 0.75F;
   scene.face_material = {0.5F, 0.25F, 1.0F};
+  scene.answer = "none";
   for (std::uint32_t i = 0; i < bodies; ++i) {
     core::Body body;
     body.mesh = i % 2;
@@ -67,6 +69,7 @@ inline core::TraceHeader header_of(core::Scene scene, std::uint32_t groups) {
   core::TraceHeader header;
   header.stamp = {scene.name, core::scene_digest(scene), "octree-cpu",          "levels=C;broad=tree", "levels=C",
                   "build 1",  "broadside 0.1.0",         "a machine, no device"};
+  header.declaration = core::Declaration::of({{"method", "octree-aabb"}, {"motion", "translate"}});
   header.scene = std::move(scene);
   header.groups = groups;
   header.every = 2;
@@ -142,6 +145,8 @@ inline core::FrameRecord random_frame(Bits& bits, std::uint64_t step, std::uint3
       f.detected_velocity.push_back(bits.vec());
       f.boxes.push_back({bits.vec(), bits.vec()});
     }
+    if (has(Group::kDetectedOrientation))
+      f.detected_orientation.push_back({bits.real(), bits.real(), bits.real(), bits.real()});
   }
   const auto rows = [&] { return is_empty ? 0U : bits.below(40); };
   if (has(Group::kPairs)) {
@@ -161,6 +166,11 @@ inline core::FrameRecord random_frame(Bits& bits, std::uint64_t step, std::uint3
   }
   if (has(Group::kContacts))
     for (std::uint32_t i = rows(); i > 0; --i) f.contacts.push_back(random_contact(bits, bodies));
+  if (has(Group::kPoints))
+    for (std::uint32_t i = rows(); i > 0; --i) {
+      const core::Contact like = random_contact(bits, bodies);
+      f.points.push_back({like.a, like.b, bits.vec(), bits.vec(), bits.real(), bits.vec(), bits.below(9)});
+    }
   if (has(Group::kNarrow))
     for (std::uint32_t i = rows(); i > 0; --i) {
       f.measured.push_back(bits.pair(bodies));
@@ -203,6 +213,12 @@ inline std::string first_difference(const core::FrameRecord& p, const core::Fram
   if (!same_bits(p.confirmed, q.confirmed)) return "confirmed";
   if (!same_bits(p.proximity, q.proximity)) return "proximity";
   if (!same_bits(p.contacts, q.contacts)) return "contacts";
+  if (!same_bits(p.points, q.points)) return "points";
+  if (!same_bits(p.detected_orientation, q.detected_orientation)) return "detected_orientation";
+  if (!same_bits(p.wide.position, q.wide.position)) return "wide.position";
+  if (!same_bits(p.wide.orientation, q.wide.orientation)) return "wide.orientation";
+  if (!same_bits(p.wide.velocity, q.wide.velocity)) return "wide.velocity";
+  if (!same_bits(p.wide.angular_velocity, q.wide.angular_velocity)) return "wide.angular_velocity";
   if (!same_bits(p.measured, q.measured)) return "measured";
   if (!same_bits(p.octree_nodes, q.octree_nodes)) return "octree_nodes";
   if (!same_bits(p.octree_node_of_body, q.octree_node_of_body)) return "octree_node_of_body";

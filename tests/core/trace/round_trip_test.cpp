@@ -111,12 +111,49 @@ TEST(RoundTrip, TheHeaderComesBackWhole) {
   EXPECT_EQ(h.stamp.engine_build, wrote.stamp.engine_build);
   EXPECT_EQ(h.stamp.broadside_build, wrote.stamp.broadside_build);
   EXPECT_EQ(h.stamp.machine, wrote.stamp.machine);
+  EXPECT_EQ(h.declaration, wrote.declaration);
+  EXPECT_EQ(h.scene.answer, wrote.scene.answer);
   EXPECT_EQ(h.level, RecordLevel::kFull);
   EXPECT_EQ(h.every, 2U);
   EXPECT_FALSE(h.broad_is_exact);
   EXPECT_EQ(h.broad_margin_m, 0.05);
   EXPECT_EQ(h.driver, "octree-cpu");
   EXPECT_EQ(h.notes, wrote.notes);
+}
+
+TEST(RoundTrip, Float64StatesComeBackWholeAndRounded) {
+  const Folder folder;
+  constexpr std::uint32_t kGroups = bit(Group::kBodies) | bit(Group::kWideBodies);
+  Scene scene = tetrahedra_scene(4);
+  scene.motion = core::Motion::kRigid;
+  scene.springs.clear();
+  for (std::uint32_t i = 0; i < 4; ++i) scene.mass_properties.push_back({{0.1 * i, 0, 1e-300}, {2, 3, 4, 0.1, 0, 0}});
+  FrameRecord frame;
+  frame.step = 1;
+  for (int i = 0; i < 4; ++i) {
+    frame.wide.position.push_back({0.1 * i, 1.0 / 3.0, -0.0});
+    frame.wide.orientation.push_back({1.0 / 3.0, 0, 0, 0.5});
+    frame.wide.velocity.push_back({1e-200, 1e20, 2});
+    frame.wide.angular_velocity.push_back({0, 0, 1.0 / 7.0});
+  }
+  auto writer = TraceWriter::create(folder / "t.h5", header_of(scene, kGroups));
+  ASSERT_TRUE(writer.ok()) << writer.error().line();
+  ASSERT_TRUE(writer.value().append(frame).ok());
+  ASSERT_TRUE(writer.value().finish().ok());
+  auto reader = TraceReader::open(folder / "t.h5");
+  ASSERT_TRUE(reader.ok()) << reader.error().line();
+  EXPECT_EQ(reader.value().header().groups, kGroups);
+  EXPECT_EQ(reader.value().header().scene.motion, core::Motion::kRigid);
+  EXPECT_EQ(reader.value().header().scene.mass_properties, scene.mass_properties);
+  auto read = reader.value().read(0, bit(Group::kBodies));
+  ASSERT_TRUE(read.ok()) << read.error().line();
+  EXPECT_EQ(read.value().wide.position, frame.wide.position);
+  EXPECT_EQ(read.value().wide.orientation, frame.wide.orientation);
+  EXPECT_EQ(read.value().wide.velocity, frame.wide.velocity);
+  EXPECT_EQ(read.value().wide.angular_velocity, frame.wide.angular_velocity);
+  ASSERT_EQ(read.value().position.size(), 4U);
+  EXPECT_EQ(read.value().position[1].y, static_cast<float>(1.0 / 3.0));
+  EXPECT_EQ(read.value().orientation[1].w, static_cast<float>(1.0 / 3.0));
 }
 
 }  // namespace

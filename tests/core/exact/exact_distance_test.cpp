@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "reference/exact/triangle_distance.hpp"
-#include "reference/exact/triangle_tree.hpp"
+#include "core/exact/triangle_distance.hpp"
+#include "core/exact/triangle_tree.hpp"
 
-namespace broadside::reference {
+namespace broadside::exact {
 namespace {
 
 // Double's rounding, 1.1e-16, times coordinates of up to 4 m, some tens of operations, and the squares that the
@@ -183,4 +183,4 @@ TEST(TriangleTree, VerticesBoundSurfaces) {
 }
 
 }  // namespace
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -1,10 +1,10 @@
-#include "reference/exact/triangle_tree.hpp"
+#include "core/exact/triangle_tree.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-namespace broadside::reference {
+namespace broadside::exact {
 namespace {
 
 using core::Box;
@@ -169,4 +169,4 @@ Nearest nearest_vertices(const TriangleTree& a, Vec3 xa, const TriangleTree& b, 
   return best;
 }
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

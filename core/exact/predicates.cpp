@@ -1,4 +1,4 @@
-#include "reference/exact/predicates.hpp"
+#include "core/exact/predicates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace broadside::reference {
+namespace broadside::exact {
 namespace {
 
 // A sum of doubles that do not overlap, smallest first: its value is exact, its sign that of the last one.
@@ -231,4 +231,4 @@ bool triangles_meet(const Corners& a, const Corners& b) {
   return false;
 }
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -5,7 +5,7 @@
 
 #include "core/math/vec3.hpp"
 
-namespace broadside::reference {
+namespace broadside::exact {
 
 struct Point {
   double x = 0.0;
@@ -43,7 +43,7 @@ struct Nearest {
 };
 
 // Degenerate triangles (segments, points) are fine. The squared distance is 0 exactly when the closed triangles have a
-// point in common, decided by exact predicates (reference/exact/predicates.hpp); where they do not and rounding would
+// point in common, decided by exact predicates (core/exact/predicates.hpp); where they do not and rounding would
 // say 0, it is the least positive number. Two edges within an angle t of parallel may be off by t times their length,
 // t < 1e-8 or so.
 Nearest nearest_of_triangles(const Corners& a, const Corners& b);
@@ -54,4 +54,4 @@ Nearest nearest_of_point_and_triangle(Point p, const Corners& t);
 // Segments p0 p1 and q0 q1, which may be points.
 Nearest nearest_of_segments(Point p0, Point p1, Point q0, Point q1);
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -1,4 +1,4 @@
-#include "reference/exact/convex_core.hpp"
+#include "core/exact/convex_core.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/scene/primitive.hpp"
 
-namespace broadside::reference {
+namespace broadside::exact {
 namespace {
 
 // Directions closer to parallel than this count as one direction: the axis between them would be made of rounding
@@ -217,4 +217,4 @@ double overlap_along(const ConvexCore& a, const ConvexCore& b, Point direction) 
   return -(least_along(a.vertices, direction) + least_along(b.vertices, -1.0 * direction)) + a.radius_m + b.radius_m;
 }
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -1,9 +1,9 @@
 // Signs that are right whatever the rounding: orientation of points, and whether two triangles meet.
 #pragma once
 
-#include "reference/exact/triangle_distance.hpp"
+#include "core/exact/triangle_distance.hpp"
 
-namespace broadside::reference {
+namespace broadside::exact {
 
 // +1 when d lies on the side of the plane a b c from which a, b, c are seen clockwise (the determinant of a-d, b-d, c-d
 // is positive), -1 on the other side, 0 exactly on it. Decided by expansions of doubles after Shewchuk (Adaptive
@@ -14,4 +14,4 @@ int orientation(Point a, Point b, Point c, Point d);
 // Closed triangles have a point in common: also when they only touch, lie in one plane, or are segments or points.
 bool triangles_meet(const Corners& a, const Corners& b);
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -9,9 +9,9 @@
 
 #include "core/engine/narrow_phase.hpp"
 #include "core/scene/mesh.hpp"
-#include "reference/exact/triangle_distance.hpp"
+#include "core/exact/triangle_distance.hpp"
 
-namespace broadside::reference {
+namespace broadside::exact {
 
 // Every such body is a core with a ball around each of its points: a point for a sphere, a segment for a capsule, the
 // body itself and no ball for a box or a convex mesh.
@@ -47,4 +47,4 @@ SignedDistance signed_distance(const ConvexCore& a, const ConvexCore& b);
 // By how much bodies overlap along a unit direction from B to A: how far A must move along it to part from B.
 double overlap_along(const ConvexCore& a, const ConvexCore& b, Point direction);
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -1,12 +1,12 @@
-#include "reference/exact/triangle_distance.hpp"
+#include "core/exact/triangle_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "reference/exact/predicates.hpp"
+#include "core/exact/predicates.hpp"
 
-namespace broadside::reference {
+namespace broadside::exact {
 namespace {
 
 void keep_nearer(Nearest& best, Point on_a, Point on_b) {
@@ -146,4 +146,4 @@ Nearest nearest_of_segments(Point p0, Point p1, Point q0, Point q1) {
   return best;
 }
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -1,6 +1,6 @@
 // Orientation and meeting of triangles where rounding decides everything: expected signs from whole numbers, which are
 // exact in 128 bits.
-#include "reference/exact/predicates.hpp"
+#include "core/exact/predicates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace broadside::reference {
+namespace broadside::exact {
 namespace {
 
 using Whole = std::array<std::int64_t, 3>;
@@ -131,4 +131,4 @@ TEST(Predicates, AHairApartIsApart) {
 }
 
 }  // namespace
-}  // namespace broadside::reference
+}  // namespace broadside::exact

@@ -8,9 +8,9 @@
 #include "core/math/box.hpp"
 #include "core/math/quat.hpp"
 #include "core/scene/mesh.hpp"
-#include "reference/exact/triangle_distance.hpp"
+#include "core/exact/triangle_distance.hpp"
 
-namespace broadside::reference {
+namespace broadside::exact {
 
 // Vertices are the pipeline's: turned in float here, moved in float where they are used, and double from there on. So
 // the arbiter judges the very points that the pipeline compares.
@@ -49,4 +49,4 @@ Nearest nearest_by_brute_force(const TriangleTree& a, core::Vec3 xa, const Trian
 // Least distance of any vertex of one to any vertex of the other, d_vv of METHOD section 3, by visiting every pair.
 Nearest nearest_vertices(const TriangleTree& a, core::Vec3 xa, const TriangleTree& b, core::Vec3 xb);
 
-}  // namespace broadside::reference
+}  // namespace broadside::exact

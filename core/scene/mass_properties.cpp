@@ -1,0 +1,140 @@
+#include "core/scene/mass_properties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/mesh/topology.hpp"
+#include "core/scene/primitive.hpp"
+
+namespace broadside::core {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point point_of(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+// Volume and the integrals of x_i and x_i x_j over the volume, from the tetrahedra that the origin spans with each
+// triangle.
+struct Moments {
+  double volume = 0.0;
+  Point first{};
+  std::array<double, 6> second{};  // xx yy zz xy xz yz
+};
+
+Moments moments_of(const Mesh& mesh) {
+  constexpr std::array<std::array<int, 2>, 6> kAxes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+  Moments sum;
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<Point, 3> p{point_of(mesh.vertices[t[0]]), point_of(mesh.vertices[t[1]]),
+                                 point_of(mesh.vertices[t[2]])};
+    const double determinant = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
+                               p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
+                               p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+    sum.volume += determinant / 6.0;
+    for (std::size_t k = 0; k < 3; ++k) sum.first[k] += determinant / 24.0 * (p[0][k] + p[1][k] + p[2][k]);
+    for (std::size_t e = 0; e < kAxes.size(); ++e) {
+      const auto [i, j] = kAxes[e];
+      const double total_i = p[0][i] + p[1][i] + p[2][i];
+      const double total_j = p[0][j] + p[1][j] + p[2][j];
+      double products = total_i * total_j;
+      for (const Point& q : p) products += q[i] * q[j];
+      sum.second[e] += determinant / 120.0 * products;
+    }
+  }
+  return sum;
+}
+
+MassProperties of_polyhedron(const Moments& m, double mass_kg) {
+  const double density = mass_kg / m.volume;
+  MassProperties out;
+  for (std::size_t k = 0; k < 3; ++k) out.center_of_mass_m[k] = m.first[k] / m.volume;
+  const Point& c = out.center_of_mass_m;
+  // Second moments about the center of mass.
+  const auto about = [&](std::size_t e, std::size_t i, std::size_t j) {
+    return density * m.second[e] - mass_kg * c[i] * c[j];
+  };
+  const double xx = about(0, 0, 0);
+  const double yy = about(1, 1, 1);
+  const double zz = about(2, 2, 2);
+  out.inertia_kg_m2 = {yy + zz, xx + zz, xx + yy, -about(3, 0, 1), -about(4, 0, 2), -about(5, 1, 2)};
+  return out;
+}
+
+MassProperties of_primitive(const Primitive& p, double mass_kg) {
+  MassProperties out;
+  const Point h = point_of(p.half_extents);
+  if (p.kind == PrimitiveKind::kBox) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double a = h[(k + 1) % 3];
+      const double b = h[(k + 2) % 3];
+      out.inertia_kg_m2[k] = mass_kg * (a * a + b * b) / 3.0;
+    }
+    return out;
+  }
+  const double r = p.radius_m;
+  if (p.kind == PrimitiveKind::kSphere) {
+    for (std::size_t k = 0; k < 3; ++k) out.inertia_kg_m2[k] = 0.4 * mass_kg * r * r;
+    return out;
+  }
+  // A capsule: a cylinder of length 2 l and the two halves of a ball.
+  const double l = p.half_length_m();
+  const double cylinder = 2.0 * std::numbers::pi * r * r * l;
+  const double ball = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+  const double m_c = mass_kg * cylinder / (cylinder + ball);
+  const double m_b = mass_kg - m_c;
+  const double along = m_c * r * r / 2.0 + m_b * 0.4 * r * r;
+  const double across = m_c * (r * r / 4.0 + l * l / 3.0) + m_b * (0.4 * r * r + l * l + 0.75 * l * r);
+  for (std::size_t k = 0; k < 3; ++k) out.inertia_kg_m2[k] = static_cast<int>(k) == p.axis ? along : across;
+  return out;
+}
+
+}  // namespace
+
+Result<MassProperties> uniform_mass_properties(const Mesh& mesh, double mass_kg) {
+  if (const auto primitive = primitive_of(mesh)) return of_primitive(*primitive, mass_kg);
+  const Topology surface = topology(mesh);
+  if (!surface.is_closed() || surface.misoriented_edges > 0)
+    return Error{"the mesh is not closed, so its inertia is not defined", "mesh " + mesh.name,
+                 "give center_of_mass_m and inertia_kg_m2 of its bodies, or a closed mesh"};
+  const Moments moments = moments_of(mesh);
+  if (!(moments.volume > 0.0))
+    return Error{"the mesh has no volume above zero, so its inertia is not defined", "mesh " + mesh.name,
+                 "turn its triangles outward, or give center_of_mass_m and inertia_kg_m2 of its bodies"};
+  return of_polyhedron(moments, mass_kg);
+}
+
+std::array<double, 3> principal_moments(const std::array<double, 6>& m) {
+  // Eigenvalues of a symmetric 3 x 3 matrix by its characteristic cubic (Smith, Communications of the ACM 4, 1961).
+  const double off = m[3] * m[3] + m[4] * m[4] + m[5] * m[5];
+  const double mean = (m[0] + m[1] + m[2]) / 3.0;
+  const double a = m[0] - mean;
+  const double b = m[1] - mean;
+  const double c = m[2] - mean;
+  const double p = std::sqrt((a * a + b * b + c * c + 2.0 * off) / 6.0);
+  if (p == 0.0) return {mean, mean, mean};
+  const double determinant =
+      a * (b * c - m[5] * m[5]) - m[3] * (m[3] * c - m[5] * m[4]) + m[4] * (m[3] * m[5] - b * m[4]);
+  const double angle = std::acos(std::clamp(determinant / (2.0 * p * p * p), -1.0, 1.0)) / 3.0;
+  const double third = 2.0 * std::numbers::pi / 3.0;
+  const double high = mean + 2.0 * p * std::cos(angle);
+  const double low = mean + 2.0 * p * std::cos(angle + third);
+  return {low, 3.0 * mean - high - low, high};
+}
+
+Status check_mass_properties(const MassProperties& properties) {
+  for (const double v : properties.center_of_mass_m)
+    if (!std::isfinite(v)) return Error{"center_of_mass_m is NaN or infinite", "", "give three finite numbers, in m"};
+  for (const double v : properties.inertia_kg_m2)
+    if (!std::isfinite(v)) return Error{"inertia_kg_m2 is NaN or infinite", "", "give xx yy zz xy xz yz, in kg m^2"};
+  const auto [low, middle, high] = principal_moments(properties.inertia_kg_m2);
+  if (!(low > 0.0)) return Error{"inertia_kg_m2 has a principal moment of zero or below", "", "give a positive matrix"};
+  if (!(high <= (low + middle) * (1.0 + 0x1p-20)))
+    return Error{"inertia_kg_m2 breaks the triangle inequality: its largest principal moment is above the sum of the others",
+                 "", "no body has such an inertia: check the units and the order xx yy zz xy xz yz"};
+  return Done{};
+}
+
+}  // namespace broadside::core
