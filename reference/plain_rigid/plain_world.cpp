@@ -1,0 +1,329 @@
+#include "reference/plain_rigid/plain_world.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "core/method/frame_digest.hpp"
+#include "core/scene/refuse_springs.hpp"
+
+namespace broadside::reference::plain {
+namespace {
+
+using core::Status;
+
+Vec vec(core::Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+core::Vec3 narrow(Vec v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+core::WideVec3 wide(Vec v) {
+  return {v.x, v.y, v.z};
+}
+
+core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index) {
+  const core::Body& given = scene.bodies[index];
+  const core::Mesh& mesh = *scene.meshes[given.mesh];
+  const auto primitive = core::primitive_of(mesh);
+  const bool is_known = primitive && primitive->kind != core::PrimitiveKind::kCapsule;
+  if (!is_known)
+    return core::Error{"unsupported shape: " + (primitive ? std::string(core::primitive_word(primitive->kind)) : "mesh"),
+                       scene.name + ": body " + std::to_string(index), "plain-rigid knows boxes and spheres",
+                       core::Exit::kMissing};
+  RigidBody b;
+  b.kind = primitive->kind;
+  b.half_extents = vec(primitive->half_extents);
+  b.radius = primitive->radius_m;
+  b.material = given.material;
+  b.inverse_mass = given.inverse_mass;
+  b.q = normalized({given.orientation.w, given.orientation.x, given.orientation.y, given.orientation.z});
+  b.v = vec(given.velocity);
+  b.x = vec(given.position);
+  if (b.is_static()) {
+    b.inverse_inertia = {{Vec{}, Vec{}, Vec{}}};
+    b.static_spin = vec(given.angular_velocity);
+    return b;
+  }
+  const auto mass = core::mass_properties_of(scene, index);
+  if (!mass) return mass.error();
+  const auto& i = mass.value().inertia_kg_m2;
+  const auto& c = mass.value().center_of_mass_m;
+  b.inertia = {{Vec{i[0], i[3], i[4]}, Vec{i[3], i[1], i[5]}, Vec{i[4], i[5], i[2]}}};
+  b.inverse_inertia = inverse(b.inertia);
+  b.center_of_mass = {c[0], c[1], c[2]};
+  const Mat r = b.rotation();
+  const Vec arm = r * b.center_of_mass;
+  const Vec spin = vec(given.angular_velocity);
+  b.x = b.x + arm;
+  b.angular_momentum = r * (b.inertia * (transposed(r) * spin));
+  return b;
+}
+
+double size_of(const RigidBody& b) {
+  return length(b.center_of_mass) + (b.kind == core::PrimitiveKind::kSphere ? b.radius : length(b.half_extents));
+}
+
+std::uint64_t point_digest(const core::ContactPoint& p) {
+  return core::RecordHash(0x706f696eULL, core::pair_key({p.a, p.b}))
+      .add(p.point.x, p.point.y, p.point.z, p.gap_m)
+      .add(p.normal.x, p.normal.y, p.normal.z, 0.0F)
+      .add(p.impulse.x, p.impulse.y, p.impulse.z, 0.0F)
+      .value();
+}
+
+std::uint64_t wide_digest(std::uint32_t body, const RigidBody& b) {
+  const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d); };
+  const Vec& l = b.angular_momentum;
+  return core::RecordHash(0x77696465ULL, body)
+      .add(bits(b.x.x), bits(b.x.y))
+      .add(bits(b.x.z), bits(b.v.x))
+      .add(bits(b.v.y), bits(b.v.z))
+      .add(bits(b.q.w), bits(b.q.x))
+      .add(bits(b.q.y), bits(b.q.z))
+      .add(bits(l.x), bits(l.y))
+      .add(bits(l.z), 0)
+      .value();
+}
+
+}  // namespace
+
+Status PlainWorld::load(const core::Scene& scene) {
+  if (Status s = core::refuse_springs(scene); !s) return s;
+  scene_ = &scene;
+  steps_ = 0;
+  bodies_.clear();
+  points_.clear();
+  for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
+    auto body = body_of(scene, i);
+    if (!body) return body.error();
+    bodies_.push_back(body.value());
+    // Bodies that translate have no inverse inertia: nothing turns them.
+    if (scene.motion == core::Motion::kTranslate) {
+      bodies_.back().inverse_inertia = {{Vec{}, Vec{}, Vec{}}};
+      bodies_.back().angular_momentum = {};
+    }
+  }
+  return core::Done{};
+}
+
+core::Box PlainWorld::box_of(const RigidBody& b) const {
+  const Vec c = b.origin();
+  const Mat r = b.rotation();
+  core::Box box;
+  for (int k = 0; k < 3; ++k) {
+    double half = b.radius;
+    if (b.kind == core::PrimitiveKind::kBox) {
+      half = 0.0;
+      for (int j = 0; j < 3; ++j) half += std::abs(r.row[static_cast<std::size_t>(k)][j]) * b.half_extents[j];
+    }
+    // Rounded outward, so that the recorded box contains the shape.
+    box.min[k] = std::nextafter(static_cast<float>(c[k] - half), -std::numeric_limits<float>::infinity());
+    box.max[k] = std::nextafter(static_cast<float>(c[k] + half), std::numeric_limits<float>::infinity());
+  }
+  return box;
+}
+
+double PlainWorld::fastest(const RigidBody& b, double h) const {
+  if (b.is_static()) return 0.0;
+  return length(b.v) + length(b.angular_velocity()) * size_of(b) + h * length(vec(scene_->gravity_m_s2));
+}
+
+void PlainWorld::add_pair(std::uint32_t a, std::uint32_t b, double h) {
+  std::vector<NearPoint> found;
+  near_points(bodies_[a], bodies_[b], h * (fastest(bodies_[a], h) + fastest(bodies_[b], h)), found);
+  for (const NearPoint& p : found)
+    points_.push_back({a, b, p, core::combine(bodies_[a].material, bodies_[b].material), 0.0, 0.0, {}, {}});
+}
+
+void PlainWorld::add_faces(std::uint32_t a, double h) {
+  for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+    std::vector<NearPoint> found;
+    near_points(bodies_[a], scene_->domain, face, h * fastest(bodies_[a], h), found);
+    for (const NearPoint& p : found)
+      points_.push_back({a, core::kFirstFace + face, p, core::combine(bodies_[a].material, scene_->face_material), 0.0,
+                         0.0, {}, {}});
+  }
+}
+
+// Sorted along x by boxes that are grown by what may close within h.
+void PlainWorld::find_points(double h) {
+  points_.clear();
+  struct Reach {
+    double low[3];
+    double high[3];
+  };
+  std::vector<Reach> reach(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const core::Box box = box_of(bodies_[i]);
+    const double grow = h * fastest(bodies_[i], h);
+    for (int k = 0; k < 3; ++k) reach[i].low[k] = box.min[k] - grow, reach[i].high[k] = box.max[k] + grow;
+  }
+  std::vector<std::uint32_t> order(bodies_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) {
+    return reach[p].low[0] != reach[q].low[0] ? reach[p].low[0] < reach[q].low[0] : p < q;
+  });
+  std::vector<core::Pair> pairs;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && reach[order[j]].low[0] <= reach[order[i]].high[0]; ++j) {
+      const Reach& p = reach[order[i]];
+      const Reach& q = reach[order[j]];
+      const bool overlap =
+          p.low[1] <= q.high[1] && q.low[1] <= p.high[1] && p.low[2] <= q.high[2] && q.low[2] <= p.high[2];
+      if (overlap && !(bodies_[order[i]].is_static() && bodies_[order[j]].is_static()))
+        pairs.push_back(core::make_pair_of(order[i], order[j]));
+    }
+  std::sort(pairs.begin(), pairs.end());
+  for (const core::Pair p : pairs) add_pair(p.i, p.j, h);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+    if (!bodies_[i].is_static()) add_faces(i, h);
+}
+
+void PlainWorld::solve_impacts(double h) {
+  const Vec g = vec(scene_->gravity_m_s2);
+  std::vector<SolverPoint> hits;
+  std::vector<std::size_t> index;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const SolverPoint& p = points_[k];
+    const bool moves_b = !core::is_face(p.b) && !bodies_[p.b].is_static();
+    const Vec vb = core::is_face(p.b) ? Vec{} : velocity_at(bodies_[p.b], p.at.point);
+    const double approach = -dot(velocity_at(bodies_[p.a], p.at.point) - vb, p.at.normal);
+    const double pull = (bodies_[p.a].is_static() ? 0.0 : 1.0) - (moves_b ? 1.0 : 0.0);
+    const double closing = h * (approach - pull * h * dot(g, p.at.normal));
+    const bool is_hit = approach > scene_->parameters.v_threshold_m_s && p.at.gap < closing;
+    if (!is_hit) continue;
+    hits.push_back(p);
+    hits.back().least_speed = p.surface.restitution * approach;
+    index.push_back(k);
+  }
+  if (hits.empty()) return;
+  solve_velocities(hits, bodies_, options_.iterations);
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    hits[k].finish_solve();
+    points_[index[k]].total_impulse = hits[k].total_impulse;
+  }
+}
+
+void PlainWorld::accelerate(double h) {
+  for (RigidBody& b : bodies_)
+    if (!b.is_static()) b.v = b.v + h * vec(scene_->gravity_m_s2);
+}
+
+void PlainWorld::solve_contacts(double h) {
+  for (SolverPoint& p : points_) p.least_speed = p.at.gap > 0.0 ? -p.at.gap / h : 0.0;
+  solve_velocities(points_, bodies_, options_.iterations);
+  for (SolverPoint& p : points_) {
+    if (p.normal_impulse > 0.0) {
+      is_touched_[p.a] = 1;
+      if (!core::is_face(p.b)) is_touched_[p.b] = 1;
+    }
+    p.finish_solve();
+  }
+}
+
+void PlainWorld::move(double h) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    RigidBody& b = bodies_[i];
+    if (b.is_static()) continue;
+    b.x = b.x + (is_touched_[i] != 0 ? h * b.v : (0.5 * h) * (velocity_before_gravity_[i] + b.v));
+    turn(b, h);
+  }
+}
+
+// The classical Runge-Kutta method on dq/dt = (0, w(q)) q / 2 with the angular momentum constant.
+void PlainWorld::turn(RigidBody& b, double h) {
+  const auto spin = [&b](Quaternion q) { return b.world_spin(b.angular_momentum, q); };
+  const Quaternion q0 = b.q;
+  const Quaternion q1 = moved(q0, q0, spin(q0), 0.5 * h);
+  const Quaternion q2 = moved(q0, q1, spin(q1), 0.5 * h);
+  const Quaternion q3 = moved(q0, q2, spin(q2), h);
+  Quaternion sum = moved(q0, q0, spin(q0), h / 6.0);
+  sum = moved(sum, q1, spin(q1), h / 3.0);
+  sum = moved(sum, q2, spin(q2), h / 3.0);
+  sum = moved(sum, q3, spin(q3), h / 6.0);
+  b.q = normalized(sum);
+}
+
+void PlainWorld::separate() {
+  correct_positions(points_, bodies_, {options_.iterations, scene_->parameters.delta_m, 0.2});
+}
+
+Status PlainWorld::step(float dt_s) {
+  const double h = dt_s;
+  begin_record();
+  find_points(h);
+  solve_impacts(h);
+  velocity_before_gravity_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) velocity_before_gravity_[i] = bodies_[i].v;
+  accelerate(h);
+  is_touched_.assign(bodies_.size(), 0);
+  solve_contacts(h);
+  move(h);
+  separate();
+  for (const SolverPoint& p : points_) {
+    const bool acts = dot(p.total_impulse, p.total_impulse) > 0.0;
+    if (!acts && p.at.gap > 0.0) continue;
+    recorded_.push_back({p.a, p.b, narrow(p.at.point), narrow(p.at.normal), static_cast<float>(p.at.gap),
+                         narrow(p.total_impulse), 0});
+  }
+  ++steps_;
+  return core::Done{};
+}
+
+void PlainWorld::begin_record() {
+  recorded_.clear();
+  detected_ = {};
+  for (const RigidBody& b : bodies_) {
+    detected_.detected_position.push_back(narrow(b.origin()));
+    detected_.detected_velocity.push_back(narrow(b.v));
+    detected_.detected_orientation.push_back({static_cast<float>(b.q.w), static_cast<float>(b.q.x),
+                                              static_cast<float>(b.q.y), static_cast<float>(b.q.z)});
+    detected_.boxes.push_back(box_of(b));
+  }
+}
+
+Status PlainWorld::read_back(core::FrameRecord& frame, core::RecordLevel level) {
+  frame = {};
+  frame.step = steps_;
+  frame.time_s = static_cast<double>(steps_) * scene_->dt_s;
+  if (level == core::RecordLevel::kFull) {
+    frame.detected_position = detected_.detected_position;
+    frame.detected_velocity = detected_.detected_velocity;
+    frame.detected_orientation = detected_.detected_orientation;
+    frame.boxes = detected_.boxes;
+  }
+  frame.points = recorded_;
+  for (const RigidBody& b : bodies_) {
+    frame.wide.position.push_back(wide(b.origin()));
+    frame.wide.orientation.push_back({b.q.w, b.q.x, b.q.y, b.q.z});
+    frame.wide.velocity.push_back(wide(b.v));
+    frame.wide.angular_velocity.push_back(wide(b.angular_velocity()));
+  }
+  record(frame);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) frame.digest += wide_digest(i, bodies_[i]);
+  for (const core::ContactPoint& p : frame.points) frame.digest += point_digest(p);
+  if (level != core::RecordLevel::kFull) {
+    frame.wide = {};
+    frame.points.clear();
+    return core::Done{};
+  }
+  for (std::size_t i = 0; i < frame.wide.position.size(); ++i) {
+    frame.position.push_back(core::narrowed(frame.wide.position[i]));
+    frame.orientation.push_back(core::narrowed(frame.wide.orientation[i]));
+    frame.velocity.push_back(core::narrowed(frame.wide.velocity[i]));
+    frame.angular_velocity.push_back(core::narrowed(frame.wide.angular_velocity[i]));
+  }
+  return core::Done{};
+}
+
+std::uint32_t PlainWorld::groups() const {
+  using core::Group;
+  return bit(Group::kBodies) | bit(Group::kWideBodies) | bit(Group::kDetection) | bit(Group::kDetectedOrientation) |
+         bit(Group::kPoints);
+}
+
+}  // namespace broadside::reference::plain

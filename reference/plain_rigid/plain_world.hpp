@@ -1,0 +1,72 @@
+// A serial, float64, plainly right simulation of boxes and spheres that turn: a reference, and the engine whose stages
+// mutants replace one at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/engine/dynamics.hpp"
+#include "core/scene/scene.hpp"
+#include "reference/plain_rigid/rigid_body.hpp"
+#include "reference/plain_rigid/solver.hpp"
+
+namespace broadside::reference::plain {
+
+struct WorldOptions {
+  std::uint32_t iterations = 100;
+};
+
+// One step of h:
+//   1. points where bodies touch or may touch within h, at the poses of the start;
+//   2. impacts: bodies that meet faster than the scene's threshold rebound, before gravity acts;
+//   3. gravity, then impulses that keep bodies from moving into each other (speculative: the gap may close, no more);
+//   4. positions move with the mean velocity where nothing touched, so that free flight is exact, and with the last
+//      velocity where something did; orientations by the classical Runge-Kutta method, angular momentum constant;
+//   5. bodies that are deeper than the slop are moved apart.
+class PlainWorld : public core::Dynamics {
+ public:
+  explicit PlainWorld(WorldOptions options) : options_(options) {}
+
+  core::Status load(const core::Scene& scene) override;
+  core::Status step(float dt_s) override;
+  core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
+  [[nodiscard]] std::uint32_t groups() const override;
+
+ protected:
+  // The stages, in order. A mutant replaces one.
+  virtual void find_points(double h);
+  virtual void solve_impacts(double h);
+  virtual void accelerate(double h);
+  virtual void solve_contacts(double h);
+  virtual void move(double h);
+  virtual void turn(RigidBody& body, double h);
+  virtual void separate();
+  // The last word on what is recorded.
+  virtual void record(core::FrameRecord&) {}
+
+  [[nodiscard]] const core::Scene& scene() const { return *scene_; }
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  // The world's box of a body's shape at its present pose.
+  [[nodiscard]] core::Box box_of(const RigidBody& body) const;
+
+  std::vector<RigidBody> bodies_;
+  std::vector<SolverPoint> points_;
+  WorldOptions options_;
+
+ private:
+  void add_pair(std::uint32_t a, std::uint32_t b, double h);
+  void add_faces(std::uint32_t a, double h);
+  void begin_record();
+  // Speed bound of any point of the body, m/s, with what gravity adds in h.
+  [[nodiscard]] double fastest(const RigidBody& body, double h) const;
+
+  const core::Scene* scene_ = nullptr;
+  std::uint64_t steps_ = 0;
+  std::vector<std::uint8_t> is_touched_;
+  std::vector<Vec> velocity_before_gravity_;
+  // What detection saw at the start of the step, and its points.
+  core::FrameRecord detected_;
+  std::vector<core::ContactPoint> recorded_;
+};
+
+}  // namespace broadside::reference::plain

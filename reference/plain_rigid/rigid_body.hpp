@@ -1,0 +1,45 @@
+// One body of plain-rigid: its shape, mass and state.
+#pragma once
+
+#include <cstdint>
+
+#include "core/material.hpp"
+#include "core/scene/primitive.hpp"
+#include "reference/plain_rigid/linear.hpp"
+
+namespace broadside::reference::plain {
+
+struct RigidBody {
+  core::PrimitiveKind kind = core::PrimitiveKind::kBox;  // a box or a sphere
+  Vec half_extents;                                      // m, of a box
+  double radius = 0.0;                                   // m, of a sphere
+  core::Material material;
+
+  double inverse_mass = 0.0;  // 1/kg; 0 = static
+  Vec center_of_mass;         // m, in mesh coordinates
+  Mat inertia;                // kg m^2, about the center of mass, in mesh axes
+  Mat inverse_inertia;        // zero for a static body
+
+  Vec x;  // center of mass, m
+  Quaternion q;
+  Vec v;  // m/s
+  // World frame, kg m^2/s. It is the state, and not the angular velocity, so that it is constant while nothing acts.
+  Vec angular_momentum;
+  Vec static_spin;  // rad/s: what the scene says of a static body, which never turns
+
+  [[nodiscard]] bool is_static() const { return !(inverse_mass > 0.0); }
+  [[nodiscard]] Mat rotation() const { return matrix(q); }
+  // Of the mesh: where its vertices' origin is.
+  [[nodiscard]] Vec origin() const { return x - rotation() * center_of_mass; }
+  [[nodiscard]] Vec world_spin(Vec momentum, Quaternion orientation) const {
+    const Mat r = matrix(orientation);
+    return r * (inverse_inertia * (transposed(r) * momentum));
+  }
+  [[nodiscard]] Vec angular_velocity() const { return is_static() ? static_spin : world_spin(angular_momentum, q); }
+};
+
+inline Vec velocity_at(const RigidBody& b, Vec point) {
+  return b.is_static() ? Vec{} : b.v + cross(b.angular_velocity(), point - b.x);
+}
+
+}  // namespace broadside::reference::plain

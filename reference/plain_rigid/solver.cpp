@@ -1,0 +1,125 @@
+#include "reference/plain_rigid/solver.hpp"
+
+#include <algorithm>
+
+#include "core/contact.hpp"
+
+namespace broadside::reference::plain {
+namespace {
+
+// A body's part in one point, with its inverse inertia in the world.
+struct Side {
+  RigidBody* body = nullptr;  // null for a face of the domain or a static body
+  Mat inverse_inertia;
+  Vec arm;
+};
+
+Side side_of(std::vector<RigidBody>& bodies, std::uint32_t id, Vec point) {
+  if (core::is_face(id) || bodies[id].is_static()) return {};
+  RigidBody& b = bodies[id];
+  const Mat r = b.rotation();
+  return {&b, r * (b.inverse_inertia * transposed(r)), point - b.x};
+}
+
+Vec speed(const Side& s) {
+  if (s.body == nullptr) return {};
+  return s.body->v + cross(s.inverse_inertia * s.body->angular_momentum, s.arm);
+}
+
+// How much faster the point moves along d for an impulse of 1 N s along d.
+double mobility(const Side& s, Vec d) {
+  if (s.body == nullptr) return 0.0;
+  const Vec turning = cross(s.arm, d);
+  return s.body->inverse_mass + dot(turning, s.inverse_inertia * turning);
+}
+
+void push(const Side& s, Vec impulse) {
+  if (s.body == nullptr) return;
+  s.body->v = s.body->v + s.body->inverse_mass * impulse;
+  s.body->angular_momentum = s.body->angular_momentum + cross(s.arm, impulse);
+}
+
+struct Row {
+  SolverPoint* point = nullptr;
+  Side a;
+  Side b;
+  double normal_mobility = 0.0;
+  double tangent_mobility = 0.0;  // of the least movable tangent direction: a step never overshoots
+
+  [[nodiscard]] Vec relative() const { return speed(a) - speed(b); }
+  void apply(Vec impulse) const {
+    push(a, impulse);
+    push(b, -impulse);
+  }
+};
+
+Row row_of(SolverPoint& p, std::vector<RigidBody>& bodies) {
+  Row row{&p, side_of(bodies, p.a, p.at.point), side_of(bodies, p.b, p.at.point), 0.0, 0.0};
+  const Vec n = p.at.normal;
+  row.normal_mobility = mobility(row.a, n) + mobility(row.b, n);
+  const Vec t = perpendicular(n);
+  const Vec u = cross(n, t);
+  // The sum bounds the larger eigenvalue of the 2 x 2 mobility of the tangent plane from above.
+  const double tt = mobility(row.a, t) + mobility(row.b, t);
+  const double uu = mobility(row.a, u) + mobility(row.b, u);
+  const Vec both = 0.70710678118654752 * (t + u);
+  const double tu = 0.5 * (2.0 * (mobility(row.a, both) + mobility(row.b, both)) - tt - uu);
+  row.tangent_mobility = 0.5 * (tt + uu) + std::sqrt(0.25 * (tt - uu) * (tt - uu) + tu * tu);
+  return row;
+}
+
+void solve(const Row& row) {
+  SolverPoint& p = *row.point;
+  const Vec n = p.at.normal;
+  const double before = p.normal_impulse;
+  p.normal_impulse = std::max(0.0, before + (p.least_speed - dot(row.relative(), n)) / row.normal_mobility);
+  row.apply((p.normal_impulse - before) * n);
+
+  const Vec relative = row.relative();
+  const Vec slip = relative - dot(relative, n) * n;
+  const Vec old = p.friction_impulse;
+  Vec wanted = old - (1.0 / row.tangent_mobility) * slip;
+  const double size = length(wanted);
+  if (size > p.surface.mu_static * p.normal_impulse)
+    wanted = size > 0.0 ? (p.surface.mu_kinetic * p.normal_impulse / size) * wanted : Vec{};
+  p.friction_impulse = wanted;
+  row.apply(wanted - old);
+}
+
+}  // namespace
+
+void solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies, std::uint32_t iterations) {
+  std::vector<Row> rows;
+  for (SolverPoint& p : points)
+    if (Row row = row_of(p, bodies); row.normal_mobility > 0.0) rows.push_back(row);
+  for (std::uint32_t k = 0; k < iterations; ++k) {
+    // Forward and backward in turn, so that no end of a stack is favored.
+    if (k % 2 == 0)
+      std::for_each(rows.begin(), rows.end(), solve);
+    else
+      std::for_each(rows.rbegin(), rows.rend(), solve);
+  }
+}
+
+void correct_positions(const std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies,
+                       const SolverOptions& options) {
+  // The points of two bodies lie together: the deepest of them says how far these bodies are moved. Bodies are moved
+  // and never turned.
+  for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
+    const SolverPoint* deepest = &points[first];
+    for (last = first; last < points.size() && points[last].a == points[first].a && points[last].b == points[first].b;
+         ++last)
+      if (points[last].at.gap < deepest->at.gap) deepest = &points[last];
+    const double depth = -deepest->at.gap - options.slop_m;
+    if (!(depth > 0.0)) continue;
+    RigidBody& a = bodies[deepest->a];
+    RigidBody* b = core::is_face(deepest->b) || bodies[deepest->b].is_static() ? nullptr : &bodies[deepest->b];
+    const double mobility = a.inverse_mass + (b == nullptr ? 0.0 : b->inverse_mass);
+    if (!(mobility > 0.0)) continue;
+    const Vec way = (options.correction_rate * depth / mobility) * deepest->at.normal;
+    a.x = a.x + a.inverse_mass * way;
+    if (b != nullptr) b->x = b->x - b->inverse_mass * way;
+  }
+}
+
+}  // namespace broadside::reference::plain

@@ -1,0 +1,26 @@
+// Where two shapes of plain-rigid touch or come near: points with normals and gaps.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math/box.hpp"
+#include "reference/plain_rigid/rigid_body.hpp"
+
+namespace broadside::reference::plain {
+
+// On the middle between the two surfaces.
+struct NearPoint {
+  Vec point;         // m
+  Vec normal;        // unit, from B to A
+  double gap = 0.0;  // m; negative is penetration
+};
+
+// Points whose gap is at most reach (m). Two spheres and a sphere against a box have at most one, two boxes at most
+// eight, a box against a face of the domain its eight corners.
+void near_points(const RigidBody& a, const RigidBody& b, double reach, std::vector<NearPoint>& out);
+// Against face 0 to 5 of the domain: -x +x -y +y -z +z.
+void near_points(const RigidBody& a, const core::Box& domain, std::uint32_t face, double reach,
+                 std::vector<NearPoint>& out);
+
+}  // namespace broadside::reference::plain
