@@ -9,6 +9,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/scene/scene.hpp"
+#include "validation/mechanics/motion.hpp"
 #include "validation/scene_relation.hpp"
 
 namespace broadside::validation {
@@ -20,6 +21,7 @@ constexpr std::uint64_t kFramesPerReport = 50;
 // One row of the pass: a running validator, or the verdict that says why it did not run.
 struct Entry {
   bool compares_scenes = false;
+  bool reads_motion = false;
   std::unique_ptr<Validator> validator;
   core::Verdict verdict;
 };
@@ -62,6 +64,7 @@ std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& opti
       continue;
     Entry entry;
     entry.compares_scenes = row.compares_scenes;
+    entry.reads_motion = row.reads_motion;
     const Subject& seen = row.compares_scenes ? subject : alone;
     entry.verdict.validator = row.name;
     entry.verdict.explanation = row.why_not(seen);
@@ -117,6 +120,10 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
                       &subject.statistics, subject.is_cut_off};
   std::vector<Entry> entries = make_entries(facts, options, groups, baseline_groups);
 
+  std::optional<MotionReader> motions;
+  if (std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.validator && e.reads_motion; }))
+    motions.emplace(subject.header);
+
   BaselineFrames baseline_frames(baseline, baseline_groups);
   std::optional<core::FrameRecord> previous;
   const std::uint64_t total = subject.steps.size();
@@ -127,8 +134,10 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
     const auto counterpart = baseline_frames.at(frame.step);
     if (!counterpart) return counterpart.error();
     const bool follows = previous && previous->step + 1 == frame.step;
-    const Evidence evidence{frame, follows ? &*previous : nullptr, counterpart.value()};
-    const Evidence alone{frame, evidence.previous, is_transformed ? nullptr : evidence.baseline};
+    const core::FrameRecord* before = follows ? &*previous : nullptr;
+    const Motion* motion = motions ? motions->read(frame, before) : nullptr;
+    const Evidence evidence{frame, before, counterpart.value(), motion};
+    const Evidence alone{frame, before, is_transformed ? nullptr : evidence.baseline, motion};
     for (Entry& entry : entries)
       if (entry.validator) entry.validator->look(entry.compares_scenes ? evidence : alone);
     if (options.observe) options.observe(evidence);

@@ -38,7 +38,8 @@ std::string body_text(std::uint32_t body) {
   return face < core::kFaceCount ? std::string("the ") + kFaces[face] + " face" : "unknown face";
 }
 
-bool Tally::check(double measured, const Limit& limit, const Where& where) {
+bool Tally::check(double measured, const Limit& limit, const Where& where,
+                  const std::function<std::string()>& worked) {
   ++checked_;
   const bool holds = measured <= limit.value;
   if (!holds && violations_++ == 0) first_violation_ = where;
@@ -50,6 +51,8 @@ bool Tally::check(double measured, const Limit& limit, const Where& where) {
     worst_measured_ = measured;
     worst_limit_ = limit;
     worst_where_ = where;
+    // Only a failing verdict shows them.
+    if (!holds) worst_worked_ = worked ? worked() : std::string();
   }
   return holds;
 }
@@ -87,6 +90,7 @@ core::Verdict Tally::conclude(std::string_view nothing, const std::string& notes
                           " break the law, " + (began_before ? "first at " + where_text(first_violation_) + ", " : "") +
                           "worst at " + where_text(worst_where_) + ": " + number_text(worst_measured_) + " where " +
                           number_text(worst_limit_.value) + " " + std::string(worst_limit_.unit) + " is allowed";
+    if (!worst_worked_.empty()) verdict.explanation += ": " + worst_worked_;
   } else {
     verdict.outcome = core::Outcome::kPass;
     verdict.explanation = std::to_string(checked_) + " " + std::string(things_) + " hold";

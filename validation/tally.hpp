@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -48,7 +49,8 @@ class Tally {
 
   // Judges that measured <= limit; NaN breaks every limit. The worst is the largest measured / limit, the earliest of
   // equals.
-  bool check(double measured, const Limit& limit, const Where& where);
+  // worked: the numbers behind it, asked for when this becomes the worst value; a failing verdict shows them.
+  bool check(double measured, const Limit& limit, const Where& where, const std::function<std::string()>& worked = {});
   // A law that either holds or not, without a magnitude.
   bool require(bool holds, std::string_view origin, const Where& where);
   // The law applies here, but rounding alone decides the answer.
@@ -74,6 +76,7 @@ class Tally {
   Limit worst_limit_;
   Where worst_where_;
   Where first_violation_;
+  std::string worst_worked_;
 };
 
 }  // namespace broadside::validation

@@ -14,12 +14,17 @@
 
 namespace broadside::validation {
 
+struct Motion;
+
 // One frame of the subject, the subject's frame before it (null at the first, or when frames between were not
 // recorded), and the baseline's frame of the same step (null when there is no baseline or it lacks that step).
 struct Evidence {
   const core::FrameRecord& frame;
   const core::FrameRecord* previous = nullptr;
   const core::FrameRecord* baseline = nullptr;
+  // The step in float64 (validation/mechanics/motion.hpp), for validators whose row asks for it; null where the frame
+  // before was not recorded.
+  const Motion* motion = nullptr;
 };
 
 // Lives for one pass over one trace. Frames come in rising order of step; memory must not grow with their number.
@@ -50,6 +55,7 @@ struct ValidatorRow {
   std::unique_ptr<Validator> (*make)(const Subject& subject);
   // Its baseline runs a transformed scene (validation/scene_relation.hpp); other validators never get such a one.
   bool compares_scenes = false;
+  bool reads_motion = false;
 };
 
 }  // namespace broadside::validation

@@ -1,0 +1,105 @@
+#include "validation/validator.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "validation/mechanics/motion.hpp"
+#include "validation/rounding.hpp"
+#include "validation/subject_facts.hpp"
+
+namespace broadside::validation {
+namespace {
+
+class AngularMomentum final : public Validator {
+ public:
+  explicit AngularMomentum(const Subject& subject)
+      : detects_at_start_(subject.header.declaration.text("detection_at") == "start"),
+        accumulations_(subject.header.declaration.number("iterations") *
+                       subject.header.declaration.number("substeps")) {}
+
+  void look(const Evidence& evidence) override {
+    if (evidence.motion == nullptr) return;
+    const Motion& m = *evidence.motion;
+    const std::size_t n = m.bodies.size();
+    moment_.assign(n, {});
+    slack_.assign(n, 0.0);
+    scale_.assign(n, 0.0);
+    points_.assign(n, 0.0);
+    for (const core::ContactPoint& p : evidence.frame.points) {
+      const Vec3d j(p.impulse);
+      give(m, p, p.a, 1.0, j);
+      if (!core::is_face(p.b)) give(m, p, p.b, -1.0, j);
+    }
+    for (std::uint32_t i = 0; i < n; ++i)
+      if (points_[i] > 0.0) judge(m, i);
+  }
+
+  core::Verdict conclude() override { return tally_.conclude("no body with a reported point of contact"); }
+
+ private:
+  // The point is at the pose of detection; by the end of the step it and the center have moved.
+  void give(const Motion& m, const core::ContactPoint& p, std::uint32_t body, double sign, Vec3d j) {
+    const BodyStep& b = m.bodies[body];
+    const Vec3d at = detects_at_start_ ? b.before.x : b.after.x;
+    const Vec3d arm = Vec3d(p.point) - at;
+    const double size = length(j);
+    moment_[body] = moment_[body] + sign * cross(arm, j);
+    const double moved = detects_at_start_ ? 0.0 : length(b.after.x - b.before.x) + m.h * length(b.after.w) * length(arm);
+    // The point lies between the two surfaces, which are |gap| apart.
+    slack_[body] += size * (moved + std::abs(static_cast<double>(p.gap_m)));
+    // The point is recorded in float32.
+    slack_[body] += size * rounding(2) * (length(Vec3d(p.point)) + length(arm));
+    scale_[body] += size * length(arm);
+    points_[body] += 1.0;
+  }
+
+  void judge(const Motion& m, std::uint32_t i) {
+    const BodyFacts& f = m.facts[i];
+    if (!f.is_dynamic || !f.has_inertia) return;
+    const BodyStep& b = m.bodies[i];
+    const Vec3d change = b.after.angular_momentum - b.before.angular_momentum;
+    // The gyroscopic torque may be that of the spin before or after the impulses.
+    const double gyroscopic = m.h * (length(cross(b.before.w, b.before.angular_momentum)) +
+                                     length(cross(b.after.w, b.after.angular_momentum)));
+    const double spin = length(b.before.w) + length(b.after.w);
+    const double scale = f.largest_moment * spin + scale_[i];
+    const double limit = gyroscopic + slack_[i] + m.rounding_of(40 + 2 * accumulations_ * points_[i]) * scale +
+                         rounding(4) * scale_[i] + kSubnormal;
+    tally_.check(length(change - moment_[i]), {limit, "N m s", kOrigin}, Where::body(m.step, i, "bodies.angular_velocity"),
+                 [&] {
+                   return "dL = " + vector_text(change) + " N m s, sum (p - x) x J = " + vector_text(moment_[i]) + " N m s";
+                 });
+  }
+
+  static constexpr std::string_view kOrigin =
+      "h |w x L| before and after, |J| times the gap and how far point and center move, and rounding";
+  bool detects_at_start_;
+  double accumulations_;
+  std::vector<Vec3d> moment_;
+  std::vector<double> slack_;
+  std::vector<double> scale_;
+  std::vector<double> points_;
+  Tally tally_{"angular-momentum", "angular momenta", kOrigin};
+};
+
+std::string why_not(const Subject& subject) {
+  constexpr std::uint32_t kRead = core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints);
+  if (std::string text = lacking(subject.header, kRead); !text.empty()) return text;
+  return subject.header.scene.motion == core::Motion::kTranslate ? "the scene's bodies translate only" : "";
+}
+
+}  // namespace
+
+ValidatorRow angular_momentum_row() {
+  return {"angular-momentum",
+          "a body's angular momentum changes by the moments of its impulses",
+          "torque from nowhere; points 10 cm off",
+          core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints),
+          0,
+          why_not,
+          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<AngularMomentum>(subject); },
+          false,
+          true};
+}
+
+}  // namespace broadside::validation

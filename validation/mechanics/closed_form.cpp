@@ -1,0 +1,69 @@
+#include "validation/validator.hpp"
+
+#include "validation/mechanics/scene_answer.hpp"
+#include "validation/subject_facts.hpp"
+
+namespace broadside::validation {
+namespace {
+
+class ClosedForm final : public Validator {
+ public:
+  explicit ClosedForm(const Subject& subject)
+      : scene_(subject.header.scene),
+        order_(subject.header.declaration.number("order")),
+        answer_(*find_answer(scene_.answer)) {}
+
+  void look(const Evidence& evidence) override {
+    if (evidence.motion == nullptr) return;
+    const Motion& m = *evidence.motion;
+    for (const ExactFigure& f : answer_.figures(scene_, m, order_)) {
+      if (f.what == answer_first_ || answer_first_.empty()) {
+        answer_first_ = f.what;
+        last_ = f.error;
+      }
+      tally_.check(f.error, {f.limit, f.unit, kOrigin}, Where::body(m.step, 0, f.what), [&] {
+        return std::string(f.what) + " is off by " + number_text(f.error) + " " + std::string(f.unit) + " at " +
+               number_text(static_cast<double>(m.step) * m.h) + " s, from " + std::string(answer_.what);
+      });
+    }
+  }
+
+  core::Verdict conclude() override {
+    return tally_.conclude("the formula says nothing about the recorded times",
+                           std::string(answer_first_) + " off by " + number_text(last_) + " at the end; " +
+                               std::string(answer_.what) + " (" + std::string(answer_.source) + ")");
+  }
+
+ private:
+  static constexpr std::string_view kOrigin = "C h^p, p the declared order, C from the exact solution's derivative";
+  const core::Scene& scene_;
+  double order_;
+  const SceneAnswer& answer_;
+  std::string_view answer_first_;
+  double last_ = 0.0;
+  Tally tally_{"closed-form", "errors against the exact answer", kOrigin};
+};
+
+std::string why_not(const Subject& subject) {
+  if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
+  const std::string& name = subject.header.scene.answer;
+  if (name.empty()) return "the scene has no exact answer";
+  if (name == kStands) return "rest judges what stands";
+  return find_answer(name) != nullptr ? "" : "the scene's answer '" + name + "' is not one that is known here";
+}
+
+}  // namespace
+
+ValidatorRow closed_form_row() {
+  return {"closed-form",
+          "a scene with an exact answer ends where the answer says, within C h^p of the declared order",
+          "whatever is wrong and consistent",
+          core::bit(core::Group::kBodies),
+          0,
+          why_not,
+          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<ClosedForm>(subject); },
+          false,
+          true};
+}
+
+}  // namespace broadside::validation

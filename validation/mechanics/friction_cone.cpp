@@ -1,0 +1,117 @@
+#include "validation/validator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/mechanics/motion.hpp"
+#include "validation/rounding.hpp"
+#include "validation/subject_facts.hpp"
+
+namespace broadside::validation {
+namespace {
+
+struct Friction {
+  double most = 0.0;   // coefficient
+  double least = 0.0;  // of a point that slides
+};
+
+class FrictionCone final : public Validator {
+ public:
+  explicit FrictionCone(const Subject& subject)
+      : scene_(subject.header.scene), model_(subject.header.declaration.text("friction")) {}
+
+  void look(const Evidence& evidence) override {
+    if (evidence.motion == nullptr) return;
+    for (const core::ContactPoint& p : evidence.frame.points) judge(*evidence.motion, p);
+  }
+
+  core::Verdict conclude() override { return tally_.conclude("no point of contact with an impulse"); }
+
+ private:
+  // The scene's rule: the geometric mean of the two surfaces (DESIGN).
+  [[nodiscard]] Friction friction_of(const core::ContactPoint& p) const {
+    const core::Material& a = scene_.bodies[p.a].material;
+    const core::Material& b = core::is_face(p.b) ? scene_.face_material : scene_.bodies[p.b].material;
+    const auto mean = [](double x, double y) { return std::sqrt(x * y); };
+    const double fixed = mean(a.mu_static, b.mu_static);
+    const double sliding = mean(a.mu_kinetic, b.mu_kinetic);
+    const double widest = model_ == "pyramid" ? std::sqrt(2.0) : 1.0;
+    return {widest * std::max(fixed, sliding), model_ == "regularized" ? 0.0 : std::min(fixed, sliding)};
+  }
+
+  [[nodiscard]] static Vec3d speed_at(const Motion& m, std::uint32_t body, Vec3d point) {
+    if (core::is_face(body)) return {};
+    const BodyState& s = m.bodies[body].after;
+    return m.facts[body].is_dynamic ? s.v + cross(s.w, point - m.bodies[body].before.x) : Vec3d{};
+  }
+
+  void judge(const Motion& m, const core::ContactPoint& p) {
+    const Vec3d j(p.impulse);
+    const double size = length(j);
+    if (size == 0.0) return;
+    const Vec3d n(p.normal);
+    const Vec3d at(p.point);
+    const double push = dot(j, n);
+    const Vec3d tangent = j - push * n;
+    const double drag = length(tangent);
+    // The impulse and the normal are recorded in float32; solvers sum both over their sweeps.
+    const double off = rounding(16) * size + kSubnormal;
+    const Where where = Where::pair(m.step, p.a, p.b, "points.impulse");
+    const auto worked = [&] {
+      return "J = " + vector_text(j) + " N s, along the normal " + number_text(push) + ", across " + number_text(drag);
+    };
+    tally_.check(-push, {off, "N s", "contacts push: J n >= 0, and rounding"}, where, worked);
+    const Friction mu = friction_of(p);
+    tally_.check(drag, {mu.most * std::max(0.0, push) + off, "N s", "mu J n of the scene, and rounding"}, where, worked);
+
+    const Vec3d relative = speed_at(m, p.a, at) - speed_at(m, p.b, at);
+    const Vec3d slip = relative - dot(relative, n) * n;
+    // Slower slip is within what one step of gravity does and what the point's motion in the step leaves open.
+    const double open = 2.0 * m.h * length(m.gravity) + rounding(16) * length(relative) +
+                        std::abs(static_cast<double>(p.gap_m)) * spin(m, p);
+    const double sliding = length(slip);
+    if (!(sliding > open) || drag <= off) {
+      if (sliding > 4.0 * open && model_ == "cone") judge_least(mu, push, drag, open, sliding, off, where, worked);
+      return;
+    }
+    tally_.check(dot(tangent, slip) / drag, {open, "m/s", "2 |g| h: slip slower than this may have any direction"}, where,
+                 [&] { return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s"; });
+    if (model_ != "regularized") judge_least(mu, push, drag, open, sliding, off, where, worked);
+  }
+
+  template <typename Worked>
+  void judge_least(const Friction& mu, double push, double drag, double open, double sliding, double off,
+                   const Where& where, const Worked& worked) {
+    const double share = std::max(0.0, 1.0 - 2.0 * open / sliding);
+    const double least = mu.least * std::max(0.0, push) * share - off;
+    tally_.check(least - drag, {0.0, "N s", "a point that slides is braked by mu_kinetic J n, less 2 open / slip"}, where,
+                 worked);
+  }
+
+  [[nodiscard]] static double spin(const Motion& m, const core::ContactPoint& p) {
+    return length(m.bodies[p.a].after.w) + (core::is_face(p.b) ? 0.0 : length(m.bodies[p.b].after.w));
+  }
+
+  const core::Scene& scene_;
+  std::string_view model_;
+  Tally tally_{"friction-cone", "impulses of points", "Coulomb's cone of the scene's friction"};
+};
+
+}  // namespace
+
+ValidatorRow friction_cone_row() {
+  constexpr std::uint32_t kRead = core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints);
+  return {"friction-cone",
+          "contacts push; friction stays within mu J n, opposes what slides, and does not fall short of it",
+          "friction reversed; mu halved; contacts that pull",
+          kRead,
+          0,
+          [](const Subject& subject) {
+            return lacking(subject.header, core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints));
+          },
+          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<FrictionCone>(subject); },
+          false,
+          true};
+}
+
+}  // namespace broadside::validation

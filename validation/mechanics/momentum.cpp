@@ -1,0 +1,132 @@
+#include "validation/validator.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "validation/mechanics/motion.hpp"
+#include "validation/rounding.hpp"
+#include "validation/subject_facts.hpp"
+
+namespace broadside::validation {
+namespace {
+
+// What a body was given in one step.
+struct Given {
+  Vec3d impulse;          // N s
+  double magnitude = 0.0;  // sum of |J|
+  double points = 0.0;
+};
+
+class Momentum final : public Validator {
+ public:
+  explicit Momentum(const Subject& subject)
+      : header_(subject.header),
+        has_points_(has(header_, core::Group::kPoints)),
+        accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")) {}
+
+  void look(const Evidence& evidence) override {
+    if (evidence.motion == nullptr) return;
+    if (has_points_)
+      judge_bodies(*evidence.motion, evidence.frame);
+    else
+      judge_sets(*evidence.motion);
+  }
+
+  core::Verdict conclude() override {
+    return tally_.conclude("no step of a body, or of bodies that touch each other alone, could be judged");
+  }
+
+ private:
+  void judge_bodies(const Motion& m, const core::FrameRecord& frame) {
+    given_.assign(m.bodies.size(), {});
+    const auto give = [&](std::uint32_t body, double sign, Vec3d j) {
+      if (core::is_face(body)) return;
+      given_[body].impulse = given_[body].impulse + sign * j;
+      given_[body].magnitude += length(j);
+      given_[body].points += 1.0;
+    };
+    for (const core::ContactPoint& p : frame.points) {
+      give(p.a, 1.0, Vec3d(p.impulse));
+      give(p.b, -1.0, Vec3d(p.impulse));
+    }
+    for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
+      const BodyFacts& f = m.facts[i];
+      if (!f.is_dynamic || f.has_spring) continue;
+      const BodyStep& b = m.bodies[i];
+      const Vec3d change = f.mass_kg * (b.after.v - b.before.v);
+      const Vec3d expected = (f.mass_kg * m.h) * m.gravity + given_[i].impulse;
+      const double speed = length(b.before.v) + length(b.after.v) + m.h * length(m.gravity) +
+                           given_[i].magnitude / f.mass_kg;
+      // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
+      const double limit = m.rounding_of(4 + 2 * accumulations_ * given_[i].points) * f.mass_kg * speed +
+                           rounding(4) * given_[i].magnitude + kSubnormal;
+      tally_.check(length(change - expected), {limit, "N s", kOfBodies}, Where::body(m.step, i, "bodies.velocity"), [&] {
+        return "m dv = " + vector_text(change) + " N s, m g h + sum J = " + vector_text(expected) + " N s";
+      });
+    }
+  }
+
+  void judge_sets(const Motion& m) {
+    const std::size_t n = m.bodies.size();
+    change_.assign(n, {});
+    expected_.assign(n, {});
+    scale_.assign(n, 0.0);
+    members_.assign(n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const BodyFacts& f = m.facts[i];
+      const std::uint32_t set = m.bodies[i].set;
+      if (!f.is_dynamic || m.set_is_free[set] == 0) continue;
+      const BodyStep& b = m.bodies[i];
+      change_[set] = change_[set] + f.mass_kg * (b.after.v - b.before.v);
+      expected_[set] = expected_[set] + (f.mass_kg * m.h) * m.gravity;
+      scale_[set] += f.mass_kg * (length(b.before.v) + length(b.after.v) + m.h * length(m.gravity));
+      ++members_[set];
+    }
+    for (std::uint32_t set = 0; set < n; ++set) {
+      if (members_[set] < 2) continue;  // a body alone is ballistic's
+      // Without a report every body of a set may have been pushed by every other.
+      const double limit = m.rounding_of(4 + 2 * accumulations_ * static_cast<double>(members_[set])) * scale_[set];
+      tally_.check(length(change_[set] - expected_[set]), {limit, "N s", kOfSets},
+                   Where::body(m.step, set, "bodies.velocity"), [&] {
+                     return "sum m dv = " + vector_text(change_[set]) + " N s, sum m g h = " +
+                            vector_text(expected_[set]) + " N s over " + std::to_string(members_[set]) + " bodies";
+                   });
+    }
+  }
+
+  static constexpr std::string_view kOfBodies =
+      "rounding: one addition an application, impulses recorded in float32; for the exact solve nothing else";
+  static constexpr std::string_view kOfSets = "rounding: one addition an application";
+  const core::TraceHeader& header_;
+  bool has_points_;
+  double accumulations_;
+  std::vector<Given> given_;
+  std::vector<Vec3d> change_;
+  std::vector<Vec3d> expected_;
+  std::vector<double> scale_;
+  std::vector<std::uint32_t> members_;
+  Tally tally_{"momentum", "momenta", kOfBodies};
+};
+
+std::string why_not(const Subject& subject) {
+  if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
+  // METHOD clips velocities, and center-of-mass judges each of its applications.
+  if (subject.header.declaration.follows_method()) return "center-of-mass judges each application of the method";
+  return {};
+}
+
+}  // namespace
+
+ValidatorRow momentum_row() {
+  return {"momentum",
+          "m dv = m g h + the impulses reported for the body; without a report, over each set of bodies that touch",
+          "an impulse on one side only; invented or lost momentum",
+          core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints),
+          0,
+          why_not,
+          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Momentum>(subject); },
+          false,
+          true};
+}
+
+}  // namespace broadside::validation

@@ -1,0 +1,225 @@
+#include "validation/mechanics/motion.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "validation/rounding.hpp"
+#include "validation/subject_facts.hpp"
+
+namespace broadside::validation {
+namespace {
+
+bool is_finite(Vec3d v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Roots of a union of bodies, each the least body of its set.
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = root(i);
+    j = root(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+std::string vector_text(Vec3d v) {
+  return "(" + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + ")";
+}
+
+double state_roundoff(const core::TraceHeader& header) {
+  const bool is_wide = has(header, core::Group::kWideBodies) && header.declaration.text("precision") != "f32";
+  return is_wide ? 0x1p-53 : kUnitRoundoff;
+}
+
+std::vector<BodyFacts> facts_of(const core::Scene& scene) {
+  std::vector<BodyFacts> facts;
+  std::vector<core::Box> boxes;
+  for (const auto& mesh : scene.meshes) boxes.push_back(core::bounds(*mesh));
+  for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
+    const core::Body& body = scene.bodies[i];
+    BodyFacts f;
+    f.mesh = body.mesh;
+    f.is_dynamic = body.inverse_mass > 0.0F;
+    const Vec3d low(boxes[body.mesh].min);
+    const Vec3d high(boxes[body.mesh].max);
+    f.box_center = 0.5 * (low + high);
+    f.box_half = 0.5 * (high - low);
+    f.smallest_side_m = 2.0 * std::min({f.box_half.x, f.box_half.y, f.box_half.z});
+    if (f.is_dynamic) {
+      f.mass_kg = 1.0 / static_cast<double>(body.inverse_mass);
+      // A scene of bodies that translate may hold meshes that have no inertia.
+      if (const auto m = core::mass_properties_of(scene, i)) {
+        const auto& t = m.value().inertia_kg_m2;
+        const auto& c = m.value().center_of_mass_m;
+        f.has_inertia = true;
+        f.center_of_mass = {c[0], c[1], c[2]};
+        f.inertia = {{Vec3d{t[0], t[3], t[4]}, Vec3d{t[3], t[1], t[5]}, Vec3d{t[4], t[5], t[2]}}};
+        const auto moments = core::principal_moments(t);
+        f.least_moment = moments[0];
+        f.largest_moment = moments[2];
+      }
+      if (scene.motion == core::Motion::kTranslate && scene.mass_properties.empty()) f.center_of_mass = {};
+    }
+    f.reach_m = length(f.box_center - f.center_of_mass) + length(f.box_half);
+    facts.push_back(f);
+  }
+  for (const core::Spring& s : scene.springs)
+    if (s.body < facts.size()) facts[s.body].has_spring = true;
+  return facts;
+}
+
+MotionReader::MotionReader(const core::TraceHeader& header) : header_(header), facts_(facts_of(header.scene)) {
+  for (const BodyFacts& f : facts_) is_static_.push_back(f.is_dynamic ? 0 : 1);
+  motion_.h = header.scene.dt_s;
+  motion_.gravity = Vec3d(header.scene.gravity_m_s2);
+  motion_.u = state_roundoff(header);
+  motion_.facts = facts_;
+  motion_.bodies.resize(facts_.size());
+}
+
+void MotionReader::complete(BodyState& s, std::size_t body) const {
+  const BodyFacts& f = facts_[body];
+  s.q = normalized(s.q);
+  s.r = matrix_of(s.q);
+  s.x = s.origin + s.r * f.center_of_mass;
+  s.angular_momentum = f.has_inertia ? s.r * (f.inertia * transposed_times(s.r, s.w)) : Vec3d{};
+}
+
+BodyState MotionReader::start_of(std::size_t body) const {
+  const core::Body& b = header_.scene.bodies[body];
+  BodyState s;
+  s.origin = Vec3d(b.position);
+  s.q = to_quatd(b.orientation);
+  s.v = Vec3d(b.velocity);
+  s.w = Vec3d(b.angular_velocity);
+  complete(s, body);
+  return s;
+}
+
+std::optional<BodyState> MotionReader::state_of(const core::FrameRecord& frame, std::size_t body) const {
+  BodyState s;
+  if (frame.wide.position.size() == facts_.size()) {
+    const auto wide = [](const core::WideVec3& v) { return Vec3d{v.x, v.y, v.z}; };
+    s.origin = wide(frame.wide.position[body]);
+    s.q = to_quatd(frame.wide.orientation[body]);
+    s.v = wide(frame.wide.velocity[body]);
+    s.w = wide(frame.wide.angular_velocity[body]);
+  } else {
+    s.origin = Vec3d(frame.position[body]);
+    s.q = to_quatd(frame.orientation[body]);
+    s.v = Vec3d(frame.velocity[body]);
+    s.w = Vec3d(frame.angular_velocity[body]);
+  }
+  const double norm = squared_norm(s.q);
+  const bool is_sane = is_finite(s.origin) && is_finite(s.v) && is_finite(s.w) && norm > 0.5 && norm < 2.0;
+  if (!is_sane) return std::nullopt;
+  complete(s, body);
+  return s;
+}
+
+core::Box MotionReader::swept_box(std::size_t body) const {
+  const BodyFacts& f = facts_[body];
+  const BodyStep& b = motion_.bodies[body];
+  // Between two poses an extent is above both ends' by at most reach (1 - cos(angle / 2)).
+  const double angle = angle_of(b.after.q * conjugate(b.before.q)) + motion_.h * length(b.before.w);
+  const double bulge = f.reach_m * std::min(1.0, angle * angle / 8.0);
+  const double grow = bulge + header_.declaration.number("contact_margin_m") + header_.scene.parameters.delta_m;
+  Vec3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+            std::numeric_limits<double>::infinity()};
+  Vec3d high = -1.0 * low;
+  const auto add = [&](const BodyState& s, Vec3d shift) {
+    const Vec3d c = s.origin + s.r * f.box_center + shift;
+    const auto half = [&](int k) {
+      const Vec3d& row = s.r.row[static_cast<std::size_t>(k)];
+      return std::abs(row.x) * f.box_half.x + std::abs(row.y) * f.box_half.y + std::abs(row.z) * f.box_half.z;
+    };
+    const Vec3d e{half(0) + grow, half(1) + grow, half(2) + grow};
+    low = {std::min(low.x, c.x - e.x), std::min(low.y, c.y - e.y), std::min(low.z, c.z - e.z)};
+    high = {std::max(high.x, c.x + e.x), std::max(high.y, c.y + e.y), std::max(high.z, c.z + e.z)};
+  };
+  add(b.before, {});
+  add(b.after, {});
+  // Where it was going before it was turned back.
+  if (f.is_dynamic) add(b.before, motion_.h * (b.before.v + motion_.h * motion_.gravity));
+  const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -std::numeric_limits<float>::infinity()); };
+  const auto up = [](double v) { return std::nextafter(static_cast<float>(v), std::numeric_limits<float>::infinity()); };
+  return {{down(low.x), down(low.y), down(low.z)}, {up(high.x), up(high.y), up(high.z)}};
+}
+
+void MotionReader::find_neighbors() {
+  std::vector<core::Box> boxes;
+  boxes.reserve(facts_.size());
+  for (std::size_t i = 0; i < facts_.size(); ++i) boxes.push_back(swept_box(i));
+  motion_.near = join_.join(boxes, is_static_);
+  Sets sets(facts_.size());
+  std::vector<std::uint8_t> is_held(facts_.size());
+  const core::Box& d = header_.scene.domain;
+  for (std::uint32_t i = 0; i < facts_.size(); ++i) {
+    bool is_inside = true;
+    for (int k = 0; k < 3; ++k) is_inside = is_inside && boxes[i].min[k] > d.min[k] && boxes[i].max[k] < d.max[k];
+    motion_.bodies[i].is_alone = is_inside && facts_[i].is_dynamic;
+    is_held[i] = is_inside ? 0 : 1;
+  }
+  for (const core::Pair p : motion_.near) {
+    motion_.bodies[p.i].is_alone = motion_.bodies[p.j].is_alone = false;
+    if (is_static_[p.i] != 0 || is_static_[p.j] != 0)
+      is_held[is_static_[p.i] != 0 ? p.j : p.i] = 1;
+    else
+      sets.join(p.i, p.j);
+  }
+  motion_.set_is_free.assign(facts_.size(), 1);
+  for (std::uint32_t i = 0; i < facts_.size(); ++i) {
+    const std::uint32_t set = sets.root(i);
+    motion_.bodies[i].set = set;
+    if (is_held[i] != 0 || is_static_[i] != 0 || facts_[i].has_spring) motion_.set_is_free[set] = 0;
+  }
+}
+
+const Motion* MotionReader::read(const core::FrameRecord& frame, const core::FrameRecord* previous) {
+  const std::size_t n = facts_.size();
+  const auto has_states = [n](const core::FrameRecord& f) {
+    return f.position.size() == n && f.velocity.size() == n && f.orientation.size() == n &&
+           f.angular_velocity.size() == n;
+  };
+  const bool is_first = frame.step == 1;
+  const bool follows = previous != nullptr && previous->step + 1 == frame.step && has_states(*previous);
+  if ((!is_first && !follows) || !has_states(frame)) return nullptr;
+  motion_.step = frame.step;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto after = state_of(frame, i);
+    const auto before = follows ? state_of(*previous, i) : std::optional(start_of(i));
+    if (!before || !after) return nullptr;
+    motion_.bodies[i].before = *before;
+    motion_.bodies[i].after = *after;
+  }
+  find_neighbors();
+  return &motion_;
+}
+
+ExactShapes::ExactShapes(const core::Scene& scene) {
+  for (const auto& mesh : scene.meshes) cores_.push_back(exact::convex_core_of(*mesh));
+}
+
+exact::ConvexCore ExactShapes::placed(std::uint32_t mesh, Vec3d origin, Quatd q) const {
+  exact::ConvexCore core = *cores_[mesh];
+  const Mat3d r = matrix_of(q);
+  const auto turned = [&r](exact::Point p) { return r * to_vec3d(p); };
+  for (exact::Point& p : core.vertices) p = to_point(origin + turned(p));
+  for (exact::Point& p : core.normals) p = to_point(turned(p));
+  for (exact::Point& p : core.directions) p = to_point(turned(p));
+  return core;
+}
+
+}  // namespace broadside::validation

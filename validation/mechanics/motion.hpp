@@ -1,0 +1,121 @@
+// One step of every body, in float64: what the laws of mechanics read. Built once a frame for all of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/exact/convex_core.hpp"
+#include "core/scene/primitive.hpp"
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
+#include "validation/mechanics/mat3d.hpp"
+#include "validation/overlap_join.hpp"
+#include "validation/tally.hpp"
+
+namespace broadside::validation {
+
+// What stays the same of a body.
+struct BodyFacts {
+  bool is_dynamic = false;
+  bool has_spring = false;
+  bool has_inertia = false;
+  double mass_kg = 0.0;
+  Vec3d center_of_mass;            // in mesh coordinates, m
+  Mat3d inertia;                   // kg m^2, about the center of mass, in mesh axes
+  double least_moment = 0.0;       // kg m^2
+  double largest_moment = 0.0;     // kg m^2
+  double reach_m = 0.0;            // farthest point of the mesh from the center of mass
+  double smallest_side_m = 0.0;    // of the mesh's box
+  Vec3d box_center;                // of the mesh's box, in mesh coordinates
+  Vec3d box_half;                  // m
+  std::uint32_t mesh = 0;
+};
+
+// A state, of the center of mass, in the world.
+struct BodyState {
+  Vec3d origin;  // of the mesh, m
+  Vec3d x;       // center of mass, m
+  Quatd q;       // unit
+  Mat3d r;
+  Vec3d v;  // m/s
+  Vec3d w;  // rad/s
+  Vec3d angular_momentum;  // kg m^2/s; zero without inertia
+};
+
+struct BodyStep {
+  BodyState before;
+  BodyState after;
+  // Whether the body can have touched nothing: its box, swept over the step and grown by the margin, meets no other's
+  // and stays inside the domain.
+  bool is_alone = false;
+  // Bodies that may have touched each other, directly or through others, have one number; static bodies have none.
+  std::uint32_t set = 0;
+};
+
+struct Motion {
+  std::uint64_t step = 0;
+  double h = 0.0;  // s
+  Vec3d gravity;   // m/s^2
+  double u = 0.0;  // unit roundoff of the states
+  std::span<const BodyFacts> facts;
+  std::vector<BodyStep> bodies;
+  std::vector<core::Pair> near;          // pairs of bodies whose swept boxes meet
+  std::vector<std::uint8_t> set_is_free;  // by set: none of its bodies may have touched a static body or the domain
+
+  // n rounded operations, relative.
+  [[nodiscard]] double rounding_of(double operations) const { return operations * u; }
+};
+
+// Follows a trace. Memory: one state a body.
+class MotionReader {
+ public:
+  explicit MotionReader(const core::TraceHeader& header);
+
+  // Null where the step cannot be judged: frames between were not recorded, or a state is not finite.
+  const Motion* read(const core::FrameRecord& frame, const core::FrameRecord* previous);
+  [[nodiscard]] std::span<const BodyFacts> facts() const { return facts_; }
+
+ private:
+  [[nodiscard]] std::optional<BodyState> state_of(const core::FrameRecord& frame, std::size_t body) const;
+  [[nodiscard]] BodyState start_of(std::size_t body) const;
+  void complete(BodyState& state, std::size_t body) const;
+  void find_neighbors();
+  [[nodiscard]] core::Box swept_box(std::size_t body) const;
+
+  const core::TraceHeader& header_;
+  std::vector<BodyFacts> facts_;
+  std::vector<std::uint8_t> is_static_;
+  Motion motion_;
+  OverlapJoin join_;
+};
+
+// The mass properties, shapes and sizes of the scene's bodies.
+std::vector<BodyFacts> facts_of(const core::Scene& scene);
+
+// What recorded states are rounded to: float32 or float64, and the engine's arithmetic where that is coarser.
+double state_roundoff(const core::TraceHeader& header);
+
+// Signed distances of bodies with convex shapes: boxes, spheres, capsules and convex meshes.
+class ExactShapes {
+ public:
+  explicit ExactShapes(const core::Scene& scene);
+  [[nodiscard]] bool knows(std::uint32_t mesh) const { return cores_[mesh].has_value(); }
+  [[nodiscard]] exact::ConvexCore placed(std::uint32_t mesh, Vec3d origin, Quatd q) const;
+
+ private:
+  std::vector<std::optional<exact::ConvexCore>> cores_;
+};
+
+constexpr exact::Point to_point(Vec3d v) {
+  return {v.x, v.y, v.z};
+}
+constexpr Vec3d to_vec3d(exact::Point p) {
+  return {p.x, p.y, p.z};
+}
+
+std::string vector_text(Vec3d v);
+
+}  // namespace broadside::validation
