@@ -4,6 +4,7 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
@@ -20,6 +21,8 @@
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "reference/bullet_world/contact_readout.hpp"
+#include "reference/rigid_world/principal_axes.hpp"
+#include "reference/rigid_world/rigid_start.hpp"
 #include "reference/vendor_call.hpp"
 
 namespace broadside::reference {
@@ -32,6 +35,27 @@ btVector3 bullet(core::Vec3 v) {
 }
 core::Vec3 to_core(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
+}
+btVector3 bullet(plain::Vec v) {
+  return {static_cast<btScalar>(v.x), static_cast<btScalar>(v.y), static_cast<btScalar>(v.z)};
+}
+btQuaternion bullet(plain::Quaternion q) {
+  return {static_cast<btScalar>(q.x), static_cast<btScalar>(q.y), static_cast<btScalar>(q.z),
+          static_cast<btScalar>(q.w)};
+}
+
+int flags_of(BulletGyroscopic gyroscopic) {
+  switch (gyroscopic) {
+    case BulletGyroscopic::kImplicitBody:
+      return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+    case BulletGyroscopic::kImplicitWorld:
+      return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
+    case BulletGyroscopic::kExplicit:
+      return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
+    case BulletGyroscopic::kOff:
+      break;
+  }
+  return 0;
 }
 
 // Bullet calls two global functions to combine surfaces. They are replaced for the length of one step by the scene's
@@ -66,7 +90,8 @@ struct World {
   btDbvtBroadphase broad_phase;
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld dynamics{&dispatcher, &broad_phase, &solver, &configuration};
-  std::vector<BulletShape> shapes;  // one per mesh
+  std::vector<BulletShape> shapes;                        // one per mesh
+  std::vector<std::unique_ptr<btCompoundShape>> shifted;  // of bodies whose center of mass or axes are not the mesh's
   std::vector<std::unique_ptr<btStaticPlaneShape>> planes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;  // the scene's, then the faces of its domain
 
@@ -92,6 +117,13 @@ class BulletWorld final : public core::Dynamics {
       scene_ = &scene;
       step_ = 0;
       rotates_ = bullet_world_rotates(scene, options_);
+      starts_.clear();
+      if (scene.motion == core::Motion::kRigid) {
+        auto starts = rigid_starts(scene);
+        if (!starts) return starts.error();
+        starts_ = std::move(starts).value();
+      }
+      body_from_mesh_.assign(scene.bodies.size(), btTransform::getIdentity());
       world_ = std::make_unique<World>();
       world_->dynamics.setGravity(bullet(scene.gravity_m_s2));
       btContactSolverInfo& info = world_->dynamics.getSolverInfo();
@@ -103,6 +135,7 @@ class BulletWorld final : public core::Dynamics {
       for (std::uint32_t face = 0; face < core::kFaceCount; ++face) add_face(face);
       before_.resize(scene.bodies.size());
       after_.resize(scene.bodies.size());
+      turned_before_.resize(scene.bodies.size());
       read_states(after_);
       return core::Done{};
     });
@@ -111,6 +144,7 @@ class BulletWorld final : public core::Dynamics {
   Status step(float dt_s) override {
     return vendor_call("bullet-world: step", [&]() -> Status {
       std::swap(before_, after_);
+      for (std::uint32_t i = 0; i < turned_before_.size(); ++i) turned_before_[i] = orientation(i);
       {
         const SceneRules rules(options_.uses_scene_rules);
         // No substeps: one step of exactly dt.
@@ -139,13 +173,14 @@ class BulletWorld final : public core::Dynamics {
       for (std::uint32_t i = 0; i < scene_->body_count(); ++i) read_body(frame, i);
       read_pairs(frame);
       frame.contacts = std::move(contacts);
+      frame.points = read_points(world_->dispatcher);
       return core::Done{};
     });
   }
 
   [[nodiscard]] std::uint32_t groups() const override {
     return bit(core::Group::kBodies) | bit(core::Group::kDetection) | bit(core::Group::kPairs) |
-           bit(core::Group::kContacts);
+           bit(core::Group::kContacts) | bit(core::Group::kPoints) | bit(core::Group::kDetectedOrientation);
   }
 
  private:
@@ -155,16 +190,42 @@ class BulletWorld final : public core::Dynamics {
     const btScalar mass = given.inverse_mass > 0.0F ? 1.0F / given.inverse_mass : 0.0F;
     btVector3 inertia(0, 0, 0);
     if (mass > 0 && rotates_) shape->calculateLocalInertia(mass, inertia);
+    if (mass > 0 && !starts_.empty()) shape = shape_about_mass(i, shape, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
     const core::Quat q = given.orientation;
-    info.m_startWorldTransform = btTransform(btQuaternion(q.x, q.y, q.z, q.w), bullet(given.position));
+    const btTransform of_mesh(btQuaternion(q.x, q.y, q.z, q.w), bullet(given.position));
+    info.m_startWorldTransform = is_shifted(i) ? of_mesh * body_from_mesh_[i].inverse() : of_mesh;
     auto body = std::make_unique<btRigidBody>(info);
     body->setLinearVelocity(bullet(given.velocity));
     if (rotates_) body->setAngularVelocity(bullet(given.angular_velocity));
     if (!rotates_) body->setAngularFactor(0);
+    body->setFlags(flags_of(options_.gyroscopic));
     // The scene has no sleeping: a body at rest is still simulated.
     body->setActivationState(DISABLE_DEACTIVATION);
     add(std::move(body), given.material, i);
+  }
+
+  // Bullet's bodies lie about their center of mass, in axes in which the inertia is diagonal. Where these are not the
+  // mesh's, the shape becomes the child of a compound. Gives the moments.
+  btCollisionShape* shape_about_mass(std::uint32_t i, btCollisionShape* shape, btVector3& inertia) {
+    const RigidStart& start = starts_[i];
+    const PrincipalAxes axes = principal_axes(start.inertia);
+    inertia = bullet(axes.moments);
+    const plain::Vec c = start.center_of_mass;
+    if (!axes.is_turned && plain::dot(c, c) == 0.0) return shape;
+    body_from_mesh_[i] = btTransform(bullet(axes.q), bullet(c)).inverse();
+    auto compound = std::make_unique<btCompoundShape>(false, 1);
+    compound->setMargin(shape->getMargin());
+    compound->addChildShape(body_from_mesh_[i], shape);
+    world_->shifted.push_back(std::move(compound));
+    return world_->shifted.back().get();
+  }
+
+  [[nodiscard]] bool is_shifted(std::size_t i) const { return !(body_from_mesh_[i] == btTransform::getIdentity()); }
+
+  [[nodiscard]] btTransform mesh_transform(std::size_t i) const {
+    const btTransform& of_body = world_->bodies[i]->getWorldTransform();
+    return is_shifted(i) ? of_body * body_from_mesh_[i] : of_body;
   }
 
   void add_face(std::uint32_t face) {
@@ -188,14 +249,14 @@ class BulletWorld final : public core::Dynamics {
   void read_states(std::vector<core::Kinematics>& states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
       const btRigidBody& body = *world_->bodies[i];
-      states[i] = {to_core(body.getWorldTransform().getOrigin()), to_core(body.getLinearVelocity())};
+      states[i] = {to_core(mesh_transform(i).getOrigin()), to_core(body.getLinearVelocity())};
     }
   }
 
   // A body that only translates keeps the quaternion that it was given, bit for bit: Bullet holds a matrix.
   [[nodiscard]] core::Quat orientation(std::uint32_t i) const {
     if (!rotates_) return scene_->bodies[i].orientation;
-    const btQuaternion q = world_->bodies[i]->getWorldTransform().getRotation();
+    const btQuaternion q = mesh_transform(i).getRotation();
     return {q.w(), q.x(), q.y(), q.z()};
   }
 
@@ -211,6 +272,7 @@ class BulletWorld final : public core::Dynamics {
     // Bullet detects at the start of a step and moves bodies at its end.
     frame.detected_position.push_back(before_[i].x);
     frame.detected_velocity.push_back(before_[i].v);
+    frame.detected_orientation.push_back(turned_before_[i]);
     const btBroadphaseProxy* proxy = world_->bodies[i]->getBroadphaseProxy();
     frame.boxes.push_back({to_core(proxy->m_aabbMin), to_core(proxy->m_aabbMax)});
   }
@@ -235,6 +297,9 @@ class BulletWorld final : public core::Dynamics {
   const core::Scene* scene_ = nullptr;
   bool rotates_ = false;
   std::unique_ptr<World> world_;
+  std::vector<RigidStart> starts_;           // of scenes whose bodies turn
+  std::vector<btTransform> body_from_mesh_;  // pose of the mesh in the body's principal axes
+  std::vector<core::Quat> turned_before_;
   std::vector<core::Kinematics> before_;
   std::vector<core::Kinematics> after_;
   std::uint64_t step_ = 0;
@@ -245,9 +310,8 @@ class BulletWorld final : public core::Dynamics {
 
 bool bullet_world_rotates(const core::Scene& scene, const BulletWorldOptions& options) {
   return options.always_rotates || scene.motion == core::Motion::kRigid ||
-         std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const core::Body& b) {
-           return !(b.angular_velocity == core::Vec3{});
-         });
+         std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const core::Body& b) { return !(b.angular_velocity == core::Vec3{}); });
 }
 
 std::unique_ptr<core::Dynamics> make_bullet_world(const BulletWorldOptions& options) {

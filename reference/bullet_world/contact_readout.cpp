@@ -21,6 +21,12 @@ core::Vec3 to_core(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+// Friction on the lower body; turn is 1 where that is Bullet's body 0, else -1.
+btVector3 friction_of(const btManifoldPoint& point, btScalar turn) {
+  return turn * (point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                 point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2);
+}
+
 Contact contact_of(const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1, const StepStates& states) {
   // Bullet's normal points from its body 1 to its body 0, and impulses act on body 0 along it.
   const btScalar turn = body0 < body1 ? 1 : -1;
@@ -31,8 +37,7 @@ Contact contact_of(const btManifoldPoint& point, std::uint32_t body0, std::uint3
   c.depth_m = -point.getDistance();
   c.normal = to_core(turn * point.m_normalWorldOnB);
   c.normal_impulse_n_s = point.m_appliedImpulse;
-  const btVector3 friction = turn * (point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-                                     point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2);
+  const btVector3 friction = friction_of(point, turn);
   const btScalar size = friction.length();
   if (size > 0) {
     c.tangent = to_core(-friction / size);
@@ -47,23 +52,64 @@ Contact contact_of(const btManifoldPoint& point, std::uint32_t body0, std::uint3
   return c;
 }
 
+core::ContactPoint point_of(const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1) {
+  const btScalar turn = body0 < body1 ? 1 : -1;
+  const btVector3 normal = turn * point.m_normalWorldOnB;
+  core::ContactPoint p;
+  p.a = std::min(body0, body1);
+  p.b = std::max(body0, body1);
+  p.point = to_core(btScalar(0.5) * (point.getPositionWorldOnA() + point.getPositionWorldOnB()));
+  p.normal = to_core(normal);
+  p.gap_m = point.getDistance();
+  p.impulse = to_core(point.m_appliedImpulse * normal + friction_of(point, turn));
+  return p;
+}
+
+// Pairs of bodies first, then faces, by body.
+template <typename T>
+bool is_before(const T& p, const T& q) {
+  return std::tuple(core::is_face(p.b), p.a, p.b) < std::tuple(core::is_face(q.b), q.a, q.b);
+}
+
+// Points within the breaking threshold stay in the manifold although they do not touch.
+bool is_contact(const btManifoldPoint& point) {
+  return !(point.getDistance() > 0) || point.m_appliedImpulse != 0;
+}
+
+// Bullet skips friction in sweeps where the normal impulse is zero, so a point may keep friction of earlier sweeps when
+// its normal impulse is gone.
+bool acts(const btManifoldPoint& point) {
+  return is_contact(point) || point.m_appliedImpulseLateral1 != 0 || point.m_appliedImpulseLateral2 != 0;
+}
+
+// Calls use(point, body 0, body 1) for each manifold point.
+template <typename Use>
+void each_point(btDispatcher& dispatcher, const Use& use) {
+  for (int k = 0; k < dispatcher.getNumManifolds(); ++k) {
+    const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(k);
+    for (int p = 0; p < manifold->getNumContacts(); ++p)
+      use(manifold->getContactPoint(p), body_of(manifold->getBody0()), body_of(manifold->getBody1()));
+  }
+}
+
 }  // namespace
 
 std::vector<Contact> read_contacts(btDispatcher& dispatcher, const StepStates& states) {
   std::vector<Contact> contacts;
-  for (int k = 0; k < dispatcher.getNumManifolds(); ++k) {
-    const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(k);
-    for (int p = 0; p < manifold->getNumContacts(); ++p) {
-      const btManifoldPoint& point = manifold->getContactPoint(p);
-      // Points within the breaking threshold stay in the manifold although they do not touch.
-      if (point.getDistance() > 0 && point.m_appliedImpulse == 0) continue;
-      contacts.push_back(contact_of(point, body_of(manifold->getBody0()), body_of(manifold->getBody1()), states));
-    }
-  }
-  std::stable_sort(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
-    return std::tuple(core::is_face(p.b), p.a, p.b) < std::tuple(core::is_face(q.b), q.a, q.b);
+  each_point(dispatcher, [&](const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1) {
+    if (is_contact(point)) contacts.push_back(contact_of(point, body0, body1, states));
   });
+  std::stable_sort(contacts.begin(), contacts.end(), is_before<Contact>);
   return contacts;
+}
+
+std::vector<core::ContactPoint> read_points(btDispatcher& dispatcher) {
+  std::vector<core::ContactPoint> points;
+  each_point(dispatcher, [&](const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1) {
+    if (acts(point)) points.push_back(point_of(point, body0, body1));
+  });
+  std::stable_sort(points.begin(), points.end(), is_before<core::ContactPoint>);
+  return points;
 }
 
 }  // namespace broadside::reference

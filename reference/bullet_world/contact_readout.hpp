@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact.hpp"
+#include "core/contact_point.hpp"
 
 class btDispatcher;
 
@@ -22,5 +23,9 @@ struct StepStates {
 // Bullet resolves all contacts of a step together: each contact of a body has the whole step's states before and after,
 // not those of an application of its own. The tangent points against the friction impulse that acted.
 std::vector<core::Contact> read_contacts(btDispatcher& dispatcher, const StepStates& states);
+
+// The same manifold points as totals of the step, in the same order: half way between the two surfaces as detection saw
+// them, with the normal impulse and friction together.
+std::vector<core::ContactPoint> read_points(btDispatcher& dispatcher);
 
 }  // namespace broadside::reference

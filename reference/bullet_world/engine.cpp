@@ -34,6 +34,20 @@ void add_shapes(const core::Scene& scene, const BulletWorldOptions& options, cor
   }
 }
 
+std::string gyroscopic_word(BulletGyroscopic gyroscopic) {
+  switch (gyroscopic) {
+    case BulletGyroscopic::kImplicitBody:
+      return "implicit, in body axes: as Bullet ships";
+    case BulletGyroscopic::kImplicitWorld:
+      return "implicit, in world axes";
+    case BulletGyroscopic::kExplicit:
+      return "explicit";
+    case BulletGyroscopic::kOff:
+      break;
+  }
+  return "left out";
+}
+
 core::EquivalenceCard card_of(const core::Scene& scene, const BulletWorldOptions& o) {
   core::EquivalenceCard card = bullet_card();
   add_shapes(scene, o, card);
@@ -57,22 +71,23 @@ core::EquivalenceCard card_of(const core::Scene& scene, const BulletWorldOptions
   card.push_back({"warm starting",
                   o.warm_starting ? "on, factor " + number(info.m_warmstartingFactor) : std::string("off"),
                   o.warm_starting ? "off" : ""});
-  card.push_back(
-      {"position correction",
-       "split impulse, " + number(info.m_erp2) + " of the depth a step, slop " + number(info.m_linearSlop) + " m",
-       number(p.beta * p.alpha) + " of the depth, slop " + number(p.delta_m) + " m"});
+  card.push_back({"position correction",
+                  number(info.m_erp2) + " of the depth a step through the velocity, split impulse where deeper than " +
+                      number(-info.m_splitImpulsePenetrationThreshold) + " m, slop " + number(info.m_linearSlop) + " m",
+                  number(p.beta * p.alpha) + " of the depth, slop " + number(p.delta_m) + " m"});
   card.push_back({"impulse floor", "none", p.impulse_min_n_s > 0.0F ? number(p.impulse_min_n_s) + " N s" : ""});
   card.push_back({"velocity cap", "none", number(p.v_max_m_s) + " m/s"});
   const bool rotates = bullet_world_rotates(scene, o);
   card.push_back({"rotation", rotates ? "bodies rotate" : "none: angular factor 0",
                   o.always_rotates && !bullet_world_rotates(scene, {}) ? "none" : ""});
+  if (rotates) card.push_back({"gyroscopic torque", gyroscopic_word(o.gyroscopic), ""});
   card.push_back({"integration", "semi-implicit Euler; detection before the bodies move", "detection after they move"});
   card.push_back({"sleeping", "off", ""});
   return card;
 }
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 6> rows{{
+  static const std::array<core::SettingRow, 7> rows{{
       {"mesh",
        "gimpact",
        {"gimpact", "hull", "tetrahedra"},
@@ -87,6 +102,10 @@ std::span<const core::SettingRow> setting_rows() {
        "friction and restitution of two surfaces: the scene's rules or products"},
       {"rotation", "scene", {"scene", "on"}, "scene: none where no body of the scene has angular velocity"},
       {"iterations", "10", {}, "of the contact solver; 10 is Bullet's default"},
+      {"gyroscopic",
+       "implicit-body",
+       {"implicit-body", "implicit-world", "explicit", "off"},
+       "the torque that turns w about L; implicit-body is Bullet's default"},
       {"warm_starting", "on", {"on", "off"}, "start the solver from the last step's impulses"},
   }};
   return rows;
@@ -101,6 +120,9 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   options.always_rotates = settings.text("rotation") == "on";
   options.iterations = static_cast<int>(settings.number("iterations"));
   options.warm_starting = settings.text("warm_starting") == "on";
+  if (settings.text("gyroscopic") == "implicit-world") options.gyroscopic = BulletGyroscopic::kImplicitWorld;
+  if (settings.text("gyroscopic") == "explicit") options.gyroscopic = BulletGyroscopic::kExplicit;
+  if (settings.text("gyroscopic") == "off") options.gyroscopic = BulletGyroscopic::kOff;
 
   core::Engine engine;
   engine.id = kId;
@@ -115,7 +137,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
                                               {"iterations", std::to_string(std::max(1, options.iterations))},
                                               {"friction", "pyramid"},
                                               {"contact_margin_m", number(gContactBreakingThreshold)},
-                                              {"correction", "position"},
+                                              // Down to 0.04 m; deeper overlaps are split off.
+                                              {"correction", "velocity"},
                                               {"correction_rate", number(btContactSolverInfo().m_erp2)},
                                               {"precision", "f32"}});
   engine.dynamics = make_bullet_world(options);

@@ -1,0 +1,47 @@
+// What an engine of rigid bodies leaves for its frame: states in float64, and the totals of its points of contact.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/engine/dynamics.hpp"
+#include "reference/rigid_world/rigid_start.hpp"
+
+namespace broadside::reference {
+
+class WorldRecord {
+ public:
+  // Starts of the scene's bodies; states() are theirs.
+  core::Status load(const core::Scene& scene);
+
+  [[nodiscard]] const std::vector<RigidStart>& bodies() const { return bodies_; }
+  [[nodiscard]] bool turns() const { return scene_->motion == core::Motion::kRigid; }
+  [[nodiscard]] std::vector<RigidState>& states() { return states_; }
+
+  // Before a step: what is now becomes the pose of detection, and the points of the last step go.
+  void begin_step();
+  // A point of contact of bodies or faces a and b, with the impulse (N s) of the whole step on a, and its normal from b
+  // to a. Turned here so that A is the lower body. `gap_m`: negative is penetration.
+  void add_point(std::uint32_t a, std::uint32_t b, plain::Vec point, plain::Vec normal, double gap_m,
+                 plain::Vec impulse);
+  // Of the broad phase, at detection, one a body; for engines that show theirs. They record kDetection.
+  void set_boxes(std::vector<core::Box> boxes) { boxes_ = std::move(boxes); }
+
+  // Bodies that translate keep the orientation that they were given, bit by bit.
+  core::Status read_back(core::FrameRecord& frame, core::RecordLevel level);
+
+ private:
+  [[nodiscard]] core::WideVec3 origin(const RigidState& state, std::size_t body) const;
+  void read_detection(core::FrameRecord& frame);
+
+  const core::Scene* scene_ = nullptr;
+  std::uint64_t step_ = 0;
+  std::vector<RigidStart> bodies_;
+  std::vector<RigidState> states_;
+  std::vector<RigidState> detected_;
+  std::vector<core::ContactPoint> points_;
+  std::vector<core::Box> boxes_;
+};
+
+}  // namespace broadside::reference
