@@ -10,8 +10,9 @@ namespace {
 constexpr std::string_view kBullet = "Bullet 3.24";
 constexpr std::string_view kFcl = "FCL 0.7.0";
 constexpr std::string_view kCcd = "libccd 2.1";
+constexpr std::string_view kOde = "ODE 0.16.2";
 
-constexpr std::array<DefectRow, 11> kRows{{
+constexpr std::array<DefectRow, 12> kRows{{
     {Defect::kBulletStalePairs, kBullet, "none known",
      "the dbvt broad phase reports a pair whose boxes do not overlap (fat leaves, pairs kept after they parted)",
      "filtered on the given boxes; raw and tight pairs are counted apart"},
@@ -40,6 +41,9 @@ constexpr std::array<DefectRow, 11> kRows{{
     {Defect::kCcdEpaHang, kCcd, "libccd#7, fcl#346",
      "EPA does not come back from round bodies that overlap deeply: it refines a whole ball",
      "ended after a time limit"},
+    {Defect::kOdeLcp, kOde, "none known",
+     "a step of Dantzig's solver reports an LCP internal error and goes on with impulses that solve nothing",
+     "counted by step; the trace shows what became of the bodies"},
 }};
 
 }  // namespace

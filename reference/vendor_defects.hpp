@@ -25,6 +25,7 @@ enum class Defect {
   kCcdGjkNan,
   kCcdMprDepth,
   kCcdEpaHang,
+  kOdeLcp,
 };
 
 struct DefectRow {

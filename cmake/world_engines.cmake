@@ -1,0 +1,19 @@
+# Engines of rigid bodies that are built when their libraries are there; an engine without its library says what to install.
+# ODE and MuJoCo are packages of the set-up; DART and Simbody are larger, and found when somebody has installed them.
+pkg_check_modules(ode QUIET IMPORTED_TARGET ode)
+
+# broadside_world_engine(FOLDER NAME FOUND LIBRARY...)
+# The sources of reference/FOLDER see BROADSIDE_HAS_NAME. Without the library only engine.cpp is compiled there. The library's
+# headers and definitions reach no other file: COMPILE_OPTIONS of these sources alone.
+function(broadside_world_engine folder name found)
+  file(GLOB_RECURSE inside CONFIGURE_DEPENDS ${folder}/*.cpp)
+  if(found)
+    set_source_files_properties(${inside} PROPERTIES COMPILE_DEFINITIONS BROADSIDE_HAS_${name}=1)
+    foreach(library ${ARGN})
+      target_link_libraries(broadside_reference PRIVATE $<LINK_ONLY:${library}>)
+    endforeach()
+  else()
+    list(FILTER inside EXCLUDE REGEX "/engine[.]cpp$")
+    set_source_files_properties(${inside} PROPERTIES HEADER_FILE_ONLY ON)
+  endif()
+endfunction()
