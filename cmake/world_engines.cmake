@@ -1,6 +1,7 @@
 # Engines of rigid bodies that are built when their libraries are there; an engine without its library says what to install.
 # ODE and MuJoCo are packages of the set-up; DART and Simbody are larger, and found when somebody has installed them.
 pkg_check_modules(ode QUIET IMPORTED_TARGET ode)
+find_package(mujoco QUIET)
 
 # broadside_world_engine(FOLDER NAME FOUND LIBRARY...)
 # The sources of reference/FOLDER see BROADSIDE_HAS_NAME. Without the library only engine.cpp is compiled there. The library's
