@@ -2,6 +2,16 @@
 # ODE and MuJoCo are packages of the set-up; DART and Simbody are larger, and found when somebody has installed them.
 pkg_check_modules(ode QUIET IMPORTED_TARGET ode)
 find_package(mujoco QUIET)
+# By their files: DART's own configuration searches for a dozen libraries that are not linked here, and Simbody's fixes flags.
+find_path(BROADSIDE_DART_INCLUDE dart/dart.hpp)
+find_library(BROADSIDE_DART_LIBRARY dart)
+find_path(BROADSIDE_IKFAST_INCLUDE dart/external/ikfast/ikfast.h)
+find_path(BROADSIDE_SIMBODY_INCLUDE Simbody.h PATH_SUFFIXES simbody)
+find_library(BROADSIDE_SIMBODY_LIBRARY SimTKsimbody)
+find_library(BROADSIDE_SIMBODY_MATH_LIBRARY SimTKmath)
+find_library(BROADSIDE_SIMBODY_COMMON_LIBRARY SimTKcommon)
+mark_as_advanced(BROADSIDE_DART_INCLUDE BROADSIDE_DART_LIBRARY BROADSIDE_IKFAST_INCLUDE BROADSIDE_SIMBODY_INCLUDE
+  BROADSIDE_SIMBODY_LIBRARY BROADSIDE_SIMBODY_MATH_LIBRARY BROADSIDE_SIMBODY_COMMON_LIBRARY)
 
 # broadside_world_engine(FOLDER NAME FOUND LIBRARY...)
 # The sources of reference/FOLDER see BROADSIDE_HAS_NAME. Without the library only engine.cpp is compiled there. The library's
