@@ -19,6 +19,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "reference/bullet_vectors.hpp"
 #include "reference/bullet_world/contact_readout.hpp"
 #include "reference/vendor_call.hpp"
 
@@ -27,12 +28,6 @@ namespace {
 
 using core::Status;
 
-btVector3 bullet(core::Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-core::Vec3 to_core(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 // Bullet calls two global functions to combine surfaces. They are replaced for the length of one step by the scene's
 // rules (core/material.hpp), applied to the one coefficient of friction that Bullet has.
@@ -156,8 +151,7 @@ class BulletWorld final : public core::Dynamics {
     btVector3 inertia(0, 0, 0);
     if (mass > 0 && rotates_) shape->calculateLocalInertia(mass, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
-    const core::Quat q = given.orientation;
-    info.m_startWorldTransform = btTransform(btQuaternion(q.x, q.y, q.z, q.w), bullet(given.position));
+    info.m_startWorldTransform = bullet_transform(given.position, given.orientation);
     auto body = std::make_unique<btRigidBody>(info);
     body->setLinearVelocity(bullet(given.velocity));
     if (rotates_) body->setAngularVelocity(bullet(given.angular_velocity));
@@ -195,8 +189,7 @@ class BulletWorld final : public core::Dynamics {
   // A body that only translates keeps the quaternion that it was given, bit for bit: Bullet holds a matrix.
   [[nodiscard]] core::Quat orientation(std::uint32_t i) const {
     if (!rotates_) return scene_->bodies[i].orientation;
-    const btQuaternion q = world_->bodies[i]->getWorldTransform().getRotation();
-    return {q.w(), q.x(), q.y(), q.z()};
+    return to_core(world_->bodies[i]->getWorldTransform().getRotation());
   }
 
   [[nodiscard]] core::Vec3 angular_velocity(std::uint32_t i) const {

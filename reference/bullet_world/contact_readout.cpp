@@ -8,6 +8,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "reference/bullet_vectors.hpp"
+
 namespace broadside::reference {
 namespace {
 
@@ -15,10 +17,6 @@ using core::Contact;
 
 std::uint32_t body_of(const btCollisionObject* object) {
   return static_cast<std::uint32_t>(object->getUserIndex());
-}
-
-core::Vec3 to_core(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
 }
 
 Contact contact_of(const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1, const StepStates& states) {
