@@ -140,7 +140,7 @@ class AllPairs final : public core::BroadPhase {
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 1> rows{{
-      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The pairs do not depend on it"},
+      threads_setting(),
   }};
   return rows;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/bullet_vectors.hpp"
 #include "reference/engines.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/turned_shapes.hpp"
@@ -20,13 +21,6 @@ using core::Separation;
 using core::Status;
 
 constexpr std::string_view kId = "bullet-box";
-
-btVector3 bullet(core::Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-core::Vec3 to_core(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 // Keeps the deepest of the contact points.
 struct Deepest final : btStorageResult {

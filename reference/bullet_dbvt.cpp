@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reference/bullet_margin.hpp"
+#include "reference/bullet_vectors.hpp"
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
 #include "reference/vendor_build.hpp"
@@ -33,10 +34,6 @@ class MarginScope {
  private:
   btScalar before_;
 };
-
-btVector3 bullet(core::Vec3 v) {
-  return {v.x, v.y, v.z};
-}
 
 std::uint32_t body_of(const btBroadphaseProxy* proxy) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));

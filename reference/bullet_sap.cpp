@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "reference/bullet_vectors.hpp"
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
 #include "reference/vendor_build.hpp"
@@ -17,10 +18,6 @@ namespace {
 using core::Status;
 
 constexpr std::string_view kId = "bullet-sap";
-
-btVector3 bullet(core::Vec3 v) {
-  return {v.x, v.y, v.z};
-}
 
 std::uint32_t body_of(const btBroadphaseProxy* proxy) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));

@@ -17,6 +17,7 @@
 
 #include "core/scene/primitive.hpp"
 #include "reference/bullet_margin.hpp"
+#include "reference/bullet_vectors.hpp"
 #include "reference/engines.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/vendor_build.hpp"
@@ -30,17 +31,6 @@ using core::Separation;
 using core::Status;
 
 constexpr std::string_view kId = "bullet-shapes";
-
-btVector3 bullet(core::Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-core::Vec3 to_core(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-btTransform transform(const core::Pose& pose) {
-  const core::Quat q = pose.orientation;
-  return btTransform(btQuaternion(q.x, q.y, q.z, q.w), bullet(pose.position));
-}
 
 // Which branch btGjkPairDetector took, by the numbers in its source.
 constexpr int kNormalOfDistance = 6;
@@ -89,8 +79,8 @@ class BulletShapes final : public core::NarrowPhase {
                          const core::Pose& pose_b) {
     btGjkPairDetector detector(&a, &b, &simplex_, &depth_);
     btDiscreteCollisionDetectorInterface::ClosestPointInput input;
-    input.m_transformA = transform(pose_a);
-    input.m_transformB = transform(pose_b);
+    input.m_transformA = bullet_transform(pose_a.position, pose_a.orientation);
+    input.m_transformB = bullet_transform(pose_b.position, pose_b.orientation);
     btPointCollector found;
     detector.getClosestPoints(input, found, nullptr);
     near_normals_->note(found.m_hasResult && found.m_distance > 0 && is_in_frame_of_a(detector.m_lastUsedMethod) &&

@@ -219,7 +219,7 @@ std::span<const core::SettingRow> setting_rows() {
        "hull",
        {"hull", "box", "primitive"},
        "the hull of a body's vertices, its axis-aligned box, or the box, sphere or capsule that its mesh draws"},
-      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+      threads_setting(),
   }};
   return rows;
 }

@@ -134,7 +134,7 @@ class EmbreeCollide final : public core::BroadPhase {
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 2> rows{{
-      {"threads", "0", {}, "worker threads, 0 = every core"},
+      threads_setting(),
       {"quality", "low", {"low", "medium", "high"}, "how carefully the hierarchy is built: Embree's build quality"},
   }};
   return rows;

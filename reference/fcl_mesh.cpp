@@ -132,7 +132,7 @@ std::span<const core::SettingRow> setting_rows() {
        "both",
        {"both", "distance"},
        "distance with nearest points and collide, which is sure about touching; or distance alone, 0 = touching"},
-      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+      threads_setting(),
   }};
   return rows;
 }

@@ -197,7 +197,7 @@ std::span<const core::SettingRow> setting_rows() {
        {"distance", "collide"},
        "distance: signed, by the solver; collide: depth and normal of the deepest contact where bodies overlap"},
       {"solver", "libccd", {"libccd", "indep"}, "FCL's GST_LIBCCD or GST_INDEP"},
-      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+      threads_setting(),
   }};
   return rows;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/chart_svg.hpp"
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/page_json.hpp"
@@ -109,37 +110,34 @@ std::string chart_table(const Chart& chart) {
     }
   }
   const std::size_t stride = along.categories.empty() ? (rows.size() + kTableRows - 1) / kTableRows : 1;
-  std::string out = "<table><caption>" + html(chart.title);
-  if (!of.unit.empty()) out += ", " + html(of.name) + " in " + html(of.unit);
-  if (stride > 1) out += "; every " + counted(stride) + "th of " + counted(rows.size(), "place");
-  out += "</caption><thead><tr><th scope=\"col\">" + html(along.name) + "</th>";
-  for (const Series& s : chart.series) out += "<th scope=\"col\" class=\"figure\">" + html(s.name) + "</th>";
-  out += "</tr></thead><tbody>";
+  std::string caption = html(chart.title);
+  if (!of.unit.empty()) caption += ", " + html(of.name) + " in " + html(of.unit);
+  if (stride > 1) caption += "; every " + counted(stride) + "th of " + counted(rows.size(), "place");
+  std::vector<Column> columns{{along.name}};
+  for (const Series& s : chart.series) columns.push_back({s.name, true});
+  std::string body;
   std::size_t n = 0;
   for (const auto& [at, row] : rows) {
     if (n++ % std::max<std::size_t>(stride, 1) != 0) continue;
-    out += "<tr><th scope=\"row\">" + html(place_name(along, at)) + "</th>";
+    std::string cells;
     for (std::size_t s = 0; s < row.size(); ++s)
-      out += "<td class=\"figure\" data-name=\"" + html(chart.series[s].name) + "\">" +
-             (row[s].empty() ? "<span class=\"void\">none</span>" : html(row[s])) + "</td>";
-    out += "</tr>";
+      cells += figure_cell(chart.series[s].name, row[s].empty() ? absent_value("none") : html(row[s]));
+    body += element("tr", row_head(html(place_name(along, at))), cells);
   }
-  out += "</tbody></table>";
-  if (chart.marks.empty()) return out;
-  out += "<ul class=\"plain\">";
-  for (const ChartMark& mark : chart.marks)
-    out += "<li>" + html(mark.text) + " at " + html(figure(mark.at, 5)) + "</li>";
-  return out + "</ul>";
+  const std::string table = element("table", element("caption", caption), table_head(columns), element("tbody", body));
+  std::string marks;
+  for (const ChartMark& mark : chart.marks) marks += element("li", html(mark.text), " at ", html(figure(mark.at, 5)));
+  return table + (marks.empty() ? "" : element("ul.plain", marks));
 }
 
 std::string ChartBook::figure(Chart chart) {
   if (std::all_of(chart.series.begin(), chart.series.end(), [](const Series& s) { return s.x.empty(); })) return "";
-  std::string out =
-      "<figure class=\"chart\"><figcaption>" + html(chart.title) +
-      "</figcaption><div class=\"chart-place\" data-chart=\"" + std::to_string(charts_.size()) + "\">" +
-      chart_svg(chart, plots::Placement::kInline) +
-      "</div><details class=\"beside\"><summary>The same as a table<span class=\"unseen\">: " + html(chart.title) +
-      "</span></summary>" + chart_table(chart) + "</details></figure>";
+  const std::string title = html(chart.title);
+  const std::string drawn = element("div.chart-place", {{"data-chart", std::to_string(charts_.size())}},
+                                    chart_svg(chart, plots::Placement::kInline));
+  const std::string summary = element("summary", "The same as a table", element("span.unseen", ": ", title));
+  const std::string out = element("figure.chart", element("figcaption", title), drawn,
+                                  element("details.beside", summary, chart_table(chart)));
   charts_.push_back(std::move(chart));
   return out;
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <sstream>
 
+#include "reports/element.hpp"
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/html_sections.hpp"
@@ -11,17 +12,16 @@ namespace broadside::reports {
 namespace {
 
 std::string table_of(const AgreementGrid& grid) {
-  std::string out = "<table class=\"cells\"><thead><tr><th scope=\"col\">engine</th>";
-  for (const std::string& column : grid.columns) out += "<th scope=\"col\">" + html(column) + "</th>";
-  out += "</tr></thead><tbody>";
+  std::vector<Column> columns{{"engine"}};
+  for (const std::string& column : grid.columns) columns.push_back({column});
+  std::string rows;
   for (const auto& [label, texts] : grid.rows) {
-    out += "<tr><th scope=\"row\">" + html(label) + "</th>";
+    std::string cells;
     for (std::size_t k = 0; k < texts.size(); ++k)
-      out += "<td data-name=\"" + html(grid.columns[k]) + "\">" +
-             (texts[k].empty() ? "<span class=\"void\">none</span>" : html(texts[k])) + "</td>";
-    out += "</tr>";
+      cells += text_cell(grid.columns[k], texts[k].empty() ? absent_value("none") : html(texts[k]));
+    rows += element("tr", row_head(html(label)), cells);
   }
-  return out + "</tbody></table>";
+  return element("table.cells", table_head(columns), element("tbody", rows));
 }
 
 std::string power_of_ten(int power) {
@@ -60,8 +60,8 @@ std::string agreement_section(const SceneView& scene, PageParts& page) {
   std::string charts;
   for (const auto& [what, histograms] : agreement_histograms_of(scene))
     charts += page.charts.figure(chart_of(what, histograms, scene));
-  return "<section><h3>Agreement with the exact answer</h3>" + table_of(grid) +
-         (charts.empty() ? "" : "<div class=\"charts\">" + charts + "</div>") + "</section>";
+  return element("section", element("h3", "Agreement with the exact answer"), table_of(grid),
+                 charts.empty() ? "" : element("div.charts", charts));
 }
 
 }  // namespace broadside::reports

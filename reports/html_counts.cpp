@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cstdlib>
 
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -46,26 +47,24 @@ std::string counts_section(const SceneView& scene, PageParts& page) {
     const double raw = mean_of(*trace.cell, "raw");
     const double tight = mean_of(*trace.cell, "candidates");
     if (raw > 0.0 && tight >= 0.0)
-      precision += "<tr><th scope=\"row\">" + label_html(trace.stamp, trace.label) +
-                   "</th><td class=\"figure\" data-name=\"reported\">" + html(figure(raw, 4)) +
-                   "</td><td class=\"figure\" data-name=\"overlapping\">" + html(figure(tight, 4)) +
-                   "</td><td class=\"figure\" data-name=\"precision\">" + html(percent(tight / raw)) + "</td></tr>";
+      precision += element(
+          "tr", row_head(label_html(trace.stamp, trace.label)), figure_cell("reported", html(figure(raw, 4))),
+          figure_cell("overlapping", html(figure(tight, 4))), figure_cell("precision", html(percent(tight / raw))));
   }
   std::erase_if(chart.series, [](const Series& s) { return s.x.empty(); });
   chart.description = "Mean pairs per frame of each engine on " + scene.name + ", by kind.";
-  std::string out = page.charts.figure(std::move(chart));
-  if (out.empty()) return "";
-  out = "<section><h3>Pairs</h3><div class=\"charts\">" + out + "</div>";
+  const std::string drawn = page.charts.figure(std::move(chart));
+  if (drawn.empty()) return "";
+  std::string table;
   if (!precision.empty())
-    out +=
-        "<table class=\"precision\"><caption>Precision of the broad phase: of the pairs that an engine reports, how "
-        "many "
-        "boxes really overlap</caption><thead><tr><th scope=\"col\">engine</th><th scope=\"col\" "
-        "class=\"figure\">reported"
-        "<small>per frame</small></th><th scope=\"col\" class=\"figure\">overlapping</th><th scope=\"col\" "
-        "class=\"figure\">precision</th></tr></thead><tbody>" +
-        precision + "</tbody></table>";
-  return out + "</section>";
+    table =
+        element("table.precision",
+                element("caption",
+                        "Precision of the broad phase: of the pairs that an engine reports, how many boxes really "
+                        "overlap"),
+                table_head({{"engine"}, {"reported", true, "per frame"}, {"overlapping", true}, {"precision", true}}),
+                element("tbody", precision));
+  return element("section", element("h3", "Pairs"), element("div.charts", drawn), table);
 }
 
 // One chart per subject, each trace with its columns.
@@ -99,7 +98,7 @@ std::string frame_series_section(const SceneView& scene, PageParts& page) {
     if (!figure.empty()) {
       std::string title = subject;
       title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-      out += "<section><h3>" + html(title) + "</h3><div class=\"charts\">" + figure + "</div></section>";
+      out += element("section", element("h3", html(title)), element("div.charts", figure));
     }
   }
   return out;

@@ -1,7 +1,7 @@
 // Where each run's energy went, as curves over its frames.
 #include <algorithm>
 
-#include "reports/escape.hpp"
+#include "reports/element.hpp"
 #include "reports/html_sections.hpp"
 
 namespace broadside::reports {
@@ -57,9 +57,12 @@ std::string energy_section(PageParts& page) {
               core::kEnergyColumnCount, true));
   }
   if (out.empty()) return out;
-  return "<section class=\"energy\" id=\"energy\"><h2>Where the energy went</h2>\n<p>Every frame's change of energy is "
-         "the sum of these works, to their rounding: the validator energy judges that.</p>\n<div class=\"charts\">" +
-         out + "</div></section>\n";
+  return element("section.energy", {{"id", "energy"}}, element("h2", "Where the energy went"), "\n",
+                 element("p",
+                         "Every frame's change of energy is the sum of these works, to their rounding: the validator "
+                         "energy judges that."),
+                 "\n", element("div.charts", out)) +
+         "\n";
 }
 
 }  // namespace broadside::reports

@@ -1,4 +1,5 @@
 // Equivalence cards and known defects on the page.
+#include "reports/element.hpp"
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
@@ -8,31 +9,30 @@ namespace {
 
 std::string card_html(const EngineCard& card) {
   const std::uint64_t differences = card.differences();
-  std::string out = "<details class=\"equivalence\"><summary><b>" + html(card.label) + "</b> " +
-                    (differences == 0 ? std::string("nothing differs from the scene")
-                                      : counted(differences, "difference") + " from the scene") +
-                    "</summary><table class=\"cells\"><thead><tr><th scope=\"col\">property</th><th scope=\"col\">this "
-                    "engine</th><th scope=\"col\">the scene asks for</th></tr></thead><tbody>";
+  const std::string said =
+      differences == 0 ? "nothing differs from the scene" : counted(differences, "difference") + " from the scene";
+  std::string rows;
   for (const core::EquivalenceFact& fact : card.facts)
-    out += "<tr" + std::string(fact.differs() ? " class=\"differs\"" : "") + "><th scope=\"row\">" +
-           html(fact.property) + "</th><td data-name=\"this engine\">" + html(fact.engine) +
-           "</td><td data-name=\"the scene asks for\">" +
-           (fact.differs() ? "<strong>differs:</strong> " + html(fact.scene) : std::string("the same")) + "</td></tr>";
-  return out + "</tbody></table></details>";
+    rows += element(fact.differs() ? "tr.differs" : "tr", row_head(html(fact.property)),
+                    text_cell("this engine", html(fact.engine)),
+                    text_cell("the scene asks for",
+                              fact.differs() ? element("strong", "differs:") + " " + html(fact.scene) : "the same"));
+  return element("details.equivalence", element("summary", element("b", html(card.label)), " ", said),
+                 element("table.cells", table_head({{"property"}, {"this engine"}, {"the scene asks for"}}),
+                         element("tbody", rows)));
 }
 
-std::string defects_html(const std::vector<DefectRow>& rows) {
-  if (rows.empty()) return "";
-  std::string out =
-      "<h4>Known defects of the libraries</h4><table class=\"cells\"><thead><tr><th scope=\"col\">engine</th><th "
-      "scope=\"col\">library</th><th scope=\"col\">upstream</th><th scope=\"col\">what counts</th><th scope=\"col\" "
-      "class=\"figure\">hits in this run</th></tr></thead><tbody>";
-  for (const auto& [label, d] : rows)
-    out += "<tr><th scope=\"row\">" + html(label) + "</th><td data-name=\"library\">" + html(d.library) +
-           "</td><td data-name=\"upstream\">" + html(d.upstream) + "</td><td data-name=\"what counts\">" +
-           html(d.predicate) + "</td><td class=\"figure\" data-name=\"hits in this run\">" + counted(d.hits) + " of " +
-           counted(d.asked) + "</td></tr>";
-  return out + "</tbody></table>";
+std::string defects_html(const std::vector<DefectRow>& defects) {
+  if (defects.empty()) return "";
+  std::string rows;
+  for (const auto& [label, d] : defects)
+    rows += element("tr", row_head(html(label)), text_cell("library", html(d.library)),
+                    text_cell("upstream", html(d.upstream)), text_cell("what counts", html(d.predicate)),
+                    figure_cell("hits in this run", counted(d.hits) + " of " + counted(d.asked)));
+  return element("h4", "Known defects of the libraries") +
+         element("table.cells",
+                 table_head({{"engine"}, {"library"}, {"upstream"}, {"what counts"}, {"hits in this run", true}}),
+                 element("tbody", rows));
 }
 
 }  // namespace
@@ -41,9 +41,9 @@ std::string equivalence_section(const SceneView& scene) {
   const std::vector<EngineCard> cards = cards_of(scene);
   const std::vector<DefectRow> defects = defects_of(scene);
   if (cards.empty() && defects.empty()) return "";
-  std::string out = "<section><h3>Is it the same scene?</h3>";
+  std::string out;
   for (const EngineCard& card : cards) out += card_html(card);
-  return out + defects_html(defects) + "</section>";
+  return element("section", element("h3", "Is it the same scene?"), out, defects_html(defects));
 }
 
 }  // namespace broadside::reports

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "reports/element.hpp"
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
@@ -34,24 +35,21 @@ std::string cell_row(const SceneView& scene, const TraceView& trace, const std::
   const core::Cell& cell = *trace.cell;
   const bool is_recorded = cell.state == core::CellState::kRecorded;
   const bool has_run = is_recorded || cell.frames > 0;
-  std::string out = std::string("<tr") + (is_recorded ? "" : " class=\"absent\"") + "><th scope=\"row\">" +
-                    label_html(trace.stamp, trace.label) + "</th><td data-name=\"state\">" + html(state_text(cell)) +
-                    "</td>";
-  out += "<td class=\"figure\" data-name=\"frames\">" + (has_run ? counted(cell.frames) : "none") + "</td>";
-  out += "<td class=\"figure\" data-name=\"recorded in\">" + (has_run ? html(quantity(cell.wall_s, "s")) : "none") +
-         "</td>";
+  std::string counts;
   for (const std::string& key : pairs) {
     const auto found = cell.notes.find(key);
-    out += "<td class=\"figure\" data-name=\"" + html(key) + "\">" +
-           (found == cell.notes.end() ? "<span class=\"void\">none</span>" : html(found->second)) + "</td>";
+    counts += figure_cell(key, found == cell.notes.end() ? absent_value("none") : html(found->second));
   }
   std::string remarks;
   for (const auto& [key, text] : cell.notes)
     if (!has_own_place(key) && !scene.facts.contains(key)) remarks += (remarks.empty() ? "" : "; ") + key + ": " + text;
-  out += "<td data-name=\"trace\">" +
-         (cell.trace_file.empty() ? "<span class=\"void\">none</span>" : "<code>" + html(cell.trace_file) + "</code>");
-  if (!remarks.empty()) out += "<small>" + html(remarks) + "</small>";
-  return out + "</td></tr>";
+  return element(is_recorded ? "tr" : "tr.absent", row_head(label_html(trace.stamp, trace.label)),
+                 text_cell("state", html(state_text(cell))),
+                 figure_cell("frames", has_run ? counted(cell.frames) : "none"),
+                 figure_cell("recorded in", has_run ? html(quantity(cell.wall_s, "s")) : "none"), counts,
+                 element("td", {{"data-name", "trace"}},
+                         cell.trace_file.empty() ? absent_value("none") : element("code", html(cell.trace_file)),
+                         remarks.empty() ? "" : element("small", html(remarks))));
 }
 
 // One entry when all traces agree, otherwise one per value with the engines that have it.
@@ -66,19 +64,16 @@ std::string stamp_fact(const SceneView& scene, std::string_view name, std::strin
   }
   std::string out;
   for (const auto& [value, engines] : values) {
-    out += "<div><dt>" + std::string(name);
-    if (values.size() > 1) {
-      out += "<small>";
-      for (std::size_t k = 0; k < engines.size(); ++k) out += (k == 0 ? "" : ", ") + html(engines[k]);
-      out += "</small>";
-    }
-    out += "</dt><dd>" + (value.empty() ? "<span class=\"void\">not stated</span>" : html(value)) + "</dd></div>";
+    std::string whose;
+    for (const std::string& engine : engines) whose += (whose.empty() ? "" : ", ") + html(engine);
+    out += fact_entry(std::string(name) + (values.size() > 1 ? element("small", whose) : ""),
+                      value.empty() ? absent_value("not stated") : html(value));
   }
   return out;
 }
 
 std::string command_item(const std::string& command) {
-  return "<li><pre><code>" + html(command) + "</code></pre></li>";
+  return element("li", element("pre", element("code", html(command))));
 }
 
 }  // namespace
@@ -89,27 +84,24 @@ std::string cells_section(const SceneView& scene, PageParts&) {
   for (const TraceView& trace : scene.traces)
     if (trace.cell != nullptr) rows += cell_row(scene, trace, pairs);
   if (rows.empty()) return "";
-  std::string out =
-      "<section><h3>What ran</h3><table class=\"cells\"><thead><tr><th scope=\"col\">engine</th><th "
-      "scope=\"col\">state</th><th scope=\"col\" class=\"figure\">frames</th><th scope=\"col\" "
-      "class=\"figure\">recorded in</th>";
-  for (const std::string& key : pairs)
-    out += "<th scope=\"col\" class=\"figure\">" + html(key.substr(kPairs.size())) + "<small>pairs</small></th>";
-  out += "<th scope=\"col\">trace</th></tr></thead><tbody>" + rows +
-         "</tbody></table><p class=\"hint\">Recording writes every "
-         "frame to disk; its duration is no benchmark.</p></section>";
-  return out;
+  std::vector<Column> columns{{"engine"}, {"state"}, {"frames", true}, {"recorded in", true}};
+  for (const std::string& key : pairs) columns.push_back({key.substr(kPairs.size()), true, "pairs"});
+  columns.push_back({"trace"});
+  return element("section", element("h3", "What ran"),
+                 element("table.cells", table_head(columns), element("tbody", rows)),
+                 element("p.hint", "Recording writes every frame to disk; its duration is no benchmark."));
 }
 
 std::string facts_section(const SceneView& scene, PageParts&) {
-  std::string out = "<section><div class=\"facts\"><div><h3>Scene</h3><dl><div><dt>name</dt><dd>" + html(scene.name) +
-                    "</dd></div><div><dt>digest</dt><dd><code>" + hexadecimal(scene.digest) + "</code></dd></div>";
+  std::string of_scene =
+      fact_entry("name", html(scene.name)) + fact_entry("digest", element("code", hexadecimal(scene.digest)));
   for (const auto& [key, text] : scene.facts)
-    if (!has_own_place(key)) out += "<div><dt>" + html(key) + "</dt><dd>" + html(text) + "</dd></div>";
-  out += "</dl></div><div><h3>Machine and build</h3><dl>" + stamp_fact(scene, "machine", &core::Stamp::machine) +
-         stamp_fact(scene, "Broadside", &core::Stamp::broadside_build) +
-         stamp_fact(scene, "engine", &core::Stamp::engine_build) + "</dl></div></div></section>";
-  return out;
+    if (!has_own_place(key)) of_scene += fact_entry(html(key), html(text));
+  const std::string of_stamp = stamp_fact(scene, "machine", &core::Stamp::machine) +
+                               stamp_fact(scene, "Broadside", &core::Stamp::broadside_build) +
+                               stamp_fact(scene, "engine", &core::Stamp::engine_build);
+  return element("section", element("div.facts", element("div", element("h3", "Scene"), element("dl", of_scene)),
+                                    element("div", element("h3", "Machine and build"), element("dl", of_stamp))));
 }
 
 std::string repeat_section(PageParts& page) {
@@ -128,39 +120,30 @@ std::string repeat_section(PageParts& page) {
           if (const auto found = trace.cell->notes.find(std::string(key)); found != trace.cell->notes.end())
             add(found->second);
   if (commands.empty()) return "";
-  std::string out = "<section id=\"repeat\"><h2>How to repeat</h2><ol class=\"commands\">";
-  for (const std::string& command : commands) out += command_item(command);
-  return out + "</ol></section>";
+  std::string items;
+  for (const std::string& command : commands) items += command_item(command);
+  return element("section", {{"id", "repeat"}}, element("h2", "How to repeat"), element("ol.commands", items));
 }
 
 std::string legend_section(PageParts&) {
   using core::Outcome;
-  return "<section class=\"legend\" id=\"legend\"><h2>How to read this page</h2><dl>"
-         "<div><dt>" +
-         outcome_html(Outcome::kPass, true) +
-         "</dt><dd>the law held in everything that was checked</dd></div>"
-         "<div><dt>" +
-         outcome_html(Outcome::kFail, true) +
-         "</dt><dd>the measured value is beyond its limit somewhere; the "
-         "worst place is named</dd></div>"
-         "<div><dt>" +
-         outcome_html(Outcome::kInconclusive, true) +
-         "</dt><dd>inconclusive: the trace can neither prove nor "
-         "refute it</dd></div>"
-         "<div><dt>" +
-         outcome_html(Outcome::kNotApplicable, true) +
-         "</dt><dd>not applicable to this engine or trace; the "
-         "place says why</dd></div>"
-         "<div><dt>\xC3\x97"
-         "2</dt><dd>so many verdicts: alone and against baselines; the gravest is shown, the place lists all</dd></div>"
-         "<div><dt>struck out</dt><dd>A time counts only when a recording of the same scene, engine, settings, build "
-         "and "
-         "machine exists, at least one verdict on it passed and none failed, and the timed run ended in the recorded "
-         "state, "
-         "bit by bit.</dd></div>"
-         "<div><dt>spread</dt><dd>distance of the quartiles over the median, over all timed frames</dd></div>"
-         "<div><dt>FPS</dt><dd>frames over their total time, per run; mean and standard deviation over runs</dd></div>"
-         "</dl></section>";
+  const std::string entries =
+      fact_entry(outcome_html(Outcome::kPass, true), "the law held in everything that was checked") +
+      fact_entry(outcome_html(Outcome::kFail, true),
+                 "the measured value is beyond its limit somewhere; the worst place is named") +
+      fact_entry(outcome_html(Outcome::kInconclusive, true),
+                 "inconclusive: the trace can neither prove nor refute it") +
+      fact_entry(outcome_html(Outcome::kNotApplicable, true),
+                 "not applicable to this engine or trace; the place says why") +
+      fact_entry("\u00D72",
+                 "so many verdicts: alone and against baselines; the gravest is shown, the place lists all") +
+      fact_entry("struck out",
+                 "A time counts only when a recording of the same scene, engine, settings, build and machine exists, "
+                 "at least one verdict on it passed and none failed, and the timed run ended in the recorded state, "
+                 "bit by bit.") +
+      fact_entry("spread", "distance of the quartiles over the median, over all timed frames") +
+      fact_entry("FPS", "frames over their total time, per run; mean and standard deviation over runs");
+  return element("section.legend", {{"id", "legend"}}, element("h2", "How to read this page"), element("dl", entries));
 }
 
 }  // namespace broadside::reports

@@ -1,6 +1,7 @@
 // The verdict matrix and the list of findings.
 #include <algorithm>
 
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -10,44 +11,42 @@ namespace broadside::reports {
 namespace {
 
 std::string fact(std::string_view name, const std::string& value) {
-  if (value.empty()) return "";
-  return "<div><dt>" + std::string(name) + "</dt><dd>" + html(value) + "</dd></div>";
+  return value.empty() ? "" : fact_entry(name, html(value));
 }
 
 // Everything known about one verdict.
 std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, const PageParts& page) {
-  const std::string& label = trace.label;
-  std::string out = "<section class=\"verdict\"><h4>" + outcome_html(verdict.outcome, false) + " <span>" +
-                    html(verdict.validator) + "</span></h4><p class=\"on\">on " + html(label);
-  if (!verdict.baseline.empty()) out += ", against " + html(verdict.baseline);
-  out += "</p>";
-  if (!verdict.explanation.empty()) out += "<p>" + html(verdict.explanation) + "</p>";
+  std::string out = element("h4", outcome_html(verdict.outcome, false), " ", element("span", html(verdict.validator)));
+  const std::string against = verdict.baseline.empty() ? "" : ", against " + html(verdict.baseline);
+  out += element("p.on", "on ", html(trace.label), against);
+  if (!verdict.explanation.empty()) out += element("p", html(verdict.explanation));
   if (verdict.outcome != core::Outcome::kNotApplicable) {
     const Compared values = compared(verdict.measured, verdict.limit, verdict.unit);
-    out += "<dl>" + fact("measured", values.measured) + fact("limit", values.limit) + fact("origin", verdict.origin) +
-           fact("worst at", place_text(verdict.worst)) + fact("checked", counted(verdict.checked)) +
-           fact("violations", counted(verdict.violations)) + "</dl>" +
-           to_view_button(page, trace.stamp, trace.trace_file, verdict);
+    out += element("dl", fact("measured", values.measured), fact("limit", values.limit), fact("origin", verdict.origin),
+                   fact("worst at", place_text(verdict.worst)), fact("checked", counted(verdict.checked)),
+                   fact("violations", counted(verdict.violations)));
+    out += to_view_button(page, trace.stamp, trace.trace_file, verdict);
   }
-  return out + "</section>";
+  return element("section.verdict", out);
 }
 
 std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, const PageParts& page) {
   const auto scene_number = static_cast<std::size_t>(&scene - page.scenes.data());
   const auto& said = trace.verdicts[column];
-  const std::string name = html(scene.validators[column]);
-  if (said.empty()) return "<td class=\"none\" data-name=\"" + name + "\"><span class=\"void\">not judged</span></td>";
+  const std::string& name = scene.validators[column];
+  if (said.empty()) return element("td.none", {{"data-name", name}}, absent_value("not judged"));
   const core::Outcome outcome = said.front()->outcome;
-  std::string out = "<td class=\"" + std::string(outcome_class(outcome)) + "\" data-name=\"" + name + "\">";
+  std::string summary =
+      outcome_html(outcome, true) + element("span.unseen", " ", element("b", html(name)), " on ", html(trace.label));
+  if (said.size() > 1)
+    summary += element("span.unseen", ",") + " " + element("i", "\u00D7", std::to_string(said.size()));
+  const bool opens_leftward = column * 2 >= scene.validators.size();
+  std::string cards;
+  for (const core::Verdict* verdict : said) cards += verdict_card(*verdict, trace, page);
   // All share one name: opening one closes the one that was open, with scripts off too.
-  out += "<details name=\"matrix-" + std::to_string(scene_number) + "\"><summary>" + outcome_html(outcome, true) +
-         "<span class=\"unseen\"> <b>" + name + "</b> on " + html(trace.label) + "</span>";
-  if (said.size() > 1) out += "<span class=\"unseen\">,</span> <i>\xC3\x97" + std::to_string(said.size()) + "</i>";
-  out += "</summary><div class=\"card";
-  if (column * 2 >= scene.validators.size()) out += " leftward";
-  out += "\">";
-  for (const core::Verdict* verdict : said) out += verdict_card(*verdict, trace, page);
-  return out + "</div></details></td>";
+  return element("td." + std::string(outcome_class(outcome)), {{"data-name", name}},
+                 element("details", {{"name", "matrix-" + std::to_string(scene_number)}}, element("summary", summary),
+                         element(opens_leftward ? "div.card.leftward" : "div.card", cards)));
 }
 
 std::string baselines_text(const TraceView& trace) {
@@ -68,13 +67,11 @@ std::string shared_baselines(const SceneView& scene) {
   return judged > 1 ? shared : "";
 }
 
-std::string row_head(const TraceView& trace, bool says_baselines) {
-  std::string out = "<th scope=\"row\">" + label_html(trace.stamp, trace.label);
+std::string engine_head(const TraceView& trace, bool says_baselines) {
   std::string below = says_baselines ? baselines_text(trace) : "";
   const bool is_partial = trace.cell != nullptr && trace.cell->state != core::CellState::kRecorded && trace.is_judged();
   if (is_partial) below += (below.empty() ? "" : "; ") + state_text(*trace.cell);
-  if (!below.empty()) out += "<small>" + html(below) + "</small>";
-  return out + "</th>";
+  return row_head(label_html(trace.stamp, trace.label) + (below.empty() ? "" : element("small", html(below))));
 }
 
 struct Finding {
@@ -86,14 +83,14 @@ struct Finding {
 }  // namespace
 
 std::string label_html(const core::Stamp& stamp, std::string_view label) {
-  if (!label.starts_with(stamp.engine)) return "<span class=\"engine\">" + html(label) + "</span>";
-  std::string out = "<span class=\"engine\">" + html(stamp.engine) + "</span>";
+  if (!label.starts_with(stamp.engine)) return element("span.engine", html(label));
+  std::string out = element("span.engine", html(stamp.engine));
   std::string_view rest = label.substr(stamp.engine.size());
   // In plain text the label's brackets mark settings; here a lighter weight does.
   std::string shown(rest);
   if (const std::string bracketed = "[" + stamp.settings_short + "]"; rest.starts_with(bracketed))
     shown = stamp.settings_short + std::string(rest.substr(bracketed.size()));
-  if (!shown.empty()) out += " <span class=\"settings\">" + html(shown) + "</span>";
+  if (!shown.empty()) out += " " + element("span.settings", html(shown));
   return out;
 }
 
@@ -115,45 +112,39 @@ std::string outcome_html(core::Outcome outcome, bool is_short) {
   std::string_view word = core::outcome_word(outcome);
   if (is_short && outcome == core::Outcome::kInconclusive) word = "unsure";
   if (is_short && outcome == core::Outcome::kNotApplicable) word = "n/a";
-  return "<span class=\"word " + std::string(outcome_class(outcome)) + "\"><span aria-hidden=\"true\">" +
-         std::string(symbol(outcome)) + "</span> " + std::string(word) + "</span>";
+  return element("span.word." + std::string(outcome_class(outcome)),
+                 element("span", {{"aria-hidden", "true"}}, symbol(outcome)), " ", word);
 }
 
 std::string matrix_section(const SceneView& scene, PageParts& page) {
   if (scene.validators.empty()) {
-    std::string out = "<section><h3>Verdicts</h3><p>Nothing was judged.</p>";
-    if (!scene.traces.empty()) {
-      out += "<ul class=\"plain\">";
-      for (const TraceView& trace : scene.traces)
-        out += "<li>" + label_html(trace.stamp, trace.label) + ": " + html(trace.absence()) + "</li>";
-      out += "</ul>";
-    }
-    return out + "</section>";
+    std::string absences;
+    for (const TraceView& trace : scene.traces)
+      absences += element("li", label_html(trace.stamp, trace.label), ": ", html(trace.absence()));
+    return element("section", element("h3", "Verdicts"), element("p", "Nothing was judged."),
+                   absences.empty() ? "" : element("ul.plain", absences));
   }
-  std::string out =
-      "<section><h3>Verdicts</h3><p class=\"hint\">Each word opens what was measured, the limit and where it "
-      "comes from, and the worst place.";
   const std::string shared = shared_baselines(scene);
-  if (!shared.empty()) out += " All were judged " + html(shared) + ".";
+  std::string rows;
+  for (const TraceView& trace : scene.traces) {
+    std::string places;
+    for (std::size_t c = 0; trace.is_judged() && c < scene.validators.size(); ++c)
+      places += matrix_place(scene, trace, c, page);
+    if (!trace.is_judged())
+      places = element("td.absent", {{"colspan", std::to_string(scene.validators.size())}}, html(trace.absence()));
+    rows += element("tr", engine_head(trace, shared.empty()), places);
+  }
   // With more columns, two-line names no longer fit side by side on a wide screen.
   constexpr std::size_t kManyColumns = 15;
-  out += "</p><table class=\"matrix";
-  if (scene.validators.size() > kManyColumns) out += " many";
-  out += "\"><thead><tr><th scope=\"col\">engine</th>";
+  std::string head = column_head({"engine"});
   for (const std::string& validator : scene.validators)
-    out += "<th scope=\"col\"><span>" + html(validator) + "</span></th>";
-  out += "</tr></thead><tbody>";
-  for (const TraceView& trace : scene.traces) {
-    out += "<tr>" + row_head(trace, shared.empty());
-    if (!trace.is_judged()) {
-      out += "<td class=\"absent\" colspan=\"" + std::to_string(scene.validators.size()) + "\">" +
-             html(trace.absence()) + "</td>";
-    } else {
-      for (std::size_t c = 0; c < scene.validators.size(); ++c) out += matrix_place(scene, trace, c, page);
-    }
-    out += "</tr>";
-  }
-  return out + "</tbody></table></section>";
+    head += element("th", {{"scope", "col"}}, element("span", html(validator)));
+  return element(
+      "section", element("h3", "Verdicts"),
+      element("p.hint", "Each word opens what was measured, the limit and where it comes from, and the worst place.",
+              shared.empty() ? "" : " All were judged " + html(shared) + "."),
+      element(scene.validators.size() > kManyColumns ? "table.matrix.many" : "table.matrix",
+              element("thead", element("tr", head)), element("tbody", rows)));
 }
 
 std::string findings_section(PageParts& page) {
@@ -169,28 +160,30 @@ std::string findings_section(PageParts& page) {
   std::stable_sort(found.begin(), found.end(), [](const Finding& a, const Finding& b) {
     return severity(a.verdict->outcome) > severity(b.verdict->outcome);
   });
-  std::string out =
-      "<section id=\"findings\"><h2>What did not pass</h2><table class=\"findings\"><thead><tr>"
-      "<th scope=\"col\">verdict</th><th scope=\"col\">engine</th><th scope=\"col\" class=\"figure\">measured"
-      "</th><th scope=\"col\" class=\"figure\">limit</th><th scope=\"col\">worst at</th><th scope=\"col\" "
-      "class=\"figure\">violations</th></tr></thead><tbody>";
+  std::string rows;
   for (const Finding& finding : found) {
     const core::Verdict& verdict = *finding.verdict;
     const Compared values = compared(verdict.measured, verdict.limit, verdict.unit);
-    out += "<tr><td data-name=\"verdict\">" + outcome_html(verdict.outcome, true) + " <strong>" +
-           html(verdict.validator) + "</strong></td><td data-name=\"engine\">" +
-           label_html(finding.trace->stamp, finding.trace->label);
-    if (scenes.size() > 1) out += "<small>" + html(finding.scene->name) + "</small>";
-    if (!verdict.baseline.empty()) out += "<small>against " + html(verdict.baseline) + "</small>";
-    out += "</td><td class=\"figure\" data-name=\"measured\">" + html(values.measured) +
-           "</td><td class=\"figure\" data-name=\"limit\">" + html(values.limit) + "</td><td data-name=\"worst at\">" +
-           html(place_text(verdict.worst)) + "</td><td class=\"figure\" data-name=\"violations\">" +
-           counted(verdict.violations) + "<small>of " + counted(verdict.checked) + "</small></td></tr>";
-    out += "<tr class=\"why\"><td colspan=\"6\">" + html(verdict.explanation);
-    if (!verdict.origin.empty()) out += " <span class=\"origin\">Limit: " + html(verdict.origin) + "</span>";
-    out += to_view_button(page, finding.trace->stamp, finding.trace->trace_file, verdict) + "</td></tr>";
+    const std::string of_scene = scenes.size() > 1 ? element("small", html(finding.scene->name)) : "";
+    const std::string against = verdict.baseline.empty() ? "" : element("small", "against ", html(verdict.baseline));
+    const std::string label = label_html(finding.trace->stamp, finding.trace->label);
+    const std::string origin =
+        verdict.origin.empty() ? "" : " " + element("span.origin", "Limit: ", html(verdict.origin));
+    rows += element(
+        "tr",
+        text_cell("verdict", outcome_html(verdict.outcome, true) + " " + element("strong", html(verdict.validator))),
+        text_cell("engine", label + of_scene + against), figure_cell("measured", html(values.measured)),
+        figure_cell("limit", html(values.limit)), text_cell("worst at", html(place_text(verdict.worst))),
+        figure_cell("violations", counted(verdict.violations) + element("small", "of ", counted(verdict.checked))));
+    rows += element("tr.why", element("td", {{"colspan", "6"}}, html(verdict.explanation), origin,
+                                      to_view_button(page, finding.trace->stamp, finding.trace->trace_file, verdict)));
   }
-  return out + "</tbody></table></section>";
+  return element(
+      "section", {{"id", "findings"}}, element("h2", "What did not pass"),
+      element("table.findings",
+              table_head(
+                  {{"verdict"}, {"engine"}, {"measured", true}, {"limit", true}, {"worst at"}, {"violations", true}}),
+              element("tbody", rows)));
 }
 
 }  // namespace broadside::reports

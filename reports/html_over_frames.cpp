@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -80,7 +81,7 @@ std::string over_frames_section(const SceneView& scene, PageParts& page) {
       figures += page.charts.figure(stage_chart(scene, *group.timings[k], page.rows));
   }
   if (figures.empty()) return "";
-  return "<section><h3>Times over the frames</h3><div class=\"charts\">" + figures + "</div></section>";
+  return element("section", element("h3", "Times over the frames"), element("div.charts", figures));
 }
 
 std::string side_by_side_section(const SceneView& scene, PageParts& page) {
@@ -112,11 +113,11 @@ std::string side_by_side_section(const SceneView& scene, PageParts& page) {
     figures += page.charts.figure(std::move(chart));
   }
   if (figures.empty()) return "";
-  return "<section><h3>Engines side by side</h3><p class=\"hint\">Ratio of median frames; whiskers are 95 % of "
-         "resampled "
-         "processes and runs. Runs of one process understate how much the next process would differ. Left of 1 is "
-         "faster.</p><div class=\"charts\">" +
-         figures + "</div></section>";
+  return element("section", element("h3", "Engines side by side"),
+                 element("p.hint",
+                         "Ratio of median frames; whiskers are 95 % of resampled processes and runs. Runs of one "
+                         "process understate how much the next process would differ. Left of 1 is faster."),
+                 element("div.charts", figures));
 }
 
 }  // namespace broadside::reports

@@ -1,4 +1,5 @@
 // The HTML report from top to bottom.
+#include "reports/element.hpp"
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
@@ -10,24 +11,33 @@
 namespace broadside::reports {
 namespace {
 
+// The policy forbids the page to fetch anything, even if a link were to slip through.
+constexpr std::string_view kHeadStart = R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; )"
+                                        R"(script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+)";
+
 std::string tally_item(std::uint64_t count, std::string_view word, std::string_view style) {
-  return "<li class=\"" + std::string(count == 0 ? "zero" : style) + "\"><b>" + counted(count) + "</b> " +
-         std::string(word) + "</li>";
+  return element("li." + std::string(count == 0 ? "zero" : style), element("b", counted(count)), " ", word);
 }
 
 std::string tally_list(const Tally& t) {
-  return "<ul class=\"tally\" aria-label=\"counts\">" + tally_item(t.passed, "passed", "pass") +
-         tally_item(t.failed, "failed", "fail") + tally_item(t.inconclusive, "inconclusive", "open") +
-         tally_item(t.not_applicable, "not applicable", "none") + tally_item(t.recorded, "recorded", "none") +
-         tally_item(t.absent, "not measured", "none") + tally_item(t.admitted, "times admitted", "none") +
-         tally_item(t.struck_out, "times struck out", "none") + "</ul>";
+  return element("ul.tally", {{"aria-label", "counts"}}, tally_item(t.passed, "passed", "pass"),
+                 tally_item(t.failed, "failed", "fail"), tally_item(t.inconclusive, "inconclusive", "open"),
+                 tally_item(t.not_applicable, "not applicable", "none"), tally_item(t.recorded, "recorded", "none"),
+                 tally_item(t.absent, "not measured", "none"), tally_item(t.admitted, "times admitted", "none"),
+                 tally_item(t.struck_out, "times struck out", "none"));
 }
 
 std::string scene_head(const SceneView& scene) {
-  std::string out = "<h2>" + html(scene.name) + "</h2>";
   const std::string text = stand_in(scene);
-  if (!text.empty()) out += "<p class=\"stand-in\"><strong>Stand-in mesh.</strong> " + html(text) + "</p>";
-  return out;
+  return element("h2", html(scene.name)) +
+         (text.empty() ? "" : element("p.stand-in", element("strong", "Stand-in mesh."), " ", html(text)));
 }
 
 std::string equivalence_part(const SceneView& scene, PageParts&) {
@@ -42,10 +52,9 @@ constexpr RunPart kPartsAfterScenes[] = {energy_section,  scaling_section, guest
                                          history_section, repeat_section,  legend_section};
 
 std::string scene_article(const SceneView& scene, PageParts& page) {
-  std::string out =
-      "\n<article id=\"scene-" + std::to_string(&scene - page.scenes.data()) + "\">" + scene_head(scene) + "\n";
-  for (const ScenePart part : kSceneParts) out += part(scene, page) + "\n";
-  return out + "</article>\n";
+  std::string parts = scene_head(scene) + "\n";
+  for (const ScenePart part : kSceneParts) parts += part(scene, page) + "\n";
+  return "\n" + element("article", {{"id", "scene-" + std::to_string(&scene - page.scenes.data())}}, parts) + "\n";
 }
 
 // Links to the parts, for pages longer than a screen.
@@ -53,7 +62,7 @@ std::string contents(const PageParts& page, const std::string& body) {
   std::string items;
   const auto add = [&](const std::string& id, const std::string& text) {
     if (body.find("id=\"" + id + "\"") != std::string::npos)
-      items += "<li><a href=\"#" + id + "\">" + html(text) + "</a></li>";
+      items += element("li", element("a", {{"href", "#" + id}}, html(text)));
   };
   add("findings", "What did not pass");
   add("view-section", "Frame by frame");
@@ -64,12 +73,12 @@ std::string contents(const PageParts& page, const std::string& body) {
   add("history", "Earlier runs");
   add("repeat", "How to repeat");
   add("legend", "How to read this page");
-  return "<nav aria-label=\"Contents\"><ul>" + items + "</ul></nav>";
+  return element("nav", {{"aria-label", "Contents"}}, element("ul", items));
 }
 
 // Data for the script; a block that would be empty is left out.
 std::string data_block(std::string_view id, const std::string& json) {
-  return "<script type=\"application/json\" id=\"" + std::string(id) + "\">" + json + "</script>\n";
+  return element("script", {{"type", "application/json"}, {"id", std::string(id)}}, json) + "\n";
 }
 
 std::string guest_style(const ReportOptions& options) {
@@ -83,7 +92,7 @@ std::string guest_style(const ReportOptions& options) {
 std::string guest_sections(PageParts& page) {
   std::string out;
   for (const GuestPart& part : page.options.guests)
-    out += "<section id=\"" + part.id + "\"><h2>" + html(part.title) + "</h2>" + part.body + "</section>\n";
+    out += element("section", {{"id", part.id}}, element("h2", html(part.title)), part.body) + "\n";
   return out;
 }
 
@@ -110,37 +119,33 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
   const core::Outcome state = overall(counts);
   const std::string sentence = headline(scenes);
 
-  std::string out =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      // Forbids the page to fetch anything, even if a link were to slip through.
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-      "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-      html(options.title.empty() ? kDefaultTitle : options.title) + "</title>\n<style>\n" + std::string(kPageStyle) +
-      plots::plot_style() + guest_style(options) + "</style>\n</head>\n<body>\n";
-  out += "<header><p class=\"brand\"><b>Broadside</b> <span>" +
-         html(options.title.empty() ? kDefaultTitle : options.title) + "</span>";
-  if (!options.generated_at.empty()) out += " <time>" + html(options.generated_at) + "</time>";
-  out += "</p>\n<h1 class=\"" + std::string(outcome_class(state)) + "\"><span class=\"seal\" aria-hidden=\"true\">" +
-         std::string(symbol(state)) + "</span><span>" + html(sentence) + "</span></h1>\n" + tally_list(counts) + "\n";
+  const std::string title = html(options.title.empty() ? kDefaultTitle : options.title);
+
   PageParts page{rows, options, scenes};
   std::string body;
   for (const RunPart part : kPartsBeforeScenes) body += part(page);
   for (const SceneView& scene : scenes) body += scene_article(scene, page);
   for (const RunPart part : kPartsAfterScenes) body += part(page) + "\n";
-  out += contents(page, body) + "</header>\n<main>\n" + body;
-  if (!has_page_bundle())
-    out +=
-        "<p class=\"hint\">This page was built without charts and the 3-D view, because npm was missing; its tables "
-        "hold the "
-        "same figures.</p>";
-  out += "\n</main>\n";
+
+  const std::string brand =
+      element("p.brand", element("b", "Broadside"), " ", element("span", title),
+              options.generated_at.empty() ? "" : " " + element("time", html(options.generated_at)));
+  const std::string verdict =
+      element("h1." + std::string(outcome_class(state)), element("span.seal", {{"aria-hidden", "true"}}, symbol(state)),
+              element("span", html(sentence)));
+  const std::string without_charts =
+      has_page_bundle() ? ""
+                        : element("p.hint",
+                                  "This page was built without charts and the 3-D view, because npm was missing; its "
+                                  "tables hold the same figures.");
+  std::string out = std::string(kHeadStart) + element("title", title) + "\n<style>\n" + std::string(kPageStyle) +
+                    plots::plot_style() + guest_style(options) + "</style>\n</head>\n<body>\n";
+  out += element("header", brand, "\n", verdict, "\n", tally_list(counts), "\n", contents(page, body)) + "\n";
+  out += element("main", "\n", body, without_charts, "\n") + "\n";
   if (has_page_bundle() && !page.charts.charts().empty()) out += data_block("charts", page.charts.json());
   if (has_page_bundle() && !options.playbacks.empty())
     out += data_block("playbacks", playbacks_json(options.playbacks));
-  out += "<script>\n" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
-  return out;
+  return out + "<script>\n" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace broadside::reports

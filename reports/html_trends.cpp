@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -16,10 +17,9 @@ constexpr std::size_t kMostHistories = 24;
 std::string exponent_row(const ScalingSeries& s) {
   std::string interval =
       std::isfinite(s.law.low) ? figure(s.law.low) + " to " + figure(s.law.high) : "none: two counts only";
-  return "<tr><th scope=\"row\">" + html(s.family) + "</th><td data-name=\"engine\">" + html(s.label) +
-         "</td><td class=\"figure\" data-name=\"exponent\">" + html(figure(s.law.exponent)) +
-         "</td><td class=\"figure\" data-name=\"95 % interval\">" + html(interval) +
-         "</td><td class=\"figure\" data-name=\"counts\">" + counted(s.n.size()) + "</td></tr>";
+  return element("tr", row_head(html(s.family)), text_cell("engine", html(s.label)),
+                 figure_cell("exponent", html(figure(s.law.exponent))), figure_cell("95 % interval", html(interval)),
+                 figure_cell("counts", counted(s.n.size())));
 }
 
 // Series of a cell that this report shows, those with a change first.
@@ -91,13 +91,12 @@ std::string scaling_section(PageParts& page) {
   }
   std::string rows;
   for (const ScalingSeries& s : all) rows += exponent_row(s);
-  return "<section id=\"scaling\"><h2>Cost against the number of bodies</h2><div class=\"charts\">" + figures +
-         "</div><table><caption>Exponent k of time ~ N<sup>k</sup>, by least squares on "
-         "logarithms</caption><thead><tr><th "
-         "scope=\"col\">scenes</th><th scope=\"col\">engine</th><th scope=\"col\" class=\"figure\">exponent</th><th "
-         "scope=\"col\" class=\"figure\">95 % interval</th><th scope=\"col\" "
-         "class=\"figure\">counts</th></tr></thead><tbody>" +
-         rows + "</tbody></table></section>";
+  return element(
+      "section", {{"id", "scaling"}}, element("h2", "Cost against the number of bodies"),
+      element("div.charts", figures),
+      element("table", element("caption", "Exponent k of time ~ N<sup>k</sup>, by least squares on logarithms"),
+              table_head({{"scenes"}, {"engine"}, {"exponent", true}, {"95 % interval", true}, {"counts", true}}),
+              element("tbody", rows)));
 }
 
 std::string history_section(PageParts& page) {
@@ -106,13 +105,16 @@ std::string history_section(PageParts& page) {
   std::string figures;
   for (std::size_t k = 0; k < std::min(found.size(), kMostHistories); ++k)
     figures += page.charts.figure(history_chart(*found[k]));
-  std::string out =
-      "<section id=\"history\"><h2>Earlier runs</h2><p class=\"hint\">Each point is a run on this machine; dashed "
-      "lines are change points, with the means before and after.";
+  std::string left_out;
   if (found.size() > kMostHistories)
-    out += " " + counted(found.size() - kMostHistories) +
-           " more series without a change are left out: 'broadside history' lists them.";
-  return out + "</p><div class=\"charts\">" + figures + "</div></section>";
+    left_out = " " + counted(found.size() - kMostHistories) +
+               " more series without a change are left out: 'broadside history' lists them.";
+  return element("section", {{"id", "history"}}, element("h2", "Earlier runs"),
+                 element("p.hint",
+                         "Each point is a run on this machine; dashed lines are change points, with the means before "
+                         "and after.",
+                         left_out),
+                 element("div.charts", figures));
 }
 
 }  // namespace broadside::reports

@@ -1,4 +1,5 @@
 // The 3-D view's place on the page, and the links to it.
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/html_sections.hpp"
 
@@ -8,24 +9,23 @@ std::string view_section(PageParts& page) {
   const std::vector<Playback>& playbacks = page.options.playbacks;
   if (playbacks.empty()) return "";
   const Playback& first = playbacks.front();
-  std::string out =
-      "<section id=\"view-section\"><h2>The scene, frame by frame</h2><p class=\"hint\">Boxes of the octree levels in "
-      "red, "
-      "candidate pairs, contacts with their normals from B to A. Drag turns, the wheel zooms; with the picture in "
-      "focus, "
-      "space plays and the arrow keys step. Of a long run, frames around each place that a verdict names are all here, "
-      "the others spread evenly.</p><div id=\"view\"><div id=\"view-picture\">" +
-      playback_picture(first, first.marks.empty() ? -1 : 0) + "</div></div>";
+  const std::string picture = playback_picture(first, first.marks.empty() ? -1 : 0);
   // On paper, and without scripts: a picture of the place that the view would show.
   std::string marks;
   for (const Playback& playback : playbacks)
     for (const PlaybackMark& mark : playback.marks)
-      marks += "<li>" + html(playback.stamp.scene_name) + " " + label_html(playback.stamp, playback.stamp.label()) +
-               ": " + html(mark.text) + "</li>";
-  if (!marks.empty())
-    out += "<details class=\"beside\"><summary>Places that verdicts name</summary><ul class=\"plain\">" + marks +
-           "</ul></details>";
-  return out + "</section>";
+      marks += element("li", html(playback.stamp.scene_name), " ", label_html(playback.stamp, playback.stamp.label()),
+                       ": ", html(mark.text));
+  return element("section", {{"id", "view-section"}}, element("h2", "The scene, frame by frame"),
+                 element("p.hint",
+                         "Boxes of the octree levels in red, candidate pairs, contacts with their normals from B to A. "
+                         "Drag turns, the wheel zooms; with the picture in focus, space plays and the arrow keys step. "
+                         "Of a long run, frames around each place that a verdict names are all here, the others spread "
+                         "evenly."),
+                 element("div", {{"id", "view"}}, element("div", {{"id", "view-picture"}}, picture)),
+                 marks.empty() ? ""
+                               : element("details.beside", element("summary", "Places that verdicts name"),
+                                         element("ul.plain", marks)));
 }
 
 std::string to_view_button(const PageParts& page, const core::Stamp& stamp, const std::string& trace_file,
@@ -38,9 +38,12 @@ std::string to_view_button(const PageParts& page, const core::Stamp& stamp, cons
       if (mark.validator != verdict.validator || mark.baseline != verdict.baseline || mark.step != verdict.worst.step ||
           mark.bodies != verdict.worst.bodies)
         continue;
-      return " <button type=\"button\" class=\"to-view\" data-playback=\"" + std::to_string(p) + "\" data-mark=\"" +
-             std::to_string(m) + "\" hidden>Show in 3-D<span class=\"unseen\">: " + html(mark.text) +
-             "</span></button>";
+      return " " + element("button.to-view",
+                           {{"type", "button"},
+                            {"data-playback", std::to_string(p)},
+                            {"data-mark", std::to_string(m)},
+                            {"hidden", ""}},
+                           "Show in 3-D", element("span.unseen", ": ", html(mark.text)));
     }
   }
   return "";

@@ -40,8 +40,7 @@ std::vector<std::string> equivalence_markdown(const SceneView& scene) {
   if (!differences.empty())
     blocks.push_back(
         "\n#### Where engines differ from the scene\n\n| engine | property | this engine | the scene asks for |\n| --- "
-        "| "
-        "--- | --- | --- |\n" +
+        "| --- | --- | --- |\n" +
         differences);
   std::string met;
   for (const auto& [label, d] : defects_of(scene))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/playback.hpp"
@@ -64,7 +65,7 @@ struct Frame {
 };
 
 std::string box_svg(const core::Box& box, const Projection& project, const Frame& frame, std::string_view style) {
-  std::string out = "<g class=\"" + std::string(style) + "\">";
+  std::string sides;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool is_max : {false, true}) {
       if (!project.sees(axis, is_max)) continue;
@@ -72,14 +73,13 @@ std::string box_svg(const core::Box& box, const Projection& project, const Frame
       const auto next = 1U << static_cast<unsigned>((axis + 1) % 3);
       const auto last = 1U << static_cast<unsigned>((axis + 2) % 3);
       const unsigned base = is_max ? bit : 0U;
-      out += "<polygon points=\"";
+      std::string corners;
       for (const unsigned k : {base, base | next, base | next | last, base | last})
-        out += frame.at(project(corner(box, k))) + " ";
-      out.back() = '"';
-      out += "/>";
+        corners += (corners.empty() ? "" : " ") + frame.at(project(corner(box, k)));
+      sides += element("polygon", {{"points", corners}});
     }
   }
-  return out + "</g>";
+  return element("g." + std::string(style), sides);
 }
 
 }  // namespace
@@ -133,17 +133,21 @@ std::string playback_picture(const Playback& playback, int mark) {
   if (marked != nullptr) caption += "; marked: " + marked->text;
   if (shown->position.size() > kMostBodies)
     caption += "; the first " + counted(kMostBodies) + " bodies and those marked";
-  std::string out = "<svg class=\"scene\" viewBox=\"0 0 " + fixed(kWidth) + " " + fixed((bottom - top) * scale + 20) +
-                    "\" role=\"img\" aria-label=\"" + html(caption) + "\">";
+  std::string boxes;
   std::string names;
   for (const Item& item : items) {
-    out += box_svg(item.box, project, frame, item.is_marked ? "body marked" : "body");
+    boxes += box_svg(item.box, project, frame, item.is_marked ? "body.marked" : "body");
     if (!item.is_marked) continue;
     const Point middle = project(0.5F * (item.box.min + item.box.max));
-    names += "<text x=\"" + fixed((middle.x - frame.left) * scale) + "\" y=\"" + fixed((middle.y - frame.top) * scale) +
-             "\" text-anchor=\"middle\">" + std::to_string(item.body) + "</text>";
+    names += element("text",
+                     {{"x", fixed((middle.x - frame.left) * scale)},
+                      {"y", fixed((middle.y - frame.top) * scale)},
+                      {"text-anchor", "middle"}},
+                     std::to_string(item.body));
   }
-  return out + names + "</svg><p class=\"hint\">" + html(caption) + ".</p>";
+  const std::string size = "0 0 " + fixed(kWidth) + " " + fixed((bottom - top) * scale + 20);
+  return element("svg.scene", {{"viewBox", size}, {"role", "img"}, {"aria-label", caption}}, boxes, names) +
+         element("p.hint", html(caption), ".");
 }
 
 }  // namespace broadside::reports

@@ -45,31 +45,30 @@ std::vector<std::string> ids_of(const Manifest& manifest, const Needs& needs) {
 }
 
 std::string slurm(const Manifest& manifest, const fs::path& folder, const std::string& program) {
-  std::string text = fmt::format(
-      "#!/usr/bin/env bash\n"
-      "# Submits what is missing of campaign {0} as job arrays, one cell a task. Run it again after a failure.\n"
-      "# Options of your cluster (partition, account, time): bash slurm.sh --partition=main --time=01:00:00\n"
-      "# Timed cells ask for whole nodes, GPU cells for a GPU; the others share.\n"
-      "set -euo pipefail\n"
-      "folder={1}\n"
-      "program={2}\n"
-      "submit() {{\n"
-      "  local name=$1 needs=$2\n"
-      "  shift 2\n"
-      "  local ids=()\n"
-      "  while read -r id; do [[ -d $folder/cells/$id ]] || ids+=(\"$id\"); done\n"
-      "  [[ ${{#ids[@]}} -gt 0 ]] || return 0\n"
-      "  mkdir -p \"$folder/logs\"\n"
-      "  # shellcheck disable=SC2086\n"
-      "  sbatch --parsable --job-name={0}-\"$name\" --array=0-$((${{#ids[@]}} - 1)) "
-      "--output=\"$folder/logs/%A_%a.log\" $needs "
-      "\"$@\" <<JOB\n"
-      "#!/usr/bin/env bash\n"
-      "ids=(${{ids[*]}})\n"
-      "exec \"$program\" run \"$folder\" --cell \"\\${{ids[SLURM_ARRAY_TASK_ID]}}\"\n"
-      "JOB\n"
-      "}}\n",
-      manifest.name, quoted(folder.string()), quoted(program));
+  std::string text = fmt::format(R"(#!/usr/bin/env bash
+# Submits what is missing of campaign {0} as job arrays, one cell a task. Run it again after a failure.
+# Options of your cluster (partition, account, time): bash slurm.sh --partition=main --time=01:00:00
+# Timed cells ask for whole nodes, GPU cells for a GPU; the others share.
+set -euo pipefail
+folder={1}
+program={2}
+submit() {{
+  local name=$1 needs=$2
+  shift 2
+  local ids=()
+  while read -r id; do [[ -d $folder/cells/$id ]] || ids+=("$id"); done
+  [[ ${{#ids[@]}} -gt 0 ]] || return 0
+  mkdir -p "$folder/logs"
+  # shellcheck disable=SC2086
+  sbatch --parsable --job-name={0}-"$name" --array=0-$((${{#ids[@]}} - 1)) \
+    --output="$folder/logs/%A_%a.log" $needs "$@" <<JOB
+#!/usr/bin/env bash
+ids=(${{ids[*]}})
+exec "$program" run "$folder" --cell "\${{ids[SLURM_ARRAY_TASK_ID]}}"
+JOB
+}}
+)",
+                                 manifest.name, quoted(folder.string()), quoted(program));
   for (const Needs& needs : kNeeds) {
     const std::vector<std::string> ids = ids_of(manifest, needs);
     if (ids.empty()) continue;
@@ -81,20 +80,20 @@ std::string slurm(const Manifest& manifest, const fs::path& folder, const std::s
 }
 
 std::string parallel(const Manifest& manifest, const fs::path& folder, const std::string& program) {
-  std::string text = fmt::format(
-      "#!/usr/bin/env bash\n"
-      "# Does what is missing of campaign {0} with GNU parallel. Options go to it: bash parallel.sh --sshlogin a,b\n"
-      "# Timed cells run one at a time, the others on every core.\n"
-      "set -uo pipefail\n"
-      "folder={1}\n"
-      "program={2}\n"
-      "failed=0\n"
-      "each() {{\n"
-      "  local jobs=$1\n"
-      "  shift\n"
-      "  parallel --jobs \"$jobs\" \"$@\" \"$program\" run \"$folder\" --cell '{{}}' || failed=1\n"
-      "}}\n",
-      manifest.name, quoted(folder.string()), quoted(program));
+  std::string text = fmt::format(R"(#!/usr/bin/env bash
+# Does what is missing of campaign {0} with GNU parallel. Options go to it: bash parallel.sh --sshlogin a,b
+# Timed cells run one at a time, the others on every core.
+set -uo pipefail
+folder={1}
+program={2}
+failed=0
+each() {{
+  local jobs=$1
+  shift
+  parallel --jobs "$jobs" "$@" "$program" run "$folder" --cell '{{}}' || failed=1
+}}
+)",
+                                 manifest.name, quoted(folder.string()), quoted(program));
   for (const Needs& needs : kNeeds) {
     const std::vector<std::string> ids = ids_of(manifest, needs);
     if (ids.empty()) continue;
@@ -106,28 +105,30 @@ std::string parallel(const Manifest& manifest, const fs::path& folder, const std
 }
 
 std::string snakemake(const Manifest& manifest, const fs::path& folder, const std::string& program) {
-  std::string text = fmt::format(
-      "# Campaign {}: snakemake --snakefile Snakefile --cores all --keep-going\n"
-      "# Timed cells take every core, so that nothing runs beside them.\n"
-      "FOLDER = {:?}\n"
-      "PROGRAM = {:?}\n"
-      "CELLS = {{\n",
-      manifest.name, folder.string(), program);
+  std::string text = fmt::format(R"(# Campaign {}: snakemake --snakefile Snakefile --cores all --keep-going
+# Timed cells take every core, so that nothing runs beside them.
+FOLDER = {:?}
+PROGRAM = {:?}
+CELLS = {{
+)",
+                                 manifest.name, folder.string(), program);
   for (const std::span<const ManifestCell> group : groups_of(manifest))
     text += fmt::format("    \"{}\": {{\"timed\": {}, \"gpu\": {}}},\n", group.front().id,
                         is_timed(group) ? "True" : "False", needs_gpu(group) ? 1 : 0);
-  text +=
-      "}\n\n"
-      "rule all:\n"
-      "    input: expand(FOLDER + \"/cells/{id}/cells.json\", id=CELLS)\n\n"
-      "rule cell:\n"
-      "    output: FOLDER + \"/cells/{id}/cells.json\"\n"
-      "    wildcard_constraints: id=\"[0-9a-f]{16}\"\n"
-      "    threads: lambda wildcards: workflow.cores if CELLS[wildcards.id][\"timed\"] else 1\n"
-      "    resources: gpu=lambda wildcards: CELLS[wildcards.id][\"gpu\"]\n"
-      "    params: program=PROGRAM, folder=FOLDER\n"
-      "    shell: \"rmdir {params.folder}/cells/{wildcards.id} 2>/dev/null; \"\n"
-      "           \"{params.program:q} run {params.folder:q} --cell {wildcards.id}\"\n";
+  text += R"(}
+
+rule all:
+    input: expand(FOLDER + "/cells/{id}/cells.json", id=CELLS)
+
+rule cell:
+    output: FOLDER + "/cells/{id}/cells.json"
+    wildcard_constraints: id="[0-9a-f]{16}"
+    threads: lambda wildcards: workflow.cores if CELLS[wildcards.id]["timed"] else 1
+    resources: gpu=lambda wildcards: CELLS[wildcards.id]["gpu"]
+    params: program=PROGRAM, folder=FOLDER
+    shell: "rmdir {params.folder}/cells/{wildcards.id} 2>/dev/null; "
+           "{params.program:q} run {params.folder:q} --cell {wildcards.id}"
+)";
   return text;
 }
 

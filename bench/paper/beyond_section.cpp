@@ -171,9 +171,8 @@ void add_beyond(Document& document, Rows all) {
   document.blocks.emplace_back(Heading{"Beyond the paper: cost against count", "beyond"});
   document.blocks.emplace_back(
       Paragraph{"Random move at rising counts. Whole frames are those of the pipelines. A broad phase alone was fed "
-                "with the boxes "
-                "of the same frames, as octree-cpu recorded them; its time is update, find and filter, and stands "
-                "beside the broad "
+                "with the boxes of the same frames, as octree-cpu recorded them; its time is update, find and filter, "
+                "and stands beside the broad "
                 "stage of the pipelines."});
   Table fits{"beyond_fits",
              "Fitted cost t(N) = a + b N + c N^2; L: the depth for which c of flat over c of this is 8^L, as in the "

@@ -57,8 +57,7 @@ std::string e10() {
   const PublishedTable& t = published_table("tableA1");
   std::string text =
       "E10: P-Table A1 divides the gain by the octree's FPS, P-Table 6 the change by the baseline's. Over the hash, "
-      "the "
-      "baseline, the late gains are";
+      "the baseline, the late gains are";
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
     const double hash = t.number(r, "late_hash");
     const double octree = t.number(r, "late_octree");
@@ -86,8 +85,7 @@ std::string e11(Rows all) {
   const auto row = t6.find(model, count);
   return fmt::format(
       "E11: {} gives {:g} FPS as flat for {} {} bodies; that is {}, and flat is {:g}. Flat is faster than C in {} of "
-      "{} "
-      "rows of P-Table 6.{}",
+      "{} rows of P-Table 6.{}",
       claims.text(said, "where"), value, count, model, whose, row ? t6.number(*row, "flat_mean") : std::nan(""),
       flat_leads, t6.rows.size(), fastest_here(RowTable(all, "table6"), {"flat", "C"}));
 }

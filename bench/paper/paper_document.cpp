@@ -34,8 +34,7 @@ std::string lead(Rows rows) {
   }
   return fmt::format(
       "{} cells: {} admitted, {} struck out, {} absent. A figure counts only when the same work was recorded, judged "
-      "by "
-      "every validator that applies without a failure, and ended in the recorded answer.",
+      "by every validator that applies without a failure, and ended in the recorded answer.",
       rows.size(), admitted, struck, absent);
 }
 

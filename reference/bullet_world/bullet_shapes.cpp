@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/scene/primitive.hpp"
+#include "reference/bullet_vectors.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -42,7 +43,7 @@ BulletShape primitive_shape(const core::Primitive& p, const BulletShapeOptions& 
   BulletShape out;
   out.what = core::primitive_word(p.kind);
   if (p.kind == core::PrimitiveKind::kBox) {
-    auto box = std::make_shared<btBoxShape>(btVector3(p.half_extents.x, p.half_extents.y, p.half_extents.z));
+    auto box = std::make_shared<btBoxShape>(bullet(p.half_extents));
     // Bullet's margin of a box lies inside it: the size stays, but to GJK edges and corners are rounded by the margin.
     box->setMargin(std::min(options.margin_m, kLargestBoxMargin * least_of(p.half_extents)));
     if (options.margin_m > 0.0F) out.differs = "sharp edges";
@@ -63,7 +64,7 @@ BulletShape primitive_shape(const core::Primitive& p, const BulletShapeOptions& 
 
 BulletShape hull_shape(const Mesh& mesh, const BulletShapeOptions& options, bool is_convex) {
   auto hull = std::make_shared<btConvexHullShape>();
-  for (const core::Vec3 v : mesh.vertices) hull->addPoint(btVector3(v.x, v.y, v.z), false);
+  for (const core::Vec3 v : mesh.vertices) hull->addPoint(bullet(v), false);
   hull->recalcLocalAabb();
   if (!is_convex) hull->optimizeConvexHull();
   hull->setMargin(options.margin_m);

@@ -20,6 +20,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "reference/bullet_vectors.hpp"
 #include "reference/bullet_world/contact_readout.hpp"
 #include "reference/rigid_world/principal_axes.hpp"
 #include "reference/rigid_world/rigid_start.hpp"
@@ -30,12 +31,6 @@ namespace {
 
 using core::Status;
 
-btVector3 bullet(core::Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-core::Vec3 to_core(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 btVector3 bullet(plain::Vec v) {
   return {static_cast<btScalar>(v.x), static_cast<btScalar>(v.y), static_cast<btScalar>(v.z)};
 }
@@ -192,8 +187,7 @@ class BulletWorld final : public core::Dynamics {
     if (mass > 0 && rotates_) shape->calculateLocalInertia(mass, inertia);
     if (mass > 0 && !starts_.empty()) shape = shape_about_mass(i, shape, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
-    const core::Quat q = given.orientation;
-    const btTransform of_mesh(btQuaternion(q.x, q.y, q.z, q.w), bullet(given.position));
+    const btTransform of_mesh = bullet_transform(given.position, given.orientation);
     info.m_startWorldTransform = is_shifted(i) ? of_mesh * body_from_mesh_[i].inverse() : of_mesh;
     auto body = std::make_unique<btRigidBody>(info);
     body->setLinearVelocity(bullet(given.velocity));
@@ -256,8 +250,7 @@ class BulletWorld final : public core::Dynamics {
   // A body that only translates keeps the quaternion that it was given, bit for bit: Bullet holds a matrix.
   [[nodiscard]] core::Quat orientation(std::uint32_t i) const {
     if (!rotates_) return scene_->bodies[i].orientation;
-    const btQuaternion q = mesh_transform(i).getRotation();
-    return {q.w(), q.x(), q.y(), q.z()};
+    return to_core(mesh_transform(i).getRotation());
   }
 
   [[nodiscard]] core::Vec3 angular_velocity(std::uint32_t i) const {

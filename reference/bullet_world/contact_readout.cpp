@@ -8,6 +8,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "reference/bullet_vectors.hpp"
+
 namespace broadside::reference {
 namespace {
 
@@ -15,10 +17,6 @@ using core::Contact;
 
 std::uint32_t body_of(const btCollisionObject* object) {
   return static_cast<std::uint32_t>(object->getUserIndex());
-}
-
-core::Vec3 to_core(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
 }
 
 // Friction on the lower body; turn is 1 where that is Bullet's body 0, else -1.

@@ -86,7 +86,7 @@ std::span<const core::SettingRow> setting_rows() {
        "surface-tree",
        {"surface-tree", "surface-brute", "vertices-brute"},
        "least distance of surfaces by a box tree or over all triangle pairs; or of vertices (d_vv) over all pairs"},
-      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+      threads_setting(),
   }};
   return rows;
 }

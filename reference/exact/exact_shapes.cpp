@@ -75,7 +75,7 @@ class ExactShapes final : public core::NarrowPhase {
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 1> rows{{
-      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. The answers do not depend on it"},
+      threads_setting(),
   }};
   return rows;
 }

@@ -21,7 +21,7 @@ std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 4> rows{{
       {"cell_mm", "0", {}, "edge of a cell in mm; 0 = the scene's hash_cell_m, and 250 for boxes alone"},
       {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
-      {"threads", "0", {}, "worker threads, at most one per core; 0 = all cores. Does not change a bit of the result"},
+      threads_setting(),
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
   }};
   return rows;
