@@ -100,30 +100,9 @@ const Point& support(const std::vector<Point>& vertices, Point d) {
   return *std::max_element(vertices.begin(), vertices.end(), [&](Point p, Point q) { return dot(p, d) < dot(q, d); });
 }
 
-// The direction from B to A along which the cores' gap is largest; a negative gap is an overlap.
-struct Axis {
-  double gap = -std::numeric_limits<double>::infinity();
-  Point direction;
-};
-
 void try_axis(const ConvexCore& a, const ConvexCore& b, Point d, Axis& best) {
   const double gap = least_along(a.vertices, d) + least_along(b.vertices, -1.0 * d);
   if (gap > best.gap) best = {gap, d};
-}
-
-Axis widest_gap(const ConvexCore& a, const ConvexCore& b) {
-  Axis best;
-  for (const Point n : a.normals) try_axis(a, b, -1.0 * n, best);
-  for (const Point n : b.normals) try_axis(a, b, n, best);
-  for (const Point p : a.directions) {
-    for (const Point q : b.directions) {
-      const Point d = cross(p, q);
-      if (dot(d, d) <= kParallel * kParallel) continue;
-      try_axis(a, b, unit(d), best);
-      try_axis(a, b, -1.0 * unit(d), best);
-    }
-  }
-  return best;
 }
 
 Corners corners_of(const ConvexCore& core, const std::array<std::uint32_t, 3>& face) {
@@ -184,20 +163,44 @@ std::optional<ConvexCore> convex_core_of(const core::Mesh& mesh) {
   return core;
 }
 
-ConvexCore placed(const ConvexCore& core, const core::Pose& pose) {
-  const double w = pose.orientation.w, x = pose.orientation.x, y = pose.orientation.y, z = pose.orientation.z;
+Point Placement::turned(Point p) const {
+  const auto [w, x, y, z] = orientation;
   const double scale = 2.0 / (w * w + x * x + y * y + z * z);
   const Point v{x, y, z};
-  const auto turned = [&](Point p) {
-    const Point t = cross(v, p);
-    return p + scale * (w * t + cross(v, t));
-  };
+  const Point t = cross(v, p);
+  return p + scale * (w * t + cross(v, t));
+}
+
+Placement to_placement(const core::Pose& pose) {
+  const core::Quat q = pose.orientation;
+  return {to_point(pose.position), {q.w, q.x, q.y, q.z}};
+}
+
+ConvexCore placed(const ConvexCore& core, const Placement& placement) {
   ConvexCore out = core;
-  const Point origin = to_point(pose.position);
-  for (Point& p : out.vertices) p = turned(p) + origin;
-  for (Point& n : out.normals) n = turned(n);
-  for (Point& d : out.directions) d = turned(d);
+  for (Point& p : out.vertices) p = placement.turned(p) + placement.origin;
+  for (Point& n : out.normals) n = placement.turned(n);
+  for (Point& d : out.directions) d = placement.turned(d);
   return out;
+}
+
+ConvexCore placed(const ConvexCore& core, const core::Pose& pose) {
+  return placed(core, to_placement(pose));
+}
+
+Axis widest_gap(const ConvexCore& a, const ConvexCore& b) {
+  Axis best;
+  for (const Point n : a.normals) try_axis(a, b, -1.0 * n, best);
+  for (const Point n : b.normals) try_axis(a, b, n, best);
+  for (const Point p : a.directions) {
+    for (const Point q : b.directions) {
+      const Point d = cross(p, q);
+      if (dot(d, d) <= kParallel * kParallel) continue;
+      try_axis(a, b, unit(d), best);
+      try_axis(a, b, -1.0 * unit(d), best);
+    }
+  }
+  return best;
 }
 
 SignedDistance signed_distance(const ConvexCore& a, const ConvexCore& b) {

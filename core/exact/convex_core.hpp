@@ -3,13 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/engine/narrow_phase.hpp"
-#include "core/scene/mesh.hpp"
 #include "core/exact/triangle_distance.hpp"
+#include "core/scene/mesh.hpp"
 
 namespace broadside::exact {
 
@@ -27,7 +28,18 @@ struct ConvexCore {
 // Nothing when the mesh is neither a primitive (core/scene/primitive.hpp) nor convex.
 std::optional<ConvexCore> convex_core_of(const core::Mesh& mesh);
 
+// Where a body is, in double: its origin, and its orientation as a quaternion w x y z of any length but zero.
+struct Placement {
+  Point origin;
+  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};
+
+  [[nodiscard]] Point turned(Point p) const;
+};
+
+Placement to_placement(const core::Pose& pose);
+
 // In double, with the orientation normalized in double: float quaternions are units only to 1e-7.
+ConvexCore placed(const ConvexCore& core, const Placement& placement);
 ConvexCore placed(const ConvexCore& core, const core::Pose& pose);
 
 // distance < 0: the least depth, that is the shortest translation that parts the bodies. Normal: unit, from B to A, the
@@ -43,6 +55,15 @@ struct SignedDistance {
 // The least depth of two convex polytopes is along a face's normal or across an edge of each (the faces of their
 // difference), and their least distance between a vertex and a face or between two edges; all of them are tried.
 SignedDistance signed_distance(const ConvexCore& a, const ConvexCore& b);
+
+// The direction from B to A, among those across faces and edges, along which the gap between the cores is largest; the
+// balls are not counted. For polytopes that are apart by less than their faces are long it keeps digits that the
+// direction between nearest points loses. Cores without faces have none: -infinity.
+struct Axis {
+  double gap = -std::numeric_limits<double>::infinity();
+  Point direction;
+};
+Axis widest_gap(const ConvexCore& a, const ConvexCore& b);
 
 // By how much bodies overlap along a unit direction from B to A: how far A must move along it to part from B.
 double overlap_along(const ConvexCore& a, const ConvexCore& b, Point direction);

@@ -30,6 +30,7 @@ namespace broadside::reference {
 namespace {
 
 using core::Status;
+using reference::bullet;
 
 btVector3 bullet(plain::Vec v) {
   return {static_cast<btScalar>(v.x), static_cast<btScalar>(v.y), static_cast<btScalar>(v.z)};

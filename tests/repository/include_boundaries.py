@@ -45,8 +45,8 @@ POSIX = {"fcntl.h", "signal.h", "sys/file.h", "sys/resource.h", "sys/stat.h", "s
 # adapters alone; and headers whose functions take the JSON library's type, of which they see the forward declaration alone.
 JSON_NAME = {"nlohmann/json_fwd.hpp"}
 WRAPPERS = {"core/trace/hdf5_handle.hpp": {"hdf5.h"}, "reference/bullet_vectors.hpp": {"LinearMath/btTransform.h"},
-            "core/mesh/gltf_nodes.hpp": JSON_NAME,
-            "bench/cell/json_number.hpp": JSON_NAME}
+            "core/exact/integer_cubic.hpp": {"gmpxx.h"}, "core/exact/integer_motion.hpp": {"gmpxx.h"},
+            "core/mesh/gltf_nodes.hpp": JSON_NAME, "bench/cell/json_number.hpp": JSON_NAME}
 CUDA = re.compile(r"^(cuda|cub|thrust|device_launch)\w*[./]")  # gpu/ is the folder of this vendor
 GENERATED = {"broadside_version.hpp"}  # written at build time from the version and the commit
 OTHERS = "/examples/"  # what is built against an installed tree includes what is installed

@@ -1,0 +1,61 @@
+// What moves during one step in, the time of its first touch out: continuous collision queries, and how tables list the
+// engines that answer them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/continuous/moving_features.hpp"
+#include "core/engine/settings.hpp"
+#include "core/exact/rigid_motion.hpp"
+#include "core/result.hpp"
+#include "core/scene/mesh.hpp"
+
+namespace broadside::core {
+
+// time: of the step, 0 to 1; 1 where there is no touch.
+struct FirstTouch {
+  bool touches = false;
+  double time = 1.0;
+};
+
+class FeatureMotionQuery {
+ public:
+  virtual ~FeatureMotionQuery() = default;
+  virtual Result<FirstTouch> first_touch(const continuous::MovingFeatures& features) = 0;
+};
+
+struct MovingBody {
+  std::uint32_t mesh = 0;  // of those that were loaded
+  exact::RigidMotion motion;
+};
+
+class BodyMotionQuery {
+ public:
+  virtual ~BodyMotionQuery() = default;
+  // Not timed.
+  virtual Status load(std::span<const std::shared_ptr<const Mesh>> meshes) = 0;
+  // Whether it moves bodies along this very path. Many move them on another one when they turn, or leave turning out.
+  [[nodiscard]] virtual bool follows(const exact::RigidMotion& motion) const = 0;
+  virtual Result<FirstTouch> first_touch(const MovingBody& a, const MovingBody& b) = 0;
+};
+
+struct MotionEngine {
+  std::string id;
+  std::string build;
+  Settings settings;
+  std::unique_ptr<FeatureMotionQuery> features;  // null = not offered
+  std::unique_ptr<BodyMotionQuery> bodies;       // null = not offered
+};
+
+struct MotionEngineRow {
+  std::string_view id;
+  std::string_view what;
+  std::span<const SettingRow> settings;
+  Result<MotionEngine> (*create)(const Settings& settings) = nullptr;
+};
+
+}  // namespace broadside::core
