@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/cell/more_than_zero.hpp"
+#include "bench/cell/step_suffix.hpp"
 #include "bench/cell/trace_scene.hpp"
 #include "bench/cell/transformed_spec.hpp"
 #include "bench/engines.hpp"
@@ -45,7 +46,7 @@ void SceneArguments::add_to(CLI::App& command) {
           "SCENE", spec,
           "A scene's name, such as freefall:bunny:50 or tower:cube:20[offset=0.2,seed=7], a .toml, .gltf or .glb "
           "file, or a trace (.h5), whose scene is taken (broadside list scenes); "
-          "@mirrored-x, @doubled, @renumbered or @grown after it: the scene transformed")
+          "@mirrored-x, @doubled, @renumbered or @grown after it: the scene transformed; @1/240: in steps of 1/240 s")
       ->required();
   command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")
       ->check(more_than_zero, "POSITIVE");
@@ -61,6 +62,18 @@ core::Result<core::Scene> SceneArguments::make() const {
     if (!scene) return scene.error();
     core::Scene other = transformation->apply(scene.value());
     other.name += "@" + std::string(transformation->name);
+    return other;
+  }
+  if (const auto [untold, dt_s] = split_step(spec); dt_s) {
+    SceneArguments plain = *this;
+    plain.spec = untold;
+    plain.frames = 0;
+    auto scene = plain.make();
+    if (!scene) return scene.error();
+    auto other = scene_at_step(std::move(scene).value(), *dt_s);
+    if (!other) return other.error();
+    other.value().name += spec.substr(untold.size());
+    if (frames > 0) other.value().frames = frames;
     return other;
   }
   if (is_trace_file(spec)) {
