@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bench/fetched/fetched_engines.hpp"
 #include "bench/plugin_engines.hpp"
 #include "core/nearest_name.hpp"
 #include "gpu/engines.hpp"
@@ -13,6 +14,7 @@ std::span<const core::EngineRow> engines() {
   static const std::vector<core::EngineRow> kTable = [] {
     std::vector<core::EngineRow> rows{gpu::octree_gpu_row(), gpu::hash_gpu_row()};
     for (const reference::EngineRowFunction row : reference::engine_rows()) rows.push_back(row());
+    for (const core::EngineRow& row : fetched_engine_rows()) rows.push_back(row);
     return rows;
   }();
   return kTable;
@@ -20,6 +22,7 @@ std::span<const core::EngineRow> engines() {
 
 core::Result<const core::EngineRow*> find_engine(std::string_view id) {
   if (is_plugin_path(id)) return plugin_row(id);
+  if (const std::string command = fetched_command(id); !command.empty()) return plugin_row(command);
   std::vector<std::string_view> ids;
   for (const core::EngineRow& row : engines()) {
     if (row.id == id) return &row;

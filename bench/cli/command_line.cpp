@@ -33,6 +33,7 @@ constexpr AddCommand kCommands[] = {
     add_history,          //
     add_demo,             //
     add_fetch,            //
+    add_fetch_engine,     //
     add_recover,          //
     add_describe_plugin,  //
     add_diff,             //

@@ -23,6 +23,7 @@ void add_history(CLI::App& program, core::Exit& exit);
 void add_report(CLI::App& program, core::Exit& exit);
 void add_demo(CLI::App& program, core::Exit& exit);
 void add_fetch(CLI::App& program, core::Exit& exit);
+void add_fetch_engine(CLI::App& program, core::Exit& exit);
 void add_mesh(CLI::App& program, core::Exit& exit);
 void add_scene(CLI::App& program, core::Exit& exit);
 void add_export(CLI::App& program, core::Exit& exit);

@@ -1,0 +1,28 @@
+// Engines that are programs of this tree over packages from npm. They are installed on demand, each with the version
+// that its lock file names, and are rows like every other engine; until then a row says how to install it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/engine/engine.hpp"
+#include "core/result.hpp"
+
+namespace broadside::bench {
+
+// As rows of the table of engines: name, what, and why it is absent. Their settings are the program's own and known
+// once it is installed.
+std::span<const core::EngineRow> fetched_engine_rows();
+
+// "node FOLDER/reference/programs/jolt/jolt.mjs" of an installed engine; empty for others.
+std::string fetched_command(std::string_view id);
+
+// Writes the program's files and installs its package with npm, exactly as its lock file says. A second call does
+// nothing. Whole or not at all: another folder takes the final name at the end. Errors: unknown name, no npm, no
+// network (npm's own last line), a disk that is full.
+core::Status fetch_engine(std::string_view id, const std::function<void(std::string_view)>& say);
+
+}  // namespace broadside::bench
