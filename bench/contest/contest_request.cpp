@@ -1,0 +1,138 @@
+#include "bench/contest/contest_request.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "bench/cell/cell_spec.hpp"
+#include "bench/cell/scene_arguments.hpp"
+#include "bench/engines.hpp"
+#include "core/nearest_name.hpp"
+#include "datasets/scenes.hpp"
+
+namespace broadside::bench::contest {
+namespace {
+
+// A setting where a library's default leaves something out that others have, or offers another method.
+constexpr std::array<std::string_view, 16> kEntrants{"plain-rigid",
+                                                     "bullet-world",
+                                                     "ode-world",
+                                                     "ode-world[solver=dantzig]",
+                                                     "dart-world",
+                                                     "mujoco-world",
+                                                     "mujoco-world[integrator=RK4]",
+                                                     "simbody-world",
+                                                     "jolt",
+                                                     "jolt[gyroscopic=1]",
+                                                     "rapier",
+                                                     "mujoco3",
+                                                     "mujoco3[integrator=2]",
+                                                     "cannon",
+                                                     "physx",
+                                                     "physx[gyroscopic=1]"};
+
+// Families whose scenes have answers, and scenes that engines are compared on without one.
+constexpr std::string_view kFamily = "rigid:";
+
+bool begins_with_one_of(std::string_view name, const std::vector<std::string>& beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [name](const std::string& b) { return name.starts_with(b); });
+}
+
+// "1/240" where the step is a whole part of a second, else its shortest decimal.
+std::string step_text(double dt_s) {
+  const double parts = std::round(1.0 / dt_s);
+  return std::abs(parts * dt_s - 1.0) < 1e-6 ? fmt::format("1/{:.0f}", parts)
+                                             : fmt::format("{}", static_cast<float>(dt_s));
+}
+
+core::Status complete(Entrant& entrant) {
+  const std::string id = entrant.engine.substr(0, entrant.engine.find('['));
+  auto row = find_engine(id);
+  if (!row) return row.error();
+  if (!offers(*row.value(), "dynamics"))
+    return core::Error{"it offers no dynamics, and a contest compares motion", id, "broadside list engines"};
+  entrant.absent = why_absent(*row.value());
+  if (!entrant.absent.empty()) return core::Done{};
+  auto spec = parse_cell_spec(entrant.engine);
+  if (!spec) return spec.error();
+  auto settings = core::Settings::parse(spec.value().row->id, spec.value().row->settings, spec.value().settings);
+  return settings ? core::Status(core::Done{}) : settings.error();
+}
+
+}  // namespace
+
+std::vector<std::string_view> default_entrants() {
+  return {kEntrants.begin(), kEntrants.end()};
+}
+
+std::vector<std::string> default_scenes() {
+  std::vector<std::string> names;
+  for (const datasets::SceneRow& row : datasets::scene_table())
+    if (row.pattern.starts_with(kFamily)) names.emplace_back(row.example);
+  return names;
+}
+
+core::Result<std::vector<Entrant>> entrants_of(const ContestRequest& request) {
+  std::vector<Entrant> entrants;
+  for (const std::string& engine : request.engines) entrants.push_back({engine, ""});
+  if (entrants.empty())
+    for (const std::string_view engine : kEntrants) entrants.push_back({std::string(engine), ""});
+  for (Entrant& entrant : entrants)
+    if (core::Status s = complete(entrant); !s) return s.error();
+  return entrants;
+}
+
+core::Result<std::vector<std::string>> scenes_of(const ContestRequest& request) {
+  const std::vector<std::string> known = default_scenes();
+  if (request.scenes.empty()) return known;
+  std::vector<std::string> names;
+  for (std::string wanted : request.scenes) {
+    const bool is_beginning = wanted.ends_with(':') || wanted.ends_with('*');
+    if (!is_beginning) {
+      names.push_back(wanted);
+      continue;
+    }
+    if (wanted.ends_with('*')) wanted.pop_back();
+    const std::size_t before = names.size();
+    for (const std::string& name : known)
+      if (begins_with_one_of(name, {wanted})) names.push_back(name);
+    if (names.size() == before)
+      return core::Error{"no scene with an answer begins with '" + wanted + "'", "--scenes", "broadside list scenes"};
+  }
+  return names;
+}
+
+std::string scene_at(const std::string& scene, double dt_s, double factor) {
+  return factor == 1.0 ? scene : scene + "@" + step_text(dt_s * factor);
+}
+
+core::Result<campaign::CampaignFile> contest_campaign(const ContestRequest& request) {
+  auto entrants = entrants_of(request);
+  if (!entrants) return entrants.error();
+  auto scenes = scenes_of(request);
+  if (!scenes) return scenes.error();
+  campaign::CampaignFile campaign;
+  campaign.name = "contest";
+  for (const std::string& name : scenes.value()) {
+    auto scene = SceneArguments{name, 0, false}.make();
+    if (!scene) return scene.error();
+    for (const Entrant& entrant : entrants.value()) {
+      if (!entrant.absent.empty()) continue;
+      for (const double factor : request.step_factors) {
+        campaign::CellWork work;
+        work.scene = scene_at(name, static_cast<double>(scene.value().dt_s), factor);
+        work.engine = entrant.engine;
+        work.repetitions = request.repetitions;
+        work.time_limit_s = request.time_limit_s;
+        campaign.cells.push_back(std::move(work));
+      }
+    }
+  }
+  return campaign;
+}
+
+}  // namespace broadside::bench::contest

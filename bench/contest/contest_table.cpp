@@ -1,0 +1,117 @@
+#include "bench/contest/contest_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/cell/step_suffix.hpp"
+
+namespace broadside::bench::contest {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+SceneTable& table_of(ContestTable& table, const std::string& scene) {
+  for (SceneTable& s : table.scenes)
+    if (s.scene == scene) return s;
+  table.scenes.push_back({scene, {}, {}});
+  return table.scenes.back();
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return kNone;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The median of a run's frames, s; the least of the runs.
+double frame_s(const core::Sample& sample) {
+  for (const core::StageSeries& stage : sample.stages)
+    if (stage.stage == "frame") return median(stage.seconds);
+  return kNone;
+}
+
+void add_verdicts(Entry& entry, const core::CellVerdicts& judged) {
+  entry.coverage = core::coverage_of(judged.verdicts);
+  for (const core::Verdict& v : judged.verdicts) {
+    if (v.outcome == core::Outcome::kFail) entry.broken.push_back(v);
+    entry.is_motion_proven = entry.is_motion_proven || core::proves_motion(v);
+    const bool applied = v.outcome == core::Outcome::kPass || v.outcome == core::Outcome::kFail;
+    if (v.validator == "closed-form" && applied) {
+      entry.error = v.measured;
+      entry.error_unit = v.unit;
+    }
+    if (v.validator == "rest" && applied) {
+      entry.has_rest = true;
+      entry.stands = v.outcome == core::Outcome::kPass;
+    }
+  }
+}
+
+const core::CellVerdicts* verdicts_of(const core::RunRows& rows, const core::Cell& cell) {
+  for (const core::CellVerdicts& v : rows.verdicts)
+    if (!cell.trace_file.empty() && v.trace_file == cell.trace_file) return &v;
+  return nullptr;
+}
+
+bool is_of(const core::Sample& sample, const core::Cell& cell) {
+  return sample.stamp.scene_digest == cell.stamp.scene_digest && sample.stamp.engine == cell.stamp.engine &&
+         sample.stamp.settings == cell.stamp.settings;
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> name_and_step(const std::string& scene_name) {
+  const auto [name, dt_s] = split_step(scene_name);
+  return {std::string(name), dt_s ? scene_name.substr(name.size() + 1) : std::string()};
+}
+
+ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>& entrants,
+                           const std::map<std::string, double>& steps_s) {
+  ContestTable table;
+  table.entrants = entrants;
+  for (const core::Cell& cell : rows.cells) {
+    const auto [scene, step] = name_and_step(cell.stamp.scene_name);
+    SceneTable& place = table_of(table, scene);
+    if (std::find(place.steps.begin(), place.steps.end(), step) == place.steps.end()) place.steps.push_back(step);
+    const std::string label = cell.stamp.label();
+    Entry entry;
+    entry.state = cell.state;
+    entry.reason = cell.reason;
+    entry.error = entry.cost = kNone;
+    const auto own = steps_s.find(scene);
+    entry.dt_s = split_step(cell.stamp.scene_name).second.value_or(own == steps_s.end() ? kNone : own->second);
+    if (const core::CellVerdicts* judged = verdicts_of(rows, cell)) {
+      add_verdicts(entry, *judged);
+      table.declarations[label] = judged->declaration;
+    }
+    for (const core::Sample& sample : rows.samples) {
+      if (!is_of(sample, cell)) continue;
+      const double seconds = frame_s(sample) / entry.dt_s;
+      entry.cost = entry.was_timed ? std::fmin(entry.cost, seconds) : seconds;
+      const auto recorded = cell.digests.find(sample.final_step);
+      const bool is_same = recorded != cell.digests.end() && recorded->second == sample.final_digest;
+      entry.repeats = is_same && (!entry.was_timed || entry.repeats);
+      entry.was_timed = true;
+    }
+    if (!cell.stamp.engine_build.empty()) table.builds[label] = cell.stamp.engine_build;
+    place.entries[label][step] = std::move(entry);
+  }
+  return table;
+}
+
+std::string entry_text(const Entry& entry) {
+  if (entry.state != core::CellState::kRecorded)
+    return std::string(core::cell_state_word(entry.state)) + (entry.reason.empty() ? "" : ": " + entry.reason);
+  const core::LawCount& laws = entry.coverage.of(core::LawKind::kMechanics);
+  const std::string counted = fmt::format("{} of {}", laws.applied, laws.laws);
+  if (entry.broken.empty()) return (entry.coverage.applied() == 0 ? "nothing judged, " : "holds, ") + counted;
+  std::string names;
+  for (const core::Verdict& v : entry.broken) names += (names.empty() ? "" : ", ") + v.validator;
+  return "breaks " + names + "; " + counted;
+}
+
+}  // namespace broadside::bench::contest

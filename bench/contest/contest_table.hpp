@@ -1,0 +1,55 @@
+// Rows of a contest's cells as one table: scenes x engines x steps.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/contest/contest_request.hpp"
+#include "core/coverage.hpp"
+#include "core/rows.hpp"
+
+namespace broadside::bench::contest {
+
+// What became of one engine on one scene at one step.
+struct Entry {
+  core::CellState state = core::CellState::kNotMeasured;
+  std::string reason;  // of a cell that was not recorded
+  core::Coverage coverage;
+  std::vector<core::Verdict> broken;  // laws that failed
+  bool is_motion_proven = false;
+  bool stands = false;  // rest applied and holds
+  bool has_rest = false;
+  // Against the scene's closed answer; NaN where it has none or the law did not apply.
+  double error = 0.0;
+  std::string error_unit;
+  double cost = 0.0;     // s of the engine's steps a simulated second; NaN where it was not timed
+  bool repeats = false;  // the timed run ended in the very digest that was recorded
+  bool was_timed = false;
+  double dt_s = 0.0;
+};
+
+struct SceneTable {
+  std::string scene;               // without a step
+  std::vector<std::string> steps;  // what stands after '@', in the order of the cells; "" = the scene's own
+  std::map<std::string, std::map<std::string, Entry>> entries;  // by engine's label, by step
+};
+
+struct ContestTable {
+  std::vector<Entrant> entrants;  // columns; absent ones too
+  std::vector<SceneTable> scenes;
+  std::map<std::string, std::map<std::string, std::string>> declarations;  // by label
+  std::map<std::string, std::string> builds;                               // by label
+};
+
+// The scene's name and the step after '@'.
+std::pair<std::string, std::string> name_and_step(const std::string& scene_name);
+
+// steps: of each scene's own step, s, by the scene's name.
+ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>& entrants,
+                           const std::map<std::string, double>& steps_s);
+
+// "9 broken: friction-cone, energy-growth" or "holds, 11 of 14"; the word of an absent cell.
+std::string entry_text(const Entry& entry);
+
+}  // namespace broadside::bench::contest
