@@ -44,6 +44,7 @@ constexpr AddCommand kCommands[] = {
     add_mutants,          //
     add_view,             //
     add_paper,            //
+    add_contest,          //
     add_mesh,             //
     add_scene,            //
     add_export,           //

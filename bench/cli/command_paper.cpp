@@ -92,10 +92,10 @@ core::Exit run_paper(const PaperArguments& a) {
   text.shows_models = asks_for(a, "figureA1");
   text.models = a.asked.plan.models;
   text.allow_stand_in = a.asked.allow_stand_in;
-  const paper::Document document = paper::paper_document(rows.value(), text);
-  if (core::Status s = paper::write_document(document, folder, "paper"); !s) return complain(s.error());
-  const paper::Table cells = paper::cell_table(rows.value());
-  if (core::Status s = core::write_whole_file(folder / "cells.csv", paper::csv_text(cells)); !s)
+  const Document document = paper::paper_document(rows.value(), text);
+  if (core::Status s = write_document(document, folder, "paper"); !s) return complain(s.error());
+  const Table cells = paper::cell_table(rows.value());
+  if (core::Status s = core::write_whole_file(folder / "cells.csv", csv_text(cells)); !s)
     return complain(s.error());
   if (core::Status s = paper::write_paper_rows(folder / "rows.json", rows.value()); !s) return complain(s.error());
   fmt::print("{}\n\nReport: {}\n", document.lead, (folder / "paper.html").string());

@@ -34,6 +34,7 @@ void add_describe_plugin(CLI::App& program, core::Exit& exit);
 void add_diff(CLI::App& program, core::Exit& exit);
 void add_replay(CLI::App& program, core::Exit& exit);
 void add_paper(CLI::App& program, core::Exit& exit);
+void add_contest(CLI::App& program, core::Exit& exit);
 void add_shrink(CLI::App& program, core::Exit& exit);
 void add_view(CLI::App& program, core::Exit& exit);
 

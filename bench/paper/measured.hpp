@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/paper/document.hpp"
+#include "bench/document/document.hpp"
 #include "bench/paper/paper_row.hpp"
 
 namespace broadside::bench::paper {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "bench/paper/document.hpp"
+#include "bench/document/document.hpp"
 #include "bench/paper/paper_row.hpp"
 #include "bench/paper/sections.hpp"
 #include "reports/escape.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/paper/document.hpp"
+#include "bench/document/document.hpp"
 #include "bench/paper/paper_row.hpp"
 #include "core/result.hpp"
 

@@ -1,4 +1,4 @@
-#include "bench/paper/document.hpp"
+#include "bench/document/document.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "core/whole_file.hpp"
 #include "reports/escape.hpp"
 
-namespace broadside::bench::paper {
+namespace broadside::bench {
 namespace {
 
 std::string csv_field(const std::string& text) {
@@ -60,4 +60,4 @@ core::Status write_document(const Document& document, const std::filesystem::pat
   return core::write_whole_file(folder / (name + ".html"), html_text(document));
 }
 
-}  // namespace broadside::bench::paper
+}  // namespace broadside::bench

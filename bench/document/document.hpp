@@ -10,7 +10,7 @@
 
 #include "core/result.hpp"
 
-namespace broadside::bench::paper {
+namespace broadside::bench {
 
 struct TableCell {
   std::string text;  // as people read it
@@ -69,4 +69,4 @@ std::string csv_text(const Table& table);
 // FOLDER/NAME.html, NAME.md, one SVG per figure and one CSV per table; each appears whole.
 core::Status write_document(const Document& document, const std::filesystem::path& folder, const std::string& name);
 
-}  // namespace broadside::bench::paper
+}  // namespace broadside::bench

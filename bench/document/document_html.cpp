@@ -1,10 +1,10 @@
-#include "bench/paper/document.hpp"
+#include "bench/document/document.hpp"
 #include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/page_assets.hpp"
 #include "reports/plots/plot_style.hpp"
 
-namespace broadside::bench::paper {
+namespace broadside::bench {
 namespace {
 
 using reports::element;
@@ -121,4 +121,4 @@ std::string html_text(const Document& document) {
          "\n" + element("main", "\n", html_blocks(document, "", 2)) + "\n</body>\n</html>\n";
 }
 
-}  // namespace broadside::bench::paper
+}  // namespace broadside::bench

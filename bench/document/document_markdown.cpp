@@ -1,7 +1,7 @@
-#include "bench/paper/document.hpp"
+#include "bench/document/document.hpp"
 #include "reports/escape.hpp"
 
-namespace broadside::bench::paper {
+namespace broadside::bench {
 namespace {
 
 using reports::markdown;
@@ -49,4 +49,4 @@ std::string markdown_text(const Document& document) {
   return out;
 }
 
-}  // namespace broadside::bench::paper
+}  // namespace broadside::bench

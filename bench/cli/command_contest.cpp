@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "bench/campaign/manifest.hpp"
+#include "bench/campaign/merge.hpp"
+#include "bench/campaign/run_cells.hpp"
+#include "bench/cell/more_than_zero.hpp"
+#include "bench/cell/scene_arguments.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/contest/contest_document.hpp"
+#include "bench/process/interrupt.hpp"
+#include "bench/record/run_plan.hpp"
+
+namespace broadside::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using contest::ContestRequest;
+
+struct ContestArguments {
+  ContestRequest request;
+  std::string out = "out/contest";
+  bool only_reports = false;
+};
+
+std::string command_of(const ContestArguments& a) {
+  std::string text = "broadside contest";
+  for (const std::string& engine : a.request.engines) text += " --engine '" + engine + "'";
+  for (const std::string& scene : a.request.scenes) text += " --scene '" + scene + "'";
+  return text + fmt::format(" --repetitions {} --out {}", a.request.repetitions, a.out);
+}
+
+// Writes the manifest where none is there or another contest was planned; the cells that both have stay.
+core::Status plan_into(const fs::path& folder, const ContestRequest& request) {
+  auto campaign = contest::contest_campaign(request);
+  if (!campaign) return campaign.error();
+  if (campaign.value().cells.empty())
+    return core::Error{"none of these engines is on this machine", "--engine", "broadside list engines",
+                       core::Exit::kMissing};
+  auto manifest = campaign::make_manifest(campaign.value());
+  if (!manifest) return manifest.error();
+  return campaign::write_manifest(folder, manifest.value());
+}
+
+// Cells that take long come late in no order: the estimate is the mean so far.
+void show_progress(std::size_t done, std::size_t all, double seconds, const campaign::GroupEnd& end) {
+  const double left = done > 0 ? seconds / static_cast<double>(done) * static_cast<double>(all - done) : 0.0;
+  const auto& work = end.cells.front().work;
+  const std::string line = fmt::format("{} of {}, about {:.0f} min left: {} on {} {}", done, all, left / 60.0,
+                                       work.engine, work.scene, end.word);
+  if (isatty(STDERR_FILENO) != 0)
+    fmt::print(stderr, "\r\033[K{}", line);
+  else if (done % 25 == 0 || done == all)
+    fmt::print(stderr, "{}\n", line);
+}
+
+core::Result<std::map<std::string, double>> own_steps(const ContestRequest& request) {
+  auto scenes = contest::scenes_of(request);
+  if (!scenes) return scenes.error();
+  std::map<std::string, double> steps;
+  for (const std::string& name : scenes.value()) {
+    auto scene = SceneArguments{name, 0, false}.make();
+    if (!scene) return scene.error();
+    steps[name] = static_cast<double>(scene.value().dt_s);
+  }
+  return steps;
+}
+
+core::Exit exit_of(const contest::ContestTable& table, std::uint32_t missing) {
+  for (const contest::SceneTable& scene : table.scenes)
+    for (const auto& [label, steps] : scene.entries)
+      for (const auto& [step, entry] : steps)
+        if (step.empty() && !entry.broken.empty()) return core::Exit::kFailed;
+  return missing > 0 ? core::Exit::kMissing : core::Exit::kGood;
+}
+
+core::Exit run_contest(const ContestArguments& a) {
+  const fs::path folder = a.out;
+  if (core::Status s = prepare_folder(folder); !s) return complain(s.error());
+  auto entrants = contest::entrants_of(a.request);
+  if (!entrants) return complain(entrants.error());
+  for (const contest::Entrant& e : entrants.value())
+    if (!e.absent.empty()) fmt::print("{}: {}\n", e.engine, e.absent);
+  if (core::Status s = plan_into(folder, a.request); !s) return complain(s.error());
+  auto manifest = campaign::read_manifest(folder);
+  if (!manifest) return complain(manifest.error());
+  const std::size_t all = manifest.value().cells.size();
+  if (!a.only_reports) {
+    std::size_t done = 0;
+    const auto start = std::chrono::steady_clock::now();
+    const auto tell = [&](const campaign::GroupEnd& end) {
+      done += end.cells.size();
+      show_progress(done, all, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), end);
+    };
+    auto tally = campaign::run_cells(folder, {}, tell);
+    if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\n");
+    if (!tally) return complain(tally.error());
+  }
+  auto merged = campaign::merge_cells(folder, folder);
+  if (!merged) return complain(merged.error());
+  auto rows = core::read_rows(folder);
+  if (!rows) return complain(rows.error());
+  auto steps = own_steps(a.request);
+  if (!steps) return complain(steps.error());
+  const contest::ContestTable table = contest::contest_table(rows.value(), entrants.value(), steps.value());
+  const Document document = contest::contest_document(table, command_of(a));
+  if (core::Status s = write_document(document, folder, "contest"); !s) return complain(s.error());
+  fmt::print("{}\n\nReport: {}\n", document.lead, (folder / "contest.html").string());
+  if (is_interrupted())
+    return complain({"interrupted: finished cells are kept, and the page shows them", folder.string(),
+                     "call it again to go on", core::Exit::kMissing});
+  return exit_of(table, merged.value().missing);
+}
+
+}  // namespace
+
+void add_contest(CLI::App& program, core::Exit& exit) {
+  auto a = std::make_shared<ContestArguments>();
+  CLI::App* command = program.add_subcommand(
+      "contest", "Every engine of rigid bodies on every scene with a known answer: verdicts, error against cost");
+  command->add_option("--engine,--engines", a->request.engines,
+                      "Engines, such as ode-world[solver=dantzig] (default: all)");
+  command->add_option("--scene,--scenes", a->request.scenes,
+                      "Scenes, or how names begin: rigid:incline:* (default: all rigid:*)");
+  command->add_option("--steps", a->request.step_factors, "Shares of each scene's own step; 1 is in the matrix")
+      ->delimiter(',')
+      ->check(more_than_zero, "POSITIVE")
+      ->capture_default_str();
+  command->add_option("--repetitions", a->request.repetitions, "Timed runs of a cell; 0 = verdicts alone")
+      ->capture_default_str();
+  command->add_option("--time-limit", a->request.time_limit_s, "Seconds of each part of a cell")
+      ->check(more_than_zero, "POSITIVE")
+      ->capture_default_str();
+  command->add_flag("--only-report", a->only_reports, "Run nothing: make the page of the cells that are there");
+  command->add_option("--out", a->out, "Folder for cells and page; a second call goes on in it")->capture_default_str();
+  command->footer(
+      "Cells are those of a campaign (bench/campaign/README.md): each in a child process, kept when it is finished.\n"
+      "Exit codes: 0 every law holds at the scenes' own steps; 1 one is broken; 3 a cell is missing.");
+  command->callback([a, &exit] { exit = run_contest(*a); });
+}
+
+}  // namespace broadside::bench

@@ -1,0 +1,181 @@
+#include "bench/contest/contest_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace broadside::bench::contest {
+namespace {
+
+struct Count {
+  std::size_t holds = 0;
+  std::size_t breaks = 0;
+  std::size_t absent = 0;
+};
+
+// Of the scenes' own steps.
+Count count_of(const ContestTable& table) {
+  Count count;
+  for (const SceneTable& scene : table.scenes)
+    for (const auto& [label, steps] : scene.entries) {
+      const auto own = steps.find("");
+      if (own == steps.end()) continue;
+      const Entry& entry = own->second;
+      if (entry.state != core::CellState::kRecorded)
+        ++count.absent;
+      else
+        ++(entry.broken.empty() ? count.holds : count.breaks);
+    }
+  return count;
+}
+
+const Entry* own_entry(const SceneTable& scene, const std::string& engine) {
+  const auto of = scene.entries.find(engine);
+  if (of == scene.entries.end()) return nullptr;
+  const auto own = of->second.find("");
+  return own == of->second.end() ? nullptr : &own->second;
+}
+
+std::vector<std::string> columns_of(const ContestTable& table, std::vector<std::string> first) {
+  for (const Entrant& e : table.entrants) first.push_back(e.engine);
+  return first;
+}
+
+}  // namespace
+
+void add_verdicts(Document& document, const ContestTable& table) {
+  document.blocks.emplace_back(Heading{"Who is right", "verdicts"});
+  document.blocks.emplace_back(
+      Paragraph{"Each scene at its own step. \"holds, 9 of 14\": 9 of the 14 laws of mechanics met something in the "
+                "trace and hold; the others had nothing to judge. A word in a place of its own is why an engine has no "
+                "trace there. What a law says, and its worked line, stand below."});
+  Table verdicts{"verdicts", "Laws of mechanics, by scene and engine", columns_of(table, {"scene"}), {}};
+  for (const SceneTable& scene : table.scenes) {
+    std::vector<TableCell> line{{scene.scene}};
+    for (const Entrant& e : table.entrants) {
+      const Entry* entry = own_entry(scene, e.engine);
+      line.push_back({entry != nullptr ? entry_text(*entry) : e.absent.empty() ? "not run" : "absent: " + e.absent});
+    }
+    verdicts.rows.push_back(std::move(line));
+  }
+  document.blocks.emplace_back(std::move(verdicts));
+}
+
+void add_broken_laws(Document& document, const ContestTable& table) {
+  Table broken{"broken", "Broken laws at the scenes' own steps", {"scene", "engine", "law", "what was found"}, {}};
+  for (const SceneTable& scene : table.scenes)
+    for (const Entrant& e : table.entrants)
+      if (const Entry* entry = own_entry(scene, e.engine))
+        for (const core::Verdict& v : entry->broken)
+          broken.rows.push_back({{scene.scene}, {e.engine}, {v.validator}, {v.explanation}});
+  if (broken.rows.empty()) return;
+  document.blocks.emplace_back(Heading{"What was broken", "broken"});
+  document.blocks.emplace_back(
+      Paragraph{"A broken law is a defect of the engine, a wrong declaration or setting of ours, or an error of the "
+                "law. Which of the three it is has not yet been looked into unless reference/README.md says so."});
+  document.blocks.emplace_back(std::move(broken));
+}
+
+void add_stability(Document& document, const ContestTable& table) {
+  Table stands{"stands", "The longest step at which the scene stands, s", columns_of(table, {"scene"}), {}};
+  for (const SceneTable& scene : table.scenes) {
+    std::vector<TableCell> line{{scene.scene}};
+    bool has_rest = false;
+    for (const Entrant& e : table.entrants) {
+      double longest = 0.0;
+      bool was_judged = false;
+      if (const auto of = scene.entries.find(e.engine); of != scene.entries.end())
+        for (const auto& [step, entry] : of->second) {
+          was_judged = was_judged || entry.has_rest;
+          if (entry.has_rest && entry.stands) longest = std::max(longest, entry.dt_s);
+        }
+      has_rest = has_rest || was_judged;
+      if (!was_judged)
+        line.push_back({"not judged"});
+      else if (longest > 0.0)
+        line.push_back({fmt::format("{:.4g}", longest), longest});
+      else
+        line.push_back({"at none"});
+    }
+    if (has_rest) stands.rows.push_back(std::move(line));
+  }
+  if (stands.rows.empty()) return;
+  document.blocks.emplace_back(Heading{"What stands, and at which step", "stands"});
+  document.blocks.emplace_back(std::move(stands));
+}
+
+void add_determinism(Document& document, const ContestTable& table) {
+  Table repeats{
+      "repeats", "The timed run against the recorded one", {"engine", "cells", "same digest", "other digest"}, {}};
+  for (const Entrant& e : table.entrants) {
+    std::size_t cells = 0;
+    std::size_t same = 0;
+    for (const SceneTable& scene : table.scenes)
+      if (const auto of = scene.entries.find(e.engine); of != scene.entries.end())
+        for (const auto& [step, entry] : of->second) {
+          cells += entry.was_timed ? 1 : 0;
+          same += entry.was_timed && entry.repeats ? 1 : 0;
+        }
+    if (cells > 0)
+      repeats.rows.push_back(
+          {{e.engine}, {std::to_string(cells)}, {std::to_string(same)}, {std::to_string(cells - same)}});
+  }
+  if (repeats.rows.empty()) return;
+  document.blocks.emplace_back(Heading{"The same bits twice", "repeats"});
+  document.blocks.emplace_back(
+      Paragraph{"Recording and timing are two runs of the same work on this machine. An engine that is deterministic "
+                "ends both in the same digest."});
+  document.blocks.emplace_back(std::move(repeats));
+}
+
+void add_declarations(Document& document, const ContestTable& table) {
+  std::set<std::string> keys;
+  for (const auto& [label, declared] : table.declarations)
+    for (const auto& [key, text] : declared) keys.insert(key);
+  if (keys.empty()) return;
+  document.blocks.emplace_back(Heading{"What each declares", "declarations"});
+  document.blocks.emplace_back(Paragraph{
+      "Laws are chosen and limits are set by what an engine declares, never by its name. What is not declared "
+      "takes the value that a correct engine of the plainest kind would declare."});
+  Table declared{"declarations", "Declarations side by side", {"engine", "library"}, {}};
+  declared.columns.insert(declared.columns.end(), keys.begin(), keys.end());
+  for (const Entrant& e : table.entrants) {
+    const auto of = table.declarations.find(e.engine);
+    const auto build = table.builds.find(e.engine);
+    if (of == table.declarations.end()) continue;
+    std::vector<TableCell> line{{e.engine}, {build == table.builds.end() ? "not told" : build->second}};
+    for (const std::string& key : keys) {
+      const auto text = of->second.find(key);
+      line.push_back({text == of->second.end() ? "not declared" : text->second});
+    }
+    declared.rows.push_back(std::move(line));
+  }
+  document.blocks.emplace_back(std::move(declared));
+}
+
+Document contest_document(const ContestTable& table, const std::string& command) {
+  const Count count = count_of(table);
+  std::size_t here = 0;
+  for (const Entrant& e : table.entrants) here += e.absent.empty() ? 1 : 0;
+  Document document;
+  document.title = "Engines of rigid bodies on scenes with known answers";
+  document.lead = fmt::format(
+      "{} engines on {} scenes: at the scenes' own steps every law that applies holds in {} cells, a law is broken in {}, "
+      "and {} have no trace.",
+      here, table.scenes.size(), count.holds, count.breaks, count.absent);
+  for (const Entrant& e : table.entrants)
+    if (!e.absent.empty()) document.lead += fmt::format(" {} is absent ({}).", e.engine, e.absent);
+  add_verdicts(document, table);
+  add_error_against_cost(document, table);
+  add_stability(document, table);
+  add_determinism(document, table);
+  add_broken_laws(document, table);
+  add_declarations(document, table);
+  document.blocks.emplace_back(Heading{"How to repeat", "repeat"});
+  document.blocks.emplace_back(Paragraph{command});
+  return document;
+}
+
+}  // namespace broadside::bench::contest

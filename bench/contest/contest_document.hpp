@@ -1,0 +1,22 @@
+// A contest's table as a page: verdicts, error against cost, what stands at which step, determinism, declarations.
+#pragma once
+
+#include <string>
+
+#include "bench/contest/contest_table.hpp"
+#include "bench/document/document.hpp"
+
+namespace broadside::bench::contest {
+
+// command: what repeats it.
+Document contest_document(const ContestTable& table, const std::string& command);
+
+// One section each, in the order of the page; they add nothing where there is nothing to show.
+void add_verdicts(Document& document, const ContestTable& table);
+void add_broken_laws(Document& document, const ContestTable& table);
+void add_error_against_cost(Document& document, const ContestTable& table);
+void add_stability(Document& document, const ContestTable& table);
+void add_determinism(Document& document, const ContestTable& table);
+void add_declarations(Document& document, const ContestTable& table);
+
+}  // namespace broadside::bench::contest

@@ -1,0 +1,85 @@
+// Error against cost: one picture a scene, one line an engine, one mark a step.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "bench/contest/contest_document.hpp"
+#include "reports/plots/line_plot.hpp"
+
+namespace broadside::bench::contest {
+namespace {
+
+using reports::plots::Curve;
+using reports::plots::LinePlot;
+using reports::plots::Placement;
+using reports::plots::Scale;
+
+// What an engine is built as says how its time counts: code in WebAssembly is not the library's own speed.
+bool is_native(const ContestTable& table, const std::string& label) {
+  const auto build = table.builds.find(label);
+  return build == table.builds.end() || build->second.find("node ") == std::string::npos;
+}
+
+// By rising cost. Points without an error or a time are left out.
+Curve curve_of(const ContestTable& table, const std::string& label, const std::map<std::string, Entry>& steps) {
+  std::vector<const Entry*> points;
+  for (const auto& [step, entry] : steps)
+    if (std::isfinite(entry.error) && std::isfinite(entry.cost) && entry.error > 0.0 && entry.cost > 0.0)
+      points.push_back(&entry);
+  std::sort(points.begin(), points.end(), [](const Entry* a, const Entry* b) { return a->cost < b->cost; });
+  Curve curve;
+  curve.name = label;
+  curve.is_fitted = !is_native(table, label);
+  if (curve.is_fitted) curve.name += " (Node)";
+  for (const Entry* entry : points) {
+    curve.x.push_back(entry->cost);
+    curve.y.push_back(entry->error);
+  }
+  return curve;
+}
+
+std::string file_name(std::string scene) {
+  std::replace_if(
+      scene.begin(), scene.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  return "error_" + scene;
+}
+
+}  // namespace
+
+void add_error_against_cost(Document& document, const ContestTable& table) {
+  std::vector<Block> figures;
+  for (const SceneTable& scene : table.scenes) {
+    LinePlot plot;
+    std::string unit;
+    std::string words;
+    for (const Entrant& e : table.entrants) {
+      const auto of = scene.entries.find(e.engine);
+      if (of == scene.entries.end()) continue;
+      Curve curve = curve_of(table, e.engine, of->second);
+      if (curve.x.empty()) continue;
+      for (const auto& [step, entry] : of->second)
+        if (!entry.error_unit.empty()) unit = entry.error_unit;
+      words +=
+          fmt::format("{}: error {:.3g} {} at {:.3g} s a second. ", e.engine, curve.y.back(), unit, curve.x.back());
+      plot.curves.push_back(std::move(curve));
+    }
+    if (plot.curves.empty()) continue;
+    plot.text = {scene.scene, words, "cost, seconds of computing a simulated second", "largest error, " + unit};
+    plot.x_scale = plot.y_scale = Scale::kLog;
+    plot.y_from_zero = false;
+    figures.emplace_back(Figure{file_name(scene.scene), svg(plot, Placement::kFile), svg(plot, Placement::kInline),
+                                scene.scene + ": further down is more exact, further left is cheaper."});
+  }
+  if (figures.empty()) return;
+  document.blocks.emplace_back(Heading{"Error against cost", "error"});
+  document.blocks.emplace_back(Paragraph{
+      "Each mark is one step of an engine on a scene with a closed answer: the error that is largest against "
+      "its limit, and what the engine's steps cost. Engines that run under Node are dashed: their verdicts "
+      "count, their speeds do not, because WebAssembly is not the library's own code. A broken law strikes no "
+      "mark here; the table of verdicts says which are broken."});
+  for (Block& figure : figures) document.blocks.push_back(std::move(figure));
+}
+
+}  // namespace broadside::bench::contest
