@@ -1,5 +1,6 @@
 #include "bench/plugin_engines.hpp"
 
+#include <cctype>
 #include <deque>
 #include <filesystem>
 #include <fstream>
@@ -9,18 +10,19 @@
 #include "bench/process/child.hpp"
 #include "gpu/runtime/device_space.hpp"
 #include "reference/plugin/plugin_engine.hpp"
+#include "reference/plugin/plugin_source.hpp"
+#include "reference/plugin/program_process.hpp"
 
 namespace broadside::bench {
 namespace {
 
 constexpr double kDescribeLimit_s = 10.0;
-// The setting that carries the path into create(), which is a plain function like every row's.
-constexpr std::string_view kLibraryKey = "library";
 
 // Owns the strings that a row's views point to.
 struct Plugin {
-  std::string path;
-  std::string name;  // "libmine.so": what stamps and settings say
+  std::string path;  // or the command of a program
+  bool is_program = false;
+  std::string name;  // "libmine.so", "node-jolt.mjs": what stamps and settings say
   reference::PluginDescription description;
   std::vector<std::string> defaults;
   std::vector<core::SettingRow> settings;
@@ -39,21 +41,47 @@ const Plugin* plugin_named(std::string_view library) {
   return nullptr;
 }
 
+// Of a command: the words that are files.
+std::vector<std::filesystem::path> files_of(const Plugin& plugin) {
+  if (!plugin.is_program) return {plugin.path};
+  std::vector<std::filesystem::path> files;
+  const auto words = reference::words_of(plugin.path);
+  std::error_code ignored;
+  for (const std::string& word : words ? words.value() : std::vector<std::string>())
+    if (std::filesystem::is_regular_file(word, ignored)) files.emplace_back(word);
+  return files;
+}
+
 // By content, not only by name: a library that was built again is another engine.
-std::string content_digest(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
+std::string content_digest(const std::vector<std::filesystem::path>& files) {
   std::uint64_t digest = 0;
   std::uint64_t at = 0;
-  for (char byte = 0; in.get(byte);) digest += core::splitmix64((at++ << 8) | static_cast<unsigned char>(byte));
+  for (const auto& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    for (char byte = 0; in.get(byte);) digest += core::splitmix64((at++ << 8) | static_cast<unsigned char>(byte));
+  }
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
   return text;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
-  const Plugin* plugin = plugin_named(settings.text(kLibraryKey));
-  if (plugin == nullptr)
-    return core::Error{"no such plug-in was named", settings.text(kLibraryKey), "", core::Exit::kInternal};
+// "node-jolt.mjs" of "node ../engines/jolt.mjs": without what settings are written with.
+std::string name_of_command(const std::string& command) {
+  const auto words = reference::words_of(command);
+  std::string name;
+  for (const std::string& word : words ? words.value() : std::vector<std::string>{command}) {
+    const std::string last = std::filesystem::path(word).filename().string();
+    name += (name.empty() ? "" : "-") + (last.empty() ? word : last);
+  }
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
+  return name;
+}
+
+// `key`: the setting that carries the name into create(), which is a plain function like every row's.
+core::Result<core::Engine> create_by(std::string_view key, const core::Settings& settings) {
+  const Plugin* plugin = plugin_named(settings.text(key));
+  if (plugin == nullptr) return core::Error{"no such plug-in was named", settings.text(key), "", core::Exit::kInternal};
   std::shared_ptr<core::MemorySpace> space = core::make_host_space();
   if (plugin->description.on_device) {
     auto on_device = gpu::make_device_space();
@@ -61,8 +89,16 @@ core::Result<core::Engine> create(const core::Settings& settings) {
     space = std::move(on_device).value();
   }
   auto engine = reference::create_plugin_engine(plugin->path, settings, std::move(space));
-  if (engine.ok()) engine.value().build += " (" + plugin->name + ", content " + content_digest(plugin->path) + ")";
+  if (engine.ok()) engine.value().build += " (" + plugin->name + ", content " + content_digest(files_of(*plugin)) + ")";
   return engine;
+}
+
+core::Result<core::Engine> create_of_library(const core::Settings& settings) {
+  return create_by(reference::kLibraryKey, settings);
+}
+
+core::Result<core::Engine> create_of_program(const core::Settings& settings) {
+  return create_by(reference::kProgramKey, settings);
 }
 
 core::Result<reference::PluginDescription> description_from(const std::string& json, const std::string& path) {
@@ -83,13 +119,14 @@ core::Result<reference::PluginDescription> description_from(const std::string& j
   }
 }
 
-core::Result<reference::PluginDescription> described(const std::string& path) {
+core::Result<reference::PluginDescription> described(const std::string& path, bool is_program) {
   auto ended = run_self({"describe-plugin", path}, {kDescribeLimit_s}, Keeps::kOutputAndErrors);
   if (!ended) return ended.error();
   const ChildEnding& ending = ended.value();
   if (ending.exit_code < 0)
-    return core::Error{"loading it in a child process: " + ending.words, path,
-                       "it must load and describe itself without work"};
+    return core::Error{(is_program ? "asking it what it is: " : "loading it in a child process: ") + ending.words, path,
+                       is_program ? "a program answers hello first, without work: core/plugin/PROGRAMS.md"
+                                  : "it must load and describe itself without work"};
   if (!ending.is_good) {
     // The child's one clear line: "broadside: FILE: what; advice".
     const std::string prefix = "broadside: " + path + ": ";
@@ -102,7 +139,10 @@ core::Result<reference::PluginDescription> described(const std::string& path) {
 
 void fill_row(Plugin& plugin) {
   const reference::PluginDescription& d = plugin.description;
-  plugin.settings.push_back({kLibraryKey, plugin.name, {plugin.name}, "the file that it came from"});
+  if (plugin.is_program)
+    plugin.settings.push_back({reference::kProgramKey, plugin.name, {plugin.name}, "the command that starts it"});
+  else
+    plugin.settings.push_back({reference::kLibraryKey, plugin.name, {plugin.name}, "the file that it came from"});
   for (const auto& setting : d.settings) plugin.defaults.push_back(std::to_string(setting.default_value));
   for (std::size_t k = 0; k < d.settings.size(); ++k)
     plugin.settings.push_back({d.settings[k].key, plugin.defaults[k], {}, d.settings[k].what});
@@ -111,30 +151,33 @@ void fill_row(Plugin& plugin) {
   plugin.row.what = d.what;
   plugin.row.settings = plugin.settings;
   plugin.row.runs_in_child = true;  // like every engine made of other people's code
-  plugin.row.create = create;
+  plugin.row.create = plugin.is_program ? create_of_program : create_of_library;
   plugin.row.absent = d.on_device ? gpu::device_absent : nullptr;
 }
 
 }  // namespace
 
 bool is_plugin_path(std::string_view text) {
-  return text.find('/') != std::string_view::npos || text.ends_with(".so");
+  return text.find_first_of("/ \t") != std::string_view::npos || text.ends_with(".so");
 }
 
 core::Result<const core::EngineRow*> plugin_row(std::string_view given) {
   const std::string path(given);
   for (const Plugin& plugin : plugins())
     if (plugin.path == path) return &plugin.row;
+  const bool is_program = reference::is_program(path);
   std::error_code failed;
-  if (!std::filesystem::is_regular_file(path, failed))
-    return core::Error{"there is no such file", path, "name a shared library that exports broadside_engine_v1"};
-  const std::string name = std::filesystem::path(path).filename().string();
+  if (!is_program && !std::filesystem::is_regular_file(path, failed))
+    return core::Error{"there is no such file", path,
+                       "name a shared library that exports broadside_engine_v1 or _v2, or a program's command"};
+  const std::string name = is_program ? name_of_command(path) : std::filesystem::path(path).filename().string();
   if (plugin_named(name) != nullptr)
     return core::Error{"another plug-in of this run has the file name " + name, path, "rename one of them"};
-  auto description = described(path);
+  auto description = described(path, is_program);
   if (!description) return description.error();
   Plugin& plugin = plugins().emplace_back();
   plugin.path = path;
+  plugin.is_program = is_program;
   plugin.name = name;
   plugin.description = std::move(description).value();
   fill_row(plugin);

@@ -1,4 +1,5 @@
-// Engines from shared libraries that the user names on the command line: --engine ./libmine.so.
+// Engines from shared libraries and programs that the user names on the command line: --engine ./libmine.so, --engine
+// 'node jolt.mjs'.
 #pragma once
 
 #include <string>
@@ -9,15 +10,15 @@
 
 namespace broadside::bench {
 
-// A path, not an id: it has a slash or ends in .so. Only this file is loaded; no folders are searched.
+// No id: it has a slash or a blank, or ends in .so. Of a library only this file is loaded; no folders are searched.
 bool is_plugin_path(std::string_view text);
 
-// The row of the engine in that file. A child process loads the library and describes it: this process never runs code
-// of it before an engine is created. Errors: no such file, the description crashed, hung or was refused. The row lives
-// as long as the program; the same path gives the same row.
+// The row of the engine in that file or behind that command. A child process loads the library, or starts the program,
+// and describes it: this process never runs code of it before an engine is created. Errors: no such file, the
+// description crashed, hung or was refused. The row lives as long as this program; the same path gives the same row.
 core::Result<const core::EngineRow*> plugin_row(std::string_view path);
 
-// What to write after --engine for this row: its path for a plug-in, its id otherwise.
+// What to write after --engine for this row: its path or command for a plug-in, its id otherwise.
 std::string engine_argument(const core::EngineRow& row);
 
 }  // namespace broadside::bench

@@ -11,7 +11,7 @@ add_library(broadside_engine INTERFACE)
 set_target_properties(broadside_engine PROPERTIES EXPORT_NAME engine)
 target_include_directories(broadside_engine INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 install(TARGETS broadside_engine EXPORT broadside)
-install(FILES core/plugin/broadside_engine.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT program)
+install(FILES core/plugin/broadside_engine.h core/plugin/broadside_engine_v2.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT program)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/broadside)
 install(EXPORT broadside NAMESPACE broadside:: FILE broadside-config.cmake DESTINATION ${package_folder} COMPONENT program)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/broadside-config-version.cmake
@@ -19,6 +19,8 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/broadside-config-ve
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/broadside-config-version.cmake DESTINATION ${package_folder} COMPONENT program)
 
 install(DIRECTORY core/plugin/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/broadside/examples COMPONENT program)
+install(DIRECTORY core/plugin/clients/ DESTINATION ${CMAKE_INSTALL_DATADIR}/broadside/clients COMPONENT program)
+install(FILES core/plugin/PROGRAMS.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME programs.md COMPONENT program)
 install(FILES core/plugin/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME engines.md COMPONENT program)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fstream>
 
 #include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/step_suffix.hpp"
@@ -88,18 +89,40 @@ core::Result<core::Scene> SceneArguments::make() const {
 }
 
 void EngineArguments::add_to(CLI::App& command) {
-  command.add_option("--engine", engines, "An engine, such as octree-cpu or octree-cpu[levels=A]; may be repeated")
-      ->required()
+  command
+      .add_option("--engine", engines,
+                  "An engine, such as octree-cpu or octree-cpu[levels=A], a plug-in ./libmine.so, or a program "
+                  "'node mine.mjs'; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--engines", file, "A file with an engine a line, written as for --engine; # begins a remark");
   command.add_option("--set", settings, "key=value for every engine that has the key; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+core::Result<std::vector<std::string>> EngineArguments::all() const {
+  std::vector<std::string> named = engines;
+  if (!file.empty()) {
+    std::ifstream in(file);
+    if (!in) return core::Error{"cannot read it", file, "name a file with an engine a line"};
+    for (std::string line; std::getline(in, line);) {
+      const auto first = line.find_first_not_of(" \t\r");
+      if (first == std::string::npos || line[first] == '#') continue;
+      named.push_back(line.substr(first, line.find_last_not_of(" \t\r") + 1 - first));
+    }
+  }
+  if (named.empty())
+    return core::Error{"no engine was named", file.empty() ? "--engine" : file,
+                       "one of those that 'broadside list engines' shows"};
+  return named;
+}
+
 core::Result<std::vector<CellSpec>> EngineArguments::make() const {
   std::vector<CellSpec> cells;
-  for (const std::string& text : engines) {
+  auto named = all();
+  if (!named) return named.error();
+  for (const std::string& text : named.value()) {
     auto cell = parse_cell_spec(text);
     if (!cell) return cell.error();
     cells.push_back(std::move(cell).value());

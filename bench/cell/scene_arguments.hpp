@@ -27,9 +27,14 @@ struct SceneArguments {
 
 struct EngineArguments {
   std::vector<std::string> engines;
+  std::string file;  // more of them, one a line
   std::vector<std::string> settings;
 
   void add_to(CLI::App& command);
+  // Whether no engine was named.
+  [[nodiscard]] bool is_empty() const { return engines.empty() && file.empty(); }
+  // What was given by --engine, then the lines of the file without blank ones and those that begin with #.
+  [[nodiscard]] core::Result<std::vector<std::string>> all() const;
   // A setting goes to every engine of the list that has its key; one that no engine has is an error.
   [[nodiscard]] core::Result<std::vector<CellSpec>> make() const;
 };

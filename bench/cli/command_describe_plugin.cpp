@@ -1,4 +1,4 @@
-// plugin_row runs this in a child process: it loads the library and prints the library's description.
+// plugin_row runs this in a child process: it loads the library, or starts the program, and prints its description.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +16,7 @@ void add_describe_plugin(CLI::App& program, core::Exit& exit) {
   CLI::App* command = program.add_subcommand("describe-plugin", "Prints what a plug-in says of itself, as JSON");
   command->group("");
   auto file = std::make_shared<std::string>();
-  command->add_option("FILE", *file, "shared library")->required();
+  command->add_option("FILE", *file, "shared library, or the command of a program")->required();
   command->callback([file, &exit] {
     const auto description = reference::describe_plugin(*file);
     if (!description) {

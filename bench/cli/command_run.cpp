@@ -115,7 +115,7 @@ std::string summary(const RunOutcome& outcome, const std::string& folder) {
 
 core::Exit run(const RunArguments& a) {
   if (!a.cell.empty() || !a.shard.empty()) return run_campaign(a);
-  if (a.engines.engines.empty())
+  if (a.engines.is_empty())
     return complain({"no engine was named", "--engine", "one of those that 'broadside list engines' shows"});
   if (!a.in_process.empty()) limit_this_process(a.limits.memory_mib);
   auto plan = make_plan(a);
@@ -140,7 +140,6 @@ void add_run(CLI::App& program, core::Exit& exit) {
   CLI::App* command = program.add_subcommand("run", "Run engines over a scene and record a trace of each");
   a->scene.add_to(*command);
   a->engines.add_to(*command);
-  command->get_option("--engine")->required(false);  // a campaign's cells name theirs
   CLI::Option* cell = command->add_option("--cell", a->cell, "Do this cell of the campaign in the folder SCENE");
   command->add_option("--shard", a->shard, "Do the i-th of n shares of the campaign in the folder SCENE: i/n")
       ->excludes(cell);

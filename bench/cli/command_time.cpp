@@ -47,6 +47,7 @@ core::Exit exit_of(const RunPlan& plan, const std::vector<core::Sample>& samples
 std::vector<std::string> own_arguments(const TimeArguments& a) {
   std::vector<std::string> arguments{a.scene.spec, "--repetitions", std::to_string(a.repetitions)};
   for (const std::string& engine : a.engines.engines) arguments.insert(arguments.end(), {"--engine", engine});
+  if (!a.engines.file.empty()) arguments.insert(arguments.end(), {"--engines", a.engines.file});
   for (const std::string& setting : a.engines.settings) arguments.insert(arguments.end(), {"--set", setting});
   if (a.scene.frames > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(a.scene.frames)});
   if (a.narrow_every > 0) arguments.insert(arguments.end(), {"--narrow-every", std::to_string(a.narrow_every)});

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "bench/process/progress.hpp"
 #include "bench/record/near_pairs.hpp"
 #include "bench/timing/turns.hpp"
+#include "core/engine/own_step_time.hpp"
 #include "core/engine/runs_ahead.hpp"
 #include "core/pair.hpp"
 #include "core/trace/trace_reader.hpp"
@@ -83,10 +85,16 @@ core::Status time_ahead(const RunPlan& plan, core::Dynamics& dynamics, core::Run
 
 core::Status time_steps(const RunPlan& plan, core::Dynamics& dynamics, std::uint64_t frames, Turns& turns,
                         core::Sample& sample) {
+  // A program behind a pipe may time its steps by its own clock.
+  const auto* own_clock = dynamic_cast<const core::OwnStepTime*>(&dynamics);
   for (std::uint64_t step = 1; step <= frames && !is_interrupted(); ++step) {
     const auto start = Clock::now();
     if (core::Status s = dynamics.step(plan.scene.dt_s); !s) return s;
-    add_step(sample, dynamics, seconds_since(start));
+    const double whole = seconds_since(start);
+    const double own = own_clock != nullptr ? own_clock->last_step_s() : std::numeric_limits<double>::quiet_NaN();
+    const bool is_told = own >= 0.0;
+    if (is_told) add_time(sample, "pipe", whole - own);
+    add_step(sample, dynamics, is_told ? own : whole);
     turns.frame_done();
   }
   return core::Done{};

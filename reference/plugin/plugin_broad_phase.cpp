@@ -66,7 +66,7 @@ class PluginBroadPhase final : public core::BroadPhase {
   }
 
  private:
-  [[nodiscard]] const broadside_engine& table() const { return instance_->table(); }
+  [[nodiscard]] const broadside_engine2& table() const { return instance_->table(); }
   static const broadside_box* as_c(const core::Box* boxes) { return reinterpret_cast<const broadside_box*>(boxes); }
 
   [[nodiscard]] core::Error fault(std::string what) const {

@@ -1,4 +1,4 @@
-// A simulation by a plug-in. States are recorded, and contacts where it gives them.
+// A simulation by a plug-in of version 1 of the interface. States are recorded, and contacts where it gives them.
 #include "reference/plugin/plugin_dynamics.hpp"
 
 #include <algorithm>
@@ -8,30 +8,13 @@
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "reference/plugin/plugin_array.hpp"
+#include "reference/plugin/plugin_records.hpp"
 #include "reference/plugin/plugin_scene.hpp"
 
 namespace broadside::reference {
 namespace {
 
 using core::Status;
-
-core::Contact contact_from_c(const broadside_contact& c) {
-  core::Contact contact;
-  contact.a = c.a;
-  contact.b = c.b;
-  // A plug-in gives only the order of application: every contact gets a color of its own.
-  contact.color = core::is_face(c.b) ? core::kFaceColor : 0;
-  contact.depth_m = c.depth_m;
-  contact.normal = vec3_from_c(c.normal);
-  contact.normal_impulse_n_s = c.normal_impulse;
-  contact.tangent = vec3_from_c(c.tangent);
-  contact.tangent_impulse_n_s = c.tangent_impulse;
-  contact.pre_a = {vec3_from_c(c.pre_position_a), vec3_from_c(c.pre_velocity_a)};
-  contact.pre_b = {vec3_from_c(c.pre_position_b), vec3_from_c(c.pre_velocity_b)};
-  contact.post_a = {vec3_from_c(c.post_position_a), vec3_from_c(c.post_velocity_a)};
-  contact.post_b = {vec3_from_c(c.post_position_b), vec3_from_c(c.post_velocity_b)};
-  return contact;
-}
 
 class PluginDynamics final : public core::Dynamics {
  public:
@@ -42,6 +25,9 @@ class PluginDynamics final : public core::Dynamics {
 
   Status load(const core::Scene& scene) override {
     if (Status s = core::refuse_springs(scene); !s) return s;
+    if (scene.motion == core::Motion::kRigid)
+      return core::Error{"the scene's bodies turn, and version 1 of the interface gives no inertia",
+                         instance_->where("begin"), "export broadside_engine_v2", core::Exit::kMissing};
     end();
     source_ = &scene;
     steps_ = 0;
@@ -80,7 +66,7 @@ class PluginDynamics final : public core::Dynamics {
   }
 
  private:
-  [[nodiscard]] const broadside_engine& table() const { return instance_->table(); }
+  [[nodiscard]] const broadside_engine& table() const { return *instance_->source().version1(); }
 
   Status read_states(core::FrameRecord& frame) {
     const std::uint32_t n = source_->body_count();

@@ -1,9 +1,9 @@
-// An engine from a shared library that the user named.
+// An engine of somebody else: a shared library or a program that the user named.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/engine/engine.hpp"
@@ -26,11 +26,16 @@ struct PluginDescription {
   std::vector<Setting> settings;
 };
 
-// Loads the library and reads its description. Call it only in a child process: a bad library may crash it.
-core::Result<PluginDescription> describe_plugin(const std::filesystem::path& file);
+// A command of several words, a script that begins with #!, or an executable file: a program. Anything else that is
+// named by a path is a library.
+bool is_program(std::string_view given);
 
-// The engine itself. `space` is where the plug-in wants its arrays. Settings: those of the description, by key.
-core::Result<core::Engine> create_plugin_engine(const std::filesystem::path& file, const core::Settings& settings,
+// Loads the library, or starts the program, and reads its description. Call it only in a child process: a bad library
+// may crash it, and a bad program may hang.
+core::Result<PluginDescription> describe_plugin(const std::string& given);
+
+// The engine itself. `space` is where a library wants its arrays. Settings: those of the description, by key.
+core::Result<core::Engine> create_plugin_engine(const std::string& given, const core::Settings& settings,
                                                 std::shared_ptr<core::MemorySpace> space);
 
 }  // namespace broadside::reference

@@ -8,6 +8,7 @@
 #include "reference/pair_check.hpp"
 #include "reference/plugin/plugin_array.hpp"
 #include "reference/plugin/plugin_scene.hpp"
+#include "reference/plugin/plugin_scene2.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -27,8 +28,14 @@ class PluginNarrowPhase final : public core::NarrowPhase {
     end();
     body_count_ = scene.body_count();
     pair_count_ = 0;
-    scene_.emplace(scene);
-    return instance_->checked(table().load_scene(instance_->self(), scene_->c_struct()), "load_scene");
+    if (const broadside_engine* first = instance_->source().version1()) {
+      scene_.emplace(scene);
+      return instance_->checked(first->load_scene(instance_->self(), scene_->c_struct()), "load_scene");
+    }
+    auto made = PluginScene2::of(scene);
+    if (!made) return made.error();
+    scene2_ = std::move(made).value();
+    return instance_->checked(table().load_scene(instance_->self(), scene2_->c_struct()), "load_scene");
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
@@ -73,16 +80,18 @@ class PluginNarrowPhase final : public core::NarrowPhase {
   }
 
  private:
-  [[nodiscard]] const broadside_engine& table() const { return instance_->table(); }
+  [[nodiscard]] const broadside_engine2& table() const { return instance_->table(); }
 
   void end() {
-    if (scene_ && table().end != nullptr) table().end(instance_->self());
+    if ((scene_ || scene2_) && table().end != nullptr) table().end(instance_->self());
     scene_.reset();
+    scene2_.reset();
   }
 
   std::shared_ptr<PluginInstance> instance_;
   std::shared_ptr<core::MemorySpace> space_;
   std::optional<PluginScene> scene_;
+  std::unique_ptr<PluginScene2> scene2_;
   PluginInput<core::Pair> pairs_;
   PluginInput<core::Pose> poses_;
   std::uint32_t body_count_ = 0;

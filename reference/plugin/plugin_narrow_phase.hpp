@@ -4,7 +4,7 @@
 
 #include "core/engine/narrow_phase.hpp"
 #include "core/plugin/memory_space.hpp"
-#include "reference/plugin/plugin_library.hpp"
+#include "reference/plugin/plugin_source.hpp"
 
 namespace broadside::reference {
 

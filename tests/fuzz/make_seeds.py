@@ -1,7 +1,7 @@
 """Writes the inputs that fuzzing starts from:  make_seeds.py FOLDER
 
-Small files of every kind that the readers take, generated here: FOLDER/scene, boxes, trace and mesh. A mesh begins with
-one more byte, which names its format (tests/fuzz/readers.hpp). Needs numpy and h5py (Debian: python3-h5py).
+Small files of every kind that the readers take, generated here: FOLDER/scene, boxes, trace, mesh and program. A mesh
+begins with one more byte, which names its format, and a program's answer with two (tests/fuzz/readers.hpp). Needs numpy and h5py (Debian: python3-h5py).
 """
 
 import json
@@ -27,6 +27,8 @@ GROUPS = {  # of /trace: dataset -> (elements a row, type); "body" has rows of t
                    for who in ("a", "b")}},
     "narrow": {"pairs": (2, "u4"), "distance": (1, "f8"), "touching": (1, "u1"), "normal": (3, "f4"),
                "witness_a": (3, "f4"), "witness_b": (3, "f4"), "offsets": (-1, "u8")},
+    "point": {"a": (1, "u4"), "b": (1, "u4"), "point": (3, "f4"), "normal": (3, "f4"), "gap": (1, "f4"),
+              "impulse": (3, "f4"), "feature": (1, "u4"), "offsets": (-1, "u8")},
 }
 
 
@@ -97,8 +99,10 @@ def meshes():
     yield "glb-lies-about-length", b"5glTF" + struct.pack("<III4s", 2, 0xFFFFFFF0, 0xFFFFFFF0, b"JSON")
 
 
-def fill_trace(file, groups, **storage):
-    file.attrs["format"], file.attrs["format_version"] = np.bytes_("broadside-trace"), np.uint32(1)
+def fill_trace(file, groups, version=1, wide=False, declared=(), **storage):
+    file.attrs["format"], file.attrs["format_version"] = np.bytes_("broadside-trace"), np.uint32(version)
+    for key, value in declared:
+        file.require_group("declaration").attrs[key] = np.bytes_(value)
     scene = file.create_group("scene")
     scene.attrs["name"] = np.bytes_("s")
     scene.attrs["domain"] = np.array([-9, -9, -9, 9, 9, 9], "f4")
@@ -123,6 +127,7 @@ def fill_trace(file, groups, **storage):
     file["trace/digest"] = np.zeros(2, "u8")
     for group in groups:
         for name, (width, kind) in GROUPS[group].items():
+            kind = "f8" if wide and group == "body" else kind
             shape = (2, 2, width) if group in ("body", "detection") else {0: (2,), 1: (2,), -1: (3,)}.get(width, (2, width))
             values = np.zeros(shape, kind)
             if width == -1:
@@ -132,13 +137,27 @@ def fill_trace(file, groups, **storage):
             elif name == "b":
                 values[:] = 1
             file.create_dataset(f"trace/{group}/{name}", data=values, **storage)
+    if version == 2:
+        file["scene"].attrs["motion"] = np.bytes_("rigid")
+        file["scene/body/inertia"] = np.tile(np.array([1, 1, 1, 0, 0, 0], "f8"), (2, 1))
+        file["scene/body/center_of_mass"] = np.zeros((2, 3), "f8")
+        if "detection" in groups:
+            file["trace/detection/orientation"] = np.tile(np.array([1, 0, 0, 0], "f4"), (2, 2, 1))
+
+
+DECLARED = [("motion", "rigid"), ("detection_at", "start"), ("contacts", "totals"), ("order", "1"), ("precision", "f64"),
+            ("contact_margin_m", "0.01")]
 
 
 def traces():
     cases = {"old-states": ("earliest", ["body", "detection"], {}), "new-pairs": ("latest", ["pairs", "confirmed"], {}),
              "old-zipped": ("earliest", ["pairs"], {"compression": "gzip", "shuffle": True, "chunks": True}),
              "new-zipped": ("latest", ["body"], {"compression": "gzip", "shuffle": True, "chunks": True}),
-             "new-contacts": ("latest", ["contact"], {}), "old-narrow": ("earliest", ["narrow"], {"fletcher32": True})}
+             "new-contacts": ("latest", ["contact"], {}), "old-narrow": ("earliest", ["narrow"], {"fletcher32": True}),
+             "old-rigid": ("earliest", ["body", "detection", "point"], {"version": 2, "wide": True, "declared": DECLARED}),
+             "new-rigid": ("latest", ["body", "point"], {"version": 2, "wide": True, "declared": DECLARED}),
+             "old-declared": ("earliest", ["body"], {"version": 2, "declared": [("motion", "rigid")]}),
+             "new-points": ("latest", ["point"], {"version": 2, "declared": [("friction", "con")]})}
     with tempfile.TemporaryDirectory() as folder:
         for name, (version, groups, storage) in cases.items():
             path = Path(folder, name)
@@ -147,8 +166,33 @@ def traces():
             yield name, path.read_bytes()
 
 
+def answers():
+    def text(value):
+        return struct.pack("<I", len(value)) + value.encode()
+
+    def answer(call, room, payload, status=0):
+        return bytes([call, room]) + struct.pack("<II", len(payload) + 4, status) + payload
+
+    start = b"BROADSID" + struct.pack("<IIId", 1, 4 + 8 + 32, 1, 0.0) + text("my-world") + text("1.0") + text("one line")
+    settings = struct.pack("<I", 1) + text("cell_mm") + struct.pack("<Q", 250) + text("edge")
+    declared = struct.pack("<I", 2) + text("motion") + text("rigid") + text("contacts") + text("totals")
+    yield "hello", answer(0, 0, start + settings + declared)
+    yield "hello-of-nothing", answer(0, 0, start + struct.pack("<II", 0, 0))
+    yield "hello-of-many", answer(0, 0, start + struct.pack("<I", 0xFFFFFFFF))
+    yield "hello-of-version-9", answer(0, 0, start.replace(b"SID\x01", b"SID\x09") + settings + declared)
+    yield "states", answer(1, 2, struct.pack("<Q26d", 2, *range(26)))
+    yield "points", answer(2, 1, struct.pack("<QII10dII", 5, 0, 1, *range(10), 7, 0))
+    yield "contacts", answer(3, 1, struct.pack("<QII33f", 1, 0, 1, *range(33)))
+    yield "detections", answer(4, 1, struct.pack("<Q10d6f", 1, *range(10), *range(6)))
+    yield "pairs", answer(5, 9, struct.pack("<Q4I", 2, 0, 1, 0, 2))
+    yield "a-count-that-lies", answer(5, 9, struct.pack("<Q4I", 1 << 60, 0, 1, 0, 2))
+    yield "failure", answer(1, 2, text("the moon is full"), 1)
+    yield "printed", b"\0\0Hello, I am an engine.\n"
+
+
 def main(folder):
-    for reader, seeds in {"scene": scenes, "boxes": boxes, "trace": traces, "mesh": meshes}.items():
+    readers = {"scene": scenes, "boxes": boxes, "trace": traces, "mesh": meshes, "program": answers}
+    for reader, seeds in readers.items():
         Path(folder, reader).mkdir(parents=True, exist_ok=True)
         for name, content in seeds():
             Path(folder, reader, name).write_bytes(content if isinstance(content, bytes) else content.encode())

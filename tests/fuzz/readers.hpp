@@ -2,17 +2,20 @@
 // the kept inputs. Each must return, whatever the bytes are.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "core/engine/narrow_phase.hpp"
 #include "core/mesh/load_mesh.hpp"
+#include "core/plugin/program_protocol.hpp"
 #include "core/trace/trace_reader.hpp"
 #include "datasets/box_streams/raw_boxes.hpp"
 #include "datasets/scene_file/scene_file.hpp"
@@ -104,11 +107,52 @@ inline void read_mesh(const std::uint8_t* data, std::size_t size) {
   if (mesh.value().mesh.triangles.empty()) __builtin_trap();
 }
 
+template <typename Row>
+void read_program_rows(std::span<const std::byte> payload, std::uint64_t capacity) {
+  const auto answered = core::read_rows_answer<Row>(payload, capacity);
+  if (!answered) return check_refusal(answered.error());
+  if (answered.value().rows.size() != std::min(answered.value().demanded, capacity)) __builtin_trap();
+}
+
+// An answer of a program engine. The first byte says to which call, the second how much room there was for rows.
+inline void read_program(const std::uint8_t* data, std::size_t size) {
+  if (size < 2) return;
+  const std::uint64_t capacity = data[1];
+  const auto answer = std::as_bytes(std::span(data, size)).subspan(2);
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  if (!core::is_plain_text(core::shown_text(text))) __builtin_trap();
+  if (answer.size() < 8) return;
+  const auto head = core::read_answer_head(answer.first<8>(), core::kMostHelloBytes);
+  if (!head) return check_refusal(head.error());
+  const auto payload = answer.subspan(8);
+  switch (data[0] % 6) {
+    case 0: {
+      const auto hello = core::read_hello(payload);
+      if (!hello) return check_refusal(hello.error());
+      if (!(hello.value().margin_m >= 0.0)) __builtin_trap();
+      return;
+    }
+    case 1:
+      return read_program_rows<broadside_state2>(payload, capacity);
+    case 2:
+      return read_program_rows<broadside_point>(payload, capacity);
+    case 3:
+      return read_program_rows<broadside_contact>(payload, capacity);
+    case 4:
+      return read_program_rows<broadside_detection>(payload, capacity);
+    default:
+      return read_program_rows<broadside_pair>(payload, capacity);
+  }
+}
+
 struct Reader {
   std::string_view name;  // of its fuzzer and of its folder in corpus/
   void (*read)(const std::uint8_t* data, std::size_t size);
 };
-inline constexpr std::array<Reader, 4> kReaders{
-    {{"scene", read_scene}, {"boxes", read_boxes}, {"trace", read_trace}, {"mesh", read_mesh}}};
+inline constexpr std::array<Reader, 5> kReaders{{{"scene", read_scene},
+                                                 {"boxes", read_boxes},
+                                                 {"trace", read_trace},
+                                                 {"mesh", read_mesh},
+                                                 {"program", read_program}}};
 
 }  // namespace broadside::fuzz

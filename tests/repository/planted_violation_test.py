@@ -154,8 +154,11 @@ class PlantedViolation(unittest.TestCase):
         told = {"CMakeLists.txt": "project(p VERSION 2.0.0)\nfind_package(X REQUIRED)\n",
                 "core/trace/trace_header.hpp": "#pragma once\nconstexpr std::uint32_t kTraceFormatVersion = 3;\n",
                 "core/plugin/broadside_engine.h": "#define BROADSIDE_ENGINE_ABI 1\n",
+                "core/plugin/broadside_engine_v2.h": "#define BROADSIDE_ENGINE_ABI_2 2\n",
+                "core/plugin/program_protocol.hpp": "#pragma once\nconstexpr std::uint32_t kProtocolVersion = 1;\n",
                 "bench/campaign/manifest.cpp": "constexpr int kVersion = 2;\n",
-                releases.PAGE: "| trace | 1 |\n| trace | 3 |\n| engine plug-ins | 1 |\n| campaign's | 2 |\n\n## 2.0.0 (2026-01-01)\n"}
+                releases.PAGE: "| trace | 1 |\n| trace | 3 |\n| engine plug-ins | 1 |\n| engines of version 2 | 2 |\n"
+                               "| protocol of program engines | 1 |\n| campaign's | 2 |\n\n## 2.0.0 (2026-01-01)\n"}
         self.assertEqual([], self.found(releases, told))
         self.one(releases, {**told, "CMakeLists.txt": "project(p VERSION 2.1.0)\n"}, "2.1.0")
         self.one(releases, {**told, "core/trace/trace_header.hpp": "kTraceFormatVersion = 4"}, "says 4")

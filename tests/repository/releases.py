@@ -8,6 +8,8 @@ RELEASE = re.compile(r"^## (\d+\.\d+\.\d+) \(\d{4}-\d{2}-\d{2}\)$", re.MULTILINE
 VERSIONS = {
     "| trace ": ("core/trace/trace_header.hpp", re.compile(r"kTraceFormatVersion = (\d+)")),
     "| engine plug-ins ": ("core/plugin/broadside_engine.h", re.compile(r"#define BROADSIDE_ENGINE_ABI (\d+)")),
+    "| engines of version 2 ": ("core/plugin/broadside_engine_v2.h", re.compile(r"#define BROADSIDE_ENGINE_ABI_2 (\d+)")),
+    "| protocol of program engines ": ("core/plugin/program_protocol.hpp", re.compile(r"kProtocolVersion = (\d+)")),
     "| campaign's ": ("bench/campaign/manifest.cpp", re.compile(r"kVersion = (\d+)")),
 }
 

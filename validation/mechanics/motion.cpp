@@ -139,20 +139,22 @@ core::Box MotionReader::swept_box(std::size_t body) const {
   Vec3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
             std::numeric_limits<double>::infinity()};
   Vec3d high = -1.0 * low;
-  const auto add = [&](const BodyState& s, Vec3d shift) {
+  const auto add = [&](const BodyState& s, Vec3d shift, double swing) {
     const Vec3d c = s.origin + s.r * f.box_center + shift;
     const auto half = [&](int k) {
       const Vec3d& row = s.r.row[static_cast<std::size_t>(k)];
       return std::abs(row.x) * f.box_half.x + std::abs(row.y) * f.box_half.y + std::abs(row.z) * f.box_half.z;
     };
-    const Vec3d e{half(0) + grow, half(1) + grow, half(2) + grow};
+    const Vec3d e{half(0) + grow + swing, half(1) + grow + swing, half(2) + grow + swing};
     low = {std::min(low.x, c.x - e.x), std::min(low.y, c.y - e.y), std::min(low.z, c.z - e.z)};
     high = {std::max(high.x, c.x + e.x), std::max(high.y, c.y + e.y), std::max(high.z, c.z + e.z)};
   };
-  add(b.before, {});
-  add(b.after, {});
-  // Where it was going before it was turned back.
-  if (f.is_dynamic) add(b.before, motion_.h * (b.before.v + motion_.h * motion_.gravity));
+  // Where it was going before it was turned back: none of its points turns farther than its reach times the angle, nor
+  // than twice its reach.
+  const double swing = f.is_dynamic ? f.reach_m * std::min(2.0, motion_.h * length(b.before.w)) : 0.0;
+  add(b.before, {}, swing);
+  add(b.after, {}, 0.0);
+  if (f.is_dynamic) add(b.before, motion_.h * (b.before.v + motion_.h * motion_.gravity), swing);
   const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -std::numeric_limits<float>::infinity()); };
   const auto up = [](double v) { return std::nextafter(static_cast<float>(v), std::numeric_limits<float>::infinity()); };
   return {{down(low.x), down(low.y), down(low.z)}, {up(high.x), up(high.y), up(high.z)}};

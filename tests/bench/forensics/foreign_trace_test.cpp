@@ -9,6 +9,7 @@
 #include "core/trace/columns.hpp"
 #include "core/trace/trace_header.hpp"
 #include "tests/bench/cli/program.hpp"
+#include "tests/bench/forensics/python_with_h5py.hpp"
 #include "validation/judge.hpp"
 
 namespace broadside::tests {
@@ -92,17 +93,10 @@ TEST(ForeignPage, SaysForEachValidatorWhatItReads) {
   for (const auto& [name, row] : rows) ADD_FAILURE() << "there is no validator " << name;
 }
 
-// A Python that has h5py and numpy; "" when none is here.
-std::string python() {
-  for (const char* name : {"/usr/bin/python3", "python3"})
-    if (std::system((std::string(name) + " -c 'import h5py, numpy' >/dev/null 2>&1").c_str()) == 0) return name;
-  return "";
-}
-
 class ForeignEngine : public testing::Test {
  protected:
   void SetUp() override {
-    python_ = python();
+    python_ = python_with_h5py();
     if (python_.empty()) GTEST_SKIP() << "no Python with h5py and numpy here (Debian: python3-h5py)";
   }
   std::string written(const std::string& fault) const {
