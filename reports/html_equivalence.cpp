@@ -1,4 +1,5 @@
 // Equivalence cards and known defects on the page.
+#include "reports/declared.hpp"
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
@@ -40,10 +41,11 @@ std::string defects_html(const std::vector<DefectRow>& rows) {
 std::string equivalence_section(const SceneView& scene) {
   const std::vector<EngineCard> cards = cards_of(scene);
   const std::vector<DefectRow> defects = defects_of(scene);
-  if (cards.empty() && defects.empty()) return "";
+  const std::string declared = declared_html(scene);
+  if (cards.empty() && defects.empty() && declared.empty()) return "";
   std::string out = "<section><h3>Is it the same scene?</h3>";
   for (const EngineCard& card : cards) out += card_html(card);
-  return out + defects_html(defects) + "</section>";
+  return out + declared + defects_html(defects) + "</section>";
 }
 
 }  // namespace broadside::reports

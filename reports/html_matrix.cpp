@@ -14,6 +14,24 @@ std::string fact(std::string_view name, const std::string& value) {
   return "<div><dt>" + std::string(name) + "</dt><dd>" + html(value) + "</dd></div>";
 }
 
+// The laws that a verdict sums up, each with its own worst place and counts.
+std::string parts_html(const core::Verdict& verdict) {
+  if (verdict.parts.empty()) return "";
+  std::string out = "<ul class=\"parts\">";
+  for (const core::Verdict& part : verdict.parts) {
+    out += "<li>" + outcome_html(part.outcome, true) + " <b>" + html(part.validator) + "</b> ";
+    if (part.outcome == core::Outcome::kFail) {
+      const Compared values = compared(part.measured, part.limit, part.unit);
+      out += counted(part.violations) + " of " + counted(part.checked) + ", worst at " + html(place_text(part.worst)) +
+             ": " + html(values.measured) + " where " + html(values.limit) + " is allowed";
+    } else {
+      out += part.checked > 0 ? "all " + counted(part.checked) : html(part.explanation);
+    }
+    out += "</li>";
+  }
+  return out + "</ul>";
+}
+
 // Everything known about one verdict.
 std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, const PageParts& page) {
   const std::string& label = trace.label;
@@ -26,7 +44,7 @@ std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, c
     const Compared values = compared(verdict.measured, verdict.limit, verdict.unit);
     out += "<dl>" + fact("measured", values.measured) + fact("limit", values.limit) + fact("origin", verdict.origin) +
            fact("worst at", place_text(verdict.worst)) + fact("checked", counted(verdict.checked)) +
-           fact("violations", counted(verdict.violations)) + "</dl>" +
+           fact("violations", counted(verdict.violations)) + "</dl>" + parts_html(verdict) +
            to_view_button(page, trace.stamp, trace.trace_file, verdict);
   }
   return out + "</section>";
@@ -188,7 +206,8 @@ std::string findings_section(PageParts& page) {
            counted(verdict.violations) + "<small>of " + counted(verdict.checked) + "</small></td></tr>";
     out += "<tr class=\"why\"><td colspan=\"6\">" + html(verdict.explanation);
     if (!verdict.origin.empty()) out += " <span class=\"origin\">Limit: " + html(verdict.origin) + "</span>";
-    out += to_view_button(page, finding.trace->stamp, finding.trace->trace_file, verdict) + "</td></tr>";
+    out += parts_html(verdict) + to_view_button(page, finding.trace->stamp, finding.trace->trace_file, verdict) +
+           "</td></tr>";
   }
   return out + "</tbody></table></section>";
 }
