@@ -156,7 +156,10 @@ void read(const Node& node, Cell& cell) {
   for (const auto& [key, value] : node.at("notes").members()) cell.notes[key] = value.text();
 }
 
-void read(const Node& node, Verdict& verdict) {
+// Parts have no parts: a file cannot nest them deeper than the program writes them.
+enum class Depth { kWhole, kPart };
+
+void read(const Node& node, Verdict& verdict, Depth depth = Depth::kWhole) {
   verdict.validator = node.at("validator").text();
   verdict.outcome = word_of<Outcome>(node.at("outcome"), kOutcomes, [](Outcome o) { return outcome_word(o); });
   verdict.measured = node.at("measured").number();
@@ -177,8 +180,8 @@ void read(const Node& node, Verdict& verdict) {
     verdict.kind = word_of<LawKind>(node.at("kind"), kLawKinds, [](LawKind k) { return law_kind_word(k); });
   if (node.has("ties_motion_to_forces")) verdict.ties_motion_to_forces = node.at("ties_motion_to_forces").flag();
   if (node.has("moved")) verdict.moved = node.at("moved").count();
-  if (node.has("parts"))
-    for (const Node& part : node.at("parts").items()) read(part, verdict.parts.emplace_back());
+  if (depth == Depth::kWhole && node.has("parts"))
+    for (const Node& part : node.at("parts").items()) read(part, verdict.parts.emplace_back(), Depth::kPart);
 }
 
 void read(const Node& node, CellVerdicts& cell) {

@@ -44,7 +44,7 @@ constexpr LawPicture kPictures[] = {
        // Nothing goes through a wall between two frames.
        LawSketch s;
        s.box({56, 6}, 8, 60).ball({24, 36}, 9).ball({98, 36}, 9, Ink::kGhost).arrow({34, 36}, {86, 36}, Ink::kWrong);
-       return s.no({60, 36});
+       return s.no({60, 14});
      }},
     {"box-contains",
      [] {

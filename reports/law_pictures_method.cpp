@@ -38,7 +38,7 @@ constexpr LawPicture kPictures[] = {
        // The depth shrinks by one factor, never below the slop.
        LawSketch s;
        s.box({14, 12}, 20, 48).box({50, 30}, 20, 30).box({86, 41}, 20, 19);
-       return s.line({8, 50}, {112, 50}, Ink::kForce).text({24, 70}, "d", Ink::kLine).text({108, 46}, "\xCE\xB4");
+       return s.line({8, 50}, {112, 50}, Ink::kForce).text({24, 70}, "d", Ink::kLine).text({114, 47}, "\xCE\xB4");
      }},
     {"center-of-mass",
      [] {
@@ -65,14 +65,14 @@ constexpr LawPicture kPictures[] = {
      [] {
        // Against the sliding, and no more than mu times the normal impulse.
        LawSketch s;
-       s.ground(56).box({38, 26}, 40, 30).arrow({82, 40}, {106, 40}, Ink::kLine).arrow({58, 56}, {30, 56});
-       return s.text({96, 34}, "v", Ink::kLine).text({22, 50}, "J");
+       s.ground(56).box({38, 26}, 40, 30).arrow({82, 40}, {106, 40}, Ink::kLine).arrow({38, 50}, {14, 50});
+       return s.text({96, 34}, "v", Ink::kLine).text({24, 44}, "J");
      }},
     {"energy",
      [] {
        // The parts add up to the change.
        LawSketch s;
-       s.box({18, 18}, 24, 16).box({18, 34}, 24, 10, Ink::kGhost).box({18, 44}, 24, 16).box({78, 18}, 24, 42);
+       s.box({18, 18}, 24, 16).box({18, 34}, 24, 10).box({18, 44}, 24, 16).box({78, 18}, 24, 42);
        return s.text({60, 43}, "=", Ink::kForce);
      }},
     {"velocity-cap",

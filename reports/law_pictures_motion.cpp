@@ -18,7 +18,7 @@ constexpr LawPicture kPictures[] = {
        // The body turns by h times its angular velocity.
        LawSketch s;
        s.box({34, 24}, 48, 22, Ink::kGhost).box({34, 24}, 48, 22, Ink::kBody, -35);
-       return s.turn({58, 35}, 32, 0, -35).text({100, 22}, "h \xCF\x89");
+       return s.turn({58, 35}, 32, 0, -35).text({104, 18}, "h \xCF\x89");
      }},
     {"gyroscopic",
      [] {
@@ -33,8 +33,8 @@ constexpr LawPicture kPictures[] = {
      [] {
        // What one gains, the other loses.
        LawSketch s;
-       s.ball({38, 34}, 18).ball({76, 34}, 18).dot({57, 34}).arrow({54, 62}, {18, 62}).arrow({60, 62}, {98, 62});
-       return s.text({22, 56}, "-J").text({94, 56}, "J");
+       s.ball({41, 30}, 16).ball({73, 30}, 16).dot({57, 30}).arrow({54, 62}, {18, 62}).arrow({60, 62}, {98, 62});
+       return s.text({14, 56}, "-J").text({102, 56}, "J");
      }},
     {"angular-momentum",
      [] {
@@ -44,7 +44,7 @@ constexpr LawPicture kPictures[] = {
            .dot({56, 37}, Ink::kLine)
            .line({56, 37}, {84, 37}, Ink::kForce)
            .arrow({84, 68}, {84, 48});
-       return s.turn({56, 37}, 22, -20, -110).text({94, 64}, "J").text({70, 33}, "r");
+       return s.turn({56, 37}, 22, -20, -110).text({94, 64}, "J").text({76, 34}, "r");
      }},
     {"energy-growth",
      [] {

@@ -23,11 +23,8 @@ constexpr LawPicture kPictures[] = {
      [] {
        // A state follows from the one before; it cannot be no number.
        LawSketch s;
-       s.box({10, 22}, 26, 26).arrow({40, 35}, {62, 35}).box({66, 22}, 26, 26);
-       return s.text({23, 62}, "k", Ink::kLine)
-           .text({79, 62}, "k + 1", Ink::kLine)
-           .text({106, 39}, "NaN", Ink::kLine)
-           .no({106, 35});
+       s.box({8, 22}, 26, 26).arrow({38, 35}, {56, 35}).box({60, 22}, 26, 26).text({103, 54}, "NaN", Ink::kLine);
+       return s.text({21, 62}, "k", Ink::kLine).text({73, 62}, "k + 1", Ink::kLine).no({103, 34});
      }},
     {"recording",
      [] {

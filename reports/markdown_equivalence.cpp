@@ -25,6 +25,7 @@ std::string declared_block(const SceneView& scene) {
     rule += " --- |";
   }
   out += rule + "\n";
+  bool is_empty = true;
   for (std::size_t k = 0; k < table.keys.size(); ++k) {
     std::string row = "| " + text(table.keys[k]) + " |";
     bool any = false;
@@ -33,8 +34,12 @@ std::string declared_block(const SceneView& scene) {
       row += " " + text(column.values[k].empty() ? undeclared_text(table.defaults[k]) : column.values[k]) + " |";
     }
     if (any) out += row + "\n";
+    is_empty = is_empty && !any;
   }
-  return out;
+  if (!is_empty) return out;
+  out += "| every key |";
+  for (std::size_t k = 0; k < table.columns.size(); ++k) out += " not declared |";
+  return out + "\n";
 }
 
 }  // namespace
