@@ -37,6 +37,10 @@ struct CellVerdicts {
   std::string trace_file;
   Stamp stamp;
   std::vector<Verdict> verdicts;
+  // Whether the engine moved the bodies itself, so that its motion has something to prove; false where it was fed, and
+  // in rows of builds that did not tell.
+  bool is_simulation = false;
+  std::map<std::string, std::string> declaration;  // what the engine declared of itself, by key
 };
 
 struct RunRows {

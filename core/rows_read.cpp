@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/coverage.hpp"
 #include "core/rows.hpp"
 #include "core/whole_file.hpp"
 
@@ -43,6 +44,11 @@ class Node {
   [[nodiscard]] std::string text() const {
     if (!json_.is_string()) reject("is not text");
     return json_.get<std::string>();
+  }
+
+  [[nodiscard]] bool flag() const {
+    if (!json_.is_boolean()) reject("is neither true nor false");
+    return json_.get<bool>();
   }
 
   [[nodiscard]] std::uint64_t count() const {
@@ -150,7 +156,10 @@ void read(const Node& node, Cell& cell) {
   for (const auto& [key, value] : node.at("notes").members()) cell.notes[key] = value.text();
 }
 
-void read(const Node& node, Verdict& verdict) {
+// Parts have no parts: a file cannot nest them deeper than the program writes them.
+enum class Depth { kWhole, kPart };
+
+void read(const Node& node, Verdict& verdict, Depth depth = Depth::kWhole) {
   verdict.validator = node.at("validator").text();
   verdict.outcome = word_of<Outcome>(node.at("outcome"), kOutcomes, [](Outcome o) { return outcome_word(o); });
   verdict.measured = node.at("measured").number();
@@ -165,12 +174,23 @@ void read(const Node& node, Verdict& verdict) {
   verdict.checked = node.at("checked").count();
   verdict.violations = node.at("violations").count();
   verdict.baseline = node.at("baseline").text();
+  // Rows of earlier builds end here.
+  if (node.has("law")) verdict.law = node.at("law").text();
+  if (node.has("kind"))
+    verdict.kind = word_of<LawKind>(node.at("kind"), kLawKinds, [](LawKind k) { return law_kind_word(k); });
+  if (node.has("ties_motion_to_forces")) verdict.ties_motion_to_forces = node.at("ties_motion_to_forces").flag();
+  if (node.has("moved")) verdict.moved = node.at("moved").count();
+  if (depth == Depth::kWhole && node.has("parts"))
+    for (const Node& part : node.at("parts").items()) read(part, verdict.parts.emplace_back(), Depth::kPart);
 }
 
 void read(const Node& node, CellVerdicts& cell) {
   cell.trace_file = node.at("trace_file").text();
   read(node.at("stamp"), cell.stamp);
   for (const Node& item : node.at("verdicts").items()) read(item, cell.verdicts.emplace_back());
+  if (node.has("is_simulation")) cell.is_simulation = node.at("is_simulation").flag();
+  if (node.has("declaration"))
+    for (const auto& [key, value] : node.at("declaration").members()) cell.declaration[key] = value.text();
 }
 
 void read(const Node& node, Sample& sample) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/coverage.hpp"
 #include "core/rows.hpp"
 #include "core/whole_file.hpp"
 
@@ -55,8 +56,16 @@ Json to_json(const Cell& cell) {
               {"notes", std::move(notes)}};
 }
 
+Json to_json(const Verdict& verdict);
+
+Json all_of(const std::vector<Verdict>& verdicts) {
+  Json array = Json::array();
+  for (const Verdict& verdict : verdicts) array.push_back(to_json(verdict));
+  return array;
+}
+
 Json to_json(const Verdict& verdict) {
-  return Json{
+  Json json{
       {"validator", verdict.validator},
       {"outcome", std::string(outcome_word(verdict.outcome))},
       {"measured", number(verdict.measured)},
@@ -67,13 +76,29 @@ Json to_json(const Verdict& verdict) {
       {"worst", Json{{"step", verdict.worst.step}, {"bodies", verdict.worst.bodies}, {"field", verdict.worst.field}}},
       {"checked", verdict.checked},
       {"violations", verdict.violations},
-      {"baseline", verdict.baseline}};
+      {"baseline", verdict.baseline},
+      {"law", verdict.law},
+      {"kind", std::string(law_kind_word(verdict.kind))},
+      {"ties_motion_to_forces", verdict.ties_motion_to_forces},
+      {"moved", verdict.moved}};
+  if (!verdict.parts.empty()) json["parts"] = all_of(verdict.parts);
+  return json;
+}
+
+Json to_json(const LawCount& count) {
+  return Json{{"applied", count.applied}, {"laws", count.laws}};
 }
 
 Json to_json(const CellVerdicts& cell) {
-  Json verdicts = Json::array();
-  for (const Verdict& verdict : cell.verdicts) verdicts.push_back(to_json(verdict));
-  return Json{{"trace_file", cell.trace_file}, {"stamp", to_json(cell.stamp)}, {"verdicts", std::move(verdicts)}};
+  Json coverage = Json::object();
+  const Coverage counts = coverage_of(cell.verdicts);
+  for (std::size_t k = 0; k < kLawKinds.size(); ++k)
+    coverage[std::string(law_kind_word(kLawKinds[k]))] = to_json(counts.counts[k]);
+  Json declaration = Json::object();
+  for (const auto& [key, text] : cell.declaration) declaration[key] = text;
+  return Json{{"trace_file", cell.trace_file},       {"stamp", to_json(cell.stamp)},
+              {"is_simulation", cell.is_simulation}, {"declaration", std::move(declaration)},
+              {"coverage", std::move(coverage)},     {"verdicts", all_of(cell.verdicts)}};
 }
 
 Json to_json(const Sample& sample) {

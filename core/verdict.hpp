@@ -39,6 +39,25 @@ constexpr int severity(Outcome o) {
   return 3;
 }
 
+// What a law is about. Coverage is counted by it.
+enum class LawKind {
+  kTrace,      // the record itself: pairs, digests, states that can be
+  kMethod,     // the published method, of traces that declare it
+  kMechanics,  // rigid bodies, of any engine
+};
+
+constexpr std::string_view law_kind_word(LawKind k) {
+  switch (k) {
+    case LawKind::kTrace:
+      return "trace";
+    case LawKind::kMethod:
+      return "method";
+    case LawKind::kMechanics:
+      return "mechanics";
+  }
+  return "unknown";
+}
+
 // Where the measured value was worst.
 struct Place {
   std::int64_t step = -1;             // the frame's step; -1 = no single frame
@@ -58,6 +77,20 @@ struct Verdict {
   std::uint64_t checked = 0;  // how many things were judged
   std::uint64_t violations = 0;
   std::string baseline;  // label of the trace that this was judged against; empty = alone
+
+  std::string law;  // what holds, one sentence
+  LawKind kind = LawKind::kTrace;
+  // Whether the law says how forces move bodies; and how many of the things that were judged were bodies that moved. A
+  // time counts only where such a law passed on one.
+  bool ties_motion_to_forces = false;
+  std::uint64_t moved = 0;
+  // The laws that this verdict sums up, where they are several; each has its own worst place and counts.
+  std::vector<Verdict> parts;
 };
+
+// Whether it ties the motion of at least one body that moved to the forces on it.
+inline bool proves_motion(const Verdict& v) {
+  return v.ties_motion_to_forces && v.outcome == Outcome::kPass && v.moved > 0;
+}
 
 }  // namespace broadside::core

@@ -34,6 +34,22 @@ std::string at_place(const core::Place& place) {
   return place.step < 0 && place.bodies.empty() ? "" : " (worst at " + place_text(place) + ")";
 }
 
+// Why no law proved the motion: what each law that could have done so met instead.
+std::string why_unproven(const core::Stamp& stamp, const core::RunRows& rows) {
+  std::string text;
+  for (const core::CellVerdicts& cell : rows.verdicts) {
+    if (!same_stamp(cell.stamp, stamp)) continue;
+    for (const core::Verdict& verdict : cell.verdicts) {
+      if (!verdict.ties_motion_to_forces || text.find(verdict.validator + ": ") != std::string::npos) continue;
+      text += (text.empty() ? "" : "; ") + verdict.validator + ": ";
+      text += verdict.outcome == core::Outcome::kNotApplicable ? verdict.explanation
+              : verdict.outcome == core::Outcome::kPass        ? "tied no body that moved to forces"
+                                                               : std::string(core::outcome_word(verdict.outcome));
+    }
+  }
+  return "nothing of its motion was proven (" + (text.empty() ? "no law of motion was asked for" : text) + ")";
+}
+
 }  // namespace
 
 bool same_stamp(const core::Stamp& a, const core::Stamp& b) {
@@ -64,10 +80,14 @@ Admission admit(const core::Sample& sample, const core::RunRows& rows) {
   if (!is_recorded) return {.reason = why_no_cell(sample, rows)};
 
   std::uint64_t passed = 0;
+  bool has_motion = false;
+  bool is_motion_proven = false;
   std::string caveat;
   for (const core::CellVerdicts& cell : rows.verdicts) {
     if (!same_stamp(cell.stamp, sample.stamp)) continue;
+    has_motion |= cell.is_simulation;
     for (const core::Verdict& verdict : cell.verdicts) {
+      is_motion_proven |= core::proves_motion(verdict);
       if (verdict.outcome == core::Outcome::kFail)
         return {.reason = verdict.validator + " failed on this stamp" + at_place(verdict.worst)};
       if (verdict.outcome == core::Outcome::kPass) ++passed;
@@ -76,6 +96,7 @@ Admission admit(const core::Sample& sample, const core::RunRows& rows) {
     }
   }
   if (passed == 0) return {.reason = "nothing was proven: no validator passed on this stamp"};
+  if (has_motion && !is_motion_proven) return {.reason = why_unproven(sample.stamp, rows)};
 
   const std::string step = std::to_string(sample.final_step);
   if (!has_frame)

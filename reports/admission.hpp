@@ -18,9 +18,10 @@ struct Admission {
 bool same_stamp(const core::Stamp& a, const core::Stamp& b);
 
 // Admitted when, in these rows, (1) a cell of the same stamp was recorded, (2) at least one verdict on that stamp
-// passed and none failed, and (3) the digest of the cell's recorded frame at sample.final_step equals
-// sample.final_digest, so that the timed run reached the very state that was judged. The reason names the first of
-// these that does not hold.
+// passed and none failed, (3) where the engine moved the bodies itself, a law that ties motion to forces passed on a
+// body that moved, because an engine that does nothing breaks few other laws, and (4) the digest of the cell's recorded
+// frame at sample.final_step equals sample.final_digest, so that the timed run reached the very state that was judged.
+// The reason names the first of these that does not hold.
 Admission admit(const core::Sample& sample, const core::RunRows& rows);
 
 }  // namespace broadside::reports

@@ -54,10 +54,10 @@ struct AgreementHistograms {
 // "distance" and "normal"; empty for the one that no cell has.
 std::vector<std::pair<std::string, AgreementHistograms>> agreement_histograms_of(const SceneView& scene);
 
-// Cards and defects as escaped HTML; empty when no cell of the scene says anything of the kind.
+// Cards, declarations and defects as escaped HTML; empty when no cell of the scene says anything of the kind.
 std::string equivalence_section(const SceneView& scene);
 
-// Escaped Markdown blocks: differences alone, defects that were met, the agreement table.
+// Escaped Markdown blocks: differences alone, declarations, defects that were met, the agreement table.
 std::vector<std::string> equivalence_markdown(const SceneView& scene);
 
 }  // namespace broadside::reports

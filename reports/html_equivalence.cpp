@@ -1,4 +1,5 @@
 // Equivalence cards and known defects on the page.
+#include "reports/declared.hpp"
 #include "reports/element.hpp"
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
@@ -40,10 +41,11 @@ std::string defects_html(const std::vector<DefectRow>& defects) {
 std::string equivalence_section(const SceneView& scene) {
   const std::vector<EngineCard> cards = cards_of(scene);
   const std::vector<DefectRow> defects = defects_of(scene);
-  if (cards.empty() && defects.empty()) return "";
+  const std::string declared = declared_html(scene);
+  if (cards.empty() && defects.empty() && declared.empty()) return "";
   std::string out;
   for (const EngineCard& card : cards) out += card_html(card);
-  return element("section", element("h3", "Is it the same scene?"), out, defects_html(defects));
+  return element("section", element("h3", "Is it the same scene?"), out, declared, defects_html(defects));
 }
 
 }  // namespace broadside::reports

@@ -139,8 +139,8 @@ std::string legend_section(PageParts&) {
                  "so many verdicts: alone and against baselines; the gravest is shown, the place lists all") +
       fact_entry("struck out",
                  "A time counts only when a recording of the same scene, engine, settings, build and machine exists, "
-                 "at least one verdict on it passed and none failed, and the timed run ended in the recorded state, "
-                 "bit by bit.") +
+                 "at least one verdict on it passed and none failed, a law tied a motion of the engine to forces, "
+                 "and the timed run ended in the recorded state, bit by bit.") +
       fact_entry("spread", "distance of the quartiles over the median, over all timed frames") +
       fact_entry("FPS", "frames over their total time, per run; mean and standard deviation over runs");
   return element("section.legend", {{"id", "legend"}}, element("h2", "How to read this page"), element("dl", entries));

@@ -14,6 +14,23 @@ std::string fact(std::string_view name, const std::string& value) {
   return value.empty() ? "" : fact_entry(name, html(value));
 }
 
+// The laws that a verdict sums up, each with its own worst place and counts.
+std::string parts_html(const core::Verdict& verdict) {
+  if (verdict.parts.empty()) return "";
+  std::string items;
+  for (const core::Verdict& part : verdict.parts) {
+    const Compared values = compared(part.measured, part.limit, part.unit);
+    const std::string said = part.outcome == core::Outcome::kFail
+                                 ? counted(part.violations) + " of " + counted(part.checked) + ", worst at " +
+                                       html(place_text(part.worst)) + ": " + html(values.measured) + " where " +
+                                       html(values.limit) + " is allowed"
+                             : part.checked > 0 ? "all " + counted(part.checked)
+                                                : html(part.explanation);
+    items += element("li", outcome_html(part.outcome, true), " ", element("b", html(part.validator)), " ", said);
+  }
+  return element("ul.parts", items);
+}
+
 // Everything known about one verdict.
 std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, const PageParts& page) {
   std::string out = element("h4", outcome_html(verdict.outcome, false), " ", element("span", html(verdict.validator)));
@@ -25,7 +42,7 @@ std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, c
     out += element("dl", fact("measured", values.measured), fact("limit", values.limit), fact("origin", verdict.origin),
                    fact("worst at", place_text(verdict.worst)), fact("checked", counted(verdict.checked)),
                    fact("violations", counted(verdict.violations)));
-    out += to_view_button(page, trace.stamp, trace.trace_file, verdict);
+    out += parts_html(verdict) + to_view_button(page, trace.stamp, trace.trace_file, verdict);
   }
   return element("section.verdict", out);
 }
@@ -175,7 +192,7 @@ std::string findings_section(PageParts& page) {
         text_cell("engine", label + of_scene + against), figure_cell("measured", html(values.measured)),
         figure_cell("limit", html(values.limit)), text_cell("worst at", html(place_text(verdict.worst))),
         figure_cell("violations", counted(verdict.violations) + element("small", "of ", counted(verdict.checked))));
-    rows += element("tr.why", element("td", {{"colspan", "6"}}, html(verdict.explanation), origin,
+    rows += element("tr.why", element("td", {{"colspan", "6"}}, html(verdict.explanation), origin, parts_html(verdict),
                                       to_view_button(page, finding.trace->stamp, finding.trace->trace_file, verdict)));
   }
   return element(

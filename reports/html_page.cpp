@@ -44,12 +44,12 @@ std::string equivalence_part(const SceneView& scene, PageParts&) {
   return equivalence_section(scene);
 }
 
-constexpr ScenePart kSceneParts[] = {matrix_section,   times_section,        side_by_side_section, over_frames_section,
-                                     counts_section,   frame_series_section, agreement_section,    cells_section,
-                                     equivalence_part, facts_section};
+constexpr ScenePart kSceneParts[] = {matrix_section,      coverage_section, times_section,        side_by_side_section,
+                                     over_frames_section, counts_section,   frame_series_section, agreement_section,
+                                     cells_section,       equivalence_part, facts_section};
 constexpr RunPart kPartsBeforeScenes[] = {findings_section, view_section};
-constexpr RunPart kPartsAfterScenes[] = {energy_section,  scaling_section, guest_sections,
-                                         history_section, repeat_section,  legend_section};
+constexpr RunPart kPartsAfterScenes[] = {energy_section, scaling_section, guest_sections, history_section,
+                                         repeat_section, laws_section,    legend_section};
 
 std::string scene_article(const SceneView& scene, PageParts& page) {
   std::string parts = scene_head(scene) + "\n";
@@ -72,6 +72,7 @@ std::string contents(const PageParts& page, const std::string& body) {
   for (const GuestPart& part : page.options.guests) add(part.id, part.title);
   add("history", "Earlier runs");
   add("repeat", "How to repeat");
+  add("laws", "The laws");
   add("legend", "How to read this page");
   return element("nav", {{"aria-label", "Contents"}}, element("ul", items));
 }

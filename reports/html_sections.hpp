@@ -38,11 +38,15 @@ std::string energy_section(PageParts& page);
 std::string history_section(PageParts& page);
 // Commands to copy.
 std::string repeat_section(PageParts& page);
+// What each law says, with a picture.
+std::string laws_section(PageParts& page);
 // What the words and figures mean.
 std::string legend_section(PageParts& page);
 
 // Engines down, validators across; each place opens its verdicts.
 std::string matrix_section(const SceneView& scene, PageParts& page);
+// How many laws met something, and why the others did not.
+std::string coverage_section(const SceneView& scene, PageParts& page);
 // Bars and tables of times; says so when nothing was timed.
 std::string times_section(const SceneView& scene, PageParts& page);
 // Frames per second and stages along the run.

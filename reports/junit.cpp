@@ -35,9 +35,18 @@ std::string one_line(const core::Verdict& verdict) {
   return "measured " + values.measured + ", limit " + values.limit + ", worst at " + place_text(verdict.worst);
 }
 
+// The laws that a verdict sums up and that did not hold, a line each.
+std::string parts_text(const core::Verdict& verdict) {
+  std::string text;
+  for (const core::Verdict& part : verdict.parts)
+    if (part.outcome == core::Outcome::kFail)
+      text += "\n" + part.validator + ": " + one_line(part) + "; " + part.explanation;
+  return text;
+}
+
 std::string whole_text(const core::Verdict& verdict) {
   return verdict.explanation + " (" + std::to_string(verdict.violations) + " violations in " +
-         std::to_string(verdict.checked) + " checked; limit: " + verdict.origin + ")";
+         std::to_string(verdict.checked) + " checked; limit: " + verdict.origin + ")" + parts_text(verdict);
 }
 
 std::string verdict_case(const core::Verdict& verdict, const std::string& class_name, Counts& counts) {
@@ -64,6 +73,20 @@ std::string verdict_case(const core::Verdict& verdict, const std::string& class_
       break;
   }
   return out + "</testcase>\n";
+}
+
+std::string property(std::string_view name, std::string_view value) {
+  return "      <property" + attribute("name", name) + attribute("value", value) + "/>\n";
+}
+
+// Before the cases, as the schema has it.
+std::string properties(const TraceView& trace) {
+  if (!trace.is_judged()) return "";
+  std::string out = property("coverage", core::coverage_text(trace.coverage()));
+  if (trace.is_simulation)
+    out += property("motion", trace.has_proven_motion() ? "proven" : "nothing of its motion was proven");
+  for (const auto& [key, text] : trace.declaration) out += property("declaration." + key, text);
+  return "    <properties>\n" + out + "    </properties>\n";
 }
 
 std::string recorded_case(const TraceView& trace, const std::string& class_name, Counts& counts) {
@@ -107,7 +130,7 @@ std::string junit_xml(const core::RunRows& rows, const ReportOptions& options) {
       const double wall_s = trace.cell != nullptr ? trace.cell->wall_s : 0.0;
       suites += "  <testsuite" + attribute("name", name) + attributes(counts) + attribute("time", seconds_text(wall_s));
       if (!options.generated_at.empty()) suites += attribute("timestamp", options.generated_at);
-      suites += ">\n" + cases + "  </testsuite>\n";
+      suites += ">\n" + properties(trace) + cases + "  </testsuite>\n";
       total.tests += counts.tests;
       total.failures += counts.failures;
       total.errors += counts.errors;

@@ -130,6 +130,24 @@ void add_matrix(Comment& comment, const SceneView& scene) {
   comment.add_rows("\n### " + name(scene.name) + "\n" + head_of(head, head.size()), rows);
 }
 
+// How many laws applied, and why the others did not.
+void add_coverage(Comment& comment, const SceneView& scene) {
+  std::vector<std::string> rows;
+  for (const TraceView& trace : scene.traces) {
+    if (!trace.is_judged()) continue;
+    std::string others;
+    for (const core::Verdict* verdict : trace.not_applied())
+      others += (others.empty() ? "" : "; ") + verdict->validator + ": " + verdict->explanation;
+    const std::string motion = !trace.is_simulation        ? "it moved nothing itself"
+                               : trace.has_proven_motion() ? "proven"
+                                                           : "**nothing of its motion was proven**";
+    rows.push_back(row_of({name(trace.label), core::coverage_text(trace.coverage()), motion,
+                           others.empty() ? "none" : markdown(clipped(printable(others), 2000))}));
+  }
+  comment.add_rows("\n#### How much was judged\n" + head_of({"engine", "coverage", "motion", "did not apply"}, 4),
+                   rows);
+}
+
 void add_times(Comment& comment, const SceneView& scene) {
   if (scene.timings.empty()) {
     comment.add("\nTimes: not measured.\n");
@@ -180,6 +198,7 @@ std::string markdown_text(const core::RunRows& rows, const ReportOptions& option
   add_failures(comment, scenes);
   for (const SceneView& scene : scenes) {
     add_matrix(comment, scene);
+    add_coverage(comment, scene);
     add_times(comment, scene);
     for (const std::string& block : equivalence_markdown(scene)) comment.add(block);
     add_machine(comment, scene);

@@ -1,4 +1,5 @@
 // Equivalence, known defects and agreement as Markdown.
+#include "reports/declared.hpp"
 #include "reports/equivalence.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
@@ -9,6 +10,36 @@ namespace {
 
 std::string text(std::string_view raw) {
   return markdown(clipped(printable(raw), 300));
+}
+
+// Keys that no engine declared are left out; the page has them.
+std::string declared_block(const SceneView& scene) {
+  const DeclaredTable table = declared_table(scene);
+  if (table.columns.empty()) return "";
+  std::string out = "\n#### What engines declare of themselves\n\n| declared |";
+  std::string rule = "\n| --- |";
+  for (const DeclaredColumn& column : table.columns) {
+    std::string labels;
+    for (const std::string& label : column.labels) labels += (labels.empty() ? "" : ", ") + label;
+    out += " " + text(labels) + " |";
+    rule += " --- |";
+  }
+  out += rule + "\n";
+  bool is_empty = true;
+  for (std::size_t k = 0; k < table.keys.size(); ++k) {
+    std::string row = "| " + text(table.keys[k]) + " |";
+    bool any = false;
+    for (const DeclaredColumn& column : table.columns) {
+      any = any || !column.values[k].empty();
+      row += " " + text(column.values[k].empty() ? undeclared_text(table.defaults[k]) : column.values[k]) + " |";
+    }
+    if (any) out += row + "\n";
+    is_empty = is_empty && !any;
+  }
+  if (!is_empty) return out;
+  out += "| every key |";
+  for (std::size_t k = 0; k < table.columns.size(); ++k) out += " not declared |";
+  return out + "\n";
 }
 
 }  // namespace
@@ -42,6 +73,7 @@ std::vector<std::string> equivalence_markdown(const SceneView& scene) {
         "\n#### Where engines differ from the scene\n\n| engine | property | this engine | the scene asks for |\n| --- "
         "| --- | --- | --- |\n" +
         differences);
+  if (const std::string declared = declared_block(scene); !declared.empty()) blocks.push_back(declared);
   std::string met;
   for (const auto& [label, d] : defects_of(scene))
     met += "| " + text(label) + " | " + text(d.library) + " | " + text(d.upstream) + " | " + text(d.predicate) + " | " +

@@ -35,6 +35,8 @@ bool says_the_same(const core::Verdict& a, const core::Verdict& b) {
 }
 
 void add_verdicts(SceneView& scene, TraceView& trace, const core::CellVerdicts& judged) {
+  trace.is_simulation = trace.is_simulation || judged.is_simulation;
+  trace.declaration.insert(judged.declaration.begin(), judged.declaration.end());
   for (const core::Verdict& verdict : judged.verdicts) {
     add_once(scene.validators, verdict.validator);
     add_once(trace.baselines, verdict.baseline);
@@ -87,6 +89,25 @@ std::map<std::string, std::string> shared_notes(const SceneView& scene) {
 
 bool TraceView::is_judged() const {
   return std::any_of(verdicts.begin(), verdicts.end(), [](const auto& said) { return !said.empty(); });
+}
+
+core::Coverage TraceView::coverage() const {
+  std::vector<const core::Verdict*> all;
+  for (const auto& said : verdicts) all.insert(all.end(), said.begin(), said.end());
+  return core::coverage_of(all);
+}
+
+bool TraceView::has_proven_motion() const {
+  return std::any_of(verdicts.begin(), verdicts.end(), [](const auto& said) {
+    return std::any_of(said.begin(), said.end(), [](const core::Verdict* v) { return core::proves_motion(*v); });
+  });
+}
+
+std::vector<const core::Verdict*> TraceView::not_applied() const {
+  std::vector<const core::Verdict*> out;
+  for (const auto& said : verdicts)
+    if (!said.empty() && said.front()->outcome == core::Outcome::kNotApplicable) out.push_back(said.front());
+  return out;
 }
 
 std::string TraceView::absence() const {

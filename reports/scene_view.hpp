@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/coverage.hpp"
 #include "core/rows.hpp"
 #include "reports/timing.hpp"
 
@@ -21,7 +22,15 @@ struct TraceView {
   // judged against two baselines has its verdicts without a baseline twice). Empty = no verdict.
   std::vector<std::vector<const core::Verdict*>> verdicts;
 
+  bool is_simulation = false;                      // its motion has something to prove
+  std::map<std::string, std::string> declaration;  // what the engine declared of itself
+
   [[nodiscard]] bool is_judged() const;
+  [[nodiscard]] core::Coverage coverage() const;
+  // Whether a law that ties motion to forces passed on a body that moved.
+  [[nodiscard]] bool has_proven_motion() const;
+  // The laws that met nothing, each with the reason.
+  [[nodiscard]] std::vector<const core::Verdict*> not_applied() const;
   // Text for the cells of a line that has no verdict: "not measured: no device", "recorded, not judged".
   [[nodiscard]] std::string absence() const;
 };

@@ -62,6 +62,14 @@ std::string name_of(const TraceView& trace) {
   return text;
 }
 
+// "9 of 14 laws of mechanics applied, 5 of 7 of the trace", and whether that proves a motion.
+std::string coverage_lines(const TraceView& trace, const std::string& before) {
+  if (!trace.is_judged()) return "";
+  const std::string text = before + core::coverage_text(trace.coverage());
+  return trace.is_simulation && !trace.has_proven_motion() ? text + "\n" + before + "nothing of its motion was proven\n"
+                                                           : text + "\n";
+}
+
 std::string one_trace(const SceneView& scene, const TraceView& trace) {
   std::vector<Line> lines{{"validator", "verdict", "measured", "limit", "worst at"}};
   for (std::size_t c = 0; c < scene.validators.size(); ++c) {
@@ -76,7 +84,7 @@ std::string one_trace(const SceneView& scene, const TraceView& trace) {
                        clipped(printable(values.limit), 14), printable(place_text(verdict->worst))});
     }
   }
-  return printable(scene.name) + ": " + name_of(trace) + "\n" + table(lines);
+  return printable(scene.name) + ": " + name_of(trace) + "\n" + table(lines) + coverage_lines(trace, "");
 }
 
 // Blocks of as many traces as fit beside the validators' names.
@@ -104,9 +112,19 @@ std::string matrix(const SceneView& scene) {
       lines.push_back(std::move(line));
     }
     text += table(lines);
+    for (std::size_t t = first; t < last; ++t)
+      text += coverage_lines(scene.traces[t], "[" + std::to_string(t + 1) + "] ");
     if (last < scene.traces.size()) text += "\n";
   }
   return printable(scene.name) + "\n" + text;
+}
+
+// Of a law that a failed verdict sums up.
+std::string part_line(const std::string& label, const core::Verdict& whole, const core::Verdict& part) {
+  const Compared values = compared(part.measured, part.limit, part.unit);
+  return label + ": " + whole.validator + ", " + part.validator + ": " + std::to_string(part.violations) + " of " +
+         std::to_string(part.checked) + " FAIL: measured " + values.measured + ", limit " + values.limit + ", at " +
+         place_text(part.worst) + " (limit: " + part.origin + ")";
 }
 
 }  // namespace
@@ -150,6 +168,9 @@ std::string failure_lines(const std::vector<core::CellVerdicts>& verdicts) {
       if (!verdict.explanation.empty()) line += "; " + verdict.explanation;
       if (!verdict.origin.empty()) line += " (limit: " + verdict.origin + ")";
       text += printable(line) + "\n";
+      for (const core::Verdict& part : verdict.parts)
+        if (part.outcome == core::Outcome::kFail)
+          text += printable(part_line(cell.stamp.label(), verdict, part)) + "\n";
     }
   }
   return text;

@@ -11,14 +11,16 @@ namespace broadside::reports {
 constexpr std::size_t kTerminalColumns = 100;
 
 // One trace: a line per validator with outcome, measured value, limit and place. Several: validators down, traces
-// across under numbers that a list explains. Ends with a newline; "no verdicts" when there are none.
+// across under numbers that a list explains. Below it, how many laws applied. Ends with a newline; "no verdicts" when
+// there are none.
 std::string verdict_table(const std::vector<core::CellVerdicts>& verdicts);
 
 // One line per cell: engine, state, frames, wall time, and why it is absent or where its trace is.
 std::string cell_table(const std::vector<core::Cell>& cells);
 
 // For each failed or inconclusive verdict: label, validator, measured value, limit, step, bodies, origin, in one line
-// each (as long as it needs to be: people search these lines). Empty when there is none.
+// each (as long as it needs to be: people search these lines). A verdict that sums up several laws is followed by a
+// line for each of them that was broken. Empty when there is none.
 std::string failure_lines(const std::vector<core::CellVerdicts>& verdicts);
 
 }  // namespace broadside::reports

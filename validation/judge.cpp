@@ -20,8 +20,7 @@ constexpr std::uint64_t kFramesPerReport = 50;
 
 // One row of the pass: a running validator, or the verdict that says why it did not run.
 struct Entry {
-  bool compares_scenes = false;
-  bool reads_motion = false;
+  const ValidatorRow* row = nullptr;
   std::unique_ptr<Validator> validator;
   core::Verdict verdict;
 };
@@ -63,8 +62,7 @@ std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& opti
     if (!options.only.empty() && std::find(options.only.begin(), options.only.end(), row.name) == options.only.end())
       continue;
     Entry entry;
-    entry.compares_scenes = row.compares_scenes;
-    entry.reads_motion = row.reads_motion;
+    entry.row = &row;
     const Subject& seen = row.compares_scenes ? subject : alone;
     entry.verdict.validator = row.name;
     entry.verdict.explanation = row.why_not(seen);
@@ -78,6 +76,16 @@ std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& opti
   groups &= subject.header.groups;
   baseline_groups &= subject.baseline != nullptr ? subject.baseline->groups : 0;
   return entries;
+}
+
+core::Verdict conclude(Entry& entry) {
+  core::Verdict verdict = entry.validator ? entry.validator->conclude() : std::move(entry.verdict);
+  verdict.law = entry.row->law;
+  verdict.kind = entry.row->kind;
+  verdict.ties_motion_to_forces = entry.row->ties_motion_to_forces;
+  // Only laws of motion may claim to have proven one.
+  if (!verdict.ties_motion_to_forces) verdict.moved = 0;
+  return verdict;
 }
 
 // Walks the baseline beside the subject: both have rising steps.
@@ -121,7 +129,7 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
   std::vector<Entry> entries = make_entries(facts, options, groups, baseline_groups);
 
   std::optional<MotionReader> motions;
-  if (std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.validator && e.reads_motion; }))
+  if (std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.validator && e.row->reads_motion; }))
     motions.emplace(subject.header);
 
   BaselineFrames baseline_frames(baseline, baseline_groups);
@@ -139,7 +147,7 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
     const Evidence evidence{frame, before, counterpart.value(), motion};
     const Evidence alone{frame, before, is_transformed ? nullptr : evidence.baseline, motion};
     for (Entry& entry : entries)
-      if (entry.validator) entry.validator->look(entry.compares_scenes ? evidence : alone);
+      if (entry.validator) entry.validator->look(entry.row->compares_scenes ? evidence : alone);
     if (options.observe) options.observe(evidence);
     previous = std::move(frame);
     if (options.progress && ((index + 1) % kFramesPerReport == 0 || index + 1 == total))
@@ -147,8 +155,7 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
   }
 
   std::vector<core::Verdict> verdicts;
-  for (Entry& entry : entries)
-    verdicts.push_back(entry.validator ? entry.validator->conclude() : std::move(entry.verdict));
+  for (Entry& entry : entries) verdicts.push_back(conclude(entry));
   return verdicts;
 }
 

@@ -62,6 +62,10 @@ bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initiali
   return agrees(a, b) && agrees(b, a);
 }
 
+bool moves_bodies(const core::TraceHeader& header) {
+  return header.driver.empty() && (header.groups == 0 || has(header, core::Group::kBodies));
+}
+
 bool are_twins(const core::TraceHeader& a, const core::TraceHeader& b) {
   const auto origin = [](const core::TraceHeader& h) {
     return h.declaration.declares("twin_of") ? h.declaration.text("twin_of") : std::string_view(h.stamp.engine);

@@ -22,6 +22,9 @@ std::string_view setting(const core::Stamp& stamp, std::string_view key);
 // keys of their own, such as a device's; then only keys that both have are compared.
 bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initializer_list<std::string_view> but);
 
+// Whether the trace is of an engine that moved the bodies itself: it has states, or digests alone, and was not fed.
+bool moves_bodies(const core::TraceHeader& header);
+
 // Two runs of one engine, or of engines of which one declares that it repeats the other's bits, or both a third's.
 bool are_twins(const core::TraceHeader& a, const core::TraceHeader& b);
 

@@ -38,8 +38,7 @@ std::string body_text(std::uint32_t body) {
   return face < core::kFaceCount ? std::string("the ") + kFaces[face] + " face" : "unknown face";
 }
 
-bool Tally::check(double measured, const Limit& limit, const Where& where,
-                  const std::function<std::string()>& worked) {
+bool Tally::check(double measured, const Limit& limit, const Where& where, const std::function<std::string()>& worked) {
   ++checked_;
   const bool holds = measured <= limit.value;
   if (!holds && violations_++ == 0) first_violation_ = where;
@@ -57,6 +56,23 @@ bool Tally::check(double measured, const Limit& limit, const Where& where,
   return holds;
 }
 
+void Tally::absorb(const Tally& other) {
+  checked_ += other.checked_;
+  undecided_ += other.undecided_;
+  moved_ += other.moved_;
+  if (other.violations_ > 0 && (violations_ == 0 || other.first_violation_.step < first_violation_.step))
+    first_violation_ = other.first_violation_;
+  violations_ += other.violations_;
+  const bool is_worse = other.worst_ratio_ > worst_ratio_;
+  const bool is_earlier = other.worst_ratio_ == worst_ratio_ && other.worst_where_.step < worst_where_.step;
+  if (!is_worse && !is_earlier) return;
+  worst_ratio_ = other.worst_ratio_;
+  worst_measured_ = other.worst_measured_;
+  worst_limit_ = other.worst_limit_;
+  worst_where_ = other.worst_where_;
+  worst_worked_ = other.worst_worked_;
+}
+
 bool Tally::require(bool holds, std::string_view origin, const Where& where) {
   return check(holds ? 0.0 : 1.0, {0.0, "violations", origin}, where);
 }
@@ -67,6 +83,7 @@ core::Verdict Tally::conclude(std::string_view nothing, const std::string& notes
   verdict.origin = origin_;
   verdict.checked = checked_;
   verdict.violations = violations_;
+  verdict.moved = moved_;
   const std::string tail = notes.empty() ? "" : "; " + notes;
   if (checked_ == 0) {
     verdict.outcome = undecided_ > 0 ? core::Outcome::kInconclusive : core::Outcome::kNotApplicable;

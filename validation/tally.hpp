@@ -55,6 +55,10 @@ class Tally {
   bool require(bool holds, std::string_view origin, const Where& where);
   // The law applies here, but rounding alone decides the answer.
   void leave_undecided() { ++undecided_; }
+  // What was just judged was a body that moved (Verdict::moved).
+  void note_moved() { ++moved_; }
+  // Takes over what another tally counted. Of two worst values that are equally bad, the one of the earlier step stays.
+  void absorb(const Tally& other);
 
   [[nodiscard]] std::uint64_t checked() const { return checked_; }
   [[nodiscard]] std::uint64_t violations() const { return violations_; }
@@ -71,6 +75,7 @@ class Tally {
   std::uint64_t checked_ = 0;
   std::uint64_t violations_ = 0;
   std::uint64_t undecided_ = 0;
+  std::uint64_t moved_ = 0;
   double worst_ratio_ = -1.0;
   double worst_measured_ = 0.0;
   Limit worst_limit_;

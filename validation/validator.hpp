@@ -56,6 +56,9 @@ struct ValidatorRow {
   // Its baseline runs a transformed scene (validation/scene_relation.hpp); other validators never get such a one.
   bool compares_scenes = false;
   bool reads_motion = false;
+  // The law says how forces move bodies: where it passes on a body that moved, the motion is proven.
+  bool ties_motion_to_forces = false;
+  core::LawKind kind = core::LawKind::kTrace;  // by the line in validators.inc
 };
 
 }  // namespace broadside::validation

@@ -42,6 +42,17 @@ std::vector<std::string> group_paths(std::uint32_t groups) {
   return paths;
 }
 
+std::vector<DeclaredDifference> declared_differences(const core::Declaration& a, const core::Declaration& b) {
+  std::vector<DeclaredDifference> found;
+  const auto text_of = [](const core::Declaration& d, std::string_view key) {
+    return d.declares(key) ? std::string(d.text(key)) : std::string("not declared");
+  };
+  for (const core::DeclarationKey& row : core::declaration_keys())
+    if (text_of(a, row.key) != text_of(b, row.key))
+      found.push_back({std::string(row.key), text_of(a, row.key), text_of(b, row.key)});
+  return found;
+}
+
 class Comparer {
  public:
   Comparer(const core::TraceReader& a, const core::TraceReader& b, DifferenceRule& rule)
@@ -51,6 +62,10 @@ class Comparer {
     found_.groups = group_paths(groups_);
     found_.groups_only_in_a = group_paths(p & ~q);
     found_.groups_only_in_b = group_paths(q & ~p);
+    found_.declared = declared_differences(a.header().declaration, b.header().declaration);
+    constexpr std::uint32_t kBodies = core::bit(core::Group::kBodies);
+    constexpr std::uint32_t kWide = core::bit(core::Group::kWideBodies);
+    found_.is_narrowed = (groups_ & kBodies) != 0 && (p & kWide) != (q & kWide);
     found_.has_digests = rule.includes_bookkeeping() && have_one_digest(a, b);
   }
 
@@ -111,22 +126,24 @@ class Comparer {
   }
 
   core::Status tell_history(std::size_t k) {
-    constexpr std::uint32_t kContacts = core::bit(core::Group::kContacts);
-    found_.has_history = (a_.header().groups & kContacts) != 0;
-    if (!found_.has_history || found_.first->body_count == 0) return core::Done{};
+    using core::Group;
+    found_.has_history = (a_.header().groups & core::bit(Group::kContacts)) != 0;
+    found_.has_points = (a_.header().groups & core::bit(Group::kPoints)) != 0;
+    constexpr std::uint32_t kHistory = core::bit(Group::kContacts) | core::bit(Group::kPoints);
+    if ((a_.header().groups & kHistory) == 0 || found_.first->body_count == 0) return core::Done{};
     for (std::size_t at = k > kHistoryFrames ? k - kHistoryFrames : 0; at <= k; ++at) {
-      auto p = a_.read(steps_[at].in_a, kContacts);
+      auto p = a_.read(steps_[at].in_a, kHistory);
       if (!p) return p.error();
-      take_contacts(p.value(), false);
+      take_history(p.value(), false);
     }
-    if ((b_.header().groups & kContacts) == 0) return core::Done{};
-    auto q = b_.read(steps_[k].in_b, kContacts);
+    if ((b_.header().groups & kHistory) == 0) return core::Done{};
+    auto q = b_.read(steps_[k].in_b, kHistory);
     if (!q) return q.error();
-    take_contacts(q.value(), true);
+    take_history(q.value(), true);
     return core::Done{};
   }
 
-  void take_contacts(const core::FrameRecord& frame, bool is_of_b) {
+  void take_history(const core::FrameRecord& frame, bool is_of_b) {
     const auto concerns = [this](std::uint32_t body) {
       const auto& d = *found_.first;
       return !core::is_face(body) &&
@@ -134,6 +151,8 @@ class Comparer {
     };
     for (const core::Contact& c : frame.contacts)
       if (concerns(c.a) || concerns(c.b)) found_.history.push_back({frame.step, is_of_b, c});
+    for (const core::ContactPoint& p : frame.points)
+      if (concerns(p.a) || concerns(p.b)) found_.points.push_back({frame.step, is_of_b, p});
   }
 
   const core::TraceReader& a_;

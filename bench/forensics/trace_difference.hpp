@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact.hpp"
+#include "core/contact_point.hpp"
 #include "core/result.hpp"
 #include "core/trace/frame_difference.hpp"
 #include "core/trace/trace_reader.hpp"
@@ -34,6 +35,19 @@ struct HistoryContact {
   core::Contact contact;
 };
 
+struct HistoryPoint {
+  std::uint64_t step = 0;
+  bool is_of_b = false;
+  core::ContactPoint point;
+};
+
+// A key that the two engines declare otherwise; "not declared" where one does not.
+struct DeclaredDifference {
+  std::string key;
+  std::string a;
+  std::string b;
+};
+
 struct TraceDifference {
   std::uint64_t common_steps = 0;
   std::uint64_t equal_steps = 0;  // of them, before the first difference
@@ -50,6 +64,13 @@ struct TraceDifference {
   // (from both).
   bool has_history = false;
   std::vector<HistoryContact> history;
+  // Likewise of points of contact, in traces that have them.
+  bool has_points = false;
+  std::vector<HistoryPoint> points;
+  // Engines may declare otherwise and still leave the same bits: no difference of the traces.
+  std::vector<DeclaredDifference> declared;
+  // One of the two holds its states in float64: both are compared as float32.
+  bool is_narrowed = false;
 
   [[nodiscard]] bool is_same() const { return !first && only_in_a == 0 && only_in_b == 0; }
 };

@@ -9,6 +9,7 @@
 #include "bench/paper/beyond_forecast.hpp"
 #include "bench/paper/cell_files.hpp"
 #include "bench/paper/measure_memory.hpp"
+#include "bench/paper/motion_proof.hpp"
 #include "bench/paper/paper_scene.hpp"
 #include "bench/process/interrupt.hpp"
 #include "bench/record/judging.hpp"
@@ -222,11 +223,25 @@ class Group {
       if (std::any_of(rows.value().verdicts.begin(), rows.value().verdicts.end(), is_judged)) continue;
       auto verdicts = judge_matter({plan_.folder / cell.trace_file, {}, false, {}});
       if (!verdicts) return verdicts.error();
+      if (core::Status s = add_motion_proof(cell.stamp, verdicts.value()); !s) return s;
       rows.value().verdicts.push_back(std::move(verdicts).value());
       if (core::Status s = core::write_verdicts(plan_.folder / "verdicts.json", rows.value().verdicts); !s) return s;
       if (is_interrupted()) return interrupted();
     }
     proof_ = std::move(rows).value();
+    return core::Done{};
+  }
+
+  // A trace of every k-th step says nothing of how one step follows from the one before.
+  core::Status add_motion_proof(const core::Stamp& stamp, core::CellVerdicts& verdicts) const {
+    if (plan_.selection.every == 1 || !verdicts.is_simulation) return core::Done{};
+    for (const Work& work : works_) {
+      if (work.is_done || !reports::same_stamp(work.row.stamp, stamp)) continue;
+      auto found = verdicts_of_first_steps(plan_, work.spec, stamp);
+      if (!found) return found.error();
+      for (core::Verdict& v : found.value()) verdicts.verdicts.push_back(std::move(v));
+      return core::Done{};
+    }
     return core::Done{};
   }
 

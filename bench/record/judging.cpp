@@ -10,6 +10,7 @@
 #include "validation/energy_ledger.hpp"
 #include "validation/judge.hpp"
 #include "validation/outcome.hpp"
+#include "validation/subject_facts.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -44,6 +45,9 @@ core::Result<core::CellVerdicts> judge_matter(const Matter& matter) {
   core::CellVerdicts row;
   row.trace_file = matter.trace.filename().string();
   row.stamp = trace.value().header().stamp;
+  row.is_simulation = validation::moves_bodies(trace.value().header());
+  const auto& declared = trace.value().header().declaration.declared();
+  row.declaration.insert(declared.begin(), declared.end());
 
   Progress progress("judging " + row.stamp.label(), trace.value().frame_count());
   validation::JudgeOptions options;

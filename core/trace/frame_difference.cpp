@@ -141,6 +141,7 @@ class Comparison {
         FrameDifference d = about(*c, DifferenceKind::kValue, k);
         // When the bodies differ it is another contact, so its other numbers do not matter.
         if (c->records == Records::kContacts && is_id(*c)) d.kind = kind_of_contact(a_.contacts[k]);
+        if (c->records == Records::kPoints && is_point_id(*c)) d.kind = kind_of_point(a_.points[k], b_.points[k]);
         if (d.kind == DifferenceKind::kOnlyInB) name_bodies(d, *c, b_);
         d.element = e;
         d.a = p;
@@ -158,6 +159,21 @@ class Comparison {
     const auto same = [&c](const Contact& o) { return o.a == c.a && o.b == c.b; };
     return std::any_of(b_.contacts.begin(), b_.contacts.end(), same) ? DifferenceKind::kOnlyInB
                                                                      : DifferenceKind::kOnlyInA;
+  }
+
+  static bool is_point_id(const Column& c) {
+    return c.offset == offsetof(ContactPoint, a) || c.offset == offsetof(ContactPoint, b);
+  }
+
+  // The points at one place are of other bodies: one frame has a point more of its bodies, or both have the same
+  // points.
+  DifferenceKind kind_of_point(const ContactPoint& p, const ContactPoint& q) const {
+    const auto count = [](const FrameRecord& frame, const ContactPoint& of) {
+      return std::count_if(frame.points.begin(), frame.points.end(),
+                           [&](const ContactPoint& o) { return o.a == of.a && o.b == of.b; });
+    };
+    if (count(a_, p) > count(b_, p)) return DifferenceKind::kOnlyInA;
+    return count(b_, q) > count(a_, q) ? DifferenceKind::kOnlyInB : DifferenceKind::kOrder;
   }
 
   void compare_pairs(Records records, const std::vector<Pair>& a, const std::vector<Pair>& b) {

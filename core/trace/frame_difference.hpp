@@ -30,7 +30,7 @@ enum class DifferenceKind : std::uint8_t {
   kValue,    // both frames have the number, with different bits
   kOnlyInA,  // the record (a body's state, a pair, a contact) is in the first frame alone
   kOnlyInB,
-  kOrder,  // the same pairs in another order
+  kOrder,  // the same pairs, or points of the same bodies, in another order
 };
 
 struct FrameDifference {

@@ -113,6 +113,72 @@ TEST_F(RowsTest, EveryFieldOfAVerdictComesBack) {
   EXPECT_EQ(rows.value().verdicts[0].verdicts[1].outcome, Outcome::kNotApplicable);
 }
 
+TEST_F(RowsTest, LawPartsAndDeclarationComeBack) {
+  Verdict part{
+      .validator = "integration", .outcome = Outcome::kFail, .worst = {.step = 9, .bodies = {5}, .field = "x"}};
+  part.violations = 3;
+  part.law = "each frame follows";
+  Verdict verdict{.validator = "state-sanity", .outcome = Outcome::kFail};
+  verdict.law = "states are possible";
+  verdict.kind = LawKind::kMechanics;
+  verdict.ties_motion_to_forces = true;
+  verdict.moved = 12;
+  verdict.parts = {part};
+  CellVerdicts cell{.trace_file = "x.h5", .stamp = stamp(), .verdicts = {verdict}};
+  cell.is_simulation = true;
+  cell.declaration = {{"friction", "pyramid"}};
+  ASSERT_TRUE(write_verdicts(folder_ / "verdicts.json", {cell}).ok());
+  const Result<std::string> text = read_whole_file(folder_ / "verdicts.json");
+  ASSERT_TRUE(text.ok());
+  EXPECT_NE(text.value().find(R"("coverage":{"mechanics":{"applied":1,"laws":1})"), std::string::npos) << text.value();
+  const Result<RunRows> rows = read_rows(folder_);
+  ASSERT_TRUE(rows.ok()) << rows.error().line();
+  const CellVerdicts& back = rows.value().verdicts[0];
+  EXPECT_TRUE(back.is_simulation);
+  EXPECT_EQ(back.declaration, cell.declaration);
+  const Verdict& said = back.verdicts[0];
+  EXPECT_EQ(said.law, verdict.law);
+  EXPECT_EQ(said.kind, LawKind::kMechanics);
+  EXPECT_TRUE(proves_motion(said) || said.outcome == Outcome::kFail);
+  EXPECT_EQ(said.moved, 12U);
+  ASSERT_EQ(said.parts.size(), 1U);
+  EXPECT_EQ(said.parts[0].validator, "integration");
+  EXPECT_EQ(said.parts[0].violations, 3U);
+  EXPECT_EQ(said.parts[0].worst.step, 9);
+  EXPECT_EQ(said.parts[0].law, part.law);
+}
+
+// Of builds that knew nothing of laws' kinds, parts and declarations.
+TEST_F(RowsTest, VerdictsOfEarlierBuildsAreRead) {
+  ASSERT_TRUE(write_verdicts(folder_ / "verdicts.json", {{"x.h5", stamp(), {{.validator = "v"}}}}).ok());
+  std::string text = read_whole_file(folder_ / "verdicts.json").value();
+  const auto cut = [&text](std::string_view from, std::string_view to) {
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.erase(at, text.find(to, at) - at);
+  };
+  cut(",\"law\":", "}");
+  cut("\"is_simulation\":", "\"verdicts\":");
+  ASSERT_TRUE(write_whole_file(folder_ / "verdicts.json", text).ok());
+  const Result<RunRows> rows = read_rows(folder_);
+  ASSERT_TRUE(rows.ok()) << rows.error().line() << text;
+  EXPECT_EQ(rows.value().verdicts[0].verdicts[0].validator, "v");
+  EXPECT_FALSE(rows.value().verdicts[0].is_simulation);
+}
+
+TEST_F(RowsTest, AKindThatIsNoneIsRefusedWithItsPlace) {
+  ASSERT_TRUE(write_verdicts(folder_ / "verdicts.json", {{"x.h5", stamp(), {{.validator = "v"}}}}).ok());
+  std::string text = read_whole_file(folder_ / "verdicts.json").value();
+  const std::string word = "\"kind\":\"trace\"";
+  const auto at = text.find(word);
+  ASSERT_NE(at, std::string::npos) << text;
+  text.replace(at, word.size(), "\"kind\":\"magic\"");
+  ASSERT_TRUE(write_whole_file(folder_ / "verdicts.json", text).ok());
+  const Result<RunRows> rows = read_rows(folder_);
+  ASSERT_FALSE(rows.ok());
+  EXPECT_NE(rows.error().line().find("kind"), std::string::npos) << rows.error().line();
+}
+
 TEST_F(RowsTest, SecondsOfASampleRoundTripBitByBit) {
   const std::vector<double> seconds{1.0 / 3.0, 5e-324,    1.7976931348623157e308,
                                     -0.0,      0.1 + 0.2, std::numeric_limits<double>::infinity()};

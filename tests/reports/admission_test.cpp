@@ -102,6 +102,31 @@ TEST(Admission, NothingButNotApplicableProvesNothing) {
   expect_refused(rows, "nothing was proven");
 }
 
+// An engine that moves nothing breaks no other law of a scene in which nothing has to move.
+TEST(Admission, AnEngineThatMovesBodiesHasToProveAMotion) {
+  core::RunRows rows = proven();
+  rows.verdicts[0].is_simulation = true;
+  expect_refused(rows, "nothing of its motion was proven (no law of motion was asked for)");
+  core::Verdict ballistic{.validator = "ballistic", .explanation = "no moving body touched nothing for a whole step"};
+  ballistic.ties_motion_to_forces = true;
+  rows.verdicts[0].verdicts.push_back(ballistic);
+  expect_refused(rows, "proven (ballistic: no moving body touched nothing for a whole step)");
+  core::Verdict& verdict = rows.verdicts[0].verdicts[1];
+  verdict.outcome = core::Outcome::kPass;
+  expect_refused(rows, "proven (ballistic: tied no body that moved to forces)");
+  verdict.moved = 1;
+  EXPECT_TRUE(admit(rows.samples[0], rows).is_admitted);
+  // A law that judges anything else proves no motion, whatever it counts.
+  verdict.ties_motion_to_forces = false;
+  EXPECT_FALSE(admit(rows.samples[0], rows).is_admitted);
+}
+
+TEST(Admission, AnEngineThatIsFedHasNoMotionToProve) {
+  core::RunRows rows = proven();
+  rows.verdicts[0].is_simulation = false;
+  EXPECT_TRUE(admit(rows.samples[0], rows).is_admitted);
+}
+
 TEST(Admission, AnotherAnswerIsStruckOutWithBothDigests) {
   core::RunRows rows = proven();
   rows.samples[0].final_digest = 43;

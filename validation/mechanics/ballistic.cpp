@@ -23,6 +23,7 @@ class Ballistic final : public Validator {
       const BodyStep& b = m.bodies[i];
       if (!b.is_alone || m.facts[i].has_spring) continue;
       for (int k = 0; k < 3; ++k) judge(m, i, b, k);
+      if (has_moved(b)) tally_.note_moved();
     }
   }
 
@@ -74,6 +75,7 @@ ValidatorRow ballistic_row() {
           [](const Subject& subject) { return lacking(subject.header, core::bit(core::Group::kBodies)); },
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Ballistic>(subject); },
           false,
+          true,
           true};
 }
 

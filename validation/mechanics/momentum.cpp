@@ -60,6 +60,7 @@ class Momentum final : public Validator {
       // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
       const double limit = m.rounding_of(4 + 2 * accumulations_ * given_[i].points) * f.mass_kg * speed +
                            rounding(4) * given_[i].magnitude + kSubnormal;
+      if (has_moved(b)) tally_.note_moved();
       tally_.check(length(change - expected), {limit, "N s", kOfBodies}, Where::body(m.step, i, "bodies.velocity"), [&] {
         return "m dv = " + vector_text(change) + " N s, m g h + sum J = " + vector_text(expected) + " N s";
       });
@@ -72,6 +73,7 @@ class Momentum final : public Validator {
     expected_.assign(n, {});
     scale_.assign(n, 0.0);
     members_.assign(n, 0);
+    moving_.assign(n, 0);
     for (std::size_t i = 0; i < n; ++i) {
       const BodyFacts& f = m.facts[i];
       const std::uint32_t set = m.bodies[i].set;
@@ -81,9 +83,11 @@ class Momentum final : public Validator {
       expected_[set] = expected_[set] + (f.mass_kg * m.h) * m.gravity;
       scale_[set] += f.mass_kg * (length(b.before.v) + length(b.after.v) + m.h * length(m.gravity));
       ++members_[set];
+      if (has_moved(b)) ++moving_[set];
     }
     for (std::uint32_t set = 0; set < n; ++set) {
       if (members_[set] < 2) continue;  // a body alone is ballistic's
+      if (moving_[set] > 0) tally_.note_moved();
       // Without a report every body of a set may have been pushed by every other.
       const double limit = m.rounding_of(4 + 2 * accumulations_ * static_cast<double>(members_[set])) * scale_[set];
       tally_.check(length(change_[set] - expected_[set]), {limit, "N s", kOfSets},
@@ -105,6 +109,7 @@ class Momentum final : public Validator {
   std::vector<Vec3d> expected_;
   std::vector<double> scale_;
   std::vector<std::uint32_t> members_;
+  std::vector<std::uint32_t> moving_;
   Tally tally_{"momentum", "momenta", kOfBodies};
 };
 
@@ -126,6 +131,7 @@ ValidatorRow momentum_row() {
           why_not,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Momentum>(subject); },
           false,
+          true,
           true};
 }
 

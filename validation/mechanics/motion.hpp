@@ -55,6 +55,12 @@ struct BodyStep {
   std::uint32_t set = 0;
 };
 
+// Whether any bit of its place or velocity changed.
+constexpr bool has_moved(const BodyStep& b) {
+  const auto same = [](Vec3d a, Vec3d c) { return a.x == c.x && a.y == c.y && a.z == c.z; };
+  return !same(b.before.origin, b.after.origin) || !same(b.before.v, b.after.v);
+}
+
 struct Motion {
   std::uint64_t step = 0;
   double h = 0.0;  // s

@@ -134,5 +134,87 @@ TEST_F(Traces, WithoutACommonStepOrGroupAreNotCompared) {
   EXPECT_NE(found.error().line().find("nothing recorded"), std::string::npos) << found.error().line();
 }
 
+ContactPoint point_of(std::uint32_t a, std::uint32_t b, float impulse) {
+  ContactPoint p;
+  p.a = a;
+  p.b = b;
+  p.normal = {0, 1, 0};
+  p.impulse = {0, impulse, 0};
+  return p;
+}
+
+// Points of contact, with the history of their bodies.
+TEST_F(Traces, OfPointsNameThePointAndShowItsHistory) {
+  std::vector<FrameRecord> one = frames(12);
+  for (FrameRecord& f : one)
+    f.points = {point_of(1, 2, 0.5F), point_of(1, 2, 0.25F), point_of(3, kFirstFace + 2, 1.0F)};
+  std::vector<FrameRecord> other = one;
+  other[8].points[1].impulse.y = 0.75F;
+  constexpr std::uint32_t kGroups = bit(Group::kBodies) | bit(Group::kPoints);
+  const TraceReader a = written("a.h5", one, tetrahedra_scene(kBodies), kGroups);
+  const TraceReader b = written("b.h5", other, tetrahedra_scene(kBodies), kGroups);
+  const auto found = bench::compare_traces(a, b);
+  ASSERT_TRUE(found.ok()) << found.error().line();
+  const std::string text = bench::difference_text(a, b, found.value());
+  EXPECT_NE(text.find("step 9, body 1 and body 2, /trace/point/impulse.y (point 1 of the step)"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("Points of body 1 and body 2 in the ten recorded steps before"), std::string::npos) << text;
+  EXPECT_NE(text.find("step 8: body 1 on body 2"), std::string::npos) << text;
+  EXPECT_NE(text.find("impulse 0 0.75 0 N s"), std::string::npos) << text;
+  EXPECT_EQ(text.find("Contacts of"), std::string::npos) << text;
+  EXPECT_NE(bench::difference_json(a, b, found.value()).find("\"points\""), std::string::npos);
+}
+
+TEST_F(Traces, APointMoreIsOfItsOwnTrace) {
+  std::vector<FrameRecord> one = frames(3);
+  for (FrameRecord& f : one) f.points = {point_of(1, 2, 0.5F), point_of(3, kFirstFace + 2, 1.0F)};
+  std::vector<FrameRecord> other = one;
+  other[1].points = {point_of(0, 1, 0.1F), point_of(1, 2, 0.5F), point_of(3, kFirstFace + 2, 1.0F)};
+  std::vector<FrameRecord> moved = one;
+  std::swap(moved[1].points[0], moved[1].points[1]);
+  constexpr std::uint32_t kGroups = bit(Group::kBodies) | bit(Group::kPoints);
+  const TraceReader a = written("a.h5", one, tetrahedra_scene(kBodies), kGroups);
+  const auto kind_against = [&](const char* name, const std::vector<FrameRecord>& list) {
+    const auto found = bench::compare_traces(a, written(name, list, tetrahedra_scene(kBodies), kGroups));
+    EXPECT_TRUE(found.ok() && found.value().first.has_value());
+    return found.value().first->kind;
+  };
+  EXPECT_EQ(kind_against("b.h5", other), DifferenceKind::kOnlyInB);
+  EXPECT_EQ(kind_against("c.h5", moved), DifferenceKind::kOrder);
+}
+
+// Declarations are no difference of what happened; float64 beside float32 is compared as float32.
+TEST_F(Traces, SayWhatIsDeclaredOtherwiseAndWhichStatesAreNarrowed) {
+  TraceHeader header = header_of(tetrahedra_scene(kBodies), bit(Group::kBodies) | bit(Group::kWideBodies));
+  header.declaration = Declaration::of({{"motion", "rigid"}, {"friction", "pyramid"}});
+  std::vector<FrameRecord> wide = frames(4);
+  auto writer = TraceWriter::create(folder_ / "w.h5", header);
+  ASSERT_TRUE(writer.ok());
+  for (FrameRecord& f : wide) {
+    f.contacts.clear();
+    for (std::uint32_t i = 0; i < kBodies; ++i) {
+      f.wide.position.push_back({f.position[i].x, f.position[i].y, f.position[i].z});
+      f.wide.orientation.push_back({1, 0, 0, 0});
+      f.wide.velocity.push_back({1, 0, 0});
+      f.wide.angular_velocity.push_back({});
+    }
+    ASSERT_TRUE(writer.value().append(f).ok());
+  }
+  ASSERT_TRUE(writer.value().finish().ok());
+  auto a = TraceReader::open(folder_ / "w.h5");
+  ASSERT_TRUE(a.ok());
+  const TraceReader b = written("b.h5", frames(4));
+  const auto found = bench::compare_traces(a.value(), b);
+  ASSERT_TRUE(found.ok()) << found.error().line();
+  EXPECT_TRUE(found.value().is_same());
+  EXPECT_TRUE(found.value().is_narrowed);
+  const std::string text = bench::difference_text(a.value(), b, found.value());
+  EXPECT_NE(text.find("Declared otherwise: motion: A rigid, B translate"), std::string::npos) << text;
+  EXPECT_NE(text.find("Declared otherwise: friction: A pyramid, B not declared"), std::string::npos) << text;
+  EXPECT_NE(text.find("compared as float32"), std::string::npos) << text;
+  const std::string json = bench::difference_json(a.value(), b, found.value());
+  EXPECT_NE(json.find("\"declared_otherwise\""), std::string::npos) << json;
+}
+
 }  // namespace
 }  // namespace broadside::tests

@@ -1,0 +1,82 @@
+// What each law says: a sentence, a small picture, and how many traces it met something in.
+#include <algorithm>
+
+#include "reports/escape.hpp"
+#include "reports/figures.hpp"
+#include "reports/html_sections.hpp"
+#include "reports/law_pictures.hpp"
+
+namespace broadside::reports {
+namespace {
+
+struct KnownLaw {
+  const core::Verdict* said = nullptr;  // the verdict that says most of it
+  std::uint64_t applied = 0;            // traces
+  std::uint64_t asked = 0;
+};
+
+std::vector<KnownLaw> laws_of(const std::vector<SceneView>& scenes) {
+  std::vector<KnownLaw> laws;
+  for (const SceneView& scene : scenes)
+    for (const TraceView& trace : scene.traces)
+      for (const auto& said : trace.verdicts) {
+        if (said.empty()) continue;
+        const core::Verdict& verdict = *said.front();
+        auto found = std::find_if(laws.begin(), laws.end(),
+                                  [&](const KnownLaw& l) { return l.said->validator == verdict.validator; });
+        if (found == laws.end()) found = laws.insert(laws.end(), {&verdict});
+        ++found->asked;
+        if (verdict.outcome != core::Outcome::kNotApplicable) ++found->applied;
+        if (verdict.parts.size() > found->said->parts.size()) found->said = &verdict;
+      }
+  return laws;
+}
+
+std::string_view heading_of(core::LawKind kind) {
+  switch (kind) {
+    case core::LawKind::kMechanics:
+      return "Laws of mechanics, of every engine";
+    case core::LawKind::kMethod:
+      return "Laws of the published method, where a trace declares it";
+    case core::LawKind::kTrace:
+      return "Laws of every trace";
+  }
+  return "";
+}
+
+std::string law_html(const KnownLaw& law) {
+  const core::Verdict& verdict = *law.said;
+  std::string out = "<li>" + law_picture(verdict.validator) + "<div><b>" + html(verdict.validator) + "</b>";
+  if (verdict.ties_motion_to_forces) out += " <span class=\"proves\">proves motion</span>";
+  out += "<p>" + html(verdict.law) + "</p>";
+  if (!verdict.parts.empty()) {
+    out += "<ul>";
+    for (const core::Verdict& part : verdict.parts)
+      out += "<li><b>" + html(part.validator) + "</b> " + html(part.law) + "</li>";
+    out += "</ul>";
+  }
+  return out + "<small>applied to " + counted(law.applied) + " of " + counted(law.asked, "trace") +
+         "</small></div></li>";
+}
+
+}  // namespace
+
+std::string laws_section(PageParts& page) {
+  const std::vector<KnownLaw> laws = laws_of(page.scenes);
+  // Rows of earlier builds do not say what their laws are.
+  const auto is_said = [](const KnownLaw& l) { return !l.said->law.empty(); };
+  if (std::none_of(laws.begin(), laws.end(), is_said)) return "";
+  std::string out =
+      "<section id=\"laws\"><h2>The laws</h2><p class=\"hint\">A time of an engine that moves bodies counts only where "
+      "a "
+      "law that proves motion passed on a body that moved.</p>";
+  for (const core::LawKind kind : core::kLawKinds) {
+    std::string items;
+    for (const KnownLaw& law : laws)
+      if (is_said(law) && law.said->kind == kind) items += law_html(law);
+    if (!items.empty()) out += "<h3>" + std::string(heading_of(kind)) + "</h3><ul class=\"laws\">" + items + "</ul>";
+  }
+  return out + "</section>";
+}
+
+}  // namespace broadside::reports
