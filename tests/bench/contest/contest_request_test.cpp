@@ -1,0 +1,67 @@
+#include "bench/contest/contest_request.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace broadside::bench::contest {
+namespace {
+
+TEST(ContestRequest, NamesAStepAsAPartOfASecondWhereItIsOne) {
+  EXPECT_EQ(scene_at("rigid:bounce", 1.0 / 60.0, 1.0), "rigid:bounce");
+  EXPECT_EQ(scene_at("rigid:bounce", 1.0 / 60.0, 0.5), "rigid:bounce@1/120");
+  EXPECT_EQ(scene_at("rigid:bounce", static_cast<double>(1.0F / 60.0F), 0.25), "rigid:bounce@1/240");
+  EXPECT_EQ(scene_at("rigid:bounce", 0.3, 2.0), "rigid:bounce@0.6");
+}
+
+TEST(ContestRequest, CellsAreScenesTimesEnginesTimesSteps) {
+  ContestRequest request;
+  request.engines = {"plain-rigid", "bullet-world"};
+  request.scenes = {"two-body:head-on"};
+  request.step_factors = {0.5, 1.0};
+  const auto campaign = contest_campaign(request);
+  ASSERT_TRUE(campaign) << campaign.error().line();
+  ASSERT_EQ(campaign.value().cells.size(), 4U);
+  EXPECT_EQ(campaign.value().cells[0].engine, "plain-rigid");
+  EXPECT_EQ(campaign.value().cells[1].scene, "two-body:head-on");
+  EXPECT_NE(campaign.value().cells[0].scene.find("two-body:head-on@"), std::string::npos);
+}
+
+// An engine that is not on this machine is a word on the page, and no cell.
+TEST(ContestRequest, AbsentEnginesHaveAReasonAndNoCell) {
+  ContestRequest request;
+  request.scenes = {"two-body:head-on"};
+  const auto entrants = entrants_of(request);
+  ASSERT_TRUE(entrants) << entrants.error().line();
+  EXPECT_EQ(entrants.value().size(), default_entrants().size());
+  const auto campaign = contest_campaign(request);
+  ASSERT_TRUE(campaign) << campaign.error().line();
+  for (const Entrant& e : entrants.value()) {
+    const auto& cells = campaign.value().cells;
+    const bool has_cell = std::any_of(cells.begin(), cells.end(), [&](const auto& w) { return w.engine == e.engine; });
+    EXPECT_EQ(has_cell, e.absent.empty()) << e.engine;
+  }
+}
+
+TEST(ContestRequest, RefusesWhatIsNoEntrant) {
+  ContestRequest request;
+  request.engines = {"plain-rigit"};
+  ASSERT_FALSE(entrants_of(request));
+  EXPECT_NE(entrants_of(request).error().line().find("plain-rigid"), std::string::npos);
+  request.engines = {"all-pairs"};
+  ASSERT_FALSE(entrants_of(request));
+  EXPECT_NE(entrants_of(request).error().line().find("offers no dynamics"), std::string::npos);
+  request.engines = {"plain-rigid[sweeps=3]"};
+  EXPECT_FALSE(entrants_of(request));
+}
+
+TEST(ContestRequest, ABeginningThatNoSceneHasIsAnError) {
+  ContestRequest request;
+  request.scenes = {"rigid:nonsense:*"};
+  const auto scenes = scenes_of(request);
+  ASSERT_FALSE(scenes);
+  EXPECT_NE(scenes.error().line().find("rigid:nonsense:"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace broadside::bench::contest

@@ -1,0 +1,109 @@
+#include "bench/contest/contest_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/contest/contest_document.hpp"
+
+namespace broadside::bench::contest {
+namespace {
+
+using core::Outcome;
+using core::Verdict;
+
+core::Stamp stamp(const std::string& scene, std::uint64_t digest) {
+  core::Stamp s;
+  s.scene_name = scene;
+  s.scene_digest = digest;
+  s.engine = "mine";
+  s.engine_build = "Mine 1.0, double";
+  return s;
+}
+
+Verdict verdict(const std::string& law, Outcome outcome, double measured = 0.0) {
+  Verdict v;
+  v.validator = law;
+  v.outcome = outcome;
+  v.measured = measured;
+  v.unit = "m";
+  v.kind = core::LawKind::kMechanics;
+  v.explanation = law + " explained";
+  return v;
+}
+
+// One scene at two steps: at its own a law is broken, at half of it all hold; the timed run at its own step ended
+// elsewhere.
+core::RunRows rows() {
+  core::RunRows rows;
+  for (const bool is_own : {true, false}) {
+    core::Cell cell;
+    cell.stamp = stamp(is_own ? "rigid:a" : "rigid:a@1/120", is_own ? 1 : 2);
+    cell.state = core::CellState::kRecorded;
+    cell.trace_file = is_own ? "own.h5" : "half.h5";
+    cell.digests = {{60, 7}};
+    rows.cells.push_back(cell);
+    core::CellVerdicts judged;
+    judged.trace_file = cell.trace_file;
+    judged.stamp = cell.stamp;
+    judged.declaration = {{"friction", "cone"}};
+    judged.verdicts = {verdict("closed-form", Outcome::kPass, is_own ? 0.2 : 0.1),
+                       verdict("rest", is_own ? Outcome::kFail : Outcome::kPass, 1.0),
+                       verdict("passage", Outcome::kNotApplicable)};
+    rows.verdicts.push_back(judged);
+    core::Sample sample;
+    sample.stamp = cell.stamp;
+    sample.stages = {{"frame", {0.001, 0.003, 0.002}}};
+    sample.final_step = 60;
+    sample.final_digest = is_own ? 8 : 7;
+    rows.samples.push_back(sample);
+  }
+  return rows;
+}
+
+ContestTable table() {
+  return contest_table(rows(), {{"mine", ""}, {"theirs", "not installed"}}, {{"rigid:a", 1.0 / 60}});
+}
+
+TEST(ContestTable, HasAnEntryForEachStep) {
+  const ContestTable t = table();
+  ASSERT_EQ(t.scenes.size(), 1U);
+  EXPECT_EQ(t.scenes[0].steps, (std::vector<std::string>{"", "1/120"}));
+  const Entry& own = t.scenes[0].entries.at("mine").at("");
+  EXPECT_EQ(own.broken.size(), 1U);
+  EXPECT_DOUBLE_EQ(own.error, 0.2);
+  EXPECT_NEAR(own.cost, 0.002 * 60, 1e-12);
+  EXPECT_TRUE(own.was_timed);
+  EXPECT_FALSE(own.repeats);
+  const Entry& half = t.scenes[0].entries.at("mine").at("1/120");
+  EXPECT_TRUE(half.stands);
+  EXPECT_TRUE(half.repeats);
+  EXPECT_NEAR(half.cost, 0.002 * 120, 1e-12);
+}
+
+TEST(ContestTable, SaysWhatIsBrokenAndHowMuchApplied) {
+  const ContestTable t = table();
+  EXPECT_EQ(entry_text(t.scenes[0].entries.at("mine").at("")), "breaks rest; 2 of 3");
+  EXPECT_EQ(entry_text(t.scenes[0].entries.at("mine").at("1/120")), "holds, 2 of 3");
+  Entry crashed;
+  crashed.state = core::CellState::kCrashed;
+  crashed.reason = "signal 6";
+  EXPECT_EQ(entry_text(crashed), "crashed: signal 6");
+}
+
+// What the page must say: an absent engine, the broken law with its worked line, the longest step that stands.
+TEST(ContestTable, ThePageHasEveryPart) {
+  const std::string page = html_text(contest_document(table(), "broadside contest"));
+  for (const char* text : {"absent: not installed", "breaks rest; 2 of 3", "rest explained", "0.008333", "not declared",
+                           "Mine 1.0, double", "Error against cost", "broadside contest"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
+TEST(ContestTable, NothingRunIsAPageToo) {
+  const std::string page = html_text(contest_document(contest_table({}, {{"mine", "not built"}}, {}), "x"));
+  EXPECT_NE(page.find("mine is absent (not built)"), std::string::npos);
+  EXPECT_EQ(page.find("Error against cost"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace broadside::bench::contest
