@@ -22,7 +22,8 @@ namespace broadside::validation {
 // component divided by the length: four products and three sums halved by the root, the root, a quotient, or a
 // reciprocal and a product. Integration: u |v| + u |dt g| and u |x| + u |dt v|, one addition and one product each.
 // Boxes: one addition, u |bound|. Outside: u |bound|, the addition by which the engine found the body inside. Sums of n
-// changes: n + 1 operations on the sum of their sizes, and one addition to the state. All else: 0, copies and comparisons.
+// changes: n + 1 operations on the sum of their sizes, and one addition to the state. All else: 0, copies and
+// comparisons.
 ValidatorRow state_sanity_row();
 
 }  // namespace broadside::validation
