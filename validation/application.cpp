@@ -42,7 +42,7 @@ const core::Material& ContactBodies::material(std::uint32_t body) const {
 }
 
 std::optional<Application> ContactBodies::application(const core::Contact& contact) const {
-  if (!knows(contact.a) || !knows(contact.b) || contact.a == contact.b) return std::nullopt;
+  if (core::is_face(contact.a) || !knows(contact.a) || !knows(contact.b) || contact.a == contact.b) return std::nullopt;
   Application app;
   app.contact = &contact;
   app.w_a = inverse_mass(contact.a);

@@ -65,7 +65,7 @@ class ContactBodies {
   [[nodiscard]] bool knows(std::uint32_t body) const;
   // 0 for static bodies and faces.
   [[nodiscard]] double inverse_mass(std::uint32_t body) const;
-  // Nothing when the contact names unknown bodies or two that cannot move: state-sanity reports those.
+  // Nothing when A is no body, when B is unknown, or when neither can move: state-sanity reports those.
   [[nodiscard]] std::optional<Application> application(const core::Contact& contact) const;
 
  private:

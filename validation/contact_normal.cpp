@@ -53,6 +53,7 @@ class ContactNormal final : public Validator {
   void look(const Evidence& evidence) override {
     step_ = evidence.frame.step;
     order_.clear();
+    last_rank_ = 0;
     for (const core::Contact& contact : evidence.frame.contacts) {
       if (!bodies_.application(contact) || core::is_face(contact.a)) continue;
       judge_order(contact);
@@ -157,8 +158,14 @@ class ContactNormal final : public Validator {
     tally_.require(c.depth_m > 0.0F, "METHOD 4: a contact has positive depth", at(c, "contact.depth"));
   }
 
-  // Faces after pairs and rising, per body. With the colored solver: colors rise, no dynamic body twice in one.
+  // The list is by color, the faces last. Per body, faces rise; with the colored solver colors rise, and no dynamic
+  // body is twice in one.
   void judge_order(const core::Contact& c) {
+    const std::int64_t in_list = core::is_face(c.b) ? std::int64_t{core::kFaceColor} : (is_colored_ ? c.color : 0);
+    tally_.require(in_list >= last_rank_,
+                   "SCHEMA.md: contacts are in the order of colors, the faces of the domain last",
+                   at(c, "contact.order"));
+    last_rank_ = in_list;
     for (const std::uint32_t body : {c.a, c.b}) {
       if (core::is_face(body) || !(bodies_.inverse_mass(body) > 0.0)) continue;
       const std::int64_t rank = core::is_face(c.b) ? std::int64_t{c.b} : (is_colored_ ? std::int64_t{c.color} : 0);
@@ -178,6 +185,7 @@ class ContactNormal final : public Validator {
   ContactBodies bodies_;
   std::vector<core::Box> local_;
   std::unordered_map<std::uint32_t, std::int64_t> order_;
+  std::int64_t last_rank_ = 0;
   std::uint64_t step_ = 0;
   Tally tally_{"contact-normal", "properties of contacts", "METHOD 4: the axis of least overlap, from B to A"};
   std::uint64_t pairs_ = 0;

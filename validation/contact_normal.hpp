@@ -11,7 +11,8 @@ namespace broadside::validation {
 //   - it points from B to A: the sign of the centers' difference on that axis;
 //   - centers nearer than epsilon take +x;
 //   - depth is that least p_k (pair) or the overshoot (face), and positive;
-//   - a face's normal points inward; per body, faces come after pairs and in the order -x +x -y +y -z +z; colors rise,
+//   - a face's normal points inward; contacts are listed by color, faces last; per body, faces come after pairs and in
+//   the order -x +x -y +y -z +z; colors rise,
 //     and no dynamic body is twice in one color (colored solver).
 //
 // Limits, float32. Unit length and axis: 0, the components are 0 and 1. Depth: one subtraction, u p_k. Least axis: that

@@ -94,6 +94,7 @@ class ContactSet final : public Validator {
 
   void judge_pairs() {
     if (!collect_touching()) return;
+    if (turn_ == Turn::kAnyColor) judge_colors();
     for (std::size_t k = 0; k < applied_.size(); ++k) {
       const Where where = Where::pair(frame_->step, applied_[k].i, applied_[k].j, "contacts: too many");
       tally_.require(std::binary_search(touching_.begin(), touching_.end(), applied_[k]),
@@ -108,6 +109,14 @@ class ContactSet final : public Validator {
       parted_ += had_parted ? 1 : 0;
       tally_.require(had_parted, kOrigin, Where::pair(frame_->step, p.i, p.j, "contacts: missing"));
     }
+  }
+
+  // A contact's color is the length of a chain of touching pairs that are resolved before it.
+  void judge_colors() {
+    for (const Contact& c : frame_->contacts)
+      if (!core::is_face(c.b))
+        tally_.require(c.color < touching_.size(), "core/method/coloring.hpp: fewer colors before it than pairs touch",
+                       Where::pair(frame_->step, c.a, c.b, "contact.color"));
   }
 
   // Was there a moment of the frame at which the two boxes did not overlap on every axis?

@@ -15,7 +15,8 @@ namespace broadside::validation {
 // each color (or, where no colors are told, after each contact). With solver=jacobi the only moment is that of
 // detection; with the race of printed-E8 no moment is known, and pairs are only judged not to be too many. Faces come
 // last and in a given order: the position at a face's turn is that before the body's next face contact, or at the
-// frame's end.
+// frame's end. Where contacts have colors, a color is the length of a chain of touching pairs, so it is below their
+// number.
 //
 // Limits: 0 contacts. Boxes are the shape's box moved to the recorded position in float32, P(5), as recorded boxes are,
 // and compared as floats: nothing rounds.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/math/quat.hpp"
@@ -28,7 +29,9 @@ struct Surface {
 
 class ProximityBound final : public Validator {
  public:
-  explicit ProximityBound(const Subject& subject) : header_(subject.header), scene_(header_.scene) {
+  explicit ProximityBound(const Subject& subject)
+      : header_(subject.header), scene_(header_.scene), is_off_(setting(header_.stamp, "vertex_stage") == "off") {
+    if (is_off_) return;
     const core::ShapeTable table = core::build_shapes(scene_);
     surface_of_ = table.shape_of_body;
     surfaces_.resize(table.shapes.size());
@@ -54,6 +57,12 @@ class ProximityBound final : public Validator {
 
   void look(const Evidence& evidence) override {
     frame_ = &evidence.frame;
+    if (is_off_) {
+      if (!frame_->proximity.empty())
+        tally_.require(false, "METHOD 3: without the vertex stage there are no proximities",
+                       Where::frame(frame_->step, "proximity"));
+      return;
+    }
     if (frame_->proximity.size() != frame_->confirmed.size()) {
       // Because the vertex stage was off, in all frames; our engines say in their settings whether it was.
       const bool was_on = setting(header_.stamp, "vertex_stage") == "on" || confirmed_ > 0;
@@ -83,7 +92,8 @@ class ProximityBound final : public Validator {
                  number_text(100.0 * static_cast<double>(missed_) / static_cast<double>(meeting_)) + " %, E13)";
     }
     if (elsewhere_ > 0) notes += ", " + std::to_string(elsewhere_) + " measured frames not used: other positions";
-    core::Verdict verdict = tally_.conclude("no confirmed pair with vertex proximity", notes);
+    core::Verdict verdict =
+        tally_.conclude(is_off_ ? "the vertex stage was off" : "no confirmed pair with vertex proximity", notes);
     if (measured_ > 0) verdict.baseline = baseline_;
     return verdict;
   }
@@ -114,7 +124,12 @@ class ProximityBound final : public Validator {
 
   // The witnesses of a touching pair, in the same arithmetic as the engine's vertices.
   void judge_record(core::Pair p, const core::Proximity& proximity) {
-    if (!is_known(p) || !proximity.is_touching()) return;
+    if (!is_known(p)) return;
+    if (!proximity.is_touching()) {
+      tally_.require(proximity == core::Proximity{}, "SCHEMA.md: what does not touch has no vertices and no distance",
+                     at(p, "proximity"));
+      return;
+    }
     const auto& a = surface(p.i).vertices;
     const auto& b = surface(p.j).vertices;
     if (!tally_.require(proximity.vertex_a < a.size() && proximity.vertex_b < b.size(),
@@ -140,6 +155,31 @@ class ProximityBound final : public Validator {
     tally_.check(claimed - nearest,
                  {placement(p) + rounding(touches ? 3 : 4) * claimed + std::sqrt(3.0 * kSubnormal), "m", kPlacement},
                  at(p, touches ? "proximity: a nearer vertex pair" : "proximity: a vertex pair below theta"));
+    if (touches) judge_tie(p, proximity);
+  }
+
+  // A vertex where the engine sees it: its two floats added once.
+  [[nodiscard]] Vec3d placed(std::uint32_t body, std::uint32_t vertex) const {
+    return Vec3d(surface(body).vertices[vertex] + frame_->detected_position[body]);
+  }
+
+  // Components that are equal but for their sign give the same distance, however it is computed. Of such vertex pairs
+  // the recorded one is the lowest.
+  void judge_tie(core::Pair p, const core::Proximity& proximity) {
+    if (proximity.vertex_a >= surface(p.i).vertices.size() || proximity.vertex_b >= surface(p.j).vertices.size())
+      return;
+    const Vec3d told = placed(p.i, proximity.vertex_a) - placed(p.j, proximity.vertex_b);
+    bool is_lowest = true;
+    trees_[surface_of_[p.i]].visit_within(
+        Vec3d(frame_->detected_position[p.i]), trees_[surface_of_[p.j]], Vec3d(frame_->detected_position[p.j]),
+        length(told) + placement(p), [&](std::uint32_t a, std::uint32_t b) {
+          if (std::pair(a, b) >= std::pair(proximity.vertex_a, proximity.vertex_b)) return;
+          const Vec3d d = placed(p.i, a) - placed(p.j, b);
+          is_lowest = is_lowest && !(std::abs(d.x) == std::abs(told.x) && std::abs(d.y) == std::abs(told.y) &&
+                                     std::abs(d.z) == std::abs(told.z));
+        });
+    tally_.require(is_lowest, "core/method/proximity.hpp: ties go to the lowest vertex of A, then of B",
+                   at(p, "proximity.vertex"));
   }
 
   void judge_surfaces(const core::FrameRecord& baseline) {
@@ -195,6 +235,7 @@ class ProximityBound final : public Validator {
 
   const core::TraceHeader& header_;
   const core::Scene& scene_;
+  bool is_off_;
   std::vector<std::uint32_t> surface_of_;
   std::vector<Surface> surfaces_;
   std::vector<VertexTree> trees_;
@@ -214,8 +255,7 @@ class ProximityBound final : public Validator {
 
 std::string why_not(const Subject& subject) {
   constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
-  if (std::string text = lacking(subject.header, kBoth); !text.empty()) return text;
-  return setting(subject.header.stamp, "vertex_stage") == "off" ? "the vertex stage was off" : "";
+  return lacking(subject.header, kBoth);
 }
 
 }  // namespace

@@ -9,7 +9,9 @@ namespace broadside::validation {
 //   - (every frame) the recorded squared distance is that of the two recorded vertices, and below theta^2;
 //   - (the first 512 pairs, then 512 of each doubling of their number)
 //     no two vertices are nearer than a touching pair's distance,
-//     and none are nearer than theta when a pair does not touch;
+//     and none are nearer than theta when a pair does not touch; of vertex pairs whose coordinates differ by the same
+//     amounts, and which are therefore as near in any arithmetic, the recorded one is the lowest;
+//   - a pair that does not touch has no vertices and no distance, and without the vertex stage no pair has any;
 //   - (frames that the baseline measured, at the same positions) with d the distance of the surfaces: d <= d_vv, and
 //     d_vv <= d + rho_A + rho_B where d > 0; d >= theta - rho_A - rho_B where the pair does not touch. rho is the
 //     covering radius of each mesh's vertices.

@@ -1,10 +1,13 @@
 #include "validation/recording.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/contact.hpp"
@@ -19,6 +22,8 @@ using core::PenetrationStatistics;
 
 constexpr std::string_view kLevel = "SCHEMA.md: level full records groups, digest none, and none leaves no trace";
 constexpr std::string_view kEvery = "SCHEMA.md: every k-th frame was recorded, and the last one";
+constexpr std::string_view kWindows =
+    "a recorded step is in one of the windows of steps that the trace names, or the last one";
 constexpr std::string_view kStatistics = "METHOD 9: the statistics are those of the recorded contacts, per 100 steps";
 // Depths are summed in double, one rounding for each.
 constexpr double kDoubleRoundoff = 0x1p-53;
@@ -39,9 +44,35 @@ struct Window {
   double largest_m = 0.0;
 };
 
+struct StepWindow {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+};
+
+// "1:50,100:250" as the trace's note has it; nothing where there is no note. A text that is no list of windows has
+// none, so that no step is in it.
+std::optional<std::vector<StepWindow>> told_windows(const core::TraceHeader& header) {
+  const auto note = header.notes.find("windows of steps");
+  if (note == header.notes.end()) return std::nullopt;
+  std::vector<StepWindow> windows;
+  const std::string& text = note->second;
+  const char* const end = text.data() + text.size();
+  for (const char* at = text.data(); at < end; ++at) {
+    StepWindow w;
+    const auto [colon, bad_first] = std::from_chars(at, end, w.first);
+    if (bad_first != std::errc() || colon == end || *colon != ':') return std::vector<StepWindow>{};
+    const auto [comma, bad_last] = std::from_chars(colon + 1, end, w.last);
+    if (bad_last != std::errc() || (comma != end && *comma != ',')) return std::vector<StepWindow>{};
+    windows.push_back(w);
+    at = comma;
+  }
+  return windows;
+}
+
 class Recording final : public Validator {
  public:
-  explicit Recording(const Subject& subject) : subject_(subject), header_(subject.header) {}
+  explicit Recording(const Subject& subject)
+      : subject_(subject), header_(subject.header), windows_of_steps_(told_windows(subject.header)) {}
 
   void look(const Evidence& evidence) override {
     const core::FrameRecord& frame = evidence.frame;
@@ -78,14 +109,37 @@ class Recording final : public Validator {
                    kLevel, Where::frame(step, "/provenance@level"));
   }
 
-  // A step that is no multiple can only be the last: it is judged when another one follows.
+  // A step that is no multiple, or in no window, can only be the last: it is judged when another one follows. Before
+  // the first recorded step there was none to record, either.
   void judge_every(std::uint64_t step) {
-    if (last_step_ == kNoStep) return;
     const std::uint64_t every = std::max<std::uint32_t>(1, header_.every);
-    tally_.require(last_step_ % every == 0, kEvery, Where::frame(last_step_, "/provenance@every"));
-    if (header_.notes.contains("windows of steps")) return;
-    const std::uint64_t due = (last_step_ / every + 1) * every;
+    const bool is_first = last_step_ == kNoStep;
+    if (is_first) {
+      tally_.require(header_.every > 0, kEvery, Where::frame(step, "/provenance@every"));
+    } else {
+      tally_.require(last_step_ % every == 0, kEvery, Where::frame(last_step_, "/provenance@every"));
+      if (windows_of_steps_)
+        tally_.require(is_in_windows(last_step_), kWindows, Where::frame(last_step_, "/provenance/notes"));
+    }
+    const std::uint64_t due = next_due(is_first ? 0 : last_step_, every);
     tally_.require(step <= due, kEvery, Where::frame(step, "/provenance@every"));
+  }
+
+  [[nodiscard]] bool is_in_windows(std::uint64_t step) const {
+    return std::any_of(windows_of_steps_->begin(), windows_of_steps_->end(),
+                       [step](const StepWindow& w) { return w.first <= step && step <= w.last; });
+  }
+
+  // The first step after this one that is to be recorded.
+  [[nodiscard]] std::uint64_t next_due(std::uint64_t step, std::uint64_t every) const {
+    const std::uint64_t multiple = (step / every + 1) * every;
+    if (!windows_of_steps_) return multiple;
+    std::uint64_t due = kNoStep;
+    for (const StepWindow& w : *windows_of_steps_) {
+      const std::uint64_t in_window = std::max(multiple, (w.first + every - 1) / every * every);
+      if (in_window <= w.last) due = std::min(due, in_window);
+    }
+    return due;
   }
 
   void add(const core::Contact& c) {
@@ -148,6 +202,7 @@ class Recording final : public Validator {
 
   const Subject subject_;
   const core::TraceHeader& header_;
+  std::optional<std::vector<StepWindow>> windows_of_steps_;
   Window window_;
   std::uint64_t last_step_ = kNoStep;
   std::uint64_t windows_ = 0;

@@ -32,7 +32,8 @@ class StateSanity final : public Validator {
         translates_(is_method_ && has(header_, core::Group::kDetection)),
         is_colored_(is_method_ && setting(header_.stamp, "solver") == "colored" &&
                     setting(header_.stamp, "variant") != "printed-E8" && has(header_, core::Group::kContacts)),
-        hand_over_(header_, bodies_, local_) {
+        is_summed_(is_method_ && setting(header_.stamp, "solver") == "jacobi" && has(header_, core::Group::kContacts)),
+        hand_over_(header_, bodies_, local_, is_summed_) {
     const core::ShapeTable table = core::build_shapes(scene_);
     for (const std::uint32_t shape : table.shape_of_body) local_.push_back(table.shapes[shape].octree.boxes[0]);
     has_spring_.assign(scene_.bodies.size(), 0);
@@ -52,7 +53,7 @@ class StateSanity final : public Validator {
     if (!is_method_) return;
     if (has_detection) judge_integration(frame, evidence.previous);
     if (has(header_, core::Group::kContacts)) judge_ids(frame);
-    if (is_colored_ && has_detection && has_end) hand_over_.look(frame);
+    if ((is_colored_ || is_summed_) && has_detection && has_end) hand_over_.look(frame);
   }
 
   core::Verdict conclude() override {
@@ -66,9 +67,9 @@ class StateSanity final : public Validator {
         {integration_, "each frame starts from the one before, moved by P(1) to P(3)",
          "no two steps of the method in a row, with states at detection"},
         {hand_over_.hand_over(), "a contact goes on from the state that the body's last one left",
-         "no contacts of the colored solver"},
+         "no contacts of the solvers colored and jacobi"},
         {hand_over_.domain(), "a body that ends outside a face has a contact with it",
-         "no contacts of the colored solver"},
+         "no contacts of the solvers colored and jacobi"},
     };
     return sum_up(laws, {"state-sanity", "properties of states", "finite, unit, and one step after the frame before"},
                   "no frames", hand_over_.notes());
@@ -189,6 +190,7 @@ class StateSanity final : public Validator {
   bool is_method_;
   bool translates_;
   bool is_colored_;
+  bool is_summed_;  // jacobi
   std::vector<core::Box> local_;
   std::vector<std::uint8_t> has_spring_;
   std::uint64_t step_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@ class VertexTree {
   // Both bodies stand at their positions, m.
   [[nodiscard]] double nearest(Vec3d position, const VertexTree& other, Vec3d other_position, double below) const;
 
+  // Each vertex of this body with each of `other` that is no farther away than this, by their numbers in the given
+  // lists, in no order.
+  void visit_within(Vec3d position, const VertexTree& other, Vec3d other_position, double distance,
+                    const std::function<void(std::uint32_t, std::uint32_t)>& visit) const;
+
  private:
   struct Node {
     Vec3d min;
@@ -29,9 +35,16 @@ class VertexTree {
   };
 
   void build(std::uint32_t node);
-  void search(std::uint32_t node, const VertexTree& other, std::uint32_t other_node, Vec3d offset, double& best2) const;
+  // Calls see(vertex, other's vertex, squared distance), which may lower the bound.
+  template <typename See>
+  void search(std::uint32_t node, const VertexTree& other, std::uint32_t other_node, Vec3d offset, const double& bound2,
+              See& see) const;
 
-  std::vector<Vec3d> points_;
+  struct Point {
+    Vec3d at;
+    std::uint32_t vertex;
+  };
+  std::vector<Point> points_;
   std::vector<Node> nodes_;
 };
 

@@ -128,7 +128,11 @@ TEST(Recording, MayEndAnywhereAndHaveWindows) {
   EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kPass) << line(verdict_of("recording", r));
   std::erase_if(r.frames, [](const FrameRecord& f) { return f.step > 50 && f.step < 100; });
   EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kFail);
-  r.header.notes["windows of steps"] = "1:50 100:250";
+  r.header.notes["windows of steps"] = "1:50,100:250";
+  EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kPass) << line(verdict_of("recording", r));
+  std::erase_if(r.frames, [](const FrameRecord& f) { return f.step > 200 && f.step < 249; });
+  EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kFail);
+  r.header.notes["windows of steps"] = "1:50,100:200";
   EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kPass) << line(verdict_of("recording", r));
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <map>
 #include <span>
 #include <string>
@@ -107,7 +108,9 @@ inline void expect_rejected(std::span<const Corruption> table) {
     EXPECT_EQ(after.outcome, core::Outcome::kFail) << line(after);
     rejected += after.outcome == core::Outcome::kFail ? 1 : 0;
   }
-  testing::Test::RecordProperty("rejected", std::to_string(rejected) + " of " + std::to_string(table.size()));
+  const std::string score = std::to_string(rejected) + " of " + std::to_string(table.size()) + " rejected";
+  testing::Test::RecordProperty("score", score);
+  std::cout << score << '\n';
 }
 
 }  // namespace broadside::tests

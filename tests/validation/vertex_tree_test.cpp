@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace broadside::tests {
@@ -47,6 +49,29 @@ TEST(VertexTree, FindsTheNearestOfAll) {
     EXPECT_NEAR(VertexTree(a).nearest(xa, VertexTree(b), xb, 100.0), expected, 16.0 * 0x1p-53 * 8.0);
     EXPECT_NEAR(VertexTree(b).nearest(xb, VertexTree(a), xa, 100.0), expected, 16.0 * 0x1p-53 * 8.0);
   }
+}
+
+TEST(VertexTree, VisitsAllThatAreNoFartherAway) {
+  const auto a = cloud(60, 3);
+  const auto b = cloud(90, 4);
+  const Vec3d xa{0.5, 0.25, 0.0};
+  const Vec3d xb{0.0, 0.0, 1.0};
+  constexpr double kDistance = 0.75;
+  // Pairs nearer to the bound than the two orders of addition differ may be on either side.
+  constexpr double kEither = 16.0 * 0x1p-53 * 8.0;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  VertexTree(a).visit_within(xa, VertexTree(b), xb, kDistance,
+                             [&](std::uint32_t p, std::uint32_t q) { EXPECT_TRUE(seen.emplace(p, q).second); });
+  std::size_t expected = 0;
+  for (std::uint32_t p = 0; p < a.size(); ++p)
+    for (std::uint32_t q = 0; q < b.size(); ++q) {
+      const double distance = least({a[p]}, xa, {b[q]}, xb);
+      if (std::abs(distance - kDistance) < kEither) continue;
+      expected += distance < kDistance ? 1 : 0;
+      EXPECT_EQ(seen.contains({p, q}), distance < kDistance) << p << " and " << q;
+    }
+  EXPECT_GT(expected, 10U);
+  EXPECT_LT(expected, a.size() * b.size() / 2);
 }
 
 TEST(VertexTree, NothingBelowTheBoundGivesTheBound) {
