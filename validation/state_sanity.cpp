@@ -88,8 +88,28 @@ class StateSanity final : public Validator {
                    {2.0 * rounding(5), "", "normalizing in float: 5 operations a component, doubled by the square"},
                    Where::body(step_, i, "bodies.orientation"));
       if (translates_) judge_turning(frame, i);
+      if (!is_method_ && header_.driver.empty()) judge_static(frame, i);
     }
     return true;
+  }
+
+  // What cannot move stays where the scene put it. An engine may hold the center of mass, in float32, and give the
+  // origin back. (center-of-mass judges the method's.)
+  void judge_static(const FrameRecord& frame, std::uint32_t i) {
+    const core::Body& body = scene_.bodies[i];
+    if (body.inverse_mass > 0.0F) return;
+    const double size = length(Vec3d(local_[i].min)) + length(Vec3d(local_[i].max));
+    tally_.check(largest_component(Vec3d(frame.position[i]) - Vec3d(body.position)),
+                 {rounding(8) * (length(Vec3d(body.position)) + size) + kSubnormal, "m", kStays},
+                 Where::body(step_, i, "bodies.position"));
+    const core::Quat p = frame.orientation[i];
+    const core::Quat q = body.orientation;
+    // q and -q are one orientation.
+    const double sign =
+        double(p.w) * q.w + double(p.x) * q.x + double(p.y) * q.y + double(p.z) * q.z < 0.0 ? -1.0 : 1.0;
+    const double turned = std::max({std::abs(p.w - sign * q.w), std::abs(p.x - sign * q.x), std::abs(p.y - sign * q.y),
+                                    std::abs(p.z - sign * q.z)});
+    tally_.check(turned, {rounding(8), "", kStays}, Where::body(step_, i, "bodies.orientation"));
   }
 
   // A body of the method translates only: it keeps the orientation that it had, and has no angular velocity.
@@ -241,6 +261,7 @@ class StateSanity final : public Validator {
   static constexpr std::string_view kFinite = "every number of a state is finite";
   static constexpr std::string_view kIntegration = "P(2), P(3): one product and one addition (float32)";
   static constexpr std::string_view kTranslates = "METHOD 1: bodies only translate, so they keep their orientation";
+  static constexpr std::string_view kStays = "a static body stays: rounding of its pose (float32)";
   static constexpr std::string_view kChain = "states are handed on from contact to contact unchanged";
 
   const core::TraceHeader& header_;

@@ -38,8 +38,7 @@ std::string body_text(std::uint32_t body) {
   return face < core::kFaceCount ? std::string("the ") + kFaces[face] + " face" : "unknown face";
 }
 
-bool Tally::check(double measured, const Limit& limit, const Where& where,
-                  const std::function<std::string()>& worked) {
+bool Tally::check(double measured, const Limit& limit, const Where& where, const std::function<std::string()>& worked) {
   ++checked_;
   const bool holds = measured <= limit.value;
   if (!holds && violations_++ == 0) first_violation_ = where;
@@ -55,6 +54,12 @@ bool Tally::check(double measured, const Limit& limit, const Where& where,
     if (!holds) worst_worked_ = worked ? worked() : std::string();
   }
   return holds;
+}
+
+bool Tally::check_bound(double bound, double limit) {
+  if (!(bound <= limit) || ratio_of(bound, limit) > worst_ratio_) return false;
+  ++checked_;
+  return true;
 }
 
 bool Tally::require(bool holds, std::string_view origin, const Where& where) {
