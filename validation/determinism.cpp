@@ -12,7 +12,8 @@ namespace {
 constexpr std::string_view kOrigin = "same stamp, same bits, on any thread count and device (DESIGN 8)";
 constexpr std::uint32_t kAllGroups = core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) |
                                      core::bit(core::Group::kPairs) | core::bit(core::Group::kConfirmed) |
-                                     core::bit(core::Group::kContacts) | core::bit(core::Group::kNarrow);
+                                     core::bit(core::Group::kContacts) | core::bit(core::Group::kNarrow) |
+                                     core::bit(core::Group::kPoints) | core::bit(core::Group::kDetectedOrientation);
 
 // The first difference by bits, or that of the digests.
 std::optional<Where> divergence(const core::FrameRecord& a, const core::FrameRecord& b, std::uint32_t groups) {
@@ -26,7 +27,9 @@ class Determinism final : public Validator {
  public:
   explicit Determinism(const Subject& subject)
       : baseline_(subject.baseline->stamp.label()),
-        common_(subject.header.groups & subject.baseline->groups & kAllGroups) {}
+        // Who reads states gets them in float64, where a trace has them.
+        common_(subject.header.groups & subject.baseline->groups & (kAllGroups | core::bit(core::Group::kWideBodies))) {
+  }
 
   void look(const Evidence& evidence) override {
     if (evidence.baseline == nullptr) {

@@ -63,6 +63,8 @@ class StateSanity final : public Validator {
         {finite_, "every number of a state is finite, and boxes have min <= max", "no frames"},
         {unit_, "orientations are unit quaternions", "the trace records no end-of-frame states"},
         {translation_, "bodies of the method only translate", "no body of the method that does not turn at the start"},
+        {static_, "a body that cannot move stays where the scene put it",
+         "no static body of an engine of another method"},
         {boxes_, "a body's box is its shape's box, moved to its position", "no boxes of the method"},
         {integration_, "each frame starts from the one before, moved by P(1) to P(3)",
          "no two steps of the method in a row, with states at detection"},
@@ -96,8 +98,28 @@ class StateSanity final : public Validator {
       const double square = double(q.w) * q.w + double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z;
       unit_.check(std::abs(square - 1.0), {2.0 * rounding(5), "", kUnit}, Where::body(step_, i, "bodies.orientation"));
       if (translates_) judge_turning(frame, i);
+      if (!is_method_ && header_.driver.empty()) judge_static(frame, i);
     }
     return true;
+  }
+
+  // What cannot move stays where the scene put it. An engine may hold the center of mass, in float32, and give the
+  // origin back. (center-of-mass judges the method's.)
+  void judge_static(const FrameRecord& frame, std::uint32_t i) {
+    const core::Body& body = scene_.bodies[i];
+    if (body.inverse_mass > 0.0F) return;
+    const double size = length(Vec3d(local_[i].min)) + length(Vec3d(local_[i].max));
+    static_.check(largest_component(Vec3d(frame.position[i]) - Vec3d(body.position)),
+                  {rounding(8) * (length(Vec3d(body.position)) + size) + kSubnormal, "m", kStays},
+                  Where::body(step_, i, "bodies.position"));
+    const core::Quat p = frame.orientation[i];
+    const core::Quat q = body.orientation;
+    // q and -q are one orientation.
+    const double sign =
+        double(p.w) * q.w + double(p.x) * q.x + double(p.y) * q.y + double(p.z) * q.z < 0.0 ? -1.0 : 1.0;
+    const double turned = std::max({std::abs(p.w - sign * q.w), std::abs(p.x - sign * q.x), std::abs(p.y - sign * q.y),
+                                    std::abs(p.z - sign * q.z)});
+    static_.check(turned, {rounding(8), "", kStays}, Where::body(step_, i, "bodies.orientation"));
   }
 
   // A body of the method translates only: it keeps the orientation that it had, and has no angular velocity.
@@ -183,6 +205,7 @@ class StateSanity final : public Validator {
   static constexpr std::string_view kBoxes = "P(5): the shape's box moved, one addition (float32)";
   static constexpr std::string_view kIntegration = "P(2), P(3): one product and one addition (float32)";
   static constexpr std::string_view kTranslates = "METHOD 1: bodies only translate, so they keep their orientation";
+  static constexpr std::string_view kStays = "a static body stays: rounding of its pose (float32)";
 
   const core::TraceHeader& header_;
   const core::Scene& scene_;
@@ -199,6 +222,7 @@ class StateSanity final : public Validator {
   Tally finite_{"finite", "numbers of states", kFinite};
   Tally unit_{"unit-orientation", "orientations", kUnit};
   Tally translation_{"translation", "orientations and angular velocities", kTranslates};
+  Tally static_{"static", "poses of static bodies", kStays};
   Tally boxes_{"moved-boxes", "sides of boxes", kBoxes};
   Tally integration_{"integration", "components of integrated states", kIntegration};
 };

@@ -29,7 +29,7 @@ bool has(const core::TraceHeader& header, core::Group group) {
 }
 
 std::string lacking(const core::TraceHeader& header, std::uint32_t groups) {
-  static constexpr std::array<std::pair<core::Group, std::string_view>, 8> kWords{{
+  static constexpr std::array<std::pair<core::Group, std::string_view>, 10> kWords{{
       {core::Group::kBodies, "end-of-frame states"},
       {core::Group::kDetection, "boxes"},
       {core::Group::kPairs, "candidate pairs"},
@@ -38,6 +38,8 @@ std::string lacking(const core::TraceHeader& header, std::uint32_t groups) {
       {core::Group::kNarrow, "measured separations"},
       {core::Group::kOctree, "scene octree"},
       {core::Group::kBodyOctree, "body octrees"},
+      {core::Group::kDetectedOrientation, "orientations at detection"},
+      {core::Group::kPoints, "points of contact"},
   }};
   for (const auto& [group, word] : kWords)
     if ((groups & core::bit(group)) != 0 && !has(header, group)) return "the trace records no " + std::string(word);

@@ -73,6 +73,12 @@ void Tally::absorb(const Tally& other) {
   worst_worked_ = other.worst_worked_;
 }
 
+bool Tally::check_bound(double bound, double limit) {
+  if (!(bound <= limit) || ratio_of(bound, limit) > worst_ratio_) return false;
+  ++checked_;
+  return true;
+}
+
 bool Tally::require(bool holds, std::string_view origin, const Where& where) {
   return check(holds ? 0.0 : 1.0, {0.0, "violations", origin}, where);
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/cell/cell_spec.hpp"
+#include "bench/mutants/rigid_mutations.hpp"
 #include "bench/mutants/specimen.hpp"
 #include "bench/mutants/specimen_scenes.hpp"
 #include "bench/mutants/tamperings.hpp"
@@ -78,19 +79,26 @@ class Scorer {
       const std::vector<std::string_view> views(names.begin(), names.end());
       return core::Error{"unknown mutation '" + options_.only + "'", "--only", core::advise_name(options_.only, views)};
     }
-    total_ = options_.only.empty() ? names.size() + scenes_of_mutants().size() + options_.random_scenes : 1;
+    total_ = options_.only.empty() ? names.size() + scenes_of_mutants().size() + options_.random_scenes +
+                                         sound_rigid_ticks(options_.random_scenes)
+                                   : 1;
     for (const Erratum& erratum : kErrata)
       if (is_wanted(std::string(erratum.variant))) add(erratum);
     for (const auto table : mutants())
       for (const Mutant& mutant : table)
         if (is_wanted(std::string(mutant.name))) add(mutant);
     if (core::Status s = add_tamperings(); !s) return s.error();
+    if (core::Status s = run_rigid_mutations([this](const std::string& name) { return is_wanted(name); },
+                                             [this](MutationRow row) { finish(std::move(row)); });
+        !s)
+      return s.error();
     if (options_.only.empty()) {
       for (const std::string& scene : scenes_of_mutants())
         if (core::Status s = judge_sound_on(scene); !s) return s.error();
       for (std::uint32_t k = 0; k < options_.random_scenes; ++k)
         if (core::Status s = judge_sound(random_of(k), settings_of(k), k); !s) return s.error();
-      score_.random_scenes = options_.random_scenes;
+      if (core::Status s = judge_sound_rigid(options_.random_scenes, score_, [this] { tick(); }); !s) return s.error();
+      score_.random_scenes = 2 * options_.random_scenes;
     }
     if (is_interrupted()) return core::Error{"interrupted", "mutants", "run it again", core::Exit::kMissing};
     return std::move(score_);
@@ -115,6 +123,7 @@ class Scorer {
       for (const Mutant& m : table) names.emplace_back(m.name);
     for (const auto table : tamperings())
       for (const Tampering& t : table) names.push_back(name_of(t));
+    for (std::string& name : rigid_mutation_names()) names.push_back(std::move(name));
     return names;
   }
 
@@ -158,7 +167,7 @@ class Scorer {
   }
 
   void add(const Erratum& e) {
-    MutationRow row{std::string(e.variant), std::string(e.what), std::string(e.validator), {}, {}, false};
+    MutationRow row{std::string(e.variant), std::string(e.what), std::string(e.validator)};
     const auto scene = specimen_scene(e.scene);
     if (!scene) {
       row.why_not_run = scene.error().line();
@@ -186,7 +195,7 @@ class Scorer {
   }
 
   void add(const Mutant& m) {
-    MutationRow row{std::string(m.name), std::string(m.what), std::string(m.validator), {}, {}, false};
+    MutationRow row{std::string(m.name), std::string(m.what), std::string(m.validator)};
     const auto scene = specimen_scene(m.scene);
     if (!scene) {
       row.why_not_run = scene.error().line();
@@ -217,7 +226,7 @@ class Scorer {
           if (!recorded) return recorded.error();
           sound = std::move(recorded).value();
         }
-        MutationRow row{name_of(t), std::string(t.what), std::string(t.validator), {}, {}, false};
+        MutationRow row{name_of(t), std::string(t.what), std::string(t.validator)};
         Specimen spoiled = *sound;
         t.apply(spoiled);
         if (!spoiled.is_spoilable) {

@@ -14,9 +14,10 @@ struct MutationRow {
   std::string name;  // "printed-E3", "skips-first-child", "trace: a dropped pair"
   std::string what;
   std::string validator;  // meant for
-  std::vector<std::string> caught_by;
-  std::string why_not_run;  // empty when it ran
-  bool is_caught = false;   // by the validator that it is meant for
+  std::vector<std::string> caught_by = {};
+  std::string why_not_run = {};  // empty when it ran
+  bool is_caught = false;        // by the validator that it is meant for
+  std::string verdict = {};      // what that validator said; empty where nobody kept it
 };
 
 // A sound run that a validator rejected.

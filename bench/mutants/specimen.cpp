@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/scene/scene.hpp"
+#include "reference/plain_rigid/engine.hpp"
 #include "validation/judge.hpp"
 
 namespace broadside::bench {
@@ -23,17 +24,21 @@ validation::FrameSource source_of(const Specimen& specimen, const std::vector<st
           specimen.statistics};
 }
 
-}  // namespace
+struct Recorder {
+  std::string_view engine;
+  std::string_view settings;
+  core::Declaration declaration;
+};
 
-core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics& dynamics, std::string_view settings) {
+core::Result<Specimen> record(const core::Scene& scene, core::Dynamics& dynamics, const Recorder& by) {
   Specimen specimen;
   specimen.header.scene = scene;
   core::Stamp& stamp = specimen.header.stamp;
   stamp.scene_name = scene.name;
   stamp.scene_digest = core::scene_digest(scene);
-  stamp.engine = "octree-cpu";
-  stamp.settings = settings;
-  specimen.header.declaration = core::method_declaration();
+  stamp.engine = by.engine;
+  stamp.settings = by.settings;
+  specimen.header.declaration = by.declaration;
   specimen.header.groups = dynamics.groups();
   if (core::Status s = dynamics.load(specimen.header.scene); !s) return s.error();
   core::PenetrationCounter counter(scene.parameters.delta_m);
@@ -49,6 +54,16 @@ core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics&
   }
   keep(counter.rest());
   return specimen;
+}
+
+}  // namespace
+
+core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics& dynamics, std::string_view settings) {
+  return record(scene, dynamics, {"octree-cpu", settings, core::method_declaration()});
+}
+
+core::Result<Specimen> record_rigid_specimen(const core::Scene& scene, core::Dynamics& dynamics) {
+  return record(scene, dynamics, {"plain-rigid", "", reference::plain::declaration({})});
 }
 
 core::Result<std::vector<core::Verdict>> judge_specimen(const Specimen& subject, const Specimen* baseline,

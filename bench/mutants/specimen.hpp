@@ -22,8 +22,10 @@ struct Specimen {
   bool is_spoilable = true;  // false when a tampering found nothing of the kind that it spoils
 };
 
-// All frames of the scene. settings: canonical. Errors are the engine's.
+// All frames of the scene, as octree-cpu declares itself. settings: canonical. Errors are the engine's.
 core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics& dynamics, std::string_view settings);
+// The same, as plain-rigid declares itself.
+core::Result<Specimen> record_rigid_specimen(const core::Scene& scene, core::Dynamics& dynamics);
 
 // As judge() does with files. only: validators; empty = all.
 core::Result<std::vector<core::Verdict>> judge_specimen(const Specimen& subject, const Specimen* baseline,

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/pair.hpp"
+#include "bench/mutants/specimen_draw.hpp"
 #include "datasets/scenes.hpp"
 #include "datasets/shapes/box_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
@@ -141,19 +141,6 @@ constexpr std::array kScenes{
     SpecimenRow{"leaving", leaving},
     SpecimenRow{"pile", pile},
     SpecimenRow{"fast", fast},
-};
-
-// Numbers from a seed, the same on every machine.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : state_(core::splitmix64(seed)) {}
-  float uniform(float low, float high) {
-    state_ = core::splitmix64(state_);
-    return low + (high - low) * (static_cast<float>(state_ >> 40U) * 0x1p-24F);
-  }
-
- private:
-  std::uint64_t state_;
 };
 
 }  // namespace

@@ -44,17 +44,18 @@ core::EngineRow plain_rigid_row() {
 namespace plain {
 
 core::Declaration declaration(const WorldOptions& options) {
-  return core::Declaration::of({{"motion", "rigid"},
-                                {"detection_at", "start"},
-                                {"contacts", "totals"},
-                                {"integrator", "semi-implicit Euler, exact in free flight; Runge-Kutta 4 for orientation"},
-                                {"order", "1"},
-                                {"iterations", std::to_string(options.iterations)},
-                                {"friction", "cone"},
-                                {"contact_model", "rigid"},
-                                {"correction", "position"},
-                                {"correction_rate", "0.2"},
-                                {"precision", "f64"}});
+  return core::Declaration::of(
+      {{"motion", "rigid"},
+       {"detection_at", "start"},
+       {"contacts", "totals"},
+       {"integrator", "semi-implicit Euler, exact in free flight; Runge-Kutta 4 for orientation"},
+       {"order", "1"},
+       {"iterations", std::to_string(options.iterations)},
+       {"friction", "cone"},
+       {"contact_model", "rigid"},
+       {"correction", "position"},
+       {"correction_rate", "0.2"},
+       {"precision", "f64"}});
 }
 
 }  // namespace plain

@@ -1,7 +1,6 @@
 #include "reference/plain_rigid/plain_world.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -31,9 +30,9 @@ core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index) {
   const auto primitive = core::primitive_of(mesh);
   const bool is_known = primitive && primitive->kind != core::PrimitiveKind::kCapsule;
   if (!is_known)
-    return core::Error{"unsupported shape: " + (primitive ? std::string(core::primitive_word(primitive->kind)) : "mesh"),
-                       scene.name + ": body " + std::to_string(index), "plain-rigid knows boxes and spheres",
-                       core::Exit::kMissing};
+    return core::Error{
+        "unsupported shape: " + (primitive ? std::string(core::primitive_word(primitive->kind)) : "mesh"),
+        scene.name + ": body " + std::to_string(index), "plain-rigid knows boxes and spheres", core::Exit::kMissing};
   RigidBody b;
   b.kind = primitive->kind;
   b.half_extents = vec(primitive->half_extents);
@@ -63,30 +62,13 @@ core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index) {
   return b;
 }
 
+// By bodies: the points of two bodies lie together.
+bool is_before(const SolverPoint& p, const SolverPoint& q) {
+  return p.a != q.a ? p.a < q.a : p.b < q.b;
+}
+
 double size_of(const RigidBody& b) {
   return length(b.center_of_mass) + (b.kind == core::PrimitiveKind::kSphere ? b.radius : length(b.half_extents));
-}
-
-std::uint64_t point_digest(const core::ContactPoint& p) {
-  return core::RecordHash(0x706f696eULL, core::pair_key({p.a, p.b}))
-      .add(p.point.x, p.point.y, p.point.z, p.gap_m)
-      .add(p.normal.x, p.normal.y, p.normal.z, 0.0F)
-      .add(p.impulse.x, p.impulse.y, p.impulse.z, 0.0F)
-      .value();
-}
-
-std::uint64_t wide_digest(std::uint32_t body, const RigidBody& b) {
-  const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d); };
-  const Vec& l = b.angular_momentum;
-  return core::RecordHash(0x77696465ULL, body)
-      .add(bits(b.x.x), bits(b.x.y))
-      .add(bits(b.x.z), bits(b.v.x))
-      .add(bits(b.v.y), bits(b.v.z))
-      .add(bits(b.q.w), bits(b.q.x))
-      .add(bits(b.q.y), bits(b.q.z))
-      .add(bits(l.x), bits(l.y))
-      .add(bits(l.z), 0)
-      .value();
 }
 
 }  // namespace
@@ -97,6 +79,7 @@ Status PlainWorld::load(const core::Scene& scene) {
   steps_ = 0;
   bodies_.clear();
   points_.clear();
+  last_points_.clear();
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
     auto body = body_of(scene, i);
     if (!body) return body.error();
@@ -127,14 +110,16 @@ core::Box PlainWorld::box_of(const RigidBody& b) const {
   return box;
 }
 
-double PlainWorld::fastest(const RigidBody& b, double h) const {
+double PlainWorld::farthest(const RigidBody& b, double h) const {
   if (b.is_static()) return 0.0;
-  return length(b.v) + length(b.angular_velocity()) * size_of(b) + h * length(vec(scene_->gravity_m_s2));
+  // However fast it spins, no point is farther than the diameter from where it was.
+  const double swing = std::min(h * length(b.angular_velocity()), 2.0) * size_of(b);
+  return h * (length(b.v) + h * length(vec(scene_->gravity_m_s2))) + swing;
 }
 
 void PlainWorld::add_pair(std::uint32_t a, std::uint32_t b, double h) {
   std::vector<NearPoint> found;
-  near_points(bodies_[a], bodies_[b], h * (fastest(bodies_[a], h) + fastest(bodies_[b], h)), found);
+  near_points(bodies_[a], bodies_[b], farthest(bodies_[a], h) + farthest(bodies_[b], h), found);
   for (const NearPoint& p : found)
     points_.push_back({a, b, p, core::combine(bodies_[a].material, bodies_[b].material), 0.0, 0.0, {}, {}});
 }
@@ -142,10 +127,10 @@ void PlainWorld::add_pair(std::uint32_t a, std::uint32_t b, double h) {
 void PlainWorld::add_faces(std::uint32_t a, double h) {
   for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
     std::vector<NearPoint> found;
-    near_points(bodies_[a], scene_->domain, face, h * fastest(bodies_[a], h), found);
+    near_points(bodies_[a], scene_->domain, face, farthest(bodies_[a], h), found);
     for (const NearPoint& p : found)
-      points_.push_back({a, core::kFirstFace + face, p, core::combine(bodies_[a].material, scene_->face_material), 0.0,
-                         0.0, {}, {}});
+      points_.push_back(
+          {a, core::kFirstFace + face, p, core::combine(bodies_[a].material, scene_->face_material), 0.0, 0.0, {}, {}});
   }
 }
 
@@ -159,7 +144,7 @@ void PlainWorld::find_points(double h) {
   std::vector<Reach> reach(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const core::Box box = box_of(bodies_[i]);
-    const double grow = h * fastest(bodies_[i], h);
+    const double grow = farthest(bodies_[i], h);
     for (int k = 0; k < 3; ++k) reach[i].low[k] = box.min[k] - grow, reach[i].high[k] = box.max[k] + grow;
   }
   std::vector<std::uint32_t> order(bodies_.size());
@@ -181,6 +166,7 @@ void PlainWorld::find_points(double h) {
   for (const core::Pair p : pairs) add_pair(p.i, p.j, h);
   for (std::uint32_t i = 0; i < bodies_.size(); ++i)
     if (!bodies_[i].is_static()) add_faces(i, h);
+  std::stable_sort(points_.begin(), points_.end(), is_before);
 }
 
 void PlainWorld::solve_impacts(double h) {
@@ -213,16 +199,35 @@ void PlainWorld::accelerate(double h) {
     if (!b.is_static()) b.v = b.v + h * vec(scene_->gravity_m_s2);
 }
 
+// The points of two bodies keep their order from step to step; where there are as many as before, each starts from the
+// impulse that it had.
+void PlainWorld::warm_start() {
+  for (std::size_t first = 0, last = 0; first < points_.size(); first = last) {
+    const auto [begin, end] = std::equal_range(points_.begin(), points_.end(), points_[first], is_before);
+    last = static_cast<std::size_t>(end - points_.begin());
+    const auto [old, old_end] = std::equal_range(last_points_.begin(), last_points_.end(), points_[first], is_before);
+    if (end - begin != old_end - old) continue;
+    for (auto p = begin, q = old; p != end; ++p, ++q) {
+      const Vec n = p->at.normal;
+      p->normal_impulse = std::max(0.0, dot(q->contact_impulse, n));
+      p->friction_impulse = q->contact_impulse - dot(q->contact_impulse, n) * n;
+    }
+  }
+}
+
 void PlainWorld::solve_contacts(double h) {
   for (SolverPoint& p : points_) p.least_speed = p.at.gap > 0.0 ? -p.at.gap / h : 0.0;
+  warm_start();
   solve_velocities(points_, bodies_, options_.iterations);
   for (SolverPoint& p : points_) {
     if (p.normal_impulse > 0.0) {
       is_touched_[p.a] = 1;
       if (!core::is_face(p.b)) is_touched_[p.b] = 1;
     }
+    p.contact_impulse = p.normal_impulse * p.at.normal + p.friction_impulse;
     p.finish_solve();
   }
+  last_points_ = points_;
 }
 
 void PlainWorld::move(double h) {
@@ -267,8 +272,8 @@ Status PlainWorld::step(float dt_s) {
   for (const SolverPoint& p : points_) {
     const bool acts = dot(p.total_impulse, p.total_impulse) > 0.0;
     if (!acts && p.at.gap > 0.0) continue;
-    recorded_.push_back({p.a, p.b, narrow(p.at.point), narrow(p.at.normal), static_cast<float>(p.at.gap),
-                         narrow(p.total_impulse), 0});
+    recorded_.push_back(
+        {p.a, p.b, narrow(p.at.point), narrow(p.at.normal), static_cast<float>(p.at.gap), narrow(p.total_impulse), 0});
   }
   ++steps_;
   return core::Done{};
@@ -280,8 +285,8 @@ void PlainWorld::begin_record() {
   for (const RigidBody& b : bodies_) {
     detected_.detected_position.push_back(narrow(b.origin()));
     detected_.detected_velocity.push_back(narrow(b.v));
-    detected_.detected_orientation.push_back({static_cast<float>(b.q.w), static_cast<float>(b.q.x),
-                                              static_cast<float>(b.q.y), static_cast<float>(b.q.z)});
+    detected_.detected_orientation.push_back(
+        {static_cast<float>(b.q.w), static_cast<float>(b.q.x), static_cast<float>(b.q.y), static_cast<float>(b.q.z)});
     detected_.boxes.push_back(box_of(b));
   }
 }
@@ -304,19 +309,19 @@ Status PlainWorld::read_back(core::FrameRecord& frame, core::RecordLevel level) 
     frame.wide.angular_velocity.push_back(wide(b.angular_velocity()));
   }
   record(frame);
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) frame.digest += wide_digest(i, bodies_[i]);
-  for (const core::ContactPoint& p : frame.points) frame.digest += point_digest(p);
-  if (level != core::RecordLevel::kFull) {
-    frame.wide = {};
-    frame.points.clear();
-    return core::Done{};
-  }
   for (std::size_t i = 0; i < frame.wide.position.size(); ++i) {
     frame.position.push_back(core::narrowed(frame.wide.position[i]));
     frame.orientation.push_back(core::narrowed(frame.wide.orientation[i]));
     frame.velocity.push_back(core::narrowed(frame.wide.velocity[i]));
     frame.angular_velocity.push_back(core::narrowed(frame.wide.angular_velocity[i]));
   }
+  // SCHEMA.md: of what a trace records in float32; determinism compares the other fields themselves.
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+    frame.digest +=
+        core::body_digest(i, frame.position[i], frame.orientation[i], frame.velocity[i], frame.angular_velocity[i]);
+  if (level == core::RecordLevel::kFull) return core::Done{};
+  const core::FrameRecord bare{frame.step, frame.time_s, frame.digest};
+  frame = bare;
   return core::Done{};
 }
 

@@ -57,13 +57,15 @@ class PlainWorld : public core::Dynamics {
   void add_pair(std::uint32_t a, std::uint32_t b, double h);
   void add_faces(std::uint32_t a, double h);
   void begin_record();
-  // Speed bound of any point of the body, m/s, with what gravity adds in h.
-  [[nodiscard]] double fastest(const RigidBody& body, double h) const;
+  // How far any point of the body may come in h, m, with what gravity adds.
+  [[nodiscard]] double farthest(const RigidBody& body, double h) const;
+  void warm_start();
 
   const core::Scene* scene_ = nullptr;
   std::uint64_t steps_ = 0;
   std::vector<std::uint8_t> is_touched_;
   std::vector<Vec> velocity_before_gravity_;
+  std::vector<SolverPoint> last_points_;  // of the step before, with the impulses of its contacts
   // What detection saw at the start of the step, and its points.
   core::FrameRecord detected_;
   std::vector<core::ContactPoint> recorded_;

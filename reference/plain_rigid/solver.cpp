@@ -92,6 +92,7 @@ void solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& 
   std::vector<Row> rows;
   for (SolverPoint& p : points)
     if (Row row = row_of(p, bodies); row.normal_mobility > 0.0) rows.push_back(row);
+  for (const Row& row : rows) row.apply(row.point->normal_impulse * row.point->at.normal + row.point->friction_impulse);
   for (std::uint32_t k = 0; k < iterations; ++k) {
     // Forward and backward in turn, so that no end of a stack is favored.
     if (k % 2 == 0)

@@ -15,11 +15,12 @@ struct SolverPoint {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   NearPoint at;
-  core::Material surface;        // of both, combined
+  core::Material surface;       // of both, combined
   double least_speed = 0.0;     // m/s along the normal that a solve must leave, at least
   double normal_impulse = 0.0;  // N s, >= 0, of one solve
   Vec friction_impulse;         // N s on A, of one solve
   Vec total_impulse;            // N s on A, of the whole step
+  Vec contact_impulse;          // N s on A, of the step's contacts without its impacts: the next step starts from it
 
   void finish_solve() {
     total_impulse = total_impulse + normal_impulse * at.normal + friction_impulse;
@@ -35,9 +36,9 @@ struct SolverOptions {
 };
 
 // Changes velocities and angular momenta until every point moves apart at least_speed or faster, pushes only, and has
-// friction within Coulomb's cone. Moreau, Unilateral contact and dry friction (1988), solved as in Jourdan, Alart and
-// Jean, A Gauss-Seidel like algorithm to solve frictional contact problems (1998), with one effective mass for the
-// tangent plane.
+// friction within Coulomb's cone. Points start from the impulses that are in them. Moreau, Unilateral contact and dry
+// friction (1988), solved as in Jourdan, Alart and Jean, A Gauss-Seidel like algorithm to solve frictional contact
+// problems (1998), with one effective mass for the tangent plane.
 void solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies, std::uint32_t iterations);
 
 // Pushes bodies out of each other without touching their velocities.

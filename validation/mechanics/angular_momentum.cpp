@@ -1,11 +1,10 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -44,9 +43,12 @@ class AngularMomentum final : public Validator {
     const Vec3d arm = Vec3d(p.point) - at;
     const double size = length(j);
     moment_[body] = moment_[body] + sign * cross(arm, j);
-    const double moved = detects_at_start_ ? 0.0 : length(b.after.x - b.before.x) + m.h * length(b.after.w) * length(arm);
-    // The point lies between the two surfaces, which are |gap| apart.
-    slack_[body] += size * (moved + std::abs(static_cast<double>(p.gap_m)));
+    const double moved =
+        detects_at_start_ ? 0.0 : length(b.after.x - b.before.x) + m.h * length(b.after.w) * length(arm);
+    // The point lies between the two surfaces, which are |gap| apart along the normal: only what acts across has a
+    // moment that depends on where.
+    const Vec3d n(p.normal);
+    slack_[body] += size * moved + length(j - dot(j, n) * n) * std::abs(static_cast<double>(p.gap_m));
     // The point is recorded in float32.
     slack_[body] += size * rounding(2) * (length(Vec3d(p.point)) + length(arm));
     scale_[body] += size * length(arm);
@@ -65,14 +67,14 @@ class AngularMomentum final : public Validator {
     const double scale = f.largest_moment * spin + scale_[i];
     const double limit = gyroscopic + slack_[i] + m.rounding_of(40 + 2 * accumulations_ * points_[i]) * scale +
                          rounding(4) * scale_[i] + kSubnormal;
-    tally_.check(length(change - moment_[i]), {limit, "N m s", kOrigin}, Where::body(m.step, i, "bodies.angular_velocity"),
-                 [&] {
-                   return "dL = " + vector_text(change) + " N m s, sum (p - x) x J = " + vector_text(moment_[i]) + " N m s";
-                 });
+    tally_.check(
+        length(change - moment_[i]), {limit, "N m s", kOrigin}, Where::body(m.step, i, "bodies.angular_velocity"), [&] {
+          return "dL = " + vector_text(change) + " N m s, sum (p - x) x J = " + vector_text(moment_[i]) + " N m s";
+        });
   }
 
   static constexpr std::string_view kOrigin =
-      "h |w x L| before and after, |J| times the gap and how far point and center move, and rounding";
+      "h |w x L| before and after, |J_t| times the gap, |J| times how far point and center move, and rounding";
   bool detects_at_start_;
   double accumulations_;
   std::vector<Vec3d> moment_;
@@ -91,15 +93,16 @@ std::string why_not(const Subject& subject) {
 }  // namespace
 
 ValidatorRow angular_momentum_row() {
-  return {"angular-momentum",
-          "a body's angular momentum changes by the moments of its impulses",
-          "torque from nowhere; points 10 cm off",
-          core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints),
-          0,
-          why_not,
-          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<AngularMomentum>(subject); },
-          false,
-          true};
+  return {
+      "angular-momentum",
+      "a body's angular momentum changes by the moments of its impulses",
+      "torque from nowhere; points 10 cm off",
+      core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints),
+      0,
+      why_not,
+      [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<AngularMomentum>(subject); },
+      false,
+      true};
 }
 
 }  // namespace broadside::validation

@@ -1,7 +1,6 @@
-#include "validation/validator.hpp"
-
 #include "validation/mechanics/scene_answer.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {

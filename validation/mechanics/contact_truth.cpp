@@ -1,20 +1,19 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
-#include <map>
+#include <limits>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "validation/mechanics/detection_pose.hpp"
 #include "validation/mechanics/motion.hpp"
+#include "validation/mechanics/oriented_box.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
-
-// Pairs measured exactly in one frame; a frame with more has every k-th pair measured, another k-th in each frame.
-constexpr std::size_t kMostPairs = 2000;
 
 class ContactTruth final : public Validator {
  public:
@@ -25,32 +24,57 @@ class ContactTruth final : public Validator {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
     frame_ = &evidence.frame;
-    by_pair_.clear();
-    for (const core::ContactPoint& p : frame_->points) by_pair_[{p.a, p.b}].push_back(&p);
-    const std::size_t stride = m.near.size() / kMostPairs + 1;
-    for (std::size_t k = m.step % stride; k < m.near.size(); k += stride) judge_pair(m, m.near[k]);
+    place_bodies(m);
+    sort_points();
+    for (const core::Pair pair : m.near)
+      if (is_known(m, pair.i) && is_known(m, pair.j)) judge_pair(m, pair);
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i)
-      if (m.facts[i].is_dynamic && !m.bodies[i].is_alone) judge_faces(m, i);
-    for (const auto& [bodies, points] : by_pair_)
-      if (!core::is_face(bodies.second)) judge_distant(m, bodies, *points.front());
+      if (m.facts[i].is_dynamic && is_known(m, i)) judge_faces(m, i);
+    for (std::size_t k = 0; k < sorted_.size(); ++k)
+      if (k == 0 || key_of(sorted_[k - 1]) != key_of(sorted_[k])) judge_distant(m, sorted_[k]);
   }
 
   core::Verdict conclude() override {
     return tally_.conclude("no two bodies with convex shapes came near each other",
-                           "deepest overlap without an impulse was " + number_text(deepest_) + " m");
+                           "deepest overlap without a point was at most " + number_text(deepest_) + " m");
   }
 
  private:
-  using Points = std::vector<const core::ContactPoint*>;
+  using Key = std::pair<std::uint32_t, std::uint32_t>;
+  // Of points in the order of sorted_: those of two bodies lie together.
+  using Points = std::span<const std::uint32_t>;
 
-  [[nodiscard]] const Points* points_of(std::uint32_t a, std::uint32_t b, double& sign) const {
-    sign = 1.0;
-    auto found = by_pair_.find({a, b});
-    if (found == by_pair_.end()) {
-      sign = -1.0;
-      found = by_pair_.find({b, a});
+  [[nodiscard]] const core::ContactPoint& point(std::uint32_t index) const { return frame_->points[index]; }
+  // The lower body first.
+  [[nodiscard]] Key key_of(std::uint32_t index) const { return std::minmax(point(index).a, point(index).b); }
+
+  void place_bodies(const Motion& m) {
+    poses_.resize(m.bodies.size());
+    boxes_.resize(m.bodies.size());
+    for (std::size_t i = 0; i < m.bodies.size(); ++i) {
+      poses_[i] = detection_pose(header_, *frame_, m, i);
+      if (poses_[i]) boxes_[i] = oriented_box(m.facts[i], poses_[i]->origin, matrix_of(poses_[i]->q));
     }
-    return found == by_pair_.end() ? nullptr : &found->second;
+  }
+
+  void sort_points() {
+    sorted_.resize(frame_->points.size());
+    std::iota(sorted_.begin(), sorted_.end(), 0U);
+    std::sort(sorted_.begin(), sorted_.end(),
+              [&](std::uint32_t p, std::uint32_t q) { return std::pair(key_of(p), p) < std::pair(key_of(q), q); });
+  }
+
+  [[nodiscard]] Points points_of(std::uint32_t a, std::uint32_t b) const {
+    const Key key = std::minmax(a, b);
+    const auto first = std::lower_bound(sorted_.begin(), sorted_.end(), key,
+                                        [&](std::uint32_t p, const Key& k) { return key_of(p) < k; });
+    auto last = first;
+    while (last != sorted_.end() && key_of(*last) == key) ++last;
+    return {first, last};
+  }
+
+  [[nodiscard]] bool is_known(const Motion& m, std::uint32_t i) const {
+    return poses_[i].has_value() && shapes_.knows(m.facts[i].mesh);
   }
 
   // Within this a contact may be seen or not: slop, margin, what the two come closer in a step, and float32.
@@ -65,100 +89,153 @@ class ContactTruth final : public Validator {
            rounding(16) * size;
   }
 
+  // The exact distance of one pair, measured when something asks for it.
+  class Truth {
+   public:
+    Truth(const ContactTruth& law, const Motion& m, core::Pair pair) : law_(law), m_(m), pair_(pair) {}
+    [[nodiscard]] exact::ConvexCore placed(std::uint32_t i) const {
+      return law_.shapes_.placed(m_.facts[i].mesh, law_.poses_[i]->origin, law_.poses_[i]->q);
+    }
+    const exact::SignedDistance& distance() {
+      if (!distance_) distance_ = exact::signed_distance(placed(pair_.i), placed(pair_.j));
+      return *distance_;
+    }
+    double depth() { return std::max(0.0, -distance().distance_m); }
+
+   private:
+    const ContactTruth& law_;
+    const Motion& m_;
+    core::Pair pair_;
+    std::optional<exact::SignedDistance> distance_;
+  };
+
   void judge_pair(const Motion& m, core::Pair pair) {
-    const auto pa = detection_pose(header_, *frame_, m, pair.i);
-    const auto pb = detection_pose(header_, *frame_, m, pair.j);
-    if (!pa || !pb || !shapes_.knows(m.facts[pair.i].mesh) || !shapes_.knows(m.facts[pair.j].mesh)) return;
-    const auto a = shapes_.placed(m.facts[pair.i].mesh, pa->origin, pa->q);
-    const auto b = shapes_.placed(m.facts[pair.j].mesh, pb->origin, pb->q);
-    const exact::SignedDistance truth = exact::signed_distance(a, b);
     const double allowed = band(m, pair.i, pair.j);
-    double sign = 1.0;
-    const Points* points = points_of(pair.i, pair.j, sign);
-    const Where where = Where::pair(m.step, pair.i, pair.j, "points");
+    const Points points = points_of(pair.i, pair.j);
+    const double bound = overlap_bound(boxes_[pair.i], boxes_[pair.j]);
+    Truth truth(*this, m, pair);
     const auto worked = [&] {
-      return "the exact distance is " + number_text(truth.distance_m) + " m along " +
-             vector_text(to_vec3d(truth.normal)) + ", and " +
-             (points == nullptr ? std::string("no point is reported") : std::to_string(points->size()) + " points are");
+      return "the exact distance is " + number_text(truth.distance().distance_m) + " m along " +
+             vector_text(to_vec3d(truth.distance().normal)) + ", and " +
+             (points.empty() ? std::string("no point is reported") : std::to_string(points.size()) + " points are");
     };
-    if (points == nullptr) {
-      deepest_ = std::max(deepest_, -truth.distance_m);
-      tally_.check(-truth.distance_m, {allowed, "m", kMissing}, where, worked);
+    if (points.empty()) {
+      // Not above the deepest so far either: that is told.
+      if (bound <= deepest_ && tally_.check_bound(std::max(0.0, bound), allowed)) return;
+      deepest_ = std::max(deepest_, truth.depth());
+      tally_.check(truth.depth(), {allowed, "m", kMissing}, Where::pair(m.step, pair.i, pair.j, "points"), worked);
       return;
     }
-    for (const core::ContactPoint* p : *points) {
-      const Vec3d n = sign * Vec3d(p->normal);
-      const double size = length(n);
-      tally_.check(std::abs(size - 1.0), {rounding(8), "", "a unit normal in float32"}, where);
-      if (!(std::abs(size - 1.0) < 0.1)) continue;
-      // How deep the bodies are along the reported normal: least along the true one.
-      const double along = exact::overlap_along(a, b, to_point((1.0 / size) * n));
-      const double depth = std::max(0.0, -truth.distance_m);
-      tally_.check(along - depth, {allowed, "m", kNormal}, Where::pair(m.step, pair.i, pair.j, "points.normal"), worked);
-      tally_.check(std::max(0.0, -static_cast<double>(p->gap_m)) - depth, {allowed, "m", kGap},
-                   Where::pair(m.step, pair.i, pair.j, "points.gap"), worked);
-      judge_place(*p, a, b, allowed, where);
-    }
     double deepest = 0.0;
-    for (const core::ContactPoint* p : *points) deepest = std::max(deepest, -static_cast<double>(p->gap_m));
-    tally_.check(-truth.distance_m - deepest, {allowed, "m", kGap}, Where::pair(m.step, pair.i, pair.j, "points.gap"),
-                 worked);
+    for (const std::uint32_t k : points) {
+      const core::ContactPoint& p = point(k);
+      const double told = std::max(0.0, -static_cast<double>(p.gap_m));
+      deepest = std::max(deepest, told);
+      judge_normal(m, pair, p, allowed, truth, worked);
+      if (!tally_.check_bound(told, allowed))
+        tally_.check(told - truth.depth(), {allowed, "m", kGap}, Where::pair(m.step, pair.i, pair.j, "points.gap"),
+                     worked);
+      judge_place(m, pair, p, allowed);
+    }
+    if (!tally_.check_bound(std::max(0.0, bound - deepest), allowed))
+      tally_.check(truth.depth() - deepest, {allowed, "m", kGap}, Where::pair(m.step, pair.i, pair.j, "points.gap"),
+                   worked);
+  }
+
+  template <typename Worked>
+  void judge_normal(const Motion& m, core::Pair pair, const core::ContactPoint& p, double allowed, Truth& truth,
+                    const Worked& worked) {
+    const Where where = Where::pair(m.step, pair.i, pair.j, "points.normal");
+    const double size = length(Vec3d(p.normal));
+    tally_.check(std::abs(size - 1.0), {rounding(8), "", "a unit normal in float32"}, where);
+    if (!(std::abs(size - 1.0) < 0.1)) return;
+    // How deep the bodies are along the reported normal: least along the true one.
+    const Vec3d n = (p.a == pair.i ? 1.0 : -1.0) / size * Vec3d(p.normal);
+    const OrientedBox& a = boxes_[pair.i];
+    const OrientedBox& b = boxes_[pair.j];
+    const double bound = reach_along(a, n) + reach_along(b, n) - dot(a.center - b.center, n);
+    if (tally_.check_bound(std::max(0.0, bound), allowed)) return;
+    const double along = exact::overlap_along(truth.placed(pair.i), truth.placed(pair.j), to_point(n));
+    tally_.check(along - truth.depth(), {allowed, "m", kNormal}, where, worked);
   }
 
   // A point of contact lies near both surfaces.
-  void judge_place(const core::ContactPoint& p, const exact::ConvexCore& a, const exact::ConvexCore& b, double allowed,
-                   const Where& where) {
-    exact::ConvexCore point;
-    point.vertices = {to_point(Vec3d(p.point))};
+  void judge_place(const Motion& m, core::Pair pair, const core::ContactPoint& p, double allowed) {
     const double limit = allowed + std::abs(static_cast<double>(p.gap_m));
-    for (const exact::ConvexCore* shape : {&a, &b}) {
-      const double away = exact::signed_distance(point, *shape).distance_m;
-      tally_.check(away, {limit, "m", kPlace}, Where{where.step, 2, {where.bodies[0], where.bodies[1]}, "points.point"},
-                   [&] { return "the point " + vector_text(Vec3d(p.point)) + " m is " + number_text(away) + " m outside a body"; });
+    for (const std::uint32_t i : {pair.i, pair.j})
+      judge_outside(m, i, p, limit, Where::pair(m.step, pair.i, pair.j, "points.point"));
+  }
+
+  void judge_outside(const Motion& m, std::uint32_t i, const core::ContactPoint& p, double limit, const Where& where) {
+    // No farther from its shape than from a box around it? Of boxes and balls the two are one.
+    double away = distance_outside(boxes_[i], Vec3d(p.point));
+    const core::Mesh& mesh = *header_.scene.meshes[m.facts[i].mesh];
+    if (!is_its_own_box(m.facts[i].mesh, mesh)) {
+      exact::ConvexCore alone;
+      alone.vertices = {to_point(Vec3d(p.point))};
+      const auto shape = shapes_.placed(m.facts[i].mesh, poses_[i]->origin, poses_[i]->q);
+      away = std::max(0.0, exact::signed_distance(alone, shape).distance_m);
     }
+    tally_.check(away, {limit, "m", kPlace}, where, [&] {
+      return "the point " + vector_text(Vec3d(p.point)) + " m is " + number_text(away) + " m outside " + body_text(i);
+    });
+  }
+
+  bool is_its_own_box(std::uint32_t index, const core::Mesh& mesh) {
+    if (own_box_.size() <= index) own_box_.resize(index + 1);
+    if (!own_box_[index]) {
+      const auto primitive = core::primitive_of(mesh);
+      own_box_[index] = primitive && primitive->kind != core::PrimitiveKind::kCapsule;
+    }
+    return *own_box_[index];
   }
 
   void judge_faces(const Motion& m, std::uint32_t i) {
-    const auto pose = detection_pose(header_, *frame_, m, i);
-    if (!pose || !shapes_.knows(m.facts[i].mesh)) return;
-    const auto shape = shapes_.placed(m.facts[i].mesh, pose->origin, pose->q);
     for (std::uint32_t face = 0; face < static_cast<std::uint32_t>(core::kFaceCount); ++face) {
       const int axis = static_cast<int>(face / 2);
-      const bool is_upper = face % 2 == 1;
-      double depth = -1e300;
-      for (const exact::Point& p : shape.vertices) {
-        const double at = to_vec3d(p)[axis];
-        depth = std::max(depth, is_upper ? at - header_.scene.domain.max[axis] : header_.scene.domain.min[axis] - at);
-      }
-      depth += shape.radius_m;
-      judge_face(m, i, core::kFirstFace + face, depth, (is_upper ? -1.0 : 1.0) * axis_vector(axis));
+      const double inward = face % 2 == 1 ? -1.0 : 1.0;
+      const double wall = face % 2 == 1 ? header_.scene.domain.max[axis] : header_.scene.domain.min[axis];
+      const auto height = [&](Vec3d p) { return inward * (p[axis] - wall); };
+      const double bound = reach_along(boxes_[i], axis_vector(axis)) - height(boxes_[i].center);
+      const Points points = points_of(i, core::kFirstFace + face);
+      const double allowed = band(m, i, core::kFirstFace + face);
+      if (points.empty() && !(bound > -allowed)) continue;
+      const auto shape = shapes_.placed(m.facts[i].mesh, poses_[i]->origin, poses_[i]->q);
+      double depth = -std::numeric_limits<double>::infinity();
+      for (const exact::Point& p : shape.vertices) depth = std::max(depth, shape.radius_m - height(to_vec3d(p)));
+      judge_face(m, i, core::kFirstFace + face, std::max(0.0, depth), allowed, points);
     }
   }
 
-  void judge_face(const Motion& m, std::uint32_t i, std::uint32_t face, double depth, Vec3d inward) {
-    const double allowed = band(m, i, face);
-    double sign = 1.0;
-    const Points* points = points_of(i, face, sign);
-    const Where where = Where::pair(m.step, i, face, "points");
-    if (points == nullptr) {
-      if (depth > -allowed) tally_.check(depth, {allowed, "m", kMissing}, where);
-      return;
+  void judge_face(const Motion& m, std::uint32_t i, std::uint32_t face, double depth, double allowed, Points points) {
+    const auto at = [&](std::string_view field) { return Where::pair(m.step, i, face, field); };
+    const int axis = static_cast<int>((face - core::kFirstFace) / 2);
+    const bool is_upper = (face - core::kFirstFace) % 2 == 1;
+    const double wall = is_upper ? header_.scene.domain.max[axis] : header_.scene.domain.min[axis];
+    const auto worked = [&] { return "the body is " + number_text(depth) + " m beyond the face"; };
+    double deepest = 0.0;
+    for (const std::uint32_t k : points) {
+      const core::ContactPoint& p = point(k);
+      const double told = std::max(0.0, -static_cast<double>(p.gap_m));
+      deepest = std::max(deepest, told);
+      tally_.check(length(Vec3d(p.normal) - (is_upper ? -1.0 : 1.0) * axis_vector(axis)),
+                   {rounding(16), "", "the face's own normal, in float32"}, at("points.normal"));
+      tally_.check(told - depth, {allowed, "m", kGap}, at("points.gap"), worked);
+      const double limit = allowed + std::abs(static_cast<double>(p.gap_m));
+      tally_.check(std::abs(Vec3d(p.point)[axis] - wall), {limit, "m", kPlace}, at("points.point"));
+      judge_outside(m, i, p, limit, at("points.point"));
     }
-    for (const core::ContactPoint* p : *points) {
-      tally_.check(length(Vec3d(p->normal) - inward), {rounding(16), "", "the face's own normal, in float32"},
-                   Where::pair(m.step, i, face, "points.normal"));
-      tally_.check(-static_cast<double>(p->gap_m) - std::max(0.0, depth), {allowed, "m", kGap},
-                   Where::pair(m.step, i, face, "points.gap"));
-      const double reach = m.facts[i].reach_m + allowed + std::abs(static_cast<double>(p->gap_m));
-      tally_.check(length(Vec3d(p->point) - m.bodies[i].before.x), {reach + m.h * length(m.bodies[i].after.v), "m", kPlace},
-                   Where::pair(m.step, i, face, "points.point"));
-    }
+    if (points.empty())
+      tally_.check(depth, {allowed, "m", kMissing}, at("points"), worked);
+    else
+      tally_.check(depth - deepest, {allowed, "m", kGap}, at("points.gap"), worked);
   }
 
   // Points of bodies that were not even near.
-  void judge_distant(const Motion& m, std::pair<std::uint32_t, std::uint32_t> bodies, const core::ContactPoint& p) {
-    if (p.impulse == core::Vec3{}) return;
-    const core::Pair pair = core::make_pair_of(bodies.first, bodies.second);
+  void judge_distant(const Motion& m, std::uint32_t index) {
+    const core::ContactPoint& p = point(index);
+    if (core::is_face(p.b) || p.impulse == core::Vec3{}) return;
+    const core::Pair pair = core::make_pair_of(p.a, p.b);
     tally_.require(std::binary_search(m.near.begin(), m.near.end(), pair),
                    "bodies whose boxes, swept over the step, do not meet have no impulse between them",
                    Where::pair(m.step, pair.i, pair.j, "points"));
@@ -178,7 +255,10 @@ class ContactTruth final : public Validator {
   ExactShapes shapes_;
   double margin_;
   const core::FrameRecord* frame_ = nullptr;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Points> by_pair_;
+  std::vector<std::optional<DetectionPose>> poses_;
+  std::vector<OrientedBox> boxes_;  // at these poses
+  std::vector<std::uint32_t> sorted_;
+  std::vector<std::optional<bool>> own_box_;  // by mesh
   double deepest_ = 0.0;
   Tally tally_{"contact-truth", "properties of contacts", kMissing};
 };

@@ -1,11 +1,10 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -83,8 +82,9 @@ class EnergyGrowth final : public Validator {
     double sum = 0.5 * weight * g * m.h * m.h;
     // A turn of second order moves L by up to h |w x L| / 2, across w.
     if (f.has_inertia) {
-      const double l = 0.5 * m.h * std::max(length(cross(b.before.w, b.before.angular_momentum)),
-                                            length(cross(b.after.w, b.after.angular_momentum)));
+      const double l = 0.5 * m.h *
+                       std::max(length(cross(b.before.w, b.before.angular_momentum)),
+                                length(cross(b.after.w, b.after.angular_momentum)));
       sum += 0.5 * l * l / f.least_moment;
     }
     if (!b.is_alone) {
@@ -96,7 +96,9 @@ class EnergyGrowth final : public Validator {
     }
     const double position = length(b.after.x) + length(b.before.x);
     const double spin = std::max(length(b.before.w), length(b.after.w));
-    return sum + m.rounding_of(8 + 2 * accumulations_) * (magnitude + f.mass_kg * speed * speed + f.largest_moment * spin * spin) +
+    return sum +
+           m.rounding_of(8 + 2 * accumulations_) *
+               (magnitude + f.mass_kg * speed * speed + f.largest_moment * spin * spin) +
            m.rounding_of(4) * weight * position + kSubnormal;
   }
 
@@ -112,7 +114,8 @@ class EnergyGrowth final : public Validator {
 
   static constexpr std::string_view kOrigin =
       "1/2 m g^2 h^2 a body; m g h e v where it bounced; what a declared correction lifts; and rounding";
-  static constexpr std::string_view kStored = "compliant contacts: the largest energy before, and the sum of the steps' limits";
+  static constexpr std::string_view kStored =
+      "compliant contacts: the largest energy before, and the sum of the steps' limits";
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   std::string_view correction_;

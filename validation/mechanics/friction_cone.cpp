@@ -1,11 +1,12 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
-#include "validation/mechanics/motion.hpp"
+#include "validation/mechanics/point_speed.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -22,6 +23,7 @@ class FrictionCone final : public Validator {
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
+    sum_impulses(*evidence.motion, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) judge(*evidence.motion, p);
   }
 
@@ -39,10 +41,38 @@ class FrictionCone final : public Validator {
     return {widest * std::max(fixed, sliding), model_ == "regularized" ? 0.0 : std::min(fixed, sliding)};
   }
 
-  [[nodiscard]] static Vec3d speed_at(const Motion& m, std::uint32_t body, Vec3d point) {
-    if (core::is_face(body)) return {};
-    const BodyState& s = m.bodies[body].after;
-    return m.facts[body].is_dynamic ? s.v + cross(s.w, point - m.bodies[body].before.x) : Vec3d{};
+  // The sums of what all impulses of the step did to a body, by magnitude.
+  struct Pushed {
+    double dv = 0.0;  // m/s
+    double dw = 0.0;  // rad/s
+  };
+
+  void sum_impulses(const Motion& m, std::span<const core::ContactPoint> points) {
+    pushed_.assign(m.bodies.size(), {});
+    const auto add = [&](std::uint32_t body, const core::ContactPoint& p) {
+      if (core::is_face(body)) return;
+      const Change c = change_by(m, body, Vec3d(p.point), Vec3d(p.impulse));
+      pushed_[body].dv += length(c.dv);
+      pushed_[body].dw += length(c.dw);
+    };
+    for (const core::ContactPoint& p : points) add(p.a, p), add(p.b, p);
+  }
+
+  // At most how much the point's speed changed by the other impulses on the body: before or after this one acted.
+  [[nodiscard]] double change_by_others(const Motion& m, std::uint32_t body, const core::ContactPoint& p) const {
+    if (core::is_face(body)) return 0.0;
+    const Change own = change_by(m, body, Vec3d(p.point), Vec3d(p.impulse));
+    const double arm = length(Vec3d(p.point) - m.bodies[body].before.x);
+    return std::max(0.0, pushed_[body].dv - length(own.dv)) + arm * std::max(0.0, pushed_[body].dw - length(own.dw));
+  }
+
+  // How far the slip at the end may be from that at the moment at which friction acted: what gravity, the other
+  // impulses and turning changed, and where in the gap the point is.
+  [[nodiscard]] double open_slip(const Motion& m, const core::ContactPoint& p) const {
+    double open = 2.0 * m.h * length(m.gravity);
+    for (const std::uint32_t body : {p.a, p.b})
+      open += change_by_turning(m, body, Vec3d(p.point)) + change_by_others(m, body, p);
+    return open + std::abs(static_cast<double>(p.gap_m)) * spin(m, p);
   }
 
   void judge(const Motion& m, const core::ContactPoint& p) {
@@ -62,20 +92,22 @@ class FrictionCone final : public Validator {
     };
     tally_.check(-push, {off, "N s", "contacts push: J n >= 0, and rounding"}, where, worked);
     const Friction mu = friction_of(p);
-    tally_.check(drag, {mu.most * std::max(0.0, push) + off, "N s", "mu J n of the scene, and rounding"}, where, worked);
+    tally_.check(drag, {mu.most * std::max(0.0, push) + off, "N s", "mu J n of the scene, and rounding"}, where,
+                 worked);
 
-    const Vec3d relative = speed_at(m, p.a, at) - speed_at(m, p.b, at);
+    const Vec3d relative = speed_at(m, p.a, at, Moment::kEnd) - speed_at(m, p.b, at, Moment::kEnd);
     const Vec3d slip = relative - dot(relative, n) * n;
-    // Slower slip is within what one step of gravity does and what the point's motion in the step leaves open.
-    const double open = 2.0 * m.h * length(m.gravity) + rounding(16) * length(relative) +
-                        std::abs(static_cast<double>(p.gap_m)) * spin(m, p);
+    const double open = open_slip(m, p) + rounding(16) * length(relative);
     const double sliding = length(slip);
     if (!(sliding > open) || drag <= off) {
       if (sliding > 4.0 * open && model_ == "cone") judge_least(mu, push, drag, open, sliding, off, where, worked);
       return;
     }
-    tally_.check(dot(tangent, slip) / drag, {open, "m/s", "2 |g| h: slip slower than this may have any direction"}, where,
-                 [&] { return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s"; });
+    // Friction acts against the slip at some moment of the step, which differs from that at the end by at most `open`;
+    // so turned to the friction's direction, the slip is off by at most twice that.
+    tally_.check(length(slip + (sliding / drag) * tangent), {2.0 * open, "m/s", kDirection}, where, [&] {
+      return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s";
+    });
     if (model_ != "regularized") judge_least(mu, push, drag, open, sliding, off, where, worked);
   }
 
@@ -84,16 +116,20 @@ class FrictionCone final : public Validator {
                    const Where& where, const Worked& worked) {
     const double share = std::max(0.0, 1.0 - 2.0 * open / sliding);
     const double least = mu.least * std::max(0.0, push) * share - off;
-    tally_.check(least - drag, {0.0, "N s", "a point that slides is braked by mu_kinetic J n, less 2 open / slip"}, where,
-                 worked);
+    tally_.check(least - drag, {0.0, "N s", "a point that slides is braked by mu_kinetic J n, less 2 open / slip"},
+                 where, worked);
   }
 
   [[nodiscard]] static double spin(const Motion& m, const core::ContactPoint& p) {
     return length(m.bodies[p.a].after.w) + (core::is_face(p.b) ? 0.0 : length(m.bodies[p.b].after.w));
   }
 
+  static constexpr std::string_view kDirection =
+      "friction acts against the slip at some moment of the step: twice 2 |g| h and what turning and other impulses "
+      "change";
   const core::Scene& scene_;
   std::string_view model_;
+  std::vector<Pushed> pushed_;
   Tally tally_{"friction-cone", "impulses of points", "Coulomb's cone of the scene's friction"};
 };
 

@@ -1,9 +1,8 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -31,10 +30,11 @@ class Gyroscopic final : public Validator {
       const double torque = std::max(length(cross(b.before.w, l0)), length(cross(b.after.w, l1)));
       // A quaternion turns the inertia: 4 roundings and 12 operations, twice; the product with w.
       const double rounding = substeps_ * m.rounding_of(40) * m.facts[i].largest_moment * spin;
+      judge_energy(m, i, torque, rounding * spin);
       tally_.check(length(l1 - l0), {0.5 * m.h * torque + rounding, "N m s", kOrigin},
                    Where::body(m.step, i, "bodies.angular_velocity"), [&] {
-                     return "L went from " + vector_text(l0) + " to " + vector_text(l1) + " N m s, h |w x L| = " +
-                            number_text(m.h * torque) + " N m s";
+                     return "L went from " + vector_text(l0) + " to " + vector_text(l1) +
+                            " N m s, h |w x L| = " + number_text(m.h * torque) + " N m s";
                    });
     }
   }
@@ -45,6 +45,22 @@ class Gyroscopic final : public Validator {
   }
 
  private:
+  // The energy of the spin is off by what the second order of two things costs: of the torque, h^2 T^2 / 2 over a
+  // moment, and as much of the orientation whose inertia says how fast the momentum spins.
+  void judge_energy(const Motion& m, std::uint32_t i, double torque, double rounding) {
+    const BodyStep& b = m.bodies[i];
+    const double e0 = 0.5 * dot(b.before.w, b.before.angular_momentum);
+    const double e1 = 0.5 * dot(b.after.w, b.after.angular_momentum);
+    const double turn = m.h * std::max(length(b.before.w), length(b.after.w));
+    const double second = m.h * torque * m.h * torque / m.facts[i].least_moment;
+    const double limit = second + turn * turn * turn / 12.0 * torque + rounding;
+    tally_.check(std::abs(e1 - e0), {limit, "J", kOfEnergy}, Where::body(m.step, i, "bodies.angular_velocity"), [&] {
+      return "the energy of the spin went from " + number_text(e0) + " to " + number_text(e1) + " J";
+    });
+  }
+
+  static constexpr std::string_view kOfEnergy =
+      "(h |w x L|)^2 over the least moment: second order of torque and turn; (h |w|)^3 / 12 |w x L|; and rounding";
   static constexpr std::string_view kOrigin =
       "1/2 h |w x L|: half of what a step without the gyroscopic torque changes; and rounding";
   double substeps_;

@@ -27,6 +27,15 @@ constexpr Vec3d transposed_times(const Mat3d& m, Vec3d v) {
   return v.x * m.row[0] + v.y * m.row[1] + v.z * m.row[2];
 }
 
+// Of a matrix that can be inverted.
+constexpr Mat3d inverse(const Mat3d& m) {
+  const Vec3d a = cross(m.row[1], m.row[2]);
+  const Vec3d b = cross(m.row[2], m.row[0]);
+  const Vec3d c = cross(m.row[0], m.row[1]);
+  const double s = 1.0 / dot(m.row[0], a);
+  return {{s * Vec3d{a.x, b.x, c.x}, s * Vec3d{a.y, b.y, c.y}, s * Vec3d{a.z, b.z, c.z}}};
+}
+
 // w + xi + yj + zk, world from body.
 struct Quatd {
   double w = 1.0;

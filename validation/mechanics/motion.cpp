@@ -14,6 +14,42 @@ bool is_finite(Vec3d v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+core::Box joined(const core::Box& a, const core::Box& b) {
+  core::Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.min[k] = std::min(a.min[k], b.min[k]);
+    box.max[k] = std::max(a.max[k], b.max[k]);
+  }
+  return box;
+}
+
+bool is_within(const core::Box& inner, const core::Box& outer) {
+  for (int k = 0; k < 3; ++k)
+    if (!(inner.min[k] > outer.min[k] && inner.max[k] < outer.max[k])) return false;
+  return true;
+}
+
+bool meet(const core::Box& a, const core::Box& b) {
+  for (int k = 0; k < 3; ++k)
+    if (!(a.min[k] <= b.max[k] && b.min[k] <= a.max[k])) return false;
+  return true;
+}
+
+// Around the body's own box at this pose, moved by the shift and grown, rounded outward.
+core::Box box_around(const BodyState& s, const BodyFacts& f, double grow, Vec3d shift) {
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  const Vec3d c = s.origin + s.r * f.box_center + shift;
+  core::Box box;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3d& row = s.r.row[static_cast<std::size_t>(k)];
+    const double half =
+        std::abs(row.x) * f.box_half.x + std::abs(row.y) * f.box_half.y + std::abs(row.z) * f.box_half.z;
+    box.min[k] = std::nextafter(static_cast<float>(c[k] - half - grow), -kInf);
+    box.max[k] = std::nextafter(static_cast<float>(c[k] + half + grow), kInf);
+  }
+  return box;
+}
+
 // Roots of a union of bodies, each the least body of its set.
 class Sets {
  public:
@@ -46,7 +82,13 @@ double state_roundoff(const core::TraceHeader& header) {
 std::vector<BodyFacts> facts_of(const core::Scene& scene) {
   std::vector<BodyFacts> facts;
   std::vector<core::Box> boxes;
-  for (const auto& mesh : scene.meshes) boxes.push_back(core::bounds(*mesh));
+  std::vector<double> balls;
+  for (const auto& mesh : scene.meshes) {
+    boxes.push_back(core::bounds(*mesh));
+    const auto primitive = core::primitive_of(*mesh);
+    const bool is_ball = primitive && primitive->kind == core::PrimitiveKind::kSphere;
+    balls.push_back(is_ball ? static_cast<double>(primitive->radius_m) : 0.0);
+  }
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
     const core::Body& body = scene.bodies[i];
     BodyFacts f;
@@ -56,6 +98,9 @@ std::vector<BodyFacts> facts_of(const core::Scene& scene) {
     const Vec3d high(boxes[body.mesh].max);
     f.box_center = 0.5 * (low + high);
     f.box_half = 0.5 * (high - low);
+    // The closed shape that the mesh is a drawing of.
+    f.ball_radius_m = balls[body.mesh];
+    if (f.ball_radius_m > 0.0) f.box_center = {}, f.box_half = {f.ball_radius_m, f.ball_radius_m, f.ball_radius_m};
     f.smallest_side_m = 2.0 * std::min({f.box_half.x, f.box_half.y, f.box_half.z});
     if (f.is_dynamic) {
       f.mass_kg = 1.0 / static_cast<double>(body.inverse_mass);
@@ -66,6 +111,7 @@ std::vector<BodyFacts> facts_of(const core::Scene& scene) {
         f.has_inertia = true;
         f.center_of_mass = {c[0], c[1], c[2]};
         f.inertia = {{Vec3d{t[0], t[3], t[4]}, Vec3d{t[3], t[1], t[5]}, Vec3d{t[4], t[5], t[2]}}};
+        f.inverse_inertia = inverse(f.inertia);
         const auto moments = core::principal_moments(t);
         f.least_moment = moments[0];
         f.largest_moment = moments[2];
@@ -80,12 +126,16 @@ std::vector<BodyFacts> facts_of(const core::Scene& scene) {
   return facts;
 }
 
-MotionReader::MotionReader(const core::TraceHeader& header) : header_(header), facts_(facts_of(header.scene)) {
+MotionReader::MotionReader(const core::TraceHeader& header)
+    : header_(header),
+      facts_(facts_of(header.scene)),
+      margin_m_(header.declaration.number("contact_margin_m") + header.scene.parameters.delta_m) {
   for (const BodyFacts& f : facts_) is_static_.push_back(f.is_dynamic ? 0 : 1);
   motion_.h = header.scene.dt_s;
   motion_.gravity = Vec3d(header.scene.gravity_m_s2);
   motion_.u = state_roundoff(header);
   motion_.facts = facts_;
+  motion_.turns = header.scene.motion == core::Motion::kRigid;
   motion_.bodies.resize(facts_.size());
 }
 
@@ -129,60 +179,74 @@ std::optional<BodyState> MotionReader::state_of(const core::FrameRecord& frame, 
   return s;
 }
 
+core::Box MotionReader::predicted_box(std::size_t body) const {
+  const BodyFacts& f = facts_[body];
+  const BodyState& s = motion_.bodies[body].before;
+  if (!f.is_dynamic) return box_around(s, f, margin_m_, {});
+  // No point of it is farther from where a translation takes it than its reach times the angle, nor than twice its
+  // reach. Free, the spin grows at most to where the energy is all about the smallest moment.
+  const double growth = f.has_inertia ? std::sqrt(f.largest_moment / f.least_moment) : 1.0;
+  const double swing = f.reach_m * std::min(2.0, motion_.h * length(s.w) * growth);
+  const double grow = swing + margin_m_;
+  const core::Box start = box_around(s, f, grow, {});
+  const core::Box drifted = box_around(s, f, grow, motion_.h * s.v);
+  const core::Box fallen = box_around(s, f, grow, motion_.h * (s.v + motion_.h * motion_.gravity));
+  return joined(joined(start, drifted), fallen);
+}
+
 core::Box MotionReader::swept_box(std::size_t body) const {
   const BodyFacts& f = facts_[body];
   const BodyStep& b = motion_.bodies[body];
   // Between two poses an extent is above both ends' by at most reach (1 - cos(angle / 2)).
-  const double angle = angle_of(b.after.q * conjugate(b.before.q)) + motion_.h * length(b.before.w);
-  const double bulge = f.reach_m * std::min(1.0, angle * angle / 8.0);
-  const double grow = bulge + header_.declaration.number("contact_margin_m") + header_.scene.parameters.delta_m;
-  Vec3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-            std::numeric_limits<double>::infinity()};
-  Vec3d high = -1.0 * low;
-  const auto add = [&](const BodyState& s, Vec3d shift, double swing) {
-    const Vec3d c = s.origin + s.r * f.box_center + shift;
-    const auto half = [&](int k) {
-      const Vec3d& row = s.r.row[static_cast<std::size_t>(k)];
-      return std::abs(row.x) * f.box_half.x + std::abs(row.y) * f.box_half.y + std::abs(row.z) * f.box_half.z;
-    };
-    const Vec3d e{half(0) + grow + swing, half(1) + grow + swing, half(2) + grow + swing};
-    low = {std::min(low.x, c.x - e.x), std::min(low.y, c.y - e.y), std::min(low.z, c.z - e.z)};
-    high = {std::max(high.x, c.x + e.x), std::max(high.y, c.y + e.y), std::max(high.z, c.z + e.z)};
-  };
-  // Where it was going before it was turned back: none of its points turns farther than its reach times the angle, nor
-  // than twice its reach.
-  const double swing = f.is_dynamic ? f.reach_m * std::min(2.0, motion_.h * length(b.before.w)) : 0.0;
-  add(b.before, {}, swing);
-  add(b.after, {}, 0.0);
-  if (f.is_dynamic) add(b.before, motion_.h * (b.before.v + motion_.h * motion_.gravity), swing);
-  const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -std::numeric_limits<float>::infinity()); };
-  const auto up = [](double v) { return std::nextafter(static_cast<float>(v), std::numeric_limits<float>::infinity()); };
-  return {{down(low.x), down(low.y), down(low.z)}, {up(high.x), up(high.y), up(high.z)}};
+  const double angle = angle_of(b.after.q * conjugate(b.before.q));
+  const double grow = f.reach_m * std::min(1.0, angle * angle / 8.0) + margin_m_;
+  return joined(predicted_[body], joined(box_around(b.before, f, grow, {}), box_around(b.after, f, grow, {})));
+}
+
+void MotionReader::find_touchable() {
+  const core::Box& d = header_.scene.domain;
+  for (std::size_t i = 0; i < facts_.size(); ++i) is_touchable_[i] = is_within(predicted_[i], d) ? 0 : 1;
+  for (const core::Pair p : motion_.near)
+    if (meet(predicted_[p.i], predicted_[p.j])) is_touchable_[p.i] = is_touchable_[p.j] = 1;
+  // What was deflected may meet what was not.
+  for (bool is_changed = true; is_changed;) {
+    is_changed = false;
+    for (const core::Pair p : motion_.near) {
+      if (is_touchable_[p.i] == is_touchable_[p.j]) continue;
+      const auto [from, to] = is_touchable_[p.i] != 0 ? std::pair(p.i, p.j) : std::pair(p.j, p.i);
+      if (!meet(swept_[from], predicted_[to])) continue;
+      is_touchable_[to] = 1;
+      is_changed = true;
+    }
+  }
 }
 
 void MotionReader::find_neighbors() {
-  std::vector<core::Box> boxes;
-  boxes.reserve(facts_.size());
-  for (std::size_t i = 0; i < facts_.size(); ++i) boxes.push_back(swept_box(i));
-  motion_.near = join_.join(boxes, is_static_);
-  Sets sets(facts_.size());
-  std::vector<std::uint8_t> is_held(facts_.size());
-  const core::Box& d = header_.scene.domain;
-  for (std::uint32_t i = 0; i < facts_.size(); ++i) {
-    bool is_inside = true;
-    for (int k = 0; k < 3; ++k) is_inside = is_inside && boxes[i].min[k] > d.min[k] && boxes[i].max[k] < d.max[k];
-    motion_.bodies[i].is_alone = is_inside && facts_[i].is_dynamic;
-    is_held[i] = is_inside ? 0 : 1;
+  const std::size_t n = facts_.size();
+  predicted_.resize(n);
+  swept_.resize(n);
+  is_touchable_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    predicted_[i] = predicted_box(i);
+    swept_[i] = swept_box(i);
+  }
+  motion_.near = join_.join(swept_, is_static_);
+  find_touchable();
+  Sets sets(n);
+  std::vector<std::uint8_t> is_held(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    motion_.bodies[i].is_alone = is_touchable_[i] == 0 && facts_[i].is_dynamic;
+    is_held[i] = is_within(swept_[i], header_.scene.domain) ? 0 : 1;
   }
   for (const core::Pair p : motion_.near) {
-    motion_.bodies[p.i].is_alone = motion_.bodies[p.j].is_alone = false;
+    if (is_touchable_[p.i] == 0 || is_touchable_[p.j] == 0) continue;
     if (is_static_[p.i] != 0 || is_static_[p.j] != 0)
       is_held[is_static_[p.i] != 0 ? p.j : p.i] = 1;
     else
       sets.join(p.i, p.j);
   }
-  motion_.set_is_free.assign(facts_.size(), 1);
-  for (std::uint32_t i = 0; i < facts_.size(); ++i) {
+  motion_.set_is_free.assign(n, 1);
+  for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t set = sets.root(i);
     motion_.bodies[i].set = set;
     if (is_held[i] != 0 || is_static_[i] != 0 || facts_[i].has_spring) motion_.set_is_free[set] = 0;

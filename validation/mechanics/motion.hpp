@@ -23,14 +23,16 @@ struct BodyFacts {
   bool has_spring = false;
   bool has_inertia = false;
   double mass_kg = 0.0;
-  Vec3d center_of_mass;            // in mesh coordinates, m
-  Mat3d inertia;                   // kg m^2, about the center of mass, in mesh axes
-  double least_moment = 0.0;       // kg m^2
-  double largest_moment = 0.0;     // kg m^2
-  double reach_m = 0.0;            // farthest point of the mesh from the center of mass
-  double smallest_side_m = 0.0;    // of the mesh's box
-  Vec3d box_center;                // of the mesh's box, in mesh coordinates
-  Vec3d box_half;                  // m
+  Vec3d center_of_mass;          // in mesh coordinates, m
+  Mat3d inertia;                 // kg m^2, about the center of mass, in mesh axes
+  Mat3d inverse_inertia;         // 1/(kg m^2)
+  double least_moment = 0.0;     // kg m^2
+  double largest_moment = 0.0;   // kg m^2
+  double reach_m = 0.0;          // farthest point of the mesh from the center of mass
+  double smallest_side_m = 0.0;  // of the mesh's box
+  Vec3d box_center;              // of the mesh's box, in mesh coordinates
+  Vec3d box_half;                // m
+  double ball_radius_m = 0.0;    // of a sphere; 0 for any other shape
   std::uint32_t mesh = 0;
 };
 
@@ -40,16 +42,17 @@ struct BodyState {
   Vec3d x;       // center of mass, m
   Quatd q;       // unit
   Mat3d r;
-  Vec3d v;  // m/s
-  Vec3d w;  // rad/s
+  Vec3d v;                 // m/s
+  Vec3d w;                 // rad/s
   Vec3d angular_momentum;  // kg m^2/s; zero without inertia
 };
 
 struct BodyStep {
   BodyState before;
   BodyState after;
-  // Whether the body can have touched nothing: its box, swept over the step and grown by the margin, meets no other's
-  // and stays inside the domain.
+  // Whether the body can have touched nothing: going where its start sends it, its box, grown by the margin, stays
+  // inside the domain and meets no other body, neither where that one's start sends it nor, if something may have
+  // deflected that one, where it went. Where this body itself was recorded afterwards excuses nothing.
   bool is_alone = false;
   // Bodies that may have touched each other, directly or through others, have one number; static bodies have none.
   std::uint32_t set = 0;
@@ -63,12 +66,13 @@ constexpr bool has_moved(const BodyStep& b) {
 
 struct Motion {
   std::uint64_t step = 0;
-  double h = 0.0;  // s
-  Vec3d gravity;   // m/s^2
-  double u = 0.0;  // unit roundoff of the states
+  double h = 0.0;      // s
+  Vec3d gravity;       // m/s^2
+  double u = 0.0;      // unit roundoff of the states
+  bool turns = false;  // the scene's bodies may turn
   std::span<const BodyFacts> facts;
   std::vector<BodyStep> bodies;
-  std::vector<core::Pair> near;          // pairs of bodies whose swept boxes meet
+  std::vector<core::Pair> near;           // pairs of bodies whose swept boxes meet
   std::vector<std::uint8_t> set_is_free;  // by set: none of its bodies may have touched a static body or the domain
 
   // n rounded operations, relative.
@@ -89,13 +93,22 @@ class MotionReader {
   [[nodiscard]] BodyState start_of(std::size_t body) const;
   void complete(BodyState& state, std::size_t body) const;
   void find_neighbors();
+  // Where the body's start sends it within the step, grown by the margin.
+  [[nodiscard]] core::Box predicted_box(std::size_t body) const;
+  // The same and where it was recorded afterwards.
   [[nodiscard]] core::Box swept_box(std::size_t body) const;
+  // By body: whether it can have touched something.
+  void find_touchable();
 
   const core::TraceHeader& header_;
   std::vector<BodyFacts> facts_;
+  double margin_m_;  // what engines may see bodies touch at, beyond their shapes
   std::vector<std::uint8_t> is_static_;
   Motion motion_;
   OverlapJoin join_;
+  std::vector<core::Box> predicted_;
+  std::vector<core::Box> swept_;
+  std::vector<std::uint8_t> is_touchable_;
 };
 
 // The mass properties, shapes and sizes of the scene's bodies.

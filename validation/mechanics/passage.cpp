@@ -1,14 +1,17 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
+#include <numbers>
 
 #include "validation/mechanics/motion.hpp"
+#include "validation/mechanics/oriented_box.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
 
-constexpr int kMostHalvings = 16;
+// A depth that exceeds the limit for so short a part of the motion that it may reach this share of it is let pass: it
+// bounds the number of halvings, since the motion of each half is half as long.
+constexpr double kUnseenShare = 0.125;
 
 class Passage final : public Validator {
  public:
@@ -42,13 +45,21 @@ class Passage final : public Validator {
     return {b.before.x + t * (b.after.x - b.before.x), q};
   }
 
+  // At most the distance: where boxes around the shapes are apart, theirs.
   [[nodiscard]] double distance_at(const Motion& m, core::Pair pair, double t) const {
-    const auto placed = [&](std::uint32_t i) {
-      const Pose p = pose_at(m, i, t);
-      const BodyFacts& f = m.facts[i];
-      return shapes_.placed(f.mesh, p.x - matrix_of(p.q) * f.center_of_mass, p.q);
+    const Pose p = pose_at(m, pair.i, t);
+    const Pose q = pose_at(m, pair.j, t);
+    const auto origin = [&](std::uint32_t i, const Pose& at) {
+      return at.x - matrix_of(at.q) * m.facts[i].center_of_mass;
     };
-    return exact::signed_distance(placed(pair.i), placed(pair.j)).distance_m;
+    const BodyFacts& fa = m.facts[pair.i];
+    const BodyFacts& fb = m.facts[pair.j];
+    const double overlap = overlap_bound(oriented_box(fa, origin(pair.i, p), matrix_of(p.q)),
+                                         oriented_box(fb, origin(pair.j, q), matrix_of(q.q)));
+    if (overlap < 0.0) return -overlap;
+    return exact::signed_distance(shapes_.placed(fa.mesh, origin(pair.i, p), p.q),
+                                  shapes_.placed(fb.mesh, origin(pair.j, q), q.q))
+        .distance_m;
   }
 
   void judge(const Motion& m, core::Pair pair) {
@@ -65,10 +76,15 @@ class Passage final : public Validator {
     const double allowed = 0.5 * std::min(fa.smallest_side_m, fb.smallest_side_m);
     // What is not deep at the ends cannot have been much deeper between them: penetration judges the ends.
     if (moved <= allowed) return;
+    // So fast that the poses do not say which way it turned.
+    if (m.h * std::max(length(a.before.w), length(b.before.w)) >= std::numbers::pi) return;
+    const double first = overlap_bound(oriented_box(fa, a.before), oriented_box(fb, b.before));
+    const double last = overlap_bound(oriented_box(fa, a.after), oriented_box(fb, b.after));
+    if (0.5 * (first + last + moved) <= allowed && tally_.check_bound(std::max({0.0, first, last}), allowed)) return;
     const double d0 = distance_at(m, pair, 0.0);
     const double d1 = distance_at(m, pair, 1.0);
     const double limit = allowed + std::max({0.0, -d0, -d1});
-    const double deepest = search(m, pair, {0.0, d0}, {1.0, d1}, moved, limit, 0);
+    const double deepest = deepest_between({m, pair, limit, kUnseenShare * allowed}, {0.0, d0}, {1.0, d1}, moved);
     tally_.check(deepest, {limit, "m", kOrigin}, Where::pair(m.step, pair.i, pair.j, "bodies.position"), [&] {
       return "apart by " + number_text(d0) + " and " + number_text(d1) + " m at the two ends, and " +
              number_text(deepest) + " m deep between them";
@@ -79,17 +95,23 @@ class Passage final : public Validator {
     double t;
     double d;
   };
+  // What a search is for: deeper than limit; unseen: what may be missed beyond it.
+  struct Search {
+    const Motion& m;
+    core::Pair pair;
+    double limit;
+    double unseen;
+  };
 
   // The deepest overlap found; at once when it breaks the limit. Where the certified bound, (d0 + d1 - M) / 2 for a
   // motion of at most M, holds, no more is looked for.
-  [[nodiscard]] double search(const Motion& m, core::Pair pair, Sample p, Sample q, double moved, double limit,
-                              int depth) const {
+  [[nodiscard]] double deepest_between(const Search& s, Sample p, Sample q, double moved) const {
     const double found = std::max(-p.d, -q.d);
-    if (found > limit || 0.5 * (p.d + q.d - moved) >= -limit || depth == kMostHalvings) return found;
+    if (found > s.limit || 0.5 * (p.d + q.d - moved) >= -s.limit - s.unseen) return found;
     const double t = 0.5 * (p.t + q.t);
-    const Sample middle{t, distance_at(m, pair, t)};
-    const double left = search(m, pair, p, middle, 0.5 * moved, limit, depth + 1);
-    return left > limit ? left : std::max(left, search(m, pair, middle, q, 0.5 * moved, limit, depth + 1));
+    const Sample middle{t, distance_at(s.m, s.pair, t)};
+    const double left = deepest_between(s, p, middle, 0.5 * moved);
+    return left > s.limit ? left : std::max(left, deepest_between(s, middle, q, 0.5 * moved));
   }
 
   static constexpr std::string_view kOrigin =

@@ -1,11 +1,10 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/mechanics/scene_answer.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -39,7 +38,8 @@ class Rest final : public Validator {
       if (!f.is_dynamic) continue;
       const double allowed = share_ * f.smallest_side_m + slop_m_ * static_cast<double>(m.bodies.size());
       const Vec3d moved = m.bodies[i].after.x - start_[i];
-      tally_.check(length(moved), {allowed * (1.0 + time / kMinute_s), "m", kOrigin}, Where::body(m.step, i, "bodies.position"),
+      tally_.check(length(moved), {allowed * (1.0 + time / kMinute_s), "m", kOrigin},
+                   Where::body(m.step, i, "bodies.position"),
                    [&] { return "the body has moved by " + vector_text(moved) + " m in " + number_text(time) + " s"; });
       // A second of creep is the shortest that a speed is taken from.
       if (settled_.empty() || time - settled_at_ < kSettled_s) continue;

@@ -42,8 +42,8 @@ Figures flight(const core::Scene& scene, const Motion& m, double order) {
           {"velocity", "m/s", length(m.bodies[0].after.v - v), m.rounding_of(4 * steps) * (length(v) + g * t)}};
 }
 
-// Euler's equations of a free body, integrated in body axes by the classical Runge-Kutta method with steps so small that
-// their error is far below every limit; the attitude with them. The period that Jacobi's functions give is checked
+// Euler's equations of a free body, integrated in body axes by the classical Runge-Kutta method with steps so small
+// that their error is far below every limit; the attitude with them. The period that Jacobi's functions give is checked
 // against this integration in the tests.
 struct FreeBody {
   Vec3d w;  // body axes
@@ -51,7 +51,8 @@ struct FreeBody {
 };
 
 FreeBody rate_of(const FreeBody& s, Vec3d moments) {
-  const Vec3d dw{(moments.y - moments.z) * s.w.y * s.w.z / moments.x, (moments.z - moments.x) * s.w.z * s.w.x / moments.y,
+  const Vec3d dw{(moments.y - moments.z) * s.w.y * s.w.z / moments.x,
+                 (moments.z - moments.x) * s.w.z * s.w.x / moments.y,
                  (moments.x - moments.y) * s.w.x * s.w.y / moments.z};
   const Quatd half = s.q * Quatd{0.0, 0.5 * s.w.x, 0.5 * s.w.y, 0.5 * s.w.z};
   return {dw, half};
@@ -91,7 +92,9 @@ Figures torque_free(const core::Scene& scene, const Motion& m, double order) {
   const double error = angle_of(conjugate(exact.q) * m.bodies[0].after.q);
   // A step of order p is off by (h w)^(p + 1), and on an unstable axis errors grow with exp(lambda t), lambda <= w.
   const double growth = std::exp(std::min(3.0, spin * t));
-  return {{"attitude", "rad", error, std::pow(m.h * spin, order) * spin * t * growth + m.rounding_of(8.0 * static_cast<double>(m.step)) * growth}};
+  return {
+      {"attitude", "rad", error,
+       std::pow(m.h * spin, order) * spin * t * growth + m.rounding_of(8.0 * static_cast<double>(m.step)) * growth}};
 }
 
 // A box on a plane slides iff tan(theta) > mu, then with g (sin - mu cos); gravity is tilted instead of the plane.
@@ -108,7 +111,8 @@ Figures incline(const core::Scene& scene, const Motion& m, double order) {
   // Where friction begins is known to one step; what settles is the slop.
   const double g = length(m.gravity);
   return {{"distance down the plane", "m", std::abs(slid - 0.5 * a * t * t),
-           truncation(g, m.h, order, t) + 2.0 * scene.parameters.delta_m + m.rounding_of(8.0 * static_cast<double>(m.step)) * (length(start) + slid)}};
+           truncation(g, m.h, order, t) + 2.0 * scene.parameters.delta_m +
+               m.rounding_of(8.0 * static_cast<double>(m.step)) * (length(start) + slid)}};
 }
 
 // v0^2 / (2 mu g), whatever the heading.
@@ -122,9 +126,10 @@ Figures slide(const core::Scene& scene, const Motion& m, double order) {
   const Vec3d way = (t - 0.5 * t * t / stop) * v0;
   const Vec3d moved = m.bodies[0].after.x - Vec3d(scene.bodies[0].position);
   const Vec3d across{moved.x - way.x, 0.0, moved.z - way.z};
-  return {{"distance slid", "m", length(across),
-           truncation(2.0 * mu * g, m.h, order, t) + 2.0 * scene.parameters.delta_m +
-               m.rounding_of(8.0 * static_cast<double>(m.step)) * (speed * t + length(Vec3d(scene.bodies[0].position)))}};
+  return {
+      {"distance slid", "m", length(across),
+       truncation(2.0 * mu * g, m.h, order, t) + 2.0 * scene.parameters.delta_m +
+           m.rounding_of(8.0 * static_cast<double>(m.step)) * (speed * t + length(Vec3d(scene.bodies[0].position)))}};
 }
 
 // A ball that starts to slip rolls from t = 2 v0 / (7 mu g) on, at 5/7 v0.
@@ -154,7 +159,8 @@ Figures roll_incline(const core::Scene& scene, const Motion& m, double order) {
   const Vec3d moved = m.bodies[0].after.x - Vec3d(scene.bodies[0].position);
   const double x = 0.5 * a * t * t;
   return {{"distance", "m", std::abs(dot(moved, (1.0 / pull) * along) - x),
-           truncation(length(m.gravity), m.h, order, t) + m.rounding_of(16.0 * static_cast<double>(m.step)) * (x + length(Vec3d(scene.bodies[0].position)))}};
+           truncation(length(m.gravity), m.h, order, t) +
+               m.rounding_of(16.0 * static_cast<double>(m.step)) * (x + length(Vec3d(scene.bodies[0].position)))}};
 }
 
 // Apexes e^(2k) h0. The height above the floor of a ball, between bounces, from the energy that it has left.
@@ -180,7 +186,8 @@ Figures bounce(const core::Scene& scene, const Motion& m, double order) {
   const double actual = m.bodies[0].after.x.y - radius - scene.domain.min.y;
   // Each bounce happens up to one step early or late, at the speed of the fall.
   const double speed = std::sqrt(2.0 * g * h0);
-  const double limit = (1.0 + bounces) * 2.0 * speed * std::pow(m.h, std::min(order, 1.0)) + truncation(0.5 * g, m.h, order, time_of(m));
+  const double limit =
+      (1.0 + bounces) * 2.0 * speed * std::pow(m.h, std::min(order, 1.0)) + truncation(0.5 * g, m.h, order, time_of(m));
   return {{"height", "m", std::abs(actual - height), limit}};
 }
 
@@ -207,15 +214,18 @@ Figures billiards(const core::Scene& scene, const Motion& m, double order) {
 
 const std::array<SceneAnswer, 9>& table() {
   static const std::array<SceneAnswer, 9> kTable{{
-      {kStands, "nothing moves", "statics; judged by rest", [](const core::Scene&, const Motion&, double) { return Figures{}; }},
+      {kStands, "nothing moves", "statics; judged by rest",
+       [](const core::Scene&, const Motion&, double) { return Figures{}; }},
       {"flight", "x = x0 + v0 t + g t^2 / 2", "Galileo", flight},
       {"torque-free", "Euler's equations of a free body", "Landau and Lifshitz, Mechanics, section 37", torque_free},
       {"incline", "a = g (sin - mu cos), or rest", "Coulomb", incline},
       {"slide", "stops after v0^2 / (2 mu g)", "Coulomb", slide},
-      {"slip-to-roll", "rolls at 5/7 v0 from 2 v0 / (7 mu g) on", "Coriolis, Theorie du jeu de billard (1835)", slip_to_roll},
+      {"slip-to-roll", "rolls at 5/7 v0 from 2 v0 / (7 mu g) on", "Coriolis, Theorie du jeu de billard (1835)",
+       slip_to_roll},
       {"roll-incline", "a = 5/7 g sin", "a ball's inertia 2/5 m r^2", roll_incline},
       {"bounce", "apexes e^(2k) h0", "Newton's restitution", bounce},
-      {"billiards", "the second takes the component along the line of centers", "Huygens, De motu corporum (1703)", billiards},
+      {"billiards", "the second takes the component along the line of centers", "Huygens, De motu corporum (1703)",
+       billiards},
   }};
   return kTable;
 }

@@ -1,28 +1,37 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <numbers>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
 
 class Turning final : public Validator {
  public:
-  explicit Turning(const Subject& subject) : substeps_(subject.header.declaration.number("substeps")) {}
+  explicit Turning(const Subject& subject)
+      : substeps_(subject.header.declaration.number("substeps")), turns_(subject.header.declaration.turns()) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
-    for (std::uint32_t i = 0; i < m.bodies.size(); ++i)
+    for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
       if (m.bodies[i].is_alone) judge(m, i);
+      if (!turns_ && m.facts[i].is_dynamic) judge_held(m, i);
+    }
   }
 
   core::Verdict conclude() override { return tally_.conclude("no moving body touched nothing for a whole step"); }
 
  private:
+  // Of an engine that declares that its bodies translate.
+  void judge_held(const Motion& m, std::uint32_t i) {
+    const double angle = angle_of(m.bodies[i].after.q * conjugate(m.bodies[i].before.q));
+    tally_.check(angle, {m.rounding_of(16), "rad", "declared: bodies translate, and keep their orientation"},
+                 Where::body(m.step, i, "bodies.orientation"));
+  }
+
   void judge(const Motion& m, std::uint32_t i) {
     const BodyState& s0 = m.bodies[i].before;
     const BodyState& s1 = m.bodies[i].after;
@@ -49,6 +58,7 @@ class Turning final : public Validator {
   static constexpr std::string_view kOrigin =
       "h |w1 - w0| for the choice between w0 and w1, (h |w|)^3 / 12 for a normalized first-order turn, and rounding";
   double substeps_;
+  bool turns_;
   Tally tally_{"turning", "orientations of free flight", kOrigin};
 };
 

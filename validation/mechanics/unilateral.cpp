@@ -1,13 +1,12 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <utility>
 
-#include "validation/mechanics/motion.hpp"
+#include "validation/mechanics/point_speed.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -19,22 +18,29 @@ class Unilateral final : public Validator {
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
-    pushed_.clear();
-    for (const core::ContactPoint& p : evidence.frame.points) pushed_[{p.a, p.b}] += length(Vec3d(p.impulse));
+    given_.clear();
+    for (const core::ContactPoint& p : evidence.frame.points) given_[{p.a, p.b}].add(m, p);
     for (const core::ContactPoint& p : evidence.frame.points) {
       if (p.impulse == core::Vec3{}) continue;
       const Vec3d at(p.point);
       const Vec3d n(p.normal);
+      const auto approach_at = [&](Moment moment) {
+        return -dot(speed_at(m, p.a, at, moment) - speed_at(m, p.b, at, moment), n);
+      };
       // How fast they came, or, where another contact drove them on within the step, how fast they would have met
-      // without their own impulses.
-      const double came = -dot(speed_at(m, p.a, at, false) - speed_at(m, p.b, at, false), n);
-      const double left = -dot(speed_at(m, p.a, at, true) - speed_at(m, p.b, at, true), n);
-      const double approach = std::max(came, left + (mobility(m, p.a) + mobility(m, p.b)) * pushed_[{p.a, p.b}]);
+      // without this point's impulse, or without all that these two gave each other.
+      const double came = approach_at(Moment::kStart);
+      Given own;
+      own.add(m, p);
+      const double gained = std::max(own.speed_at_point(p, m), given_[{p.a, p.b}].speed_at_point(p, m));
+      const double left = approach_at(Moment::kEnd) + change_by_turning(m, p.a, at) + change_by_turning(m, p.b, at);
+      const double approach = std::max(came, left + gained);
       // Gravity may bring them together within the step.
       const double reach = m.h * (std::max(0.0, approach) + m.h * length(m.gravity));
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
       tally_.check(p.gap_m, {limit, "m", kOrigin}, Where::pair(m.step, p.a, p.b, "points.gap"), [&] {
-        return "an impulse over a gap of " + number_text(p.gap_m) + " m that closes at " + number_text(approach) + " m/s";
+        return "an impulse over a gap of " + number_text(p.gap_m) + " m that closes at " + number_text(approach) +
+               " m/s";
       });
     }
   }
@@ -42,22 +48,32 @@ class Unilateral final : public Validator {
   core::Verdict conclude() override { return tally_.conclude("no point of contact with an impulse"); }
 
  private:
-  [[nodiscard]] static Vec3d speed_at(const Motion& m, std::uint32_t body, Vec3d point, bool is_after) {
-    if (core::is_face(body) || !m.facts[body].is_dynamic) return {};
-    const BodyState& s = is_after ? m.bodies[body].after : m.bodies[body].before;
-    return s.v + cross(s.w, point - s.x);
-  }
+  // What two bodies gave each other.
+  struct Given {
+    Change of_a;
+    Change of_b;
 
-  // At most how fast a point of the body moves for an impulse of 1 N s on it.
-  [[nodiscard]] static double mobility(const Motion& m, std::uint32_t body) {
-    if (core::is_face(body) || !m.facts[body].is_dynamic) return 0.0;
-    const BodyFacts& f = m.facts[body];
-    return 1.0 / f.mass_kg + (f.has_inertia ? f.reach_m * f.reach_m / f.least_moment : 0.0);
-  }
+    void add(const Motion& m, const core::ContactPoint& p) {
+      const auto sum = [](Change& to, const Change& more) {
+        to.dv = to.dv + more.dv;
+        to.dw = to.dw + more.dw;
+      };
+      sum(of_a, change_by(m, p.a, Vec3d(p.point), Vec3d(p.impulse)));
+      sum(of_b, change_by(m, p.b, Vec3d(p.point), -1.0 * Vec3d(p.impulse)));
+    }
+    // How much faster the bodies part at the point, along its normal, than without it.
+    [[nodiscard]] double speed_at_point(const core::ContactPoint& p, const Motion& m) const {
+      const auto speed = [&](std::uint32_t body, const Change& c) {
+        return core::is_face(body) ? Vec3d{} : c.dv + cross(c.dw, Vec3d(p.point) - m.bodies[body].before.x);
+      };
+      return dot(speed(p.a, of_a) - speed(p.b, of_b), Vec3d(p.normal));
+    }
+  };
 
-  static constexpr std::string_view kOrigin = "the declared margin, h times the approach speed with gravity, and rounding";
+  static constexpr std::string_view kOrigin =
+      "the declared margin, h times the approach speed with gravity and turning, and rounding";
   double margin_m_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> pushed_;  // N s, by the bodies of the points
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Given> given_;  // by the bodies of the points
   Tally tally_{"unilateral", "points with an impulse", kOrigin};
 };
 

@@ -73,7 +73,10 @@ TEST(ForeignPage, SaysForEachValidatorWhatItReads) {
     // A trace with the needed groups alone is judged; a baseline is the trace itself.
     core::TraceHeader header;
     header.stamp.engine = "foreign";
-    header.declaration = core::method_declaration();
+    // Laws of mechanics hold for every engine, and some only where the method's own law does not say more.
+    if (!v.reads_motion) header.declaration = core::method_declaration();
+    header.scene.motion = v.reads_motion ? core::Motion::kRigid : core::Motion::kTranslate;
+    header.scene.answer = v.name == "closed-form" ? "flight" : "stands";
     // What laws need to know about the settings and the scene.
     header.stamp.settings = "levels=C,solver=colored";
     header.scene.bodies.emplace_back();

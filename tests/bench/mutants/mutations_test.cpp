@@ -4,8 +4,10 @@
 #include <span>
 #include <string>
 
+#include "bench/mutants/rigid_tamperings.hpp"
 #include "bench/mutants/tamperings.hpp"
 #include "reference/mutants/mutants.hpp"
+#include "reference/rigid_mutants/rigid_mutants.hpp"
 #include "tests/validation/sound_world.hpp"
 
 namespace broadside::tests {
@@ -36,6 +38,12 @@ TEST(Mutations, EveryValidatorHasSomethingThatItMustReject) {
   for (const auto part : {reference::pair_mutants(), reference::octree_mutants(), reference::contact_mutants(),
                           reference::velocity_mutants(), reference::state_mutants()})
     for (const reference::Mutant& m : part) meant.insert(m.validator);
+  for (const auto part : {reference::flight_mutants(), reference::touch_mutants(), reference::impulse_mutants(),
+                          reference::telling_mutants()})
+    for (const reference::RigidMutant& m : part) meant.insert(m.law);
+  for (const auto part :
+       {bench::rigid_state_tamperings(), bench::rigid_point_tamperings(), bench::rigid_declaration_tamperings()})
+    for (const bench::RigidTampering& t : part) meant.insert(t.law);
   for (const validation::ValidatorRow& row : validation::validators())
     EXPECT_TRUE(meant.contains(row.name)) << row.name;
 }

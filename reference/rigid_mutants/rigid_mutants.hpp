@@ -1,0 +1,30 @@
+// Wrong engines of bodies that turn: plain-rigid with one stage replaced, and the law that must see it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/engine/dynamics.hpp"
+#include "reference/rigid_mutants/staged_world.hpp"
+
+namespace broadside::reference {
+
+struct RigidMutant {
+  std::string_view name;   // "no-gyroscopic-term"
+  std::string_view what;   // what is wrong, in a few words
+  std::string_view law;    // meant for
+  std::string_view scene;  // where it shows: bench/mutants/rigid_scenes
+  RigidStages stages;
+  bool differs_from_run_to_run = false;
+};
+
+// Four tables, by what is wrong.
+std::span<const RigidMutant> flight_mutants();   // how bodies move and turn while they touch nothing
+std::span<const RigidMutant> touch_mutants();    // where bodies touch, and what keeps them apart
+std::span<const RigidMutant> impulse_mutants();  // impulses and friction
+std::span<const RigidMutant> telling_mutants();  // right motion, told wrongly
+
+std::unique_ptr<core::Dynamics> make_rigid_mutant(const RigidMutant& mutant, std::uint64_t run);
+
+}  // namespace broadside::reference
