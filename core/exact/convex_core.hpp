@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/engine/narrow_phase.hpp"
-#include "core/scene/mesh.hpp"
 #include "core/exact/triangle_distance.hpp"
+#include "core/scene/mesh.hpp"
 
 namespace broadside::exact {
 
@@ -24,7 +24,8 @@ struct ConvexCore {
   double radius_m = 0.0;
 };
 
-// Nothing when the mesh is neither a primitive (core/scene/primitive.hpp) nor convex.
+// Nothing when the mesh is neither a primitive (core/scene/primitive.hpp) nor convex, and for cylinders, which are no
+// core with a ball.
 std::optional<ConvexCore> convex_core_of(const core::Mesh& mesh);
 
 // In double, with the orientation normalized in double: float quaternions are units only to 1e-7.

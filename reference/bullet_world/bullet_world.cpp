@@ -19,6 +19,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "core/scene/refuse_wrenches.hpp"
 #include "reference/bullet_world/contact_readout.hpp"
 #include "reference/vendor_call.hpp"
 
@@ -88,6 +89,7 @@ class BulletWorld final : public core::Dynamics {
 
   Status load(const core::Scene& scene) override {
     if (Status s = core::refuse_springs(scene); !s) return s;
+    if (Status s = core::refuse_wrenches(scene); !s) return s;
     return vendor_call("bullet-world: load", [&]() -> Status {
       scene_ = &scene;
       step_ = 0;
@@ -245,9 +247,8 @@ class BulletWorld final : public core::Dynamics {
 
 bool bullet_world_rotates(const core::Scene& scene, const BulletWorldOptions& options) {
   return options.always_rotates || scene.motion == core::Motion::kRigid ||
-         std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const core::Body& b) {
-           return !(b.angular_velocity == core::Vec3{});
-         });
+         std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const core::Body& b) { return !(b.angular_velocity == core::Vec3{}); });
 }
 
 std::unique_ptr<core::Dynamics> make_bullet_world(const BulletWorldOptions& options) {

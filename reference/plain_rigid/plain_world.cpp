@@ -29,11 +29,12 @@ core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index) {
   const core::Body& given = scene.bodies[index];
   const core::Mesh& mesh = *scene.meshes[given.mesh];
   const auto primitive = core::primitive_of(mesh);
-  const bool is_known = primitive && primitive->kind != core::PrimitiveKind::kCapsule;
+  const bool is_known =
+      primitive && (primitive->kind == core::PrimitiveKind::kBox || primitive->kind == core::PrimitiveKind::kSphere);
   if (!is_known)
-    return core::Error{"unsupported shape: " + (primitive ? std::string(core::primitive_word(primitive->kind)) : "mesh"),
-                       scene.name + ": body " + std::to_string(index), "plain-rigid knows boxes and spheres",
-                       core::Exit::kMissing};
+    return core::Error{
+        "unsupported shape: " + (primitive ? std::string(core::primitive_word(primitive->kind)) : "mesh"),
+        scene.name + ": body " + std::to_string(index), "plain-rigid knows boxes and spheres", core::Exit::kMissing};
   RigidBody b;
   b.kind = primitive->kind;
   b.half_extents = vec(primitive->half_extents);
@@ -107,6 +108,12 @@ Status PlainWorld::load(const core::Scene& scene) {
       bodies_.back().angular_momentum = {};
     }
   }
+  for (const core::Wrench& w : scene.wrenches) {
+    RigidBody& b = bodies_[w.body];
+    const bool turns = w.axes == core::WrenchAxes::kBody;
+    (turns ? b.force_body : b.force_world) = (turns ? b.force_body : b.force_world) + vec(w.force_n);
+    (turns ? b.torque_body : b.torque_world) = (turns ? b.torque_body : b.torque_world) + vec(w.torque_n_m);
+  }
   return core::Done{};
 }
 
@@ -129,7 +136,11 @@ core::Box PlainWorld::box_of(const RigidBody& b) const {
 
 double PlainWorld::fastest(const RigidBody& b, double h) const {
   if (b.is_static()) return 0.0;
-  return length(b.v) + length(b.angular_velocity()) * size_of(b) + h * length(vec(scene_->gravity_m_s2));
+  return length(b.v) + length(b.angular_velocity()) * size_of(b) + h * length(pull(b));
+}
+
+Vec PlainWorld::pull(const RigidBody& b) const {
+  return b.is_static() ? Vec{} : vec(scene_->gravity_m_s2) + b.inverse_mass * b.force();
 }
 
 void PlainWorld::add_pair(std::uint32_t a, std::uint32_t b, double h) {
@@ -144,8 +155,8 @@ void PlainWorld::add_faces(std::uint32_t a, double h) {
     std::vector<NearPoint> found;
     near_points(bodies_[a], scene_->domain, face, h * fastest(bodies_[a], h), found);
     for (const NearPoint& p : found)
-      points_.push_back({a, core::kFirstFace + face, p, core::combine(bodies_[a].material, scene_->face_material), 0.0,
-                         0.0, {}, {}});
+      points_.push_back(
+          {a, core::kFirstFace + face, p, core::combine(bodies_[a].material, scene_->face_material), 0.0, 0.0, {}, {}});
   }
 }
 
@@ -184,16 +195,14 @@ void PlainWorld::find_points(double h) {
 }
 
 void PlainWorld::solve_impacts(double h) {
-  const Vec g = vec(scene_->gravity_m_s2);
   std::vector<SolverPoint> hits;
   std::vector<std::size_t> index;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const SolverPoint& p = points_[k];
-    const bool moves_b = !core::is_face(p.b) && !bodies_[p.b].is_static();
     const Vec vb = core::is_face(p.b) ? Vec{} : velocity_at(bodies_[p.b], p.at.point);
     const double approach = -dot(velocity_at(bodies_[p.a], p.at.point) - vb, p.at.normal);
-    const double pull = (bodies_[p.a].is_static() ? 0.0 : 1.0) - (moves_b ? 1.0 : 0.0);
-    const double closing = h * (approach - pull * h * dot(g, p.at.normal));
+    const Vec pulled = pull(bodies_[p.a]) - (core::is_face(p.b) ? Vec{} : pull(bodies_[p.b]));
+    const double closing = h * (approach - h * dot(pulled, p.at.normal));
     const bool is_hit = approach > scene_->parameters.v_threshold_m_s && p.at.gap < closing;
     if (!is_hit) continue;
     hits.push_back(p);
@@ -210,7 +219,10 @@ void PlainWorld::solve_impacts(double h) {
 
 void PlainWorld::accelerate(double h) {
   for (RigidBody& b : bodies_)
-    if (!b.is_static()) b.v = b.v + h * vec(scene_->gravity_m_s2);
+    if (!b.is_static()) {
+      b.v = b.v + h * pull(b);
+      b.angular_momentum = b.angular_momentum + h * b.torque();
+    }
 }
 
 void PlainWorld::solve_contacts(double h) {
@@ -267,8 +279,8 @@ Status PlainWorld::step(float dt_s) {
   for (const SolverPoint& p : points_) {
     const bool acts = dot(p.total_impulse, p.total_impulse) > 0.0;
     if (!acts && p.at.gap > 0.0) continue;
-    recorded_.push_back({p.a, p.b, narrow(p.at.point), narrow(p.at.normal), static_cast<float>(p.at.gap),
-                         narrow(p.total_impulse), 0});
+    recorded_.push_back(
+        {p.a, p.b, narrow(p.at.point), narrow(p.at.normal), static_cast<float>(p.at.gap), narrow(p.total_impulse), 0});
   }
   ++steps_;
   return core::Done{};
@@ -280,8 +292,8 @@ void PlainWorld::begin_record() {
   for (const RigidBody& b : bodies_) {
     detected_.detected_position.push_back(narrow(b.origin()));
     detected_.detected_velocity.push_back(narrow(b.v));
-    detected_.detected_orientation.push_back({static_cast<float>(b.q.w), static_cast<float>(b.q.x),
-                                              static_cast<float>(b.q.y), static_cast<float>(b.q.z)});
+    detected_.detected_orientation.push_back(
+        {static_cast<float>(b.q.w), static_cast<float>(b.q.x), static_cast<float>(b.q.y), static_cast<float>(b.q.z)});
     detected_.boxes.push_back(box_of(b));
   }
 }

@@ -57,7 +57,9 @@ class PlainWorld : public core::Dynamics {
   void add_pair(std::uint32_t a, std::uint32_t b, double h);
   void add_faces(std::uint32_t a, double h);
   void begin_record();
-  // Speed bound of any point of the body, m/s, with what gravity adds in h.
+  // Acceleration by gravity and wrenches, m/s^2; zero for a static body.
+  [[nodiscard]] Vec pull(const RigidBody& body) const;
+  // Speed bound of any point of the body, m/s, with what gravity and wrenches add in h.
   [[nodiscard]] double fastest(const RigidBody& body, double h) const;
 
   const core::Scene* scene_ = nullptr;

@@ -7,6 +7,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "core/scene/refuse_wrenches.hpp"
 #include "reference/plugin/plugin_array.hpp"
 #include "reference/plugin/plugin_scene.hpp"
 
@@ -42,6 +43,7 @@ class PluginDynamics final : public core::Dynamics {
 
   Status load(const core::Scene& scene) override {
     if (Status s = core::refuse_springs(scene); !s) return s;
+    if (Status s = core::refuse_wrenches(scene); !s) return s;
     end();
     source_ = &scene;
     steps_ = 0;

@@ -1,10 +1,9 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -29,29 +28,32 @@ class Ballistic final : public Validator {
   core::Verdict conclude() override { return tally_.conclude("no moving body touched nothing for a whole step"); }
 
  private:
-  // v1 - v0 = g h, and x1 - x0 within h times the velocities that the step had: RIGID 5.
+  // v1 - v0 = g h + F h / m, and x1 - x0 within h times the velocities that the step had: RIGID 5.
   void judge(const Motion& m, std::uint32_t i, const BodyStep& b, int k) {
     const double v0 = b.before.v[k];
     const double v1 = b.after.v[k];
-    const double pull = m.h * m.gravity[k];
+    const double pull = m.h * b.acceleration[k];
     // METHOD clips velocities, P(23).
     const bool is_clipped = is_method_ && std::abs(v0 + pull) >= v_max_;
     const double off_v =
-        substeps_ * (m.rounding_of(6) * std::abs(pull) + m.rounding_of(2) * (std::abs(v0) + std::abs(v1))) + kSubnormal;
+        substeps_ * (m.rounding_of(6) * std::abs(pull) + m.rounding_of(2) * (std::abs(v0) + std::abs(v1))) +
+        kSubnormal + m.h * b.acceleration_slack;
     const auto worked = [&] {
-      return "dv = " + number_text(v1 - v0) + " m/s, g h = " + number_text(pull) + " m/s; dx = " +
-             number_text(b.after.x[k] - b.before.x[k]) + " m, h v = " + number_text(m.h * v0) + " to " +
+      return "dv = " + number_text(v1 - v0) + " m/s, g h + F h / m = " + number_text(pull) +
+             " m/s; dx = " + number_text(b.after.x[k] - b.before.x[k]) + " m, h v = " + number_text(m.h * v0) + " to " +
              number_text(m.h * v1) + " m";
     };
     if (!is_clipped)
-      tally_.check(std::abs(v1 - v0 - pull), {off_v, "m/s", kOrigin}, Where::body(m.step, i, "bodies.velocity"), worked);
+      tally_.check(std::abs(v1 - v0 - pull), {off_v, "m/s", kOrigin}, Where::body(m.step, i, "bodies.velocity"),
+                   worked);
     const double low = m.h * std::min(v0, v1);
     const double high = m.h * std::max(v0, v1);
     const double dx = b.after.x[k] - b.before.x[k];
     const double offset = length(m.facts[i].center_of_mass);
-    const double off_x = substeps_ * (m.rounding_of(2) * (std::abs(b.before.x[k]) + std::abs(b.after.x[k]) + 12 * offset) +
-                                      m.rounding_of(4) * (std::abs(low) + std::abs(high))) +
-                         m.h * off_v + kSubnormal;
+    const double off_x =
+        substeps_ * (m.rounding_of(2) * (std::abs(b.before.x[k]) + std::abs(b.after.x[k]) + 12 * offset) +
+                     m.rounding_of(4) * (std::abs(low) + std::abs(high))) +
+        m.h * off_v + kSubnormal;
     tally_.check(std::max({0.0, low - dx, dx - high}), {off_x, "m", kOrigin}, Where::body(m.step, i, "bodies.position"),
                  worked);
   }
@@ -67,7 +69,8 @@ class Ballistic final : public Validator {
 
 ValidatorRow ballistic_row() {
   return {"ballistic",
-          "a body that touches nothing gains g h of velocity, and moves h times a velocity between its first and last",
+          "a body that touches nothing gains g h + F h / m of velocity, and moves h times a velocity between its first "
+          "and last",
           "gravity + 10 %; damping; a teleport; an engine that does nothing",
           core::bit(core::Group::kBodies),
           0,

@@ -1,5 +1,3 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -35,9 +34,9 @@ class BoxContains final : public Validator {
   }
 
   core::Verdict conclude() override {
-    return tally_.conclude("no frame with boxes and poses",
-                           "the largest box is " + number_text(waste_) + " m wider than its shape" +
-                               (stride_ > 1 ? "; not every body in every frame" : ""));
+    return tally_.conclude("no frame with boxes and poses", "the largest box is " + number_text(waste_) +
+                                                                " m wider than its shape" +
+                                                                (stride_ > 1 ? "; not every body in every frame" : ""));
   }
 
  private:
@@ -48,6 +47,9 @@ class BoxContains final : public Validator {
       const Vec3d half(p->half_extents);
       if (p->kind == core::PrimitiveKind::kBox) {
         high = std::abs(row.x) * half.x + std::abs(row.y) * half.y + std::abs(row.z) * half.z;
+      } else if (p->kind == core::PrimitiveKind::kCylinder) {
+        const double across = std::sqrt(std::max(0.0, 1.0 - row[p->axis] * row[p->axis]));
+        high = p->half_length_m() * std::abs(row[p->axis]) + (p->radius_m - p->facet_gap_m) * across;
       } else {
         const double along = p->kind == core::PrimitiveKind::kCapsule ? p->half_length_m() : 0.0;
         high = p->radius_m + along * std::abs(row[p->axis]);
@@ -78,11 +80,12 @@ class BoxContains final : public Validator {
       extent(f.mesh, r, k, low, high);
       const double at = pose->origin[k];
       // Pose and box are recorded in float32; the pose's four components turn the shape.
-      const double off = rounding(2) * std::abs(at) + rounding(24) * (f.reach_m + length(f.center_of_mass)) + kSubnormal;
+      const double off =
+          rounding(2) * std::abs(at) + rounding(24) * (f.reach_m + length(f.center_of_mass)) + kSubnormal;
       const double outside = std::max({0.0, box.min[k] - (at + low), (at + high) - box.max[k]});
       tally_.check(outside, {off, "m", kOrigin}, Where::body(m.step, static_cast<std::uint32_t>(i), "boxes"), [&] {
-        return "the shape reaches from " + number_text(at + low) + " to " + number_text(at + high) + " m, the box from " +
-               number_text(box.min[k]) + " to " + number_text(box.max[k]) + " m";
+        return "the shape reaches from " + number_text(at + low) + " to " + number_text(at + high) +
+               " m, the box from " + number_text(box.min[k]) + " to " + number_text(box.max[k]) + " m";
       });
       waste_ = std::max({waste_, (at + low) - box.min[k], box.max[k] - (at + high)});
     }

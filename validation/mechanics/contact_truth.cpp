@@ -1,5 +1,3 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -61,7 +60,7 @@ class ContactTruth final : public Validator {
       return length(s.v) + length(s.w) * m.facts[i].reach_m;
     };
     const double size = m.facts[a].reach_m + length(m.bodies[a].after.x);
-    return header_.scene.parameters.delta_m + margin_ + m.h * (speed(a) + speed(b) + m.h * length(m.gravity)) +
+    return header_.scene.parameters.delta_m + margin_ + m.h * (speed(a) + speed(b) + m.h * m.strongest_pull) +
            rounding(16) * size;
   }
 
@@ -94,7 +93,8 @@ class ContactTruth final : public Validator {
       // How deep the bodies are along the reported normal: least along the true one.
       const double along = exact::overlap_along(a, b, to_point((1.0 / size) * n));
       const double depth = std::max(0.0, -truth.distance_m);
-      tally_.check(along - depth, {allowed, "m", kNormal}, Where::pair(m.step, pair.i, pair.j, "points.normal"), worked);
+      tally_.check(along - depth, {allowed, "m", kNormal}, Where::pair(m.step, pair.i, pair.j, "points.normal"),
+                   worked);
       tally_.check(std::max(0.0, -static_cast<double>(p->gap_m)) - depth, {allowed, "m", kGap},
                    Where::pair(m.step, pair.i, pair.j, "points.gap"), worked);
       judge_place(*p, a, b, allowed, where);
@@ -113,8 +113,10 @@ class ContactTruth final : public Validator {
     const double limit = allowed + std::abs(static_cast<double>(p.gap_m));
     for (const exact::ConvexCore* shape : {&a, &b}) {
       const double away = exact::signed_distance(point, *shape).distance_m;
-      tally_.check(away, {limit, "m", kPlace}, Where{where.step, 2, {where.bodies[0], where.bodies[1]}, "points.point"},
-                   [&] { return "the point " + vector_text(Vec3d(p.point)) + " m is " + number_text(away) + " m outside a body"; });
+      tally_.check(
+          away, {limit, "m", kPlace}, Where{where.step, 2, {where.bodies[0], where.bodies[1]}, "points.point"}, [&] {
+            return "the point " + vector_text(Vec3d(p.point)) + " m is " + number_text(away) + " m outside a body";
+          });
     }
   }
 
@@ -150,7 +152,8 @@ class ContactTruth final : public Validator {
       tally_.check(-static_cast<double>(p->gap_m) - std::max(0.0, depth), {allowed, "m", kGap},
                    Where::pair(m.step, i, face, "points.gap"));
       const double reach = m.facts[i].reach_m + allowed + std::abs(static_cast<double>(p->gap_m));
-      tally_.check(length(Vec3d(p->point) - m.bodies[i].before.x), {reach + m.h * length(m.bodies[i].after.v), "m", kPlace},
+      tally_.check(length(Vec3d(p->point) - m.bodies[i].before.x),
+                   {reach + m.h * length(m.bodies[i].after.v), "m", kPlace},
                    Where::pair(m.step, i, face, "points.point"));
     }
   }

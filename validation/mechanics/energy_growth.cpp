@@ -1,11 +1,10 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -38,7 +37,7 @@ class EnergyGrowth final : public Validator {
       if (!m.facts[i].is_dynamic || m.facts[i].has_spring) continue;
       const std::uint32_t set = m.bodies[i].set;
       const double e0 = energy(m, i, m.bodies[i].before);
-      const double e1 = energy(m, i, m.bodies[i].after);
+      const double e1 = energy(m, i, m.bodies[i].after) - work(m, i);
       const double slack = allowance(m, i, std::abs(e0) + std::abs(e1));
       change_[set] += e1 - e0;
       allowed_[set] += slack;
@@ -64,6 +63,13 @@ class EnergyGrowth final : public Validator {
     return 0.5 * f.mass_kg * dot(s.v, s.v) + 0.5 * dot(s.w, s.angular_momentum) - f.mass_kg * dot(m.gravity, s.x);
   }
 
+  // Of the scene's wrenches in this step, J.
+  [[nodiscard]] static double work(const Motion& m, std::uint32_t i) {
+    const BodyStep& b = m.bodies[i];
+    const Vec3d force = m.facts[i].mass_kg * (b.acceleration - m.gravity);
+    return dot(force, b.after.x - b.before.x) + m.h * dot(b.torque, b.after.w);
+  }
+
   // The deepest reported overlap of each body.
   void read_depths(const core::FrameRecord& frame, std::size_t bodies) {
     depth_.assign(bodies, 0.0);
@@ -77,16 +83,22 @@ class EnergyGrowth final : public Validator {
   [[nodiscard]] double allowance(const Motion& m, std::uint32_t i, double magnitude) const {
     const BodyFacts& f = m.facts[i];
     const BodyStep& b = m.bodies[i];
-    const double g = length(m.gravity);
+    const double g = length(b.acceleration);
     const double weight = f.mass_kg * g;
     const double speed = std::max(length(b.before.v), length(b.after.v));
     double sum = 0.5 * weight * g * m.h * m.h;
     // A turn of second order moves L by up to h |w x L| / 2, across w.
     if (f.has_inertia) {
-      const double l = 0.5 * m.h * std::max(length(cross(b.before.w, b.before.angular_momentum)),
-                                            length(cross(b.after.w, b.after.angular_momentum)));
+      const double l = 0.5 * m.h *
+                       std::max(length(cross(b.before.w, b.before.angular_momentum)),
+                                length(cross(b.after.w, b.after.angular_momentum)));
       sum += 0.5 * l * l / f.least_moment;
     }
+    // The same of a torque; where body axes turn, its work is that of the mean.
+    if (!b.is_torque_free)
+      sum += m.h * (length(b.torque) * length(b.after.w - b.before.w) +
+                    b.torque_slack * std::max(length(b.before.w), length(b.after.w)));
+    sum += f.mass_kg * b.acceleration_slack * length(b.after.x - b.before.x);
     if (!b.is_alone) {
       // When in the step it bounced is not known: gravity acts on the way in and on the way out for up to h.
       sum += bounce_ * weight * m.h * (speed + m.h * g);
@@ -96,7 +108,9 @@ class EnergyGrowth final : public Validator {
     }
     const double position = length(b.after.x) + length(b.before.x);
     const double spin = std::max(length(b.before.w), length(b.after.w));
-    return sum + m.rounding_of(8 + 2 * accumulations_) * (magnitude + f.mass_kg * speed * speed + f.largest_moment * spin * spin) +
+    return sum +
+           m.rounding_of(8 + 2 * accumulations_) *
+               (magnitude + f.mass_kg * speed * speed + f.largest_moment * spin * spin) +
            m.rounding_of(4) * weight * position + kSubnormal;
   }
 
@@ -112,7 +126,8 @@ class EnergyGrowth final : public Validator {
 
   static constexpr std::string_view kOrigin =
       "1/2 m g^2 h^2 a body; m g h e v where it bounced; what a declared correction lifts; and rounding";
-  static constexpr std::string_view kStored = "compliant contacts: the largest energy before, and the sum of the steps' limits";
+  static constexpr std::string_view kStored =
+      "compliant contacts: the largest energy before, and the sum of the steps' limits";
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   std::string_view correction_;

@@ -1,11 +1,10 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -62,20 +61,23 @@ class FrictionCone final : public Validator {
     };
     tally_.check(-push, {off, "N s", "contacts push: J n >= 0, and rounding"}, where, worked);
     const Friction mu = friction_of(p);
-    tally_.check(drag, {mu.most * std::max(0.0, push) + off, "N s", "mu J n of the scene, and rounding"}, where, worked);
+    tally_.check(drag, {mu.most * std::max(0.0, push) + off, "N s", "mu J n of the scene, and rounding"}, where,
+                 worked);
 
     const Vec3d relative = speed_at(m, p.a, at) - speed_at(m, p.b, at);
     const Vec3d slip = relative - dot(relative, n) * n;
     // Slower slip is within what one step of gravity does and what the point's motion in the step leaves open.
-    const double open = 2.0 * m.h * length(m.gravity) + rounding(16) * length(relative) +
+    const double open = 2.0 * m.h * m.strongest_pull + rounding(16) * length(relative) +
                         std::abs(static_cast<double>(p.gap_m)) * spin(m, p);
     const double sliding = length(slip);
     if (!(sliding > open) || drag <= off) {
       if (sliding > 4.0 * open && model_ == "cone") judge_least(mu, push, drag, open, sliding, off, where, worked);
       return;
     }
-    tally_.check(dot(tangent, slip) / drag, {open, "m/s", "2 |g| h: slip slower than this may have any direction"}, where,
-                 [&] { return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s"; });
+    tally_.check(
+        dot(tangent, slip) / drag, {open, "m/s", "2 |g| h: slip slower than this may have any direction"}, where, [&] {
+          return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s";
+        });
     if (model_ != "regularized") judge_least(mu, push, drag, open, sliding, off, where, worked);
   }
 
@@ -84,8 +86,8 @@ class FrictionCone final : public Validator {
                    const Where& where, const Worked& worked) {
     const double share = std::max(0.0, 1.0 - 2.0 * open / sliding);
     const double least = mu.least * std::max(0.0, push) * share - off;
-    tally_.check(least - drag, {0.0, "N s", "a point that slides is braked by mu_kinetic J n, less 2 open / slip"}, where,
-                 worked);
+    tally_.check(least - drag, {0.0, "N s", "a point that slides is braked by mu_kinetic J n, less 2 open / slip"},
+                 where, worked);
   }
 
   [[nodiscard]] static double spin(const Motion& m, const core::ContactPoint& p) {

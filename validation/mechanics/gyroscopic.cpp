@@ -1,9 +1,8 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -20,7 +19,7 @@ class Gyroscopic final : public Validator {
     const Motion& m = *evidence.motion;
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
       const BodyStep& b = m.bodies[i];
-      if (!b.is_alone || !m.facts[i].has_inertia) continue;
+      if (!b.is_alone || !b.is_torque_free || !m.facts[i].has_inertia) continue;
       const double spin = std::max(length(b.before.w), length(b.after.w));
       if (m.h * spin > kLargestTurn) {
         ++too_fast_;
@@ -33,8 +32,8 @@ class Gyroscopic final : public Validator {
       const double rounding = substeps_ * m.rounding_of(40) * m.facts[i].largest_moment * spin;
       tally_.check(length(l1 - l0), {0.5 * m.h * torque + rounding, "N m s", kOrigin},
                    Where::body(m.step, i, "bodies.angular_velocity"), [&] {
-                     return "L went from " + vector_text(l0) + " to " + vector_text(l1) + " N m s, h |w x L| = " +
-                            number_text(m.h * torque) + " N m s";
+                     return "L went from " + vector_text(l0) + " to " + vector_text(l1) +
+                            " N m s, h |w x L| = " + number_text(m.h * torque) + " N m s";
                    });
     }
   }

@@ -23,15 +23,20 @@ struct BodyFacts {
   bool has_spring = false;
   bool has_inertia = false;
   double mass_kg = 0.0;
-  Vec3d center_of_mass;            // in mesh coordinates, m
-  Mat3d inertia;                   // kg m^2, about the center of mass, in mesh axes
-  double least_moment = 0.0;       // kg m^2
-  double largest_moment = 0.0;     // kg m^2
-  double reach_m = 0.0;            // farthest point of the mesh from the center of mass
-  double smallest_side_m = 0.0;    // of the mesh's box
-  Vec3d box_center;                // of the mesh's box, in mesh coordinates
-  Vec3d box_half;                  // m
+  Vec3d center_of_mass;          // in mesh coordinates, m
+  Mat3d inertia;                 // kg m^2, about the center of mass, in mesh axes
+  double least_moment = 0.0;     // kg m^2
+  double largest_moment = 0.0;   // kg m^2
+  double reach_m = 0.0;          // farthest point of the mesh from the center of mass
+  double smallest_side_m = 0.0;  // of the mesh's box
+  Vec3d box_center;              // of the mesh's box, in mesh coordinates
+  Vec3d box_half;                // m
   std::uint32_t mesh = 0;
+  // The scene's wrenches on it, summed: those that are constant in the world and those in the body's axes.
+  Vec3d force_world_n;
+  Vec3d force_body_n;
+  Vec3d torque_world_n_m;
+  Vec3d torque_body_n_m;
 };
 
 // A state, of the center of mass, in the world.
@@ -40,8 +45,8 @@ struct BodyState {
   Vec3d x;       // center of mass, m
   Quatd q;       // unit
   Mat3d r;
-  Vec3d v;  // m/s
-  Vec3d w;  // rad/s
+  Vec3d v;                 // m/s
+  Vec3d w;                 // rad/s
   Vec3d angular_momentum;  // kg m^2/s; zero without inertia
 };
 
@@ -51,18 +56,26 @@ struct BodyStep {
   // Whether the body can have touched nothing: its box, swept over the step and grown by the margin, meets no other's
   // and stays inside the domain.
   bool is_alone = false;
+  // Of gravity and the scene's wrenches at the start of the step. What is constant in the body's axes turns with it:
+  // over the step the mean differs by at most the slack.
+  Vec3d acceleration;               // m/s^2
+  double acceleration_slack = 0.0;  // m/s^2
+  Vec3d torque;                     // N m
+  double torque_slack = 0.0;        // N m
+  bool is_torque_free = true;
   // Bodies that may have touched each other, directly or through others, have one number; static bodies have none.
   std::uint32_t set = 0;
 };
 
 struct Motion {
   std::uint64_t step = 0;
-  double h = 0.0;  // s
-  Vec3d gravity;   // m/s^2
-  double u = 0.0;  // unit roundoff of the states
+  double h = 0.0;               // s
+  Vec3d gravity;                // m/s^2
+  double u = 0.0;               // unit roundoff of the states
+  double strongest_pull = 0.0;  // m/s^2; the largest acceleration of gravity and wrenches
   std::span<const BodyFacts> facts;
   std::vector<BodyStep> bodies;
-  std::vector<core::Pair> near;          // pairs of bodies whose swept boxes meet
+  std::vector<core::Pair> near;           // pairs of bodies whose swept boxes meet
   std::vector<std::uint8_t> set_is_free;  // by set: none of its bodies may have touched a static body or the domain
 
   // n rounded operations, relative.
@@ -83,6 +96,7 @@ class MotionReader {
   [[nodiscard]] BodyState start_of(std::size_t body) const;
   void complete(BodyState& state, std::size_t body) const;
   void find_neighbors();
+  void find_pulls();
   [[nodiscard]] core::Box swept_box(std::size_t body) const;
 
   const core::TraceHeader& header_;

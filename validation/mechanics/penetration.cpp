@@ -1,9 +1,8 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -40,7 +39,7 @@ class Penetration final : public Validator {
  private:
   [[nodiscard]] double approach(const Motion& m, std::uint32_t i) const {
     const BodyState& s = m.bodies[i].before;
-    return m.h * (length(s.v) + length(s.w) * m.facts[i].reach_m + m.h * length(m.gravity));
+    return m.h * (length(s.v) + length(s.w) * m.facts[i].reach_m + m.h * m.strongest_pull);
   }
 
   void judge_pair(const Motion& m, core::Pair pair) {
@@ -79,7 +78,7 @@ class Penetration final : public Validator {
     const double share = depth / size;
     worst_share_ = std::max(worst_share_, share);
     // A compliant contact sinks in until it carries the weight: |g| times its time constant squared.
-    const double sunk = length(m.gravity) * contact_time_s_ * contact_time_s_;
+    const double sunk = m.strongest_pull * contact_time_s_ * contact_time_s_;
     is_beyond_a_ = is_beyond_a_ || depth > scene_.parameters.delta_m + approach + sunk;
     tally_.check(depth, {kClassC * size, "m", kOrigin}, where, [&] {
       return "a depth of " + number_text(depth) + " m is " + number_text(100.0 * share) + " % of the smaller body";

@@ -1,10 +1,9 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <numbers>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -17,7 +16,7 @@ class Turning final : public Validator {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i)
-      if (m.bodies[i].is_alone) judge(m, i);
+      if (m.bodies[i].is_alone && m.bodies[i].is_torque_free) judge(m, i);
   }
 
   core::Verdict conclude() override { return tally_.conclude("no moving body touched nothing for a whole step"); }

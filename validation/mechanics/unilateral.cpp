@@ -1,5 +1,3 @@
-#include "validation/validator.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -8,6 +6,7 @@
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
+#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -31,10 +30,11 @@ class Unilateral final : public Validator {
       const double left = -dot(speed_at(m, p.a, at, true) - speed_at(m, p.b, at, true), n);
       const double approach = std::max(came, left + (mobility(m, p.a) + mobility(m, p.b)) * pushed_[{p.a, p.b}]);
       // Gravity may bring them together within the step.
-      const double reach = m.h * (std::max(0.0, approach) + m.h * length(m.gravity));
+      const double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
       tally_.check(p.gap_m, {limit, "m", kOrigin}, Where::pair(m.step, p.a, p.b, "points.gap"), [&] {
-        return "an impulse over a gap of " + number_text(p.gap_m) + " m that closes at " + number_text(approach) + " m/s";
+        return "an impulse over a gap of " + number_text(p.gap_m) + " m that closes at " + number_text(approach) +
+               " m/s";
       });
     }
   }
@@ -55,7 +55,8 @@ class Unilateral final : public Validator {
     return 1.0 / f.mass_kg + (f.has_inertia ? f.reach_m * f.reach_m / f.least_moment : 0.0);
   }
 
-  static constexpr std::string_view kOrigin = "the declared margin, h times the approach speed with gravity, and rounding";
+  static constexpr std::string_view kOrigin =
+      "the declared margin, h times the approach speed with gravity, and rounding";
   double margin_m_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> pushed_;  // N s, by the bodies of the points
   Tally tally_{"unilateral", "points with an impulse", kOrigin};
