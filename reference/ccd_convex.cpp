@@ -171,12 +171,16 @@ class CcdConvex final : public core::NarrowPhase {
  public:
   CcdConvex(bool is_mpr, ShapeChoice choice, int workers, SharedDefectCounter not_numbers)
       : is_mpr_(is_mpr),
+        choice_(choice),
         arena_(workers),
         not_numbers_(std::move(not_numbers)),
         shapes_([choice](const core::Mesh& mesh, core::Quat q) { return points_of(choice, mesh, q); }) {}
 
   Status load(const core::Scene& scene) override {
     return vendor_call("ccd: load", [&]() -> Status {
+      if (choice_ == ShapeChoice::kPrimitive)
+        for (const auto& mesh : scene.meshes)
+          if (Status status = refuse_cylinder(kId, *mesh); !status) return status;
       shapes_.load(scene);
       return core::Done{};
     });
@@ -202,6 +206,7 @@ class CcdConvex final : public core::NarrowPhase {
 
  private:
   bool is_mpr_;
+  ShapeChoice choice_;
   tbb::task_arena arena_;
   SharedDefectCounter not_numbers_;
   TurnedShapes<Points> shapes_;

@@ -70,7 +70,11 @@ std::optional<BodyShape> shape_of(const core::Mesh& mesh) {
   } else if (primitive->kind == core::PrimitiveKind::kSphere) {
     out.geometry = std::make_unique<fcl::Sphere<double>>(radius);
   } else {
-    out.geometry = std::make_unique<fcl::Capsule<double>>(radius, 2.0 * primitive->half_length_m());
+    const double length = 2.0 * primitive->half_length_m();
+    if (primitive->kind == core::PrimitiveKind::kCylinder)
+      out.geometry = std::make_unique<fcl::Cylinder<double>>(radius, length);
+    else
+      out.geometry = std::make_unique<fcl::Capsule<double>>(radius, length);
     const core::Vec3 axis = core::axis_vector(primitive->axis, 1.0F);
     out.in_body.linear() =
         fcl::Quaternion<double>::FromTwoVectors(Vector::UnitZ(), Vector(axis.x, axis.y, axis.z)).toRotationMatrix();

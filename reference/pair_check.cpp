@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/scene/primitive.hpp"
+
 namespace broadside::reference {
 
 core::Status check_pairs(std::string_view engine, std::span<const core::Pair> pairs, std::span<const core::Pose> poses,
@@ -19,6 +21,13 @@ core::Status check_pairs(std::string_view engine, std::span<const core::Pair> pa
                        where, "give i < j < the number of bodies", core::Exit::kInternal};
   }
   return core::Done{};
+}
+
+core::Status refuse_cylinder(std::string_view engine, const core::Mesh& mesh) {
+  const auto primitive = core::primitive_of(mesh);
+  if (!primitive || primitive->kind != core::PrimitiveKind::kCylinder) return core::Done{};
+  return core::Error{"unsupported: cylinder, the shape of mesh '" + mesh.name + "'", std::string(engine) + ": load",
+                     "measure it with fcl-shapes or bullet-shapes", core::Exit::kMissing};
 }
 
 core::Error no_shape(std::string_view engine, const core::Mesh& mesh) {

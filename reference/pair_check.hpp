@@ -16,4 +16,7 @@ core::Status check_pairs(std::string_view engine, std::span<const core::Pair> pa
 // The error of an engine of convex shapes when the scene has a mesh that is not convex.
 core::Error no_shape(std::string_view engine, const core::Mesh& mesh);
 
+// The error of an engine that has no cylinders, when the mesh draws one: it would measure another shape in silence.
+core::Status refuse_cylinder(std::string_view engine, const core::Mesh& mesh);
+
 }  // namespace broadside::reference

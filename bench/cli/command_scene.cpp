@@ -51,12 +51,18 @@ Json facts_of(const core::Scene& scene) {
           {"seed", scene.seed},
           {"theta_m", scene.parameters.theta_m},
           {"digest", fmt::format("{:#018x}", core::scene_digest(scene))},
+          {"motion", std::string(core::motion_word(scene.motion))},
+          {"answer", scene.answer},
+          {"wrenches", scene.wrenches.size()},
+          {"inertia_notes", core::hull_notes(scene)},
           {"meshes", meshes}};
 }
 
 void print_facts(const Json& facts) {
   for (const auto& [key, value] : facts.items())
-    if (key != "meshes") fmt::print("{:<14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    if (key != "meshes" && key != "inertia_notes")
+      fmt::print("{:<14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const Json& note : facts["inertia_notes"]) fmt::print("note           {}\n", note.get<std::string>());
   for (const Json& mesh : facts["meshes"])
     fmt::print("mesh           {}: {} vertices, {} triangles, {}{}\n", mesh["name"].get<std::string>(),
                mesh["vertices"].get<std::uint64_t>(), mesh["triangles"].get<std::uint64_t>(),

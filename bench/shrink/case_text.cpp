@@ -1,6 +1,7 @@
 #include "bench/shrink/case_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -82,6 +83,20 @@ std::string spring_lines(const std::vector<core::Spring>& springs) {
   return text + "\n  };\n";
 }
 
+// What bodies that turn need beside their states.
+std::string rigid_lines(const core::Scene& s) {
+  std::string text;
+  if (s.motion == core::Motion::kRigid) text += "  scene.motion = core::Motion::kRigid;\n";
+  if (!s.answer.empty()) text += "  scene.answer = " + quoted(s.answer) + ";\n";
+  for (const core::MassProperties& m : s.mass_properties)
+    text += fmt::format("  scene.mass_properties.push_back({{{{{}}}, {{{}}}}});\n", fmt::join(m.center_of_mass_m, ", "),
+                        fmt::join(m.inertia_kg_m2, ", "));
+  for (const core::Wrench& w : s.wrenches)
+    text += fmt::format("  scene.wrenches.push_back({{{}, core::WrenchAxes::{}, {}, {}}});\n", w.body,
+                        w.axes == core::WrenchAxes::kBody ? "kBody" : "kWorld", vec3(w.force_n), vec3(w.torque_n_m));
+  return text;
+}
+
 std::string parameter_lines(const core::Parameters& p) {
   const core::Parameters usual;
   std::string text;
@@ -112,6 +127,7 @@ std::string scene_function(const core::Scene& s) {
   for (const auto& mesh : s.meshes) text += mesh_lines(*mesh);
   for (const core::Body& b : s.bodies) text += body_lines(b);
   text += spring_lines(s.springs);
+  text += rigid_lines(s);
   return text + "  return scene;\n}\n";
 }
 

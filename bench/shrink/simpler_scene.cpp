@@ -86,6 +86,8 @@ Scene with_bodies(const Scene& scene, std::span<const std::uint32_t> bodies) {
   smaller.bodies.clear();
   smaller.meshes.clear();
   smaller.springs.clear();
+  smaller.wrenches.clear();
+  smaller.mass_properties.clear();
   std::map<std::uint32_t, std::uint32_t> new_index;
   std::map<std::uint32_t, std::uint32_t> new_body;
   for (const std::uint32_t i : order) {
@@ -95,12 +97,19 @@ Scene with_bodies(const Scene& scene, std::span<const std::uint32_t> bodies) {
     if (is_new) smaller.meshes.push_back(scene.meshes[body.mesh]);
     body.mesh = at->second;
     smaller.bodies.push_back(body);
+    if (!scene.mass_properties.empty()) smaller.mass_properties.push_back(scene.mass_properties[i]);
   }
   for (core::Spring spring : scene.springs) {
     const auto at = new_body.find(spring.body);
     if (at == new_body.end()) continue;
     spring.body = at->second;
     smaller.springs.push_back(spring);
+  }
+  for (core::Wrench wrench : scene.wrenches) {
+    const auto at = new_body.find(wrench.body);
+    if (at == new_body.end()) continue;
+    wrench.body = at->second;
+    smaller.wrenches.push_back(wrench);
   }
   return smaller;
 }

@@ -155,7 +155,9 @@ SignedDistance with_radii(double gap, Point normal, Point on_a, Point on_b, cons
 
 std::optional<ConvexCore> convex_core_of(const core::Mesh& mesh) {
   std::optional<ConvexCore> core;
-  if (const auto primitive = core::primitive_of(mesh))
+  const auto primitive = core::primitive_of(mesh);
+  if (primitive && primitive->kind == core::PrimitiveKind::kCylinder) return std::nullopt;
+  if (primitive)
     core = primitive->kind == core::PrimitiveKind::kBox ? box(primitive->half_extents) : rounded(*primitive);
   else if (core::is_convex(mesh))
     core = polytope(mesh);

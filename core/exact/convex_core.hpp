@@ -25,7 +25,8 @@ struct ConvexCore {
   double radius_m = 0.0;
 };
 
-// Nothing when the mesh is neither a primitive (core/scene/primitive.hpp) nor convex.
+// Nothing when the mesh is neither a primitive (core/scene/primitive.hpp) nor convex, and for cylinders, which are no
+// core with a ball.
 std::optional<ConvexCore> convex_core_of(const core::Mesh& mesh);
 
 // Where a body is, in double: its origin, and its orientation as a quaternion w x y z of any length but zero.

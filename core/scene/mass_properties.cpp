@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/exact/convex_hull.hpp"
+#include "core/exact/self_crossing.hpp"
 #include "core/mesh/topology.hpp"
 #include "core/scene/primitive.hpp"
 
@@ -79,6 +81,13 @@ MassProperties of_primitive(const Primitive& p, double mass_kg) {
     for (std::size_t k = 0; k < 3; ++k) out.inertia_kg_m2[k] = 0.4 * mass_kg * r * r;
     return out;
   }
+  if (p.kind == PrimitiveKind::kCylinder) {
+    const double half = p.half_length_m();
+    for (std::size_t k = 0; k < 3; ++k)
+      out.inertia_kg_m2[k] =
+          static_cast<int>(k) == p.axis ? 0.5 * mass_kg * r * r : mass_kg * (r * r / 4.0 + half * half / 3.0);
+    return out;
+  }
   // A capsule: a cylinder of length 2 l and the two halves of a ball.
   const double l = p.half_length_m();
   const double cylinder = 2.0 * std::numbers::pi * r * r * l;
@@ -91,19 +100,34 @@ MassProperties of_primitive(const Primitive& p, double mass_kg) {
   return out;
 }
 
+// Why what the mesh's triangles enclose is no solid; empty when it is one.
+std::string why_hull(const Mesh& mesh) {
+  const Topology surface = topology(mesh);
+  if (!surface.is_closed()) return "the mesh is open";
+  if (surface.misoriented_edges > 0) return "the mesh's triangles turn both ways";
+  if (!(moments_of(mesh).volume > 0.0)) return "the mesh encloses no volume above zero";
+  return exact::crosses_itself(mesh) ? "the mesh crosses itself" : "";
+}
+
 }  // namespace
 
-Result<MassProperties> uniform_mass_properties(const Mesh& mesh, double mass_kg) {
-  if (const auto primitive = primitive_of(mesh)) return of_primitive(*primitive, mass_kg);
-  const Topology surface = topology(mesh);
-  if (!surface.is_closed() || surface.misoriented_edges > 0)
-    return Error{"the mesh is not closed, so its inertia is not defined", "mesh " + mesh.name,
-                 "give center_of_mass_m and inertia_kg_m2 of its bodies, or a closed mesh"};
-  const Moments moments = moments_of(mesh);
+Result<UniformSolid> uniform_solid(const Mesh& mesh, double mass_kg) {
+  if (const auto primitive = primitive_of(mesh))
+    return UniformSolid{of_primitive(*primitive, mass_kg), Solid::kPrimitive, {}};
+  const std::string fault = why_hull(mesh);
+  if (fault.empty()) return UniformSolid{of_polyhedron(moments_of(mesh), mass_kg), Solid::kMesh, {}};
+  const auto hull = exact::convex_hull(mesh.vertices);
+  const Moments moments = hull ? moments_of(*hull) : Moments{};
   if (!(moments.volume > 0.0))
-    return Error{"the mesh has no volume above zero, so its inertia is not defined", "mesh " + mesh.name,
-                 "turn its triangles outward, or give center_of_mass_m and inertia_kg_m2 of its bodies"};
-  return of_polyhedron(moments, mass_kg);
+    return Error{"the mesh is flat, so its inertia is not defined", "mesh " + mesh.name,
+                 "give center_of_mass_m and inertia_kg_m2 of its bodies, or a mesh with a volume"};
+  return UniformSolid{of_polyhedron(moments, mass_kg), Solid::kHull, fault};
+}
+
+Result<MassProperties> uniform_mass_properties(const Mesh& mesh, double mass_kg) {
+  auto solid = uniform_solid(mesh, mass_kg);
+  if (!solid) return solid.error();
+  return solid.value().properties;
 }
 
 std::array<double, 3> principal_moments(const std::array<double, 6>& m) {
@@ -132,8 +156,9 @@ Status check_mass_properties(const MassProperties& properties) {
   const auto [low, middle, high] = principal_moments(properties.inertia_kg_m2);
   if (!(low > 0.0)) return Error{"inertia_kg_m2 has a principal moment of zero or below", "", "give a positive matrix"};
   if (!(high <= (low + middle) * (1.0 + 0x1p-20)))
-    return Error{"inertia_kg_m2 breaks the triangle inequality: its largest principal moment is above the sum of the others",
-                 "", "no body has such an inertia: check the units and the order xx yy zz xy xz yz"};
+    return Error{
+        "inertia_kg_m2 breaks the triangle inequality: its largest principal moment is above the sum of the others", "",
+        "no body has such an inertia: check the units and the order xx yy zz xy xz yz"};
   return Done{};
 }
 

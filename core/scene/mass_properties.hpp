@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "core/result.hpp"
 #include "core/scene/mesh.hpp"
@@ -19,10 +20,20 @@ struct MassProperties {
   friend constexpr bool operator==(const MassProperties&, const MassProperties&) = default;
 };
 
-// Of a closed mesh of uniform density and this mass (kg). Boxes, spheres and capsules (core/scene/primitive.hpp) by
-// their closed forms; other meshes by the divergence theorem over their tetrahedra from the origin (Tonon, Explicit
-// exact formulas for the 3-D tetrahedron inertia tensor, 2004). A mesh that is not closed, or whose volume is not above
-// zero, is an error.
+// Which solid a mesh's mass is spread over.
+enum class Solid { kPrimitive, kMesh, kHull };
+
+struct UniformSolid {
+  MassProperties properties;
+  Solid solid = Solid::kMesh;
+  std::string why_hull;  // "the mesh is open"; empty unless it is the hull
+};
+
+// Of a body of uniform density and this mass (kg). Boxes, spheres, capsules and cylinders (core/scene/primitive.hpp) by
+// their closed forms; other closed meshes by the divergence theorem over their tetrahedra from the origin (Tonon,
+// Explicit exact formulas for the 3-D tetrahedron inertia tensor, 2004). A mesh that is open, crosses itself or
+// encloses no volume above zero takes its convex hull's. One that is flat has none: an error.
+Result<UniformSolid> uniform_solid(const Mesh& mesh, double mass_kg);
 Result<MassProperties> uniform_mass_properties(const Mesh& mesh, double mass_kg);
 
 // The three principal moments, rising, in kg m^2.

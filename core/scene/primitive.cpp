@@ -114,6 +114,35 @@ std::optional<double> swept_ball_gap(const Mesh& mesh, int axis, double half_len
   return gap <= kMostGap * radius ? std::optional(gap) : std::nullopt;
 }
 
+// A cylinder about an axis: every triangle lies in one of its two ends or has its corners on its side. Returns the
+// primitive, or nothing when the mesh is no such shape.
+std::optional<Primitive> cylinder(const Mesh& mesh, int axis, Vec3 half) {
+  // Beside a segment without end.
+  const auto from_axis = [axis](Point p) { return distance_to_axis_segment(p, axis, 1e30); };
+  const double length_m = half[axis];
+  double radius = 0.0;
+  for (const Vec3 v : mesh.vertices) radius = std::max(radius, from_axis(point(v)));
+  const double off = kOnSurface * (radius + length_m);
+  double least = radius;
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<Point, 3> p{point(mesh.vertices[t[0]]), point(mesh.vertices[t[1]]), point(mesh.vertices[t[2]])};
+    const auto is_in_end = [&](double end) {
+      return std::all_of(p.begin(), p.end(), [&](Point q) { return std::abs(q[axis] - end) <= off; });
+    };
+    if (is_in_end(length_m) || is_in_end(-length_m)) continue;
+    for (const Point q : p)
+      if (std::abs(from_axis(q) - radius) > off) return std::nullopt;
+    for (const Point middle :
+         {(1.0 / 3.0) * (p[0] + p[1] + p[2]), 0.5 * (p[0] + p[1]), 0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0])})
+      least = std::min(least, from_axis(middle));
+  }
+  if (radius - least > kMostGap * radius) return std::nullopt;
+  const auto r = static_cast<float>(radius);
+  Vec3 extents{r, r, r};
+  extents[axis] = half[axis];
+  return Primitive{PrimitiveKind::kCylinder, extents, r, axis, radius - least};
+}
+
 }  // namespace
 
 std::string_view primitive_word(PrimitiveKind kind) {
@@ -124,6 +153,8 @@ std::string_view primitive_word(PrimitiveKind kind) {
       return "sphere";
     case PrimitiveKind::kCapsule:
       return "capsule";
+    case PrimitiveKind::kCylinder:
+      return "cylinder";
   }
   return "unknown";
 }
@@ -150,6 +181,8 @@ std::optional<Primitive> primitive_of(const Mesh& mesh) {
     extents[axis] = size;
     return Primitive{PrimitiveKind::kCapsule, extents, thick, axis, *gap};
   }
+  for (int k = 0; k < 3; ++k)
+    if (auto found = cylinder(mesh, k, half)) return found;
   return std::nullopt;
 }
 

@@ -1,5 +1,6 @@
-// Which primitive a triangle mesh is a drawing of. Scenes hold meshes alone; engines that know boxes, spheres and
-// capsules in closed form ask here, so that every one of them takes a mesh for the same shape or for none.
+// Which primitive a triangle mesh is a drawing of. Scenes hold meshes alone; engines that know boxes, spheres,
+// capsules and cylinders in closed form ask here, so that every one of them takes a mesh for the same shape or for
+// none.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 
 namespace broadside::core {
 
-enum class PrimitiveKind { kBox, kSphere, kCapsule };
+enum class PrimitiveKind { kBox, kSphere, kCapsule, kCylinder };
 
 std::string_view primitive_word(PrimitiveKind kind);
 
@@ -18,11 +19,14 @@ std::string_view primitive_word(PrimitiveKind kind);
 struct Primitive {
   PrimitiveKind kind = PrimitiveKind::kBox;
   Vec3 half_extents;         // m; of the box around it
-  float radius_m = 0.0F;     // sphere and capsule
-  int axis = 0;              // capsule: along which axis; its segment has half length half_extents[axis] - radius_m
+  float radius_m = 0.0F;     // of all but a box
+  int axis = 0;              // capsule and cylinder: along which axis
   double facet_gap_m = 0.0;  // how far the mesh's facets lie inside the true surface, at most about; 0 for a box
 
-  [[nodiscard]] float half_length_m() const { return half_extents[axis] - radius_m; }
+  // Of a capsule's segment, or of a cylinder.
+  [[nodiscard]] float half_length_m() const {
+    return kind == PrimitiveKind::kCylinder ? half_extents[axis] : half_extents[axis] - radius_m;
+  }
 };
 
 // Decided by geometry, never by name: every vertex lies on the shape's surface to float rounding, the surface is

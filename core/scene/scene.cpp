@@ -2,10 +2,13 @@
 
 #include <xxhash.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "core/contact.hpp"
 
@@ -101,6 +104,22 @@ Status check_spring(const Scene& scene, std::size_t index) {
   return Done{};
 }
 
+Status check_wrench(const Scene& scene, std::size_t index) {
+  const Wrench& w = scene.wrenches[index];
+  const std::string where = "wrench " + std::to_string(index);
+  if (w.body >= scene.bodies.size()) return bad(scene, where, "its body does not exist", "name a body of this scene");
+  if (!(scene.bodies[w.body].inverse_mass > 0.0F))
+    return bad(scene, where, "its body is static", "name a body that can move");
+  if (w.axes != WrenchAxes::kWorld && w.axes != WrenchAxes::kBody)
+    return bad(scene, where, "its axes are neither the world's nor the body's", "give 0 = world or 1 = body");
+  if (!is_finite(w.force_n)) return bad(scene, where, "force is NaN or infinite", "give three finite numbers, in N");
+  if (!is_finite(w.torque_n_m))
+    return bad(scene, where, "torque is NaN or infinite", "give three finite numbers, in N m");
+  if (scene.motion == Motion::kTranslate && !(w.torque_n_m == Vec3{}))
+    return bad(scene, where, "it has a torque, and the scene's bodies translate only", "give motion = \"rigid\"");
+  return Done{};
+}
+
 Status check_motion(const Scene& scene) {
   if (scene.motion == Motion::kTranslate && scene.mass_properties.empty()) return Done{};
   if (!scene.mass_properties.empty() && scene.mass_properties.size() != scene.bodies.size())
@@ -154,6 +173,8 @@ Status check_scene(const Scene& scene) {
     return bad(scene, "bodies", "too many bodies", "the ids from 0xFFFFFFF0 are faces of the domain");
   for (std::size_t i = 0; i < scene.springs.size(); ++i)
     if (Status s = check_spring(scene, i); !s) return s;
+  for (std::size_t i = 0; i < scene.wrenches.size(); ++i)
+    if (Status s = check_wrench(scene, i); !s) return s;
   if (Status s = check_material(scene, "faces", scene.face_material); !s) return s;
   if (!is_finite(scene.gravity_m_s2))
     return bad(scene, "gravity_m_s2", "it is NaN or infinite", "give three finite numbers, in m/s^2");
@@ -176,6 +197,41 @@ Result<MassProperties> mass_properties_of(const Scene& scene, std::uint32_t body
   auto derived = uniform_mass_properties(*scene.meshes[b.mesh], 1.0 / static_cast<double>(b.inverse_mass));
   if (derived) return derived;
   return bad(scene, "body " + std::to_string(body), derived.error().what, derived.error().advice);
+}
+
+Result<std::vector<MassProperties>> all_mass_properties(const Scene& scene) {
+  std::vector<MassProperties> all(scene.bodies.size());
+  std::map<std::pair<std::uint32_t, float>, MassProperties> known;  // by mesh and inverse mass
+  for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
+    const Body& b = scene.bodies[i];
+    if (!(b.inverse_mass > 0.0F)) continue;
+    if (!scene.mass_properties.empty()) {
+      all[i] = scene.mass_properties[i];
+      continue;
+    }
+    auto at = known.find({b.mesh, b.inverse_mass});
+    if (at == known.end()) {
+      const auto made = mass_properties_of(scene, i);
+      if (!made) return made.error();
+      at = known.emplace(std::pair{b.mesh, b.inverse_mass}, made.value()).first;
+    }
+    all[i] = at->second;
+  }
+  return all;
+}
+
+std::vector<std::string> hull_notes(const Scene& scene) {
+  std::vector<std::string> notes;
+  if (scene.motion == Motion::kTranslate || !scene.mass_properties.empty()) return notes;
+  std::vector<std::uint8_t> is_seen(scene.meshes.size());
+  for (const Body& b : scene.bodies) {
+    if (!(b.inverse_mass > 0.0F) || is_seen[b.mesh]++ != 0) continue;
+    const auto solid = uniform_solid(*scene.meshes[b.mesh], 1.0);
+    if (solid && solid.value().solid == Solid::kHull)
+      notes.push_back("inertia of mesh " + scene.meshes[b.mesh]->name +
+                      " is its convex hull's: " + solid.value().why_hull);
+  }
+  return notes;
 }
 
 std::uint64_t scene_digest(const Scene& scene) {
@@ -203,6 +259,9 @@ std::uint64_t scene_digest(const Scene& scene) {
     hash.add(scene.motion);
     for (const MassProperties& p : scene.mass_properties) hash.add(p.center_of_mass_m), hash.add(p.inertia_kg_m2);
   }
+  // And scenes without wrenches. The word in front tells their bytes from those of springs.
+  if (!scene.wrenches.empty()) hash.add(std::array<char, 8>{'w', 'r', 'e', 'n', 'c', 'h', 'e', 's'});
+  for (const Wrench& w : scene.wrenches) hash.add(w);
   return hash.value();
 }
 

@@ -16,6 +16,7 @@
 #include "core/scene/mass_properties.hpp"
 #include "core/scene/mesh.hpp"
 #include "core/scene/spring.hpp"
+#include "core/scene/wrench.hpp"
 
 namespace broadside::core {
 
@@ -39,8 +40,9 @@ struct Scene {
   std::string description;  // one sentence for reports
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Body> bodies;
-  std::vector<Spring> springs;  // most scenes have none
-  Box domain;                   // its faces are static half-spaces
+  std::vector<Spring> springs;   // most scenes have none
+  std::vector<Wrench> wrenches;  // likewise
+  Box domain;                    // its faces are static half-spaces
   Material face_material;
   Vec3 gravity_m_s2;
   float dt_s = 1.0F / 60.0F;
@@ -62,6 +64,11 @@ Status check_scene(const Scene& scene);
 
 // What the scene gives, or a body of uniform density. The error of a mesh without inertia names the body.
 Result<MassProperties> mass_properties_of(const Scene& scene, std::uint32_t body);
+// Of all bodies, each mesh looked at once: zero for static ones.
+Result<std::vector<MassProperties>> all_mass_properties(const Scene& scene);
+// One line for each mesh of a moving body whose inertia is its convex hull's, with the reason. Empty where the scene
+// gives mass properties and where bodies translate.
+std::vector<std::string> hull_notes(const Scene& scene);
 
 // XXH64 over the canonical little-endian bytes of everything but name, description and mesh provenance.
 std::uint64_t scene_digest(const Scene& scene);

@@ -18,6 +18,10 @@ Scene scaled_scene(const Scene& scene, float factor);
 // bit.
 Scene mirrored_scene(const Scene& scene, int axis);
 
+// Turned by 90 degrees about an axis, counterclockwise seen from its tip: y becomes z for axis 0, and so on. Bodies and
+// meshes turn, so that orientations keep their components; coordinates change places and signs, and nothing is rounded.
+Scene turned_scene(const Scene& scene, int axis);
+
 // Body k of the result is body order[k] of the scene. order: a permutation.
 Scene renumbered_scene(const Scene& scene, std::span<const std::uint32_t> order);
 

@@ -77,6 +77,14 @@ constexpr std::array kSpringFields{
 };
 static_assert(sizeof(Spring) == 6 * sizeof(float), "a new property of a spring needs its row");
 
+constexpr std::array kWrenchFields{
+    Field{"body", Element::kU32, offsetof(Wrench, body), 1, "1"},
+    Field{"axes", Element::kU32, offsetof(Wrench, axes), 1, "1"},
+    Field{"force", Element::kF32, offsetof(Wrench, force_n), 3, "N"},
+    Field{"torque", Element::kF32, offsetof(Wrench, torque_n_m), 3, "N m"},
+};
+static_assert(sizeof(Wrench) == 8 * sizeof(float), "a new property of a wrench needs its row");
+
 // An array of structs as one dataset a field.
 template <typename Table, typename Row>
 void write_rows(Hdf5Sink& sink, const std::string& group, const Table& table, const std::vector<Row>& rows) {
@@ -235,6 +243,7 @@ void write_scene(Hdf5Sink& sink, const Scene& scene) {
   if (!scene.answer.empty()) sink.text("/scene", "answer", scene.answer);
   if (!scene.mass_properties.empty()) write_mass_properties(sink, scene.mass_properties);
   if (!scene.springs.empty()) write_rows(sink, "/scene/spring", kSpringFields, scene.springs);
+  if (!scene.wrenches.empty()) write_rows(sink, "/scene/wrench", kWrenchFields, scene.wrenches);
   write_meshes(sink, scene.meshes);
 }
 
@@ -251,6 +260,8 @@ Scene read_scene(Hdf5Source& source) {
   if (source.ok()) scene.mass_properties = read_mass_properties(source, scene.bodies.size());
   if (source.ok() && source.has("/scene/spring"))
     scene.springs = read_rows<Spring>(source, "/scene/spring", kSpringFields, "spring");
+  if (source.ok() && source.has("/scene/wrench"))
+    scene.wrenches = read_rows<Wrench>(source, "/scene/wrench", kWrenchFields, "wrench");
   scene.meshes = read_meshes(source);
   if (!source.ok()) return scene;
   if (const Status s = check_scene(scene); !s)

@@ -8,6 +8,8 @@
 #include "core/mesh/clean_mesh.hpp"
 #include "core/nearest_name.hpp"
 #include "datasets/shapes/box_mesh.hpp"
+#include "datasets/shapes/capsule_mesh.hpp"
+#include "datasets/shapes/cylinder_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
 
 namespace broadside::datasets {
@@ -16,7 +18,7 @@ namespace {
 using core::Mesh;
 using core::Result;
 
-constexpr std::array<std::string_view, 3> kShapes{"box", "sphere", "lumpy"};
+constexpr std::array<std::string_view, 5> kShapes{"box", "sphere", "capsule", "cylinder", "lumpy"};
 
 // A mesh's own error says what is wrong with it; this puts the scene file's line in front.
 std::optional<Mesh> taken(TableReader& table, std::string_view key, Result<Mesh> mesh) {
@@ -53,6 +55,19 @@ std::optional<Mesh> from_shape(TableReader& table, const std::string& shape) {
     table.positive("radius_m", radius_m);
     table.whole("frequency", 1U, 1024U, frequency);
     return taken(table, "shape", sphere_mesh(radius_m, static_cast<int>(frequency)));
+  }
+  if (shape == "capsule" || shape == "cylinder") {
+    const bool is_capsule = shape == "capsule";
+    double radius_m = 0.5;
+    double half_length_m = 0.5;
+    std::uint32_t cuts = is_capsule ? 8 : 64;
+    table.positive("radius_m", radius_m);
+    table.positive("half_length_m", half_length_m);
+    table.whole(is_capsule ? "frequency" : "sides", 2U, 4096U, cuts);
+    const int parts = static_cast<int>(cuts);
+    return taken(
+        table, "shape",
+        is_capsule ? capsule_mesh(radius_m, half_length_m, parts) : cylinder_mesh(radius_m, half_length_m, parts));
   }
   if (shape == "lumpy") {
     std::uint32_t triangles = 4968;

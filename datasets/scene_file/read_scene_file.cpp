@@ -13,6 +13,7 @@
 #include "datasets/generators/scene_families.hpp"
 #include "datasets/generators/start_grid.hpp"
 #include "datasets/scene_file/document.hpp"
+#include "datasets/scene_file/force_tables.hpp"
 #include "datasets/scene_file/import_scene.hpp"
 #include "datasets/scene_file/mesh_table.hpp"
 #include "datasets/scene_file/scene_file.hpp"
@@ -53,7 +54,14 @@ class SceneFileReader {
     if (const Node* node = top.table("import")) read_import(*node);
     for (const Node* node : top.tables("body")) read_body(*node);
     complete_mass();
-    for (const Node* node : top.tables("spring")) read_spring(*node);
+    for (const Node* node : top.tables("spring")) {
+      lines_["spring " + std::to_string(scene_.springs.size())] = node->line;
+      scene_.springs.push_back(read_spring_table(*node, errors_));
+    }
+    for (const Node* node : top.tables("wrench")) {
+      lines_["wrench " + std::to_string(scene_.wrenches.size())] = node->line;
+      scene_.wrenches.push_back(read_wrench_table(*node, errors_));
+    }
     top.finish();
     if (!has_domain_)
       errors_.add(1, "the scene has no domain", "add [domain] with min_m and max_m, or a generator that makes one");
@@ -98,7 +106,8 @@ class SceneFileReader {
     const bool has_inertia = table.numbers("inertia_kg_m2", 6, inertia);
     const bool has_center = table.numbers("center_of_mass_m", 3, center);
     if (has_center && !has_inertia)
-      table.fail("center_of_mass_m", "it is given without the inertia", "give inertia_kg_m2 = [xx, yy, zz, xy, xz, yz]");
+      table.fail("center_of_mass_m", "it is given without the inertia",
+                 "give inertia_kg_m2 = [xx, yy, zz, xy, xz, yz]");
     if (!has_inertia || errors_.first) return;
     core::MassProperties given;
     std::copy(inertia.begin(), inertia.end(), given.inertia_kg_m2.begin());
@@ -235,21 +244,6 @@ class SceneFileReader {
     table.finish();
     lines_["body " + std::to_string(scene_.bodies.size())] = node.line;
     scene_.bodies.push_back(body);
-  }
-
-  void read_spring(const Node& node) {
-    if (errors_.first) return;
-    TableReader table(node, "this spring", errors_);
-    core::Spring spring;
-    const bool has_body = table.whole("body", 0U, kMaxBodies, spring.body);
-    const bool has_anchor = table.vec3("anchor_m", spring.anchor);
-    table.number("stiffness_n_m", spring.stiffness_n_m);
-    table.number("damping_n_s_m", spring.damping_n_s_m);
-    table.finish();
-    if (!has_body || !has_anchor)
-      errors_.add(node.line, "the spring is not complete", "give body = 0, counted from 0, and anchor_m = [x, y, z]");
-    lines_["spring " + std::to_string(scene_.springs.size())] = node.line;
-    scene_.springs.push_back(spring);
   }
 
   // Rounded once from the normalized doubles; written digits are rarely a unit quaternion to the last bit.

@@ -89,14 +89,14 @@ std::string body(const core::Body& b, const core::MassProperties* m, const core:
 std::string whole_scene(const Scene& scene, const std::string& stem) {
   const bool is_large = scene.seed > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   const std::string seed = std::to_string(scene.seed);
-  std::string text = "name = " + quoted(scene.name) + "\ndescription = " + quoted(scene.description) +
-                     "\nframes = " + std::to_string(scene.frames) + "\nseed = " + (is_large ? quoted(seed) : seed) +
-                     "\ndt_s = " + number(scene.dt_s) +
-                     (scene.motion == core::Motion::kTranslate ? "" : "\nmotion = \"rigid\"") +
-                     (scene.answer.empty() ? "" : "\nanswer = " + quoted(scene.answer)) + "\ngravity_m_s2 = " + vec3(scene.gravity_m_s2) +
-                     "\n\n[domain]\nmin_m = " + vec3(scene.domain.min) + "\nmax_m = " + vec3(scene.domain.max) +
-                     "\n\n[parameters]\n" + parameters(scene.parameters) + "\n[face_material]\n" +
-                     material(scene.face_material);
+  std::string text =
+      "name = " + quoted(scene.name) + "\ndescription = " + quoted(scene.description) +
+      "\nframes = " + std::to_string(scene.frames) + "\nseed = " + (is_large ? quoted(seed) : seed) +
+      "\ndt_s = " + number(scene.dt_s) + (scene.motion == core::Motion::kTranslate ? "" : "\nmotion = \"rigid\"") +
+      (scene.answer.empty() ? "" : "\nanswer = " + quoted(scene.answer)) +
+      "\ngravity_m_s2 = " + vec3(scene.gravity_m_s2) + "\n\n[domain]\nmin_m = " + vec3(scene.domain.min) +
+      "\nmax_m = " + vec3(scene.domain.max) + "\n\n[parameters]\n" + parameters(scene.parameters) +
+      "\n[face_material]\n" + material(scene.face_material);
   const core::Material common = scene.bodies.empty() ? core::Material{} : scene.bodies[0].material;
   text += "\n[material]\n" + material(common);
   for (std::size_t m = 0; m < scene.meshes.size(); ++m)
@@ -107,6 +107,10 @@ std::string whole_scene(const Scene& scene, const std::string& stem) {
   for (const core::Spring& s : scene.springs)
     text += "\n[[spring]]\nbody = " + std::to_string(s.body) + "\nanchor_m = " + vec3(s.anchor) +
             "\nstiffness_n_m = " + number(s.stiffness_n_m) + "\ndamping_n_s_m = " + number(s.damping_n_s_m) + "\n";
+  for (const core::Wrench& w : scene.wrenches)
+    text += "\n[[wrench]]\nbody = " + std::to_string(w.body) +
+            (w.axes == core::WrenchAxes::kBody ? "\naxes = \"body\"" : "") + "\nforce_n = " + vec3(w.force_n) +
+            "\ntorque_n_m = " + vec3(w.torque_n_m) + "\n";
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/scene/refuse_turning.hpp"
+#include "core/scene/refuse_wrenches.hpp"
 #include "core/scene/springs_of_bodies.hpp"
 #include "gpu/frame/pipeline_parts.hpp"
 
@@ -35,6 +36,7 @@ Start Pipeline::Impl::chosen_start() const {
 
 core::Status Pipeline::load(const core::Scene& scene) {
   if (core::Status s = core::refuse_turning(scene); !s) return s;
+  if (core::Status s = core::refuse_wrenches(scene); !s) return s;
   Impl& d = *impl_;
   BROADSIDE_TRY(core::check_spring_step(scene, d.options.variant));
   d.scene = &scene;

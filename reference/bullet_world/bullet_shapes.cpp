@@ -4,6 +4,7 @@
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 #include <BulletCollision/Gimpact/btCompoundFromGimpact.h>
@@ -52,6 +53,15 @@ BulletShape primitive_shape(const core::Primitive& p, const BulletShapeOptions& 
   }
   if (p.kind == core::PrimitiveKind::kSphere) {
     out.shape = std::make_shared<btSphereShape>(p.radius_m);
+  } else if (p.kind == core::PrimitiveKind::kCylinder) {
+    const btVector3 half(p.half_extents.x, p.half_extents.y, p.half_extents.z);
+    std::shared_ptr<btCylinderShape> cylinder;
+    if (p.axis == 0) cylinder = std::make_shared<btCylinderShapeX>(half);
+    if (p.axis == 1) cylinder = std::make_shared<btCylinderShape>(half);
+    if (p.axis == 2) cylinder = std::make_shared<btCylinderShapeZ>(half);
+    // As of a box: the margin lies inside.
+    cylinder->setMargin(std::min(options.margin_m, kLargestBoxMargin * least_of(p.half_extents)));
+    out.shape = std::move(cylinder);
   } else {
     const btScalar height = 2 * p.half_length_m();
     if (p.axis == 0) out.shape = std::make_shared<btCapsuleShapeX>(p.radius_m, height);

@@ -20,6 +20,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "core/scene/refuse_wrenches.hpp"
 #include "reference/bullet_vectors.hpp"
 #include "reference/bullet_world/contact_readout.hpp"
 #include "reference/rigid_world/principal_axes.hpp"
@@ -109,6 +110,7 @@ class BulletWorld final : public core::Dynamics {
 
   Status load(const core::Scene& scene) override {
     if (Status s = core::refuse_springs(scene); !s) return s;
+    if (Status s = core::refuse_wrenches(scene); !s) return s;
     return vendor_call("bullet-world: load", [&]() -> Status {
       scene_ = &scene;
       step_ = 0;

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/exact/convex_core.hpp"
 #include "core/scene/primitive.hpp"
 #include "reference/engines.hpp"
-#include "core/exact/convex_core.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
@@ -39,6 +39,7 @@ class ExactShapes final : public core::NarrowPhase {
     cores_.clear();
     mesh_of_body_.clear();
     for (const auto& mesh : scene.meshes) {
+      if (Status status = refuse_cylinder(kId, *mesh); !status) return status;
       auto core = exact::convex_core_of(*mesh);
       if (!core) return no_shape(kId, *mesh);
       cores_.push_back(std::move(*core));

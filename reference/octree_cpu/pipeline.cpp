@@ -10,6 +10,7 @@
 #include "core/method/frame_digest.hpp"
 #include "core/method/integrate.hpp"
 #include "core/scene/refuse_turning.hpp"
+#include "core/scene/refuse_wrenches.hpp"
 #include "core/scene/springs_of_bodies.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
 #include "reference/octree_cpu/vertex_stage.hpp"
@@ -50,6 +51,7 @@ Pipeline::~Pipeline() = default;
 
 core::Status Pipeline::load(const core::Scene& scene) {
   if (core::Status s = core::refuse_turning(scene); !s) return s;
+  if (core::Status s = core::refuse_wrenches(scene); !s) return s;
   scene_ = &scene;
   bodies_ = make_bodies(scene);
   rules_ = {scene.parameters, options_.variant, options_.solver, scene.domain, scene.face_material};

@@ -28,7 +28,8 @@ core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index) {
   const core::Body& given = scene.bodies[index];
   const core::Mesh& mesh = *scene.meshes[given.mesh];
   const auto primitive = core::primitive_of(mesh);
-  const bool is_known = primitive && primitive->kind != core::PrimitiveKind::kCapsule;
+  const bool is_known =
+      primitive && (primitive->kind == core::PrimitiveKind::kBox || primitive->kind == core::PrimitiveKind::kSphere);
   if (!is_known)
     return core::Error{
         "unsupported shape: " + (primitive ? std::string(core::primitive_word(primitive->kind)) : "mesh"),
@@ -90,6 +91,12 @@ Status PlainWorld::load(const core::Scene& scene) {
       bodies_.back().angular_momentum = {};
     }
   }
+  for (const core::Wrench& w : scene.wrenches) {
+    RigidBody& b = bodies_[w.body];
+    const bool turns = w.axes == core::WrenchAxes::kBody;
+    (turns ? b.force_body : b.force_world) = (turns ? b.force_body : b.force_world) + vec(w.force_n);
+    (turns ? b.torque_body : b.torque_world) = (turns ? b.torque_body : b.torque_world) + vec(w.torque_n_m);
+  }
   return core::Done{};
 }
 
@@ -114,7 +121,11 @@ double PlainWorld::farthest(const RigidBody& b, double h) const {
   if (b.is_static()) return 0.0;
   // However fast it spins, no point is farther than the diameter from where it was.
   const double swing = std::min(h * length(b.angular_velocity()), 2.0) * size_of(b);
-  return h * (length(b.v) + h * length(vec(scene_->gravity_m_s2))) + swing;
+  return h * (length(b.v) + h * length(pull(b))) + swing;
+}
+
+Vec PlainWorld::pull(const RigidBody& b) const {
+  return b.is_static() ? Vec{} : vec(scene_->gravity_m_s2) + b.inverse_mass * b.force();
 }
 
 void PlainWorld::add_pair(std::uint32_t a, std::uint32_t b, double h) {
@@ -170,16 +181,14 @@ void PlainWorld::find_points(double h) {
 }
 
 void PlainWorld::solve_impacts(double h) {
-  const Vec g = vec(scene_->gravity_m_s2);
   std::vector<SolverPoint> hits;
   std::vector<std::size_t> index;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const SolverPoint& p = points_[k];
-    const bool moves_b = !core::is_face(p.b) && !bodies_[p.b].is_static();
     const Vec vb = core::is_face(p.b) ? Vec{} : velocity_at(bodies_[p.b], p.at.point);
     const double approach = -dot(velocity_at(bodies_[p.a], p.at.point) - vb, p.at.normal);
-    const double pull = (bodies_[p.a].is_static() ? 0.0 : 1.0) - (moves_b ? 1.0 : 0.0);
-    const double closing = h * (approach - pull * h * dot(g, p.at.normal));
+    const Vec pulled = pull(bodies_[p.a]) - (core::is_face(p.b) ? Vec{} : pull(bodies_[p.b]));
+    const double closing = h * (approach - h * dot(pulled, p.at.normal));
     const bool is_hit = approach > scene_->parameters.v_threshold_m_s && p.at.gap < closing;
     if (!is_hit) continue;
     hits.push_back(p);
@@ -196,7 +205,10 @@ void PlainWorld::solve_impacts(double h) {
 
 void PlainWorld::accelerate(double h) {
   for (RigidBody& b : bodies_)
-    if (!b.is_static()) b.v = b.v + h * vec(scene_->gravity_m_s2);
+    if (!b.is_static()) {
+      b.v = b.v + h * pull(b);
+      b.angular_momentum = b.angular_momentum + h * b.torque();
+    }
 }
 
 // The points of two bodies keep their order from step to step; where there are as many as before, each starts from the

@@ -57,7 +57,9 @@ class PlainWorld : public core::Dynamics {
   void add_pair(std::uint32_t a, std::uint32_t b, double h);
   void add_faces(std::uint32_t a, double h);
   void begin_record();
-  // How far any point of the body may come in h, m, with what gravity adds.
+  // Acceleration by gravity and wrenches, m/s^2; zero for a static body.
+  [[nodiscard]] Vec pull(const RigidBody& body) const;
+  // How far any point of the body may come in h, m, with what gravity and wrenches add.
   [[nodiscard]] double farthest(const RigidBody& body, double h) const;
   void warm_start();
 

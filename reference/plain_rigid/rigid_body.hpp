@@ -25,7 +25,12 @@ struct RigidBody {
   Vec v;  // m/s
   // World frame, kg m^2/s. It is the state, and not the angular velocity, so that it is constant while nothing acts.
   Vec angular_momentum;
-  Vec static_spin;  // rad/s: what the scene says of a static body, which never turns
+  // The scene's wrenches, summed: constant in the world and in the body's axes.
+  Vec force_world;   // N
+  Vec force_body;    // N
+  Vec torque_world;  // N m
+  Vec torque_body;   // N m
+  Vec static_spin;   // rad/s: what the scene says of a static body, which never turns
 
   [[nodiscard]] bool is_static() const { return !(inverse_mass > 0.0); }
   [[nodiscard]] Mat rotation() const { return matrix(q); }
@@ -35,6 +40,8 @@ struct RigidBody {
     const Mat r = matrix(orientation);
     return r * (inverse_inertia * (transposed(r) * momentum));
   }
+  [[nodiscard]] Vec force() const { return force_world + rotation() * force_body; }
+  [[nodiscard]] Vec torque() const { return torque_world + rotation() * torque_body; }
   [[nodiscard]] Vec angular_velocity() const { return is_static() ? static_spin : world_spin(angular_momentum, q); }
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "core/scene/refuse_wrenches.hpp"
 #include "reference/plugin/plugin_array.hpp"
 #include "reference/plugin/plugin_records.hpp"
 #include "reference/plugin/plugin_scene.hpp"
@@ -28,6 +29,7 @@ class PluginDynamics final : public core::Dynamics {
     if (scene.motion == core::Motion::kRigid)
       return core::Error{"the scene's bodies turn, and version 1 of the interface gives no inertia",
                          instance_->where("begin"), "export broadside_engine_v2", core::Exit::kMissing};
+    if (Status s = core::refuse_wrenches(scene); !s) return s;
     end();
     source_ = &scene;
     steps_ = 0;

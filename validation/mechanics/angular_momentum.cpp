@@ -59,14 +59,15 @@ class AngularMomentum final : public Validator {
     const BodyFacts& f = m.facts[i];
     if (!f.is_dynamic || !f.has_inertia) return;
     const BodyStep& b = m.bodies[i];
-    const Vec3d change = b.after.angular_momentum - b.before.angular_momentum;
+    // Less what the scene's own torque gives.
+    const Vec3d change = b.after.angular_momentum - b.before.angular_momentum - m.h * b.torque;
     // The gyroscopic torque may be that of the spin before or after the impulses.
     const double gyroscopic = m.h * (length(cross(b.before.w, b.before.angular_momentum)) +
                                      length(cross(b.after.w, b.after.angular_momentum)));
     const double spin = length(b.before.w) + length(b.after.w);
     const double scale = f.largest_moment * spin + scale_[i];
     const double limit = gyroscopic + slack_[i] + m.rounding_of(40 + 2 * accumulations_ * points_[i]) * scale +
-                         rounding(4) * scale_[i] + kSubnormal;
+                         rounding(4) * scale_[i] + kSubnormal + m.h * b.torque_slack;
     tally_.check(
         length(change - moment_[i]), {limit, "N m s", kOrigin}, Where::body(m.step, i, "bodies.angular_velocity"), [&] {
           return "dL = " + vector_text(change) + " N m s, sum (p - x) x J = " + vector_text(moment_[i]) + " N m s";

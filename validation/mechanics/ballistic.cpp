@@ -29,17 +29,18 @@ class Ballistic final : public Validator {
   core::Verdict conclude() override { return tally_.conclude("no moving body touched nothing for a whole step"); }
 
  private:
-  // v1 - v0 = g h, and x1 - x0 within h times the velocities that the step had: RIGID 5.
+  // v1 - v0 = g h + F h / m, and x1 - x0 within h times the velocities that the step had: RIGID 5.
   void judge(const Motion& m, std::uint32_t i, const BodyStep& b, int k) {
     const double v0 = b.before.v[k];
     const double v1 = b.after.v[k];
-    const double pull = m.h * m.gravity[k];
+    const double pull = m.h * b.acceleration[k];
     // METHOD clips velocities, P(23).
     const bool is_clipped = is_method_ && std::abs(v0 + pull) >= v_max_;
     const double off_v =
-        substeps_ * (m.rounding_of(6) * std::abs(pull) + m.rounding_of(2) * (std::abs(v0) + std::abs(v1))) + kSubnormal;
+        substeps_ * (m.rounding_of(6) * std::abs(pull) + m.rounding_of(2) * (std::abs(v0) + std::abs(v1))) +
+        kSubnormal + m.h * b.acceleration_slack;
     const auto worked = [&] {
-      return "dv = " + number_text(v1 - v0) + " m/s, g h = " + number_text(pull) +
+      return "dv = " + number_text(v1 - v0) + " m/s, g h + F h / m = " + number_text(pull) +
              " m/s; dx = " + number_text(b.after.x[k] - b.before.x[k]) + " m, h v = " + number_text(m.h * v0) + " to " +
              number_text(m.h * v1) + " m";
     };
@@ -69,7 +70,8 @@ class Ballistic final : public Validator {
 
 ValidatorRow ballistic_row() {
   return {"ballistic",
-          "a body that touches nothing gains g h of velocity, and moves h times a velocity between its first and last",
+          "a body that touches nothing gains g h + F h / m of velocity, and moves h times a velocity between its first "
+          "and last",
           "gravity + 10 %; damping; a teleport; an engine that does nothing",
           core::bit(core::Group::kBodies),
           0,

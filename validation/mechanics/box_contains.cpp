@@ -49,6 +49,9 @@ class BoxContains final : public Validator {
       const Vec3d half(p->half_extents);
       if (p->kind == core::PrimitiveKind::kBox) {
         high = std::abs(row.x) * half.x + std::abs(row.y) * half.y + std::abs(row.z) * half.z;
+      } else if (p->kind == core::PrimitiveKind::kCylinder) {
+        const double across = std::sqrt(std::max(0.0, 1.0 - row[p->axis] * row[p->axis]));
+        high = p->half_length_m() * std::abs(row[p->axis]) + (p->radius_m - p->facet_gap_m) * across;
       } else {
         const double along = p->kind == core::PrimitiveKind::kCapsule ? p->half_length_m() : 0.0;
         high = p->radius_m + along * std::abs(row[p->axis]);

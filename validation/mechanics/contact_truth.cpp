@@ -85,7 +85,7 @@ class ContactTruth final : public Validator {
       return length(s.v) + length(s.w) * m.facts[i].reach_m;
     };
     const double size = m.facts[a].reach_m + length(m.bodies[a].after.x);
-    return header_.scene.parameters.delta_m + margin_ + m.h * (speed(a) + speed(b) + m.h * length(m.gravity)) +
+    return header_.scene.parameters.delta_m + margin_ + m.h * (speed(a) + speed(b) + m.h * m.strongest_pull) +
            rounding(16) * size;
   }
 

@@ -37,7 +37,7 @@ class EnergyGrowth final : public Validator {
       if (!m.facts[i].is_dynamic || m.facts[i].has_spring) continue;
       const std::uint32_t set = m.bodies[i].set;
       const double e0 = energy(m, i, m.bodies[i].before);
-      const double e1 = energy(m, i, m.bodies[i].after);
+      const double e1 = energy(m, i, m.bodies[i].after) - work(m, i);
       const double slack = allowance(m, i, std::abs(e0) + std::abs(e1));
       change_[set] += e1 - e0;
       allowed_[set] += slack;
@@ -63,6 +63,13 @@ class EnergyGrowth final : public Validator {
     return 0.5 * f.mass_kg * dot(s.v, s.v) + 0.5 * dot(s.w, s.angular_momentum) - f.mass_kg * dot(m.gravity, s.x);
   }
 
+  // Of the scene's wrenches in this step, J.
+  [[nodiscard]] static double work(const Motion& m, std::uint32_t i) {
+    const BodyStep& b = m.bodies[i];
+    const Vec3d force = m.facts[i].mass_kg * (b.acceleration - m.gravity);
+    return dot(force, b.after.x - b.before.x) + m.h * dot(b.torque, b.after.w);
+  }
+
   // The deepest reported overlap of each body.
   void read_depths(const core::FrameRecord& frame, std::size_t bodies) {
     depth_.assign(bodies, 0.0);
@@ -76,7 +83,7 @@ class EnergyGrowth final : public Validator {
   [[nodiscard]] double allowance(const Motion& m, std::uint32_t i, double magnitude) const {
     const BodyFacts& f = m.facts[i];
     const BodyStep& b = m.bodies[i];
-    const double g = length(m.gravity);
+    const double g = length(b.acceleration);
     const double weight = f.mass_kg * g;
     const double speed = std::max(length(b.before.v), length(b.after.v));
     double sum = 0.5 * weight * g * m.h * m.h;
@@ -87,6 +94,11 @@ class EnergyGrowth final : public Validator {
                                 length(cross(b.after.w, b.after.angular_momentum)));
       sum += 0.5 * l * l / f.least_moment;
     }
+    // The same of a torque; where body axes turn, its work is that of the mean.
+    if (!b.is_torque_free)
+      sum += m.h * (length(b.torque) * length(b.after.w - b.before.w) +
+                    b.torque_slack * std::max(length(b.before.w), length(b.after.w)));
+    sum += f.mass_kg * b.acceleration_slack * length(b.after.x - b.before.x);
     if (!b.is_alone) {
       // When in the step it bounced is not known: gravity acts on the way in and on the way out for up to h.
       sum += bounce_ * weight * m.h * (speed + m.h * g);

@@ -69,7 +69,7 @@ class FrictionCone final : public Validator {
   // How far the slip at the end may be from that at the moment at which friction acted: what gravity, the other
   // impulses and turning changed, and where in the gap the point is.
   [[nodiscard]] double open_slip(const Motion& m, const core::ContactPoint& p) const {
-    double open = 2.0 * m.h * length(m.gravity);
+    double open = 2.0 * m.h * m.strongest_pull;
     for (const std::uint32_t body : {p.a, p.b})
       open += change_by_turning(m, body, Vec3d(p.point)) + change_by_others(m, body, p);
     return open + std::abs(static_cast<double>(p.gap_m)) * spin(m, p);

@@ -19,7 +19,7 @@ class Gyroscopic final : public Validator {
     const Motion& m = *evidence.motion;
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
       const BodyStep& b = m.bodies[i];
-      if (!b.is_alone || !m.facts[i].has_inertia) continue;
+      if (!b.is_alone || !b.is_torque_free || !m.facts[i].has_inertia) continue;
       const double spin = std::max(length(b.before.w), length(b.after.w));
       if (m.h * spin > kLargestTurn) {
         ++too_fast_;

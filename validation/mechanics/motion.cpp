@@ -89,6 +89,8 @@ std::vector<BodyFacts> facts_of(const core::Scene& scene) {
     const bool is_ball = primitive && primitive->kind == core::PrimitiveKind::kSphere;
     balls.push_back(is_ball ? static_cast<double>(primitive->radius_m) : 0.0);
   }
+  // A scene of bodies that translate may hold meshes that have no inertia.
+  const auto mass = core::all_mass_properties(scene);
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
     const core::Body& body = scene.bodies[i];
     BodyFacts f;
@@ -104,10 +106,9 @@ std::vector<BodyFacts> facts_of(const core::Scene& scene) {
     f.smallest_side_m = 2.0 * std::min({f.box_half.x, f.box_half.y, f.box_half.z});
     if (f.is_dynamic) {
       f.mass_kg = 1.0 / static_cast<double>(body.inverse_mass);
-      // A scene of bodies that translate may hold meshes that have no inertia.
-      if (const auto m = core::mass_properties_of(scene, i)) {
-        const auto& t = m.value().inertia_kg_m2;
-        const auto& c = m.value().center_of_mass_m;
+      if (mass) {
+        const auto& t = mass.value()[i].inertia_kg_m2;
+        const auto& c = mass.value()[i].center_of_mass_m;
         f.has_inertia = true;
         f.center_of_mass = {c[0], c[1], c[2]};
         f.inertia = {{Vec3d{t[0], t[3], t[4]}, Vec3d{t[3], t[1], t[5]}, Vec3d{t[4], t[5], t[2]}}};
@@ -123,6 +124,13 @@ std::vector<BodyFacts> facts_of(const core::Scene& scene) {
   }
   for (const core::Spring& s : scene.springs)
     if (s.body < facts.size()) facts[s.body].has_spring = true;
+  for (const core::Wrench& w : scene.wrenches) {
+    const bool turns = w.axes == core::WrenchAxes::kBody;
+    BodyFacts& f = facts[w.body];
+    (turns ? f.force_body_n : f.force_world_n) = (turns ? f.force_body_n : f.force_world_n) + Vec3d(w.force_n);
+    (turns ? f.torque_body_n_m : f.torque_world_n_m) =
+        (turns ? f.torque_body_n_m : f.torque_world_n_m) + Vec3d(w.torque_n_m);
+  }
   return facts;
 }
 
@@ -190,7 +198,7 @@ core::Box MotionReader::predicted_box(std::size_t body) const {
   const double grow = swing + margin_m_;
   const core::Box start = box_around(s, f, grow, {});
   const core::Box drifted = box_around(s, f, grow, motion_.h * s.v);
-  const core::Box fallen = box_around(s, f, grow, motion_.h * (s.v + motion_.h * motion_.gravity));
+  const core::Box fallen = box_around(s, f, grow, motion_.h * (s.v + motion_.h * motion_.bodies[body].acceleration));
   return joined(joined(start, drifted), fallen);
 }
 
@@ -253,6 +261,24 @@ void MotionReader::find_neighbors() {
   }
 }
 
+void MotionReader::find_pulls() {
+  motion_.strongest_pull = length(motion_.gravity);
+  for (std::size_t i = 0; i < facts_.size(); ++i) {
+    const BodyFacts& f = facts_[i];
+    BodyStep& b = motion_.bodies[i];
+    const Vec3d force = f.force_world_n + b.before.r * f.force_body_n;
+    const double inverse_mass = f.is_dynamic ? 1.0 / f.mass_kg : 0.0;
+    const double turn =
+        angle_of(b.after.q * conjugate(b.before.q)) + motion_.h * std::max(length(b.before.w), length(b.after.w));
+    b.acceleration = motion_.gravity + inverse_mass * force;
+    b.acceleration_slack = inverse_mass * turn * length(f.force_body_n);
+    b.torque = f.torque_world_n_m + b.before.r * f.torque_body_n_m;
+    b.torque_slack = turn * length(f.torque_body_n_m);
+    b.is_torque_free = length(f.torque_world_n_m) == 0.0 && length(f.torque_body_n_m) == 0.0;
+    motion_.strongest_pull = std::max(motion_.strongest_pull, length(b.acceleration));
+  }
+}
+
 const Motion* MotionReader::read(const core::FrameRecord& frame, const core::FrameRecord* previous) {
   const std::size_t n = facts_.size();
   const auto has_states = [n](const core::FrameRecord& f) {
@@ -270,6 +296,7 @@ const Motion* MotionReader::read(const core::FrameRecord& frame, const core::Fra
     motion_.bodies[i].before = *before;
     motion_.bodies[i].after = *after;
   }
+  find_pulls();
   find_neighbors();
   return &motion_;
 }

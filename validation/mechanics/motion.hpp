@@ -34,6 +34,11 @@ struct BodyFacts {
   Vec3d box_half;                // m
   double ball_radius_m = 0.0;    // of a sphere; 0 for any other shape
   std::uint32_t mesh = 0;
+  // The scene's wrenches on it, summed: those that are constant in the world and those in the body's axes.
+  Vec3d force_world_n;
+  Vec3d force_body_n;
+  Vec3d torque_world_n_m;
+  Vec3d torque_body_n_m;
 };
 
 // A state, of the center of mass, in the world.
@@ -54,6 +59,13 @@ struct BodyStep {
   // inside the domain and meets no other body, neither where that one's start sends it nor, if something may have
   // deflected that one, where it went. Where this body itself was recorded afterwards excuses nothing.
   bool is_alone = false;
+  // Of gravity and the scene's wrenches at the start of the step. What is constant in the body's axes turns with it:
+  // over the step the mean differs by at most the slack.
+  Vec3d acceleration;               // m/s^2
+  double acceleration_slack = 0.0;  // m/s^2
+  Vec3d torque;                     // N m
+  double torque_slack = 0.0;        // N m
+  bool is_torque_free = true;
   // Bodies that may have touched each other, directly or through others, have one number; static bodies have none.
   std::uint32_t set = 0;
 };
@@ -66,10 +78,11 @@ constexpr bool has_moved(const BodyStep& b) {
 
 struct Motion {
   std::uint64_t step = 0;
-  double h = 0.0;      // s
-  Vec3d gravity;       // m/s^2
-  double u = 0.0;      // unit roundoff of the states
-  bool turns = false;  // the scene's bodies may turn
+  double h = 0.0;               // s
+  Vec3d gravity;                // m/s^2
+  double u = 0.0;               // unit roundoff of the states
+  bool turns = false;           // the scene's bodies may turn
+  double strongest_pull = 0.0;  // m/s^2; the largest acceleration of gravity and wrenches
   std::span<const BodyFacts> facts;
   std::vector<BodyStep> bodies;
   std::vector<core::Pair> near;           // pairs of bodies whose swept boxes meet
@@ -93,6 +106,7 @@ class MotionReader {
   [[nodiscard]] BodyState start_of(std::size_t body) const;
   void complete(BodyState& state, std::size_t body) const;
   void find_neighbors();
+  void find_pulls();
   // Where the body's start sends it within the step, grown by the margin.
   [[nodiscard]] core::Box predicted_box(std::size_t body) const;
   // The same and where it was recorded afterwards.

@@ -40,7 +40,7 @@ class Penetration final : public Validator {
  private:
   [[nodiscard]] double approach(const Motion& m, std::uint32_t i) const {
     const BodyState& s = m.bodies[i].before;
-    return m.h * (length(s.v) + length(s.w) * m.facts[i].reach_m + m.h * length(m.gravity));
+    return m.h * (length(s.v) + length(s.w) * m.facts[i].reach_m + m.h * m.strongest_pull);
   }
 
   void judge_pair(const Motion& m, core::Pair pair) {
@@ -91,7 +91,7 @@ class Penetration final : public Validator {
   // Slop and one step's approach; a compliant contact sinks in until it carries the weight: |g| times its time
   // constant squared.
   [[nodiscard]] double class_a(const Motion& m, double approach) const {
-    return scene_.parameters.delta_m + approach + length(m.gravity) * contact_time_s_ * contact_time_s_;
+    return scene_.parameters.delta_m + approach + m.strongest_pull * contact_time_s_ * contact_time_s_;
   }
 
   // Whether the depth, of which only a bound is known, changes nothing in the verdict.

@@ -17,7 +17,7 @@ class Turning final : public Validator {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
-      if (m.bodies[i].is_alone) judge(m, i);
+      if (m.bodies[i].is_alone && m.bodies[i].is_torque_free) judge(m, i);
       if (!turns_ && m.facts[i].is_dynamic) judge_held(m, i);
     }
   }

@@ -36,7 +36,7 @@ class Unilateral final : public Validator {
       const double left = approach_at(Moment::kEnd) + change_by_turning(m, p.a, at) + change_by_turning(m, p.b, at);
       const double approach = std::max(came, left + gained);
       // Gravity may bring them together within the step.
-      const double reach = m.h * (std::max(0.0, approach) + m.h * length(m.gravity));
+      const double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
       tally_.check(p.gap_m, {limit, "m", kOrigin}, Where::pair(m.step, p.a, p.b, "points.gap"), [&] {
         return "an impulse over a gap of " + number_text(p.gap_m) + " m that closes at " + number_text(approach) +
@@ -71,7 +71,7 @@ class Unilateral final : public Validator {
   };
 
   static constexpr std::string_view kOrigin =
-      "the declared margin, h times the approach speed with gravity and turning, and rounding";
+      "the declared margin, h times the approach speed with gravity, wrenches and turning, and rounding";
   double margin_m_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Given> given_;  // by the bodies of the points
   Tally tally_{"unilateral", "points with an impulse", kOrigin};

@@ -7,6 +7,7 @@
 
 #include "datasets/shapes/box_mesh.hpp"
 #include "datasets/shapes/capsule_mesh.hpp"
+#include "datasets/shapes/cylinder_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
 
 namespace broadside::tests {
@@ -54,12 +55,55 @@ TEST(MassProperties, SpheresAndCapsulesAreThoseThatTheirDrawingsApproach) {
     EXPECT_NEAR(drawn.inertia_kg_m2[k], exact.inertia_kg_m2[k], 2e-3 * exact.inertia_kg_m2[k]) << k;
 }
 
-TEST(MassProperties, AnOpenMeshHasNone) {
-  Mesh open = datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value();
+TEST(MassProperties, ACylinderHasItsClosedFormAndItsDrawingNearlySo) {
+  Mesh drawing = datasets::cylinder_mesh(0.5, 1.0, 256).value();
+  const MassProperties exact = properties(drawing, 3.0);
+  EXPECT_NEAR(exact.inertia_kg_m2[2], 3.0 * 0.25 / 2.0, 1e-9);
+  EXPECT_NEAR(exact.inertia_kg_m2[0], 3.0 * (0.25 / 4.0 + 1.0 / 3.0), 1e-9);
+  EXPECT_EQ(exact.inertia_kg_m2[0], exact.inertia_kg_m2[1]);
+  for (core::Vec3& v : drawing.vertices) v = v + core::Vec3{1.0F, 0.0F, 0.0F};
+  const MassProperties drawn = properties(drawing, 3.0);
+  // A polygon of n corners has less area than its circle by 2/3 (pi / n)^2 of it, and its moments by twice that share.
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(drawn.inertia_kg_m2[k], exact.inertia_kg_m2[k], 2e-4 * exact.inertia_kg_m2[k]) << k;
+}
+
+// RIGID 2: what encloses no solid takes its convex hull's inertia, and says so.
+TEST(MassProperties, AnOpenMeshTakesItsHullsAndSaysWhy) {
+  const Mesh whole = datasets::box_mesh({0.5, 1.0, 2.0}, {2, 3, 4}).value();
+  Mesh open = whole;
   open.triangles.pop_back();
-  const auto made = core::uniform_mass_properties(open, 1.0);
-  ASSERT_FALSE(made.ok());
-  EXPECT_NE(made.error().line().find("not closed"), std::string::npos);
+  const auto made = core::uniform_solid(open, 6.0);
+  ASSERT_TRUE(made.ok()) << made.error().line();
+  EXPECT_EQ(made.value().solid, core::Solid::kHull);
+  EXPECT_EQ(made.value().why_hull, "the mesh is open");
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(made.value().properties.inertia_kg_m2[k], properties(whole, 6.0).inertia_kg_m2[k], 1e-9) << k;
+  EXPECT_EQ(core::uniform_solid(whole, 6.0).value().solid, core::Solid::kPrimitive);
+
+  Mesh flat = whole;
+  for (core::Vec3& v : flat.vertices) v.y = 0.0F;
+  EXPECT_FALSE(core::uniform_solid(flat, 6.0).ok());
+}
+
+TEST(MassProperties, AMeshThatCrossesItselfTakesItsHulls) {
+  // Two closed boxes, one pushed into the other: each point between is enclosed twice.
+  Mesh crossing = datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value();
+  const auto n = static_cast<std::uint32_t>(crossing.vertices.size());
+  for (std::uint32_t v = 0; v < n; ++v) crossing.vertices.push_back(crossing.vertices[v] + core::Vec3{0.5F, 0, 0});
+  const std::size_t triangles = crossing.triangles.size();
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const core::Triangle& from = crossing.triangles[t];
+    crossing.triangles.push_back({from[0] + n, from[1] + n, from[2] + n});
+  }
+  const auto made = core::uniform_solid(crossing, 6.0);
+  ASSERT_TRUE(made.ok()) << made.error().line();
+  EXPECT_EQ(made.value().why_hull, "the mesh crosses itself");
+  EXPECT_NEAR(made.value().properties.inertia_kg_m2[0], 6.0 / 12.0 * 2.0, 1e-9);
+  EXPECT_NEAR(made.value().properties.inertia_kg_m2[1], 6.0 / 12.0 * (1.5 * 1.5 + 1.0), 1e-9);
+  EXPECT_NEAR(made.value().properties.center_of_mass_m[0], 0.25, 1e-12);
+  for (std::uint32_t v = n; v < 2 * n; ++v) crossing.vertices[v].x += 2.0F;
+  EXPECT_EQ(core::uniform_solid(crossing, 6.0).value().solid, core::Solid::kMesh) << "two boxes apart";
 }
 
 TEST(MassProperties, PrincipalMomentsAreThoseOfTheTurnedMatrix) {

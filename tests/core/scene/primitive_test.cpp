@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "datasets/shapes/box_mesh.hpp"
 #include "datasets/shapes/capsule_mesh.hpp"
+#include "datasets/shapes/cylinder_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
 
 namespace broadside {
@@ -72,6 +74,40 @@ TEST(Primitive, LookalikesAreNone) {
   core::Mesh dented = datasets::sphere_mesh(0.5, 8).value();
   dented.vertices[17] = 0.99F * dented.vertices[17];
   EXPECT_FALSE(core::primitive_of(dented).has_value());
+}
+
+TEST(Primitive, ACylinderIsOneAlongAnyAxis) {
+  const core::Mesh along_z = datasets::cylinder_mesh(0.5, 0.125, 32).value();
+  for (const int axis : {0, 1, 2}) {
+    core::Mesh mesh = along_z;
+    for (core::Vec3& v : mesh.vertices) {
+      const core::Vec3 from = v;
+      v[(axis + 1) % 3] = from.x;
+      v[(axis + 2) % 3] = from.y;
+      v[axis] = from.z;
+    }
+    const auto found = core::primitive_of(mesh);
+    ASSERT_TRUE(found.has_value()) << axis;
+    EXPECT_EQ(found->kind, PrimitiveKind::kCylinder);
+    EXPECT_EQ(found->axis, axis);
+    EXPECT_FLOAT_EQ(found->radius_m, 0.5F);
+    EXPECT_FLOAT_EQ(found->half_length_m(), 0.125F);
+    // Facets of a polygon of n corners lie inside the circle by r (1 - cos(pi / n)).
+    EXPECT_NEAR(found->facet_gap_m, 0.5 * (1.0 - std::cos(std::numbers::pi / 32)), 1e-7);
+  }
+}
+
+TEST(Primitive, WhatOnlyResemblesACylinderIsNone) {
+  core::Mesh waist = datasets::cylinder_mesh(0.5, 1.0, 32).value();
+  waist.vertices[4] = 0.9F * waist.vertices[4];
+  EXPECT_FALSE(core::primitive_of(waist).has_value());
+  core::Mesh cone = datasets::cylinder_mesh(0.5, 1.0, 32).value();
+  for (core::Vec3& v : cone.vertices)
+    if (v.z > 0.0F) v = {0.5F * v.x, 0.5F * v.y, v.z};
+  EXPECT_FALSE(core::primitive_of(cone).has_value());
+  core::Mesh pushed = datasets::cylinder_mesh(0.5, 1.0, 32).value();
+  pushed.vertices[1].z = 0.5F;  // the middle of an end
+  EXPECT_FALSE(core::primitive_of(pushed).has_value());
 }
 
 TEST(Primitive, ConvexBodies) {

@@ -62,6 +62,12 @@ inline core::Scene tetrahedra_scene(std::uint32_t bodies) {
   if (bodies > 1)
     scene.springs = {
         {1, {0.5F, -0.0F, 3.0F}, 100.0F, 0.25F}, {1, {0, 1, 0}, 1e-40F, 0.0F}, {1, {}, 2, 1}, {1, {}, 0, 0}};
+  if (bodies > 1)
+    scene.wrenches = {{1, core::WrenchAxes::kBody, {0.25F, -0.0F, 1e-40F}, {}},
+                      {1, core::WrenchAxes::kWorld, {0, 0, 3}, {}},
+                      {1, core::WrenchAxes::kBody, {0, 2, 0}, {}},
+                      {1, core::WrenchAxes::kWorld, {1, 0, 0}, {}},
+                      {1, core::WrenchAxes::kWorld, {}, {}}};
   return scene;
 }
 

@@ -85,9 +85,10 @@ Sizes write_trace(const std::filesystem::path& path) {
   }
   EXPECT_TRUE(writer.value().finish().ok());
   // Two meshes of 4 and 5 vertices and 4 triangles each; 250 steps are three windows.
-  Sizes sizes{{{"F", 250}, {"F+1", 251}, {"n", 13},   {"M", 2},    {"M+1", 3},    {"V", 9},        {"T", 8}, {"W", 3},
-               {"P", p},   {"C", c},     {"X", x},    {"K", k},    {"S", s},      {"O", o},        {"B", b}, {"U", u},
-               {"L", l},   {"N", t},   {"Q", 4},     {"n+1", 14}, {"8n", 104}, {"F n", 3250}, {"8 F n", 26000}}};
+  Sizes sizes{{{"F", 250}, {"F+1", 251}, {"n", 13},   {"M", 2},    {"M+1", 3},    {"V", 9},
+               {"T", 8},   {"W", 3},     {"P", p},    {"C", c},    {"X", x},      {"K", k},
+               {"S", s},   {"O", o},     {"B", b},    {"U", u},    {"L", l},      {"N", t},
+               {"Q", 4},   {"H", 5},     {"n+1", 14}, {"8n", 104}, {"F n", 3250}, {"8 F n", 26000}}};
   std::set<std::uint64_t> distinct;
   for (const auto& [name, value] : sizes.of)
     EXPECT_TRUE(name == "M+1" || distinct.insert(value).second) << name << " is as large as another size";
