@@ -185,7 +185,8 @@ class ContactTruth final : public Validator {
     if (own_box_.size() <= index) own_box_.resize(index + 1);
     if (!own_box_[index]) {
       const auto primitive = core::primitive_of(mesh);
-      own_box_[index] = primitive && primitive->kind != core::PrimitiveKind::kCapsule;
+      own_box_[index] = primitive && (primitive->kind == core::PrimitiveKind::kBox ||
+                                      primitive->kind == core::PrimitiveKind::kSphere);
     }
     return *own_box_[index];
   }
