@@ -11,8 +11,9 @@ constexpr std::string_view kBullet = "Bullet 3.24";
 constexpr std::string_view kFcl = "FCL 0.7.0";
 constexpr std::string_view kCcd = "libccd 2.1";
 constexpr std::string_view kOde = "ODE 0.16.2";
+constexpr std::string_view kMujoco = "MuJoCo 2.2.2";
 
-constexpr std::array<DefectRow, 12> kRows{{
+constexpr std::array<DefectRow, 13> kRows{{
     {Defect::kBulletStalePairs, kBullet, "none known",
      "the dbvt broad phase reports a pair whose boxes do not overlap (fat leaves, pairs kept after they parted)",
      "filtered on the given boxes; raw and tight pairs are counted apart"},
@@ -44,6 +45,9 @@ constexpr std::array<DefectRow, 12> kRows{{
     {Defect::kOdeLcp, kOde, "none known",
      "a step of Dantzig's solver reports an LCP internal error and goes on with impulses that solve nothing",
      "counted by step; the trace shows what became of the bodies"},
+    {Defect::kMujocoBoxDepth, kMujoco, "mujoco#3476",
+     "two boxes have a contact that is deeper than they overlap along its own normal",
+     "passed on: the step pushes with it, and a resting stack may explode"},
 }};
 
 }  // namespace

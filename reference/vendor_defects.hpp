@@ -26,6 +26,7 @@ enum class Defect {
   kCcdMprDepth,
   kCcdEpaHang,
   kOdeLcp,
+  kMujocoBoxDepth,
 };
 
 struct DefectRow {

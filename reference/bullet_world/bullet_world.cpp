@@ -127,6 +127,7 @@ class BulletWorld final : public core::Dynamics {
       btContactSolverInfo& info = world_->dynamics.getSolverInfo();
       info.m_numIterations = options_.iterations;
       if (!options_.warm_starting) info.m_solverMode &= ~SOLVER_USE_WARMSTARTING;
+      if (options_.has_two_frictions) info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
       info.m_restitutionVelocityThreshold = scene.parameters.v_threshold_m_s;
       for (const auto& mesh : scene.meshes) world_->shapes.push_back(make_bullet_shape(mesh, options_.shapes));
       for (std::uint32_t i = 0; i < scene.body_count(); ++i) add_body(i);
@@ -171,14 +172,15 @@ class BulletWorld final : public core::Dynamics {
       for (std::uint32_t i = 0; i < scene_->body_count(); ++i) read_body(frame, i);
       read_pairs(frame);
       frame.contacts = std::move(contacts);
-      frame.points = read_points(world_->dispatcher);
+      if (options_.warm_starting) frame.points = read_points(world_->dispatcher);
       return core::Done{};
     });
   }
 
   [[nodiscard]] std::uint32_t groups() const override {
-    return bit(core::Group::kBodies) | bit(core::Group::kDetection) | bit(core::Group::kPairs) |
-           bit(core::Group::kContacts) | bit(core::Group::kPoints) | bit(core::Group::kDetectedOrientation);
+    const std::uint32_t always = bit(core::Group::kBodies) | bit(core::Group::kDetection) | bit(core::Group::kPairs) |
+                                 bit(core::Group::kContacts) | bit(core::Group::kDetectedOrientation);
+    return options_.warm_starting ? always | bit(core::Group::kPoints) : always;
   }
 
  private:

@@ -50,13 +50,24 @@ Contact contact_of(const btManifoldPoint& point, std::uint32_t body0, std::uint3
   return c;
 }
 
-core::ContactPoint point_of(const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1) {
+// Bullet keeps a point on each surface and lets the two slide apart, by up to its breaking threshold; each body's
+// impulse acts at its own. Of two bodies that move the middle is recorded.
+btVector3 place_of(const btManifoldPoint& point, const btCollisionObject& body0, const btCollisionObject& body1) {
+  if (body1.isStaticObject()) return point.getPositionWorldOnA();
+  if (body0.isStaticObject()) return point.getPositionWorldOnB();
+  return btScalar(0.5) * (point.getPositionWorldOnA() + point.getPositionWorldOnB());
+}
+
+core::ContactPoint point_of(const btManifoldPoint& point, const btCollisionObject& object0,
+                            const btCollisionObject& object1) {
+  const std::uint32_t body0 = body_of(&object0);
+  const std::uint32_t body1 = body_of(&object1);
   const btScalar turn = body0 < body1 ? 1 : -1;
   const btVector3 normal = turn * point.m_normalWorldOnB;
   core::ContactPoint p;
   p.a = std::min(body0, body1);
   p.b = std::max(body0, body1);
-  p.point = to_core(btScalar(0.5) * (point.getPositionWorldOnA() + point.getPositionWorldOnB()));
+  p.point = to_core(place_of(point, object0, object1));
   p.normal = to_core(normal);
   p.gap_m = point.getDistance();
   p.impulse = to_core(point.m_appliedImpulse * normal + friction_of(point, turn));
@@ -80,13 +91,13 @@ bool acts(const btManifoldPoint& point) {
   return is_contact(point) || point.m_appliedImpulseLateral1 != 0 || point.m_appliedImpulseLateral2 != 0;
 }
 
-// Calls use(point, body 0, body 1) for each manifold point.
+// Calls use(point, object 0, object 1) for each manifold point.
 template <typename Use>
 void each_point(btDispatcher& dispatcher, const Use& use) {
   for (int k = 0; k < dispatcher.getNumManifolds(); ++k) {
     const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(k);
     for (int p = 0; p < manifold->getNumContacts(); ++p)
-      use(manifold->getContactPoint(p), body_of(manifold->getBody0()), body_of(manifold->getBody1()));
+      use(manifold->getContactPoint(p), *manifold->getBody0(), *manifold->getBody1());
   }
 }
 
@@ -94,18 +105,21 @@ void each_point(btDispatcher& dispatcher, const Use& use) {
 
 std::vector<Contact> read_contacts(btDispatcher& dispatcher, const StepStates& states) {
   std::vector<Contact> contacts;
-  each_point(dispatcher, [&](const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1) {
-    if (is_contact(point)) contacts.push_back(contact_of(point, body0, body1, states));
-  });
+  each_point(dispatcher,
+             [&](const btManifoldPoint& point, const btCollisionObject& object0, const btCollisionObject& object1) {
+               if (is_contact(point))
+                 contacts.push_back(contact_of(point, body_of(&object0), body_of(&object1), states));
+             });
   std::stable_sort(contacts.begin(), contacts.end(), is_before<Contact>);
   return contacts;
 }
 
 std::vector<core::ContactPoint> read_points(btDispatcher& dispatcher) {
   std::vector<core::ContactPoint> points;
-  each_point(dispatcher, [&](const btManifoldPoint& point, std::uint32_t body0, std::uint32_t body1) {
-    if (acts(point)) points.push_back(point_of(point, body0, body1));
-  });
+  each_point(dispatcher,
+             [&](const btManifoldPoint& point, const btCollisionObject& object0, const btCollisionObject& object1) {
+               if (acts(point)) points.push_back(point_of(point, object0, object1));
+             });
   std::stable_sort(points.begin(), points.end(), is_before<core::ContactPoint>);
   return points;
 }

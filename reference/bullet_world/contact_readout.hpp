@@ -24,8 +24,8 @@ struct StepStates {
 // not those of an application of its own. The tangent points against the friction impulse that acted.
 std::vector<core::Contact> read_contacts(btDispatcher& dispatcher, const StepStates& states);
 
-// The same manifold points as totals of the step, in the same order: half way between the two surfaces as detection saw
-// them, with the normal impulse and friction together.
+// The same manifold points as totals of the step, in the same order: on the surface of the body that moves, or between
+// those of two that do, with the normal impulse and friction together.
 std::vector<core::ContactPoint> read_points(btDispatcher& dispatcher);
 
 }  // namespace broadside::reference

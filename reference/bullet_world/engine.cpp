@@ -62,6 +62,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const BulletWorldOptions
   card.push_back(
       {"friction rule", o.uses_scene_rules ? "geometric mean" : "product", o.uses_scene_rules ? "" : "geometric mean"});
   card.push_back({"friction coefficients", "one: the kinetic", "static and kinetic"});
+  card.push_back({"friction directions", o.has_two_frictions ? "two a point" : "one a point, along the slip", ""});
   card.push_back(
       {"restitution rule", o.uses_scene_rules ? "the larger" : "product", o.uses_scene_rules ? "" : "the larger"});
   card.push_back({"restitution threshold", number(p.v_threshold_m_s) + " m/s", ""});
@@ -87,7 +88,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const BulletWorldOptions
 }
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 7> rows{{
+  static const std::array<core::SettingRow, 8> rows{{
       {"mesh",
        "gimpact",
        {"gimpact", "hull", "tetrahedra"},
@@ -106,7 +107,14 @@ std::span<const core::SettingRow> setting_rows() {
        "implicit-body",
        {"implicit-body", "implicit-world", "explicit", "off"},
        "the torque that turns w about L; implicit-body is Bullet's default"},
-      {"warm_starting", "on", {"on", "off"}, "start the solver from the last step's impulses"},
+      {"friction_directions",
+       "1",
+       {"1", "2"},
+       "of a point; 1, along the slip at the start of a step, is Bullet's default"},
+      {"warm_starting",
+       "on",
+       {"on", "off"},
+       "start the solver from the last step's impulses; off, Bullet keeps none, and contacts are not recorded"},
   }};
   return rows;
 }
@@ -119,6 +127,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   options.uses_scene_rules = settings.text("combine") == "scene";
   options.always_rotates = settings.text("rotation") == "on";
   options.iterations = static_cast<int>(settings.number("iterations"));
+  options.has_two_frictions = settings.text("friction_directions") == "2";
   options.warm_starting = settings.text("warm_starting") == "on";
   if (settings.text("gyroscopic") == "implicit-world") options.gyroscopic = BulletGyroscopic::kImplicitWorld;
   if (settings.text("gyroscopic") == "explicit") options.gyroscopic = BulletGyroscopic::kExplicit;
@@ -132,7 +141,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.declaration = core::Declaration::of({{"method", "none"},
                                               {"motion", "rigid"},
                                               {"detection_at", "start"},
-                                              {"contacts", "totals"},
+                                              {"contacts", options.warm_starting ? "totals" : "none"},
                                               {"integrator", "semi-implicit Euler"},
                                               {"iterations", std::to_string(std::max(1, options.iterations))},
                                               {"friction", "pyramid"},

@@ -117,10 +117,14 @@ class DartWorld final : public core::Dynamics {
     using namespace dart::constraint;
     auto solver = std::make_unique<BoxedLcpConstraintSolver>();
     if (!options_.is_dantzig) solver->setBoxedLcpSolver(std::make_shared<PgsBoxedLcpSolver>());
-    if (options_.has_fcl)
-      solver->setCollisionDetector(dart::collision::FCLCollisionDetector::create());
-    else
+    if (options_.detector == DartDetector::kOwn) {
       solver->setCollisionDetector(dart::collision::DARTCollisionDetector::create());
+    } else {
+      const auto fcl = dart::collision::FCLCollisionDetector::create();
+      if (options_.detector == DartDetector::kFclPrimitives)
+        fcl->setPrimitiveShapeType(dart::collision::FCLCollisionDetector::PRIMITIVE);
+      solver->setCollisionDetector(fcl);
+    }
     solver->getCollisionOption().maxNumContacts = kPointsOfABody * (scene_->bodies.size() + 1);
     world_->setConstraintSolver(std::move(solver));
   }

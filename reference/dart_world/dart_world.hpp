@@ -9,8 +9,14 @@
 
 namespace broadside::reference {
 
+enum class DartDetector {
+  kFclMeshes,      // FCL on meshes of the shapes, as DART ships
+  kFclPrimitives,  // FCL's own code for primitives; DART's header warns that these are incomplete
+  kOwn,            // DART's, for boxes and spheres
+};
+
 struct DartOptions {
-  bool has_fcl = true;     // collisions by FCL, as DART ships; otherwise DART's own for boxes and spheres
+  DartDetector detector = DartDetector::kFclMeshes;
   bool is_dantzig = true;  // impulses by Dantzig's pivoting, as DART ships; otherwise projected Gauss-Seidel
 };
 

@@ -18,7 +18,10 @@ constexpr std::string_view kId = "dart-world";
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 2> rows{{
-      {"detector", "fcl", {"fcl", "dart"}, "who finds contacts: FCL on meshes of the shapes, or DART's own code"},
+      {"detector",
+       "fcl-mesh",
+       {"fcl-mesh", "fcl-primitive", "dart"},
+       "who finds contacts: FCL on meshes of the shapes, as DART ships, FCL on primitives, or DART's own code"},
       {"solver", "dantzig", {"dantzig", "pgs"}, "of impulses: pivoting, or projected Gauss-Seidel"},
   }};
   return rows;
@@ -41,7 +44,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const DartOptions& o) {
   core::EquivalenceCard card = dart_card();
   for (const auto& mesh : scene.meshes) {
     const Solid solid = solid_of(mesh);
-    const bool is_meshed = o.has_fcl && solid.kind != SolidKind::kBox;
+    const bool is_meshed = o.detector == DartDetector::kFclMeshes && solid.kind != SolidKind::kBox;
     card.push_back(
         {"shape of " + mesh->name, solid.what + (is_meshed ? ", as a mesh that DART draws" : ""), solid.differs});
   }
@@ -73,7 +76,8 @@ core::EquivalenceCard card_of(const core::Scene& scene, const DartOptions& o) {
 
 core::Result<core::Engine> create(const core::Settings& settings) {
   DartOptions options;
-  options.has_fcl = settings.text("detector") == "fcl";
+  if (settings.text("detector") == "fcl-primitive") options.detector = DartDetector::kFclPrimitives;
+  if (settings.text("detector") == "dart") options.detector = DartDetector::kOwn;
   options.is_dantzig = settings.text("solver") == "dantzig";
 
   core::Engine engine;

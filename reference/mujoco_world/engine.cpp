@@ -106,17 +106,21 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = mujoco_build();
   engine.settings = settings;
-  engine.declaration = core::Declaration::of({{"method", "none"},
-                                              {"motion", "rigid"},
-                                              {"detection_at", "start"},
-                                              {"contacts", is_runge_kutta ? "none" : "totals"},
-                                              {"integrator", integrator_word(options.integrator)},
-                                              {"order", is_runge_kutta ? "4" : "1"},
-                                              {"friction", "regularized"},
-                                              {"contact_model", "compliant"},
-                                              {"contact_time_s", number(options.contact_time_s)},
-                                              {"precision", "f64"}});
-  engine.dynamics = make_mujoco_world(options);
+  engine.declaration =
+      core::Declaration::of({{"method", "none"},
+                             {"motion", "rigid"},
+                             {"detection_at", "start"},
+                             {"contacts", is_runge_kutta ? "none" : "totals"},
+                             {"integrator", integrator_word(options.integrator)},
+                             // Runge-Kutta's quaternions follow an averaged w: second order (measured).
+                             {"order", is_runge_kutta ? "2" : "1"},
+                             {"friction", "regularized"},
+                             {"contact_model", "compliant"},
+                             {"contact_time_s", number(options.contact_time_s)},
+                             {"precision", "f64"}});
+  const auto boxes = std::make_shared<DefectCounter>(Defect::kMujocoBoxDepth);
+  engine.dynamics = make_mujoco_world(options, boxes);
+  engine.defects = defects_of(boxes);
   engine.equivalence = [options](const core::Scene& scene) { return card_of(scene, options); };
   return engine;
 }

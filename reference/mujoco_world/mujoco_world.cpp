@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -70,7 +71,7 @@ core::Result<mjModel*> compiled(const std::string& text) {
 
 class MujocoWorld final : public core::Dynamics {
  public:
-  explicit MujocoWorld(const MujocoOptions& options) : options_(options) {}
+  MujocoWorld(const MujocoOptions& options, SharedDefectCounter boxes) : options_(options), boxes_(std::move(boxes)) {}
 
   Status load(const core::Scene& scene) override {
     return vendor_call("mujoco-world: load", [&]() -> Status {
@@ -158,6 +159,7 @@ class MujocoWorld final : public core::Dynamics {
   void read_points(double h) {
     for (int k = 0; k < data_->ncon; ++k) {
       const mjContact& contact = data_->contact[k];
+      note_depth(contact);
       if (contact.exclude != 0 || contact.efc_address < 0) continue;
       mjtNum force[6];
       mj_contactForce(model_.get(), data_.get(), k, force);
@@ -168,7 +170,31 @@ class MujocoWorld final : public core::Dynamics {
     }
   }
 
+  // Half of a box's extent along a unit vector.
+  [[nodiscard]] double half_extent(int geom, Vec n) const {
+    const mjtNum* r = data_->geom_xmat + 9 * geom;  // rows; columns are the box's axes
+    const mjtNum* half = model_->geom_size + 3 * geom;
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += half[k] * std::abs(r[k] * n.x + r[3 + k] * n.y + r[6 + k] * n.z);
+    return sum;
+  }
+
+  // No point of two boxes is deeper along a normal than the boxes overlap along it. Geoms lie where the step began.
+  void note_depth(const mjContact& contact) {
+    const int a = contact.geom1;
+    const int b = contact.geom2;
+    if (model_->geom_type[a] != mjGEOM_BOX || model_->geom_type[b] != mjGEOM_BOX) return;
+    const Vec n = vec(contact.frame);
+    const Vec between = vec(data_->geom_xpos + 3 * b) - vec(data_->geom_xpos + 3 * a);
+    const double sizes = half_extent(a, n) + half_extent(b, n);
+    // A few dozen roundings of numbers of the boxes' size.
+    const bool is_too_deep =
+        -contact.dist > sizes - plain::dot(between, n) + 0x1p-45 * (sizes + plain::length(between));
+    boxes_->note(is_too_deep ? 1 : 0, 1);
+  }
+
   MujocoOptions options_;
+  SharedDefectCounter boxes_;
   WorldRecord record_;
   std::unique_ptr<mjModel, DeleteModel> model_;
   std::unique_ptr<mjData, DeleteData> data_;
@@ -176,8 +202,8 @@ class MujocoWorld final : public core::Dynamics {
 
 }  // namespace
 
-std::unique_ptr<core::Dynamics> make_mujoco_world(const MujocoOptions& options) {
-  return std::make_unique<MujocoWorld>(options);
+std::unique_ptr<core::Dynamics> make_mujoco_world(const MujocoOptions& options, SharedDefectCounter boxes) {
+  return std::make_unique<MujocoWorld>(options, std::move(boxes));
 }
 
 std::string mujoco_build() {

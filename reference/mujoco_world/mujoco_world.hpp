@@ -6,6 +6,7 @@
 
 #include "core/engine/dynamics.hpp"
 #include "core/engine/equivalence.hpp"
+#include "reference/vendor_defects.hpp"
 
 namespace broadside::reference {
 
@@ -22,8 +23,9 @@ struct MujocoOptions {
 };
 
 // Records states, and points where it can: not with Runge-Kutta, whose four evaluations of the contacts are mixed
-// inside the library. Detection is at the start of the step.
-std::unique_ptr<core::Dynamics> make_mujoco_world(const MujocoOptions& options);
+// inside the library. Detection is at the start of the step. `boxes` counts contacts of two boxes, and those that are
+// too deep.
+std::unique_ptr<core::Dynamics> make_mujoco_world(const MujocoOptions& options, SharedDefectCounter boxes);
 
 std::string mujoco_build();  // "MuJoCo 2.2.2 (libmujoco.so.2.2.2), double"
 core::EquivalenceCard mujoco_card();

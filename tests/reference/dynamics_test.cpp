@@ -2,6 +2,7 @@
 // table is a subject; those with settings have lines in subjects().
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <ostream>
@@ -22,20 +23,37 @@ struct Subject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings = {};
+  // Moves by semi-implicit Euler to float32's rounding, and shows pairs and boxes. Others move between that and
+  // explicit Euler, as every one-step method does, and show what they say.
+  bool is_method_like = false;
+  std::size_t most_bodies = 100'000;  // beyond that its memory or its time ends
 };
 
 void PrintTo(const Subject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
-const std::vector<Subject>& subjects() {
-  static const std::vector<Subject> all{
-      {"octree_cpu", reference::octree_cpu_row},
-      {"octree_cpu_jacobi", reference::octree_cpu_row, {{"solver", "jacobi"}}},
-      {"hash_cpu", reference::hash_cpu_row},
-      {"bullet_world", reference::bullet_world_row},
-      {"bullet_world_margin", reference::bullet_world_row, {{"margin", "bullet"}}},
+std::vector<Subject> subjects() {
+  std::vector<Subject> all{
+      {"octree_cpu", reference::octree_cpu_row, {}, true},
+      {"octree_cpu_jacobi", reference::octree_cpu_row, {{"solver", "jacobi"}}, true},
+      {"hash_cpu", reference::hash_cpu_row, {}, true},
+      {"bullet_world", reference::bullet_world_row, {}, true},
+      {"bullet_world_margin", reference::bullet_world_row, {{"margin", "bullet"}}, true},
+      {"ode_world", reference::ode_world_row},
+      {"ode_world_dantzig", reference::ode_world_row, {{"solver", "dantzig"}}},
+      // Matrices of all contacts by all coordinates.
+      {"mujoco_world", reference::mujoco_world_row, {}, false, 500},
+      {"mujoco_world_rk4", reference::mujoco_world_row, {{"integrator", "rk4"}}, false, 500},
+      // A skeleton a body.
+      {"dart_world", reference::dart_world_row, {}, false, 1000},
   };
+  all = tests::with_unlisted(all, "dynamics");
+  // Cubes among other bodies are what Simbody has no contact for; rigid_worlds_test has its scenes.
+  std::erase_if(all, [](const Subject& s) {
+    const core::EngineRow row = s.row();
+    return s.name == "simbody_world" || (row.absent != nullptr && !row.absent().empty());
+  });
   return all;
 }
 
@@ -77,6 +95,9 @@ class DynamicsEngines : public testing::TestWithParam<Subject> {
     return frame;
   }
 
+  [[nodiscard]] bool shows(core::Group group) const { return (engine_.dynamics->groups() & bit(group)) != 0; }
+  [[nodiscard]] bool shows_pairs() const { return shows(core::Group::kPairs); }
+
   core::Engine engine_ = make();
 };
 
@@ -100,7 +121,10 @@ TEST_P(DynamicsEngines, AFallingBodyFollowsTheDiscreteSolution) {
   add(scene, {1, 7, 0}, {0.5F, 0, -1});
   const core::FrameRecord frame = run(scene, 32);
   EXPECT_NEAR(frame.velocity[0].y, -8.0 * 32.0 / 64.0, 1e-5);
-  EXPECT_NEAR(frame.position[0].y, 7.0 - 8.0 * 32.0 * 33.0 / 2.0 / 4096.0, 1e-4);
+  const double lowest = 7.0 - 8.0 * 32.0 * 33.0 / 2.0 / 4096.0;
+  const double highest = GetParam().is_method_like ? lowest : 7.0 - 8.0 * 31.0 * 32.0 / 2.0 / 4096.0;
+  EXPECT_GE(frame.position[0].y, lowest - 1e-4);
+  EXPECT_LE(frame.position[0].y, highest + 1e-4);
   EXPECT_NEAR(frame.position[0].x, 1.25, 1e-4);
   EXPECT_NEAR(frame.position[0].z, -0.5, 1e-4);
 }
@@ -111,18 +135,24 @@ TEST_P(DynamicsEngines, WhatItSaysToRecordIsThereInItsSize) {
   add(scene, {0, -6.5F, 0});
   add(scene, {4, 0, 0});
   const core::FrameRecord frame = run(scene, 8);
-  const std::uint32_t groups = engine_.dynamics->groups();
-  const auto has = [&](core::Group g) { return (groups & bit(g)) != 0; };
-  ASSERT_TRUE(has(core::Group::kBodies) && has(core::Group::kDetection) && has(core::Group::kPairs));
+  ASSERT_TRUE(shows(core::Group::kBodies));
+  if (GetParam().is_method_like) {
+    ASSERT_TRUE(shows(core::Group::kDetection) && shows_pairs());
+  }
   EXPECT_EQ(frame.position.size(), 3U);
   EXPECT_EQ(frame.orientation.size(), 3U);
   EXPECT_EQ(frame.velocity.size(), 3U);
   EXPECT_EQ(frame.angular_velocity.size(), 3U);
-  EXPECT_EQ(frame.detected_position.size(), 3U);
-  EXPECT_EQ(frame.boxes.size(), 3U);
-  EXPECT_EQ(frame.pairs, (std::vector<core::Pair>{{0, 1}}));
-  EXPECT_EQ(frame.pairs_demanded, 1U);
-  EXPECT_GE(frame.pairs_raw, 1U);
+  EXPECT_EQ(frame.detected_position.size(), shows(core::Group::kDetection) ? 3U : 0U);
+  EXPECT_EQ(frame.boxes.size(), shows(core::Group::kDetection) ? 3U : 0U);
+  EXPECT_EQ(frame.detected_orientation.size(), shows(core::Group::kDetectedOrientation) ? 3U : 0U);
+  EXPECT_EQ(frame.wide.position.size(), shows(core::Group::kWideBodies) ? 3U : 0U);
+  EXPECT_EQ(frame.wide.angular_velocity.size(), shows(core::Group::kWideBodies) ? 3U : 0U);
+  EXPECT_EQ(frame.pairs, shows_pairs() ? (std::vector<core::Pair>{{0, 1}}) : std::vector<core::Pair>{});
+  if (shows_pairs()) {
+    EXPECT_EQ(frame.pairs_demanded, 1U);
+    EXPECT_GE(frame.pairs_raw, 1U);
+  }
   EXPECT_EQ(frame.time_s, 8.0 / 64.0);
 }
 
@@ -138,7 +168,12 @@ TEST_P(DynamicsEngines, TheFloorHoldsAndPushesInward) {
     has_floor = has_floor || c.b == core::kFirstFace + 2;
     EXPECT_NEAR(c.normal.y, 1.0, 1e-4);
   }
-  EXPECT_TRUE(has_floor);
+  for (const core::ContactPoint& p : frame.points) {
+    ASSERT_TRUE(core::is_face(p.b));
+    has_floor = has_floor || p.b == core::kFirstFace + 2;
+    EXPECT_NEAR(p.normal.y, 1.0, 1e-4);
+  }
+  EXPECT_EQ(has_floor, shows(core::Group::kContacts) || shows(core::Group::kPoints));
 }
 
 TEST_P(DynamicsEngines, StaticBodiesStayWhereTheyAre) {
@@ -185,8 +220,9 @@ TEST_P(DynamicsEngines, AContainedBodyIsAPairAndStaysFinite) {
   add(scene, {0.5F, 0.25F, 0});
   add(scene, {0, 0, 0}).mesh = 1;
   core::FrameRecord frame = run(scene, 1);
-  EXPECT_EQ(frame.pairs, (std::vector<core::Pair>{{0, 1}}));
-  frame = run(scene, 32);
+  EXPECT_EQ(frame.pairs, shows_pairs() ? (std::vector<core::Pair>{{0, 1}}) : std::vector<core::Pair>{});
+  // An engine that corrects depth through velocities shoots the small one out, and it would meet the domain's faces.
+  frame = run(scene, GetParam().is_method_like ? 32 : 4);
   Vec3 momentum{};
   for (int k = 0; k < 2; ++k) {
     momentum = momentum + frame.velocity[k];
@@ -214,7 +250,7 @@ TEST_P(DynamicsEngines, MovedAndRemovedBodiesLeaveNothingBehind) {
   scene.gravity_m_s2 = {};
   add(scene, {0, 0, 0});
   add(scene, {0.9F, 0, 0});
-  EXPECT_EQ(run(scene, 1).pairs.size(), 1U);
+  EXPECT_EQ(run(scene, 1).pairs.size(), shows_pairs() ? 1U : 0U);
   scene.bodies[1].position = {5, 0, 0};
   EXPECT_TRUE(run(scene, 1).pairs.empty());
   scene.bodies.pop_back();
@@ -228,6 +264,7 @@ TEST_P(DynamicsEngines, MovedAndRemovedBodiesLeaveNothingBehind) {
 TEST_P(DynamicsEngines, HundredThousandBodiesSlow) {
   constexpr int kSide = 47;  // 47^3 = 103,823
   constexpr std::size_t kBodies = 100'000;
+  if (GetParam().most_bodies < kBodies) GTEST_SKIP() << "too many for its memory or its time";
   core::Scene scene = empty_scene();
   scene.meshes = {std::make_shared<const core::Mesh>(datasets::box_mesh({1.0, 1.0, 1.0}, {1, 1, 1}).value())};
   scene.domain = {{-128, -128, -128}, {128, 128, 128}};
@@ -240,7 +277,9 @@ TEST_P(DynamicsEngines, HundredThousandBodiesSlow) {
   EXPECT_TRUE(frame.pairs.empty());
   for (std::size_t k = 0; k < kBodies; ++k) {
     ASSERT_NEAR(frame.velocity[k].y, -8.0 * 3.0 / 64.0, 1e-5) << k;
-    ASSERT_NEAR(frame.position[k].y, scene.bodies[k].position.y - 8.0 * 3.0 * 4.0 / 2.0 / 4096.0, 1e-4) << k;
+    const double fallen = scene.bodies[k].position.y - frame.position[k].y;
+    ASSERT_LE(fallen, 8.0 * 3.0 * 4.0 / 2.0 / 4096.0 + 1e-4) << k;
+    ASSERT_GE(fallen, 8.0 * 3.0 * (GetParam().is_method_like ? 4.0 : 2.0) / 2.0 / 4096.0 - 1e-4) << k;
     ASSERT_EQ(frame.position[k].x, scene.bodies[k].position.x) << k;
   }
 }
@@ -258,7 +297,7 @@ TEST_P(DynamicsEngines, LoadStartsAfreshAndTheSameSceneGivesTheSameDigests) {
   EXPECT_EQ(frame.digest, first) << "another engine, digest alone";
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, DynamicsEngines, testing::ValuesIn(tests::with_unlisted(subjects(), "dynamics")),
+INSTANTIATE_TEST_SUITE_P(Reference, DynamicsEngines, testing::ValuesIn(subjects()),
                          [](const auto& subject) { return subject.param.name; });
 
 }  // namespace
