@@ -8,14 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "bench/agree/lanes.hpp"
 #include "bench/agree/pairs.hpp"
 #include "bench/cell/cell_spec.hpp"
 #include "core/engine/engine.hpp"
 #include "core/result.hpp"
 
 namespace broadside::bench {
-
-enum class Asked : std::uint8_t { kNothing, kAnswered, kThrew, kAborted, kCrashed, kTimedOut };
 
 struct Answer {
   Asked asked = Asked::kNothing;
@@ -30,12 +29,6 @@ struct Answers {
   std::map<std::string, std::uint64_t> words;
   std::string build;                         // of the engine
   std::map<std::string, std::string> notes;  // its equivalence card
-};
-
-struct AskLimits {
-  double seconds_per_query = 1.0;   // of processor time: others on the machine do not count
-  std::uint64_t memory_mib = 4096;  // of address space beyond what this program has
-  std::uint32_t processes = 1;      // side by side
 };
 
 // One query at a time in each process. After a crash a new process starts behind the pair that caused it. Must be

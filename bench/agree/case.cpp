@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kFormat = "broadside-pair";
+constexpr std::string_view kMotionFormat = "broadside-motion";
 
 json body_of(const core::Mesh& mesh, const core::Pose& pose) {
   json vertices = json::array();
@@ -48,6 +49,38 @@ core::Pose pose_of(const json& body) {
           {q.at(0).get<float>(), q.at(1).get<float>(), q.at(2).get<float>(), q.at(3).get<float>()}};
 }
 
+json moving_body_of(const core::Mesh& mesh, const exact::RigidMotion& motion) {
+  json out = body_of(mesh, motion.start);
+  const exact::Point& d = motion.displacement_m;
+  const exact::Point& r = motion.rotation_rad;
+  out["displacement"] = {d.x, d.y, d.z};
+  out["rotation"] = {r.x, r.y, r.z};
+  return out;
+}
+
+exact::RigidMotion motion_of(const json& body) {
+  const auto point = [](const json& v) {
+    return exact::Point{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+  };
+  return {pose_of(body), point(body.at("displacement")), point(body.at("rotation"))};
+}
+
+// read(json) makes the case, of a file of this format.
+template <typename Case, typename Read>
+core::Result<Case> read_saved(const std::filesystem::path& file, std::string_view format, const Read& read) {
+  std::ifstream in(file);
+  if (!in) return core::Error{"cannot be read", file.string(), "give a file that agree saved"};
+  try {
+    const json saved = json::parse(in);
+    if (saved.at("format") != format || saved.at("version") != 1)
+      return core::Error{"it is no saved case '" + std::string(format) + "' of version 1", file.string(),
+                         "give a file that agree saved"};
+    return read(saved);
+  } catch (const std::exception& e) {
+    return core::Error{std::string("it is damaged: ") + e.what(), file.string(), "give a file that agree saved"};
+  }
+}
+
 }  // namespace
 
 core::Status write_case(const PairSource& source, const TestPair& pair, const std::filesystem::path& file) {
@@ -61,12 +94,7 @@ core::Status write_case(const PairSource& source, const TestPair& pair, const st
 }
 
 core::Result<Case> read_case(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) return core::Error{"cannot be read", file.string(), "give a file that agree saved"};
-  try {
-    const json saved = json::parse(in);
-    if (saved.at("format") != kFormat || saved.at("version") != 1)
-      return core::Error{"it is no saved pair of version 1", file.string(), "give a file that agree saved"};
+  return read_saved<Case>(file, kFormat, [](const json& saved) -> core::Result<Case> {
     auto source = PairSource::of_case({mesh_of(saved.at("a")), mesh_of(saved.at("b"))}, saved.at("is_convex"));
     if (!source) return source.error();
     TestPair pair;
@@ -76,9 +104,27 @@ core::Result<Case> read_case(const std::filesystem::path& file) {
     pair.pose_b = pose_of(saved.at("b"));
     source.value().arbitrate(pair);
     return Case{std::move(source).value(), pair};
-  } catch (const std::exception& e) {
-    return core::Error{std::string("it is damaged: ") + e.what(), file.string(), "give a file that agree saved"};
-  }
+  });
+}
+
+core::Status write_motion_case(const BodySource& source, const MotionTest& test, const std::filesystem::path& file) {
+  const json out{{"format", kMotionFormat},
+                 {"version", 1},
+                 {"are_solid", source.are_solid()},
+                 {"a", moving_body_of(*source.meshes()[test.a.mesh], test.a.motion)},
+                 {"b", moving_body_of(*source.meshes()[test.b.mesh], test.b.motion)}};
+  return core::write_whole_file(file, out.dump() + "\n");
+}
+
+core::Result<MotionCase> read_motion_case(const std::filesystem::path& file) {
+  return read_saved<MotionCase>(file, kMotionFormat, [](const json& saved) -> core::Result<MotionCase> {
+    BodySource source = BodySource::of_meshes({mesh_of(saved.at("a")), mesh_of(saved.at("b"))}, saved.at("are_solid"));
+    MotionTest test;
+    test.a = {0, motion_of(saved.at("a"))};
+    test.b = {1, motion_of(saved.at("b"))};
+    source.arbitrate(test);
+    return MotionCase{std::move(source), test};
+  });
 }
 
 }  // namespace broadside::bench

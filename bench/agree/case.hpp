@@ -1,10 +1,11 @@
-// One pair of bodies as a file, so that what a library did with it can be seen again.
+// One pair of bodies, still or moving, as a file, so that what a library did with it can be seen again.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <vector>
 
+#include "bench/agree/motion/body_draw.hpp"
 #include "bench/agree/pairs.hpp"
 #include "core/result.hpp"
 
@@ -21,5 +22,14 @@ struct Case {
 
 // Errors name the file and what is missing in it.
 core::Result<Case> read_case(const std::filesystem::path& file);
+
+// The same with the displacement (m) and the rotation (rad) of each body over the step.
+core::Status write_motion_case(const BodySource& source, const MotionTest& test, const std::filesystem::path& file);
+
+struct MotionCase {
+  BodySource source;
+  MotionTest test;
+};
+core::Result<MotionCase> read_motion_case(const std::filesystem::path& file);
 
 }  // namespace broadside::bench

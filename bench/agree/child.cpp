@@ -1,17 +1,13 @@
 #include "bench/agree/child.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cstring>
-#include <ctime>
 #include <utility>
 
+#include "bench/agree/query_seconds.hpp"
 #include "bench/cell/equivalence.hpp"
 
 namespace broadside::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Bodies of one scene. A measure call takes a pose for every body of the scene, so few are cheap; but meshes that take
 // long to load should be loaded seldom.
@@ -44,31 +40,6 @@ core::Result<core::Engine> make_engine(const CellSpec& cell) {
   return engine;
 }
 
-// Other processes read these while they change, so they are volatile.
-void begin(ChildReport& report, std::size_t at, bool is_querying) {
-  volatile ChildReport& seen = report;
-  seen.at = at;
-  seen.is_querying = is_querying;
-  seen.begun = seen.begun + 1;
-}
-
-double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-// The lesser of elapsed and processor time: elapsed time also counts interruptions by other programs, processor time
-// adds up all threads of a query.
-template <typename Query>
-float seconds_of(Query&& query) {
-  const double used = processor_seconds();
-  const auto start = Clock::now();
-  query();
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
-  return static_cast<float>(std::min(elapsed, processor_seconds() - used));
-}
-
 void ask_one(core::NarrowPhase& narrow, core::Pair pair, const std::vector<core::Pose>& poses, Answer& answer) {
   core::Status measured = core::Done{};
   answer.seconds = seconds_of([&] { measured = narrow.measure({&pair, 1}, poses); });
@@ -82,22 +53,16 @@ void ask_one(core::NarrowPhase& narrow, core::Pair pair, const std::vector<core:
 
 }  // namespace
 
-void ChildReport::say(const std::string& words) {
-  const auto size = static_cast<std::uint32_t>(std::min(words.size(), text.size()));
-  std::memcpy(text.data(), words.data(), size);
-  text_size = size;
-}
-
 int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs, std::size_t first,
               std::size_t last, std::span<Answer> answers, ChildReport& report) {
-  begin(report, first, false);
+  report.begin(first, false);
   auto engine = make_engine(cell);
   if (!engine) return kRefused;
   core::NarrowPhase& narrow = *engine.value().narrow_phase;
   const std::size_t most = source.has_depth() ? kPairsPerScene : kMeshPairsPerScene;
   for (std::size_t k = first; k < last; k += most) {
     const std::size_t count = std::min(most, last - k);
-    begin(report, k, false);
+    report.begin(k, false);
     const core::Scene scene = scene_of(source, std::span(pairs).subspan(k, count));
     if (core::Status s = narrow.load(scene); !s) {
       report.say(s.error().line());
@@ -106,7 +71,7 @@ int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<
     std::vector<core::Pose> poses;
     for (const core::Body& body : scene.bodies) poses.push_back({body.position, body.orientation});
     for (std::uint32_t p = 0; p < count; ++p) {
-      begin(report, k + p, true);
+      report.begin(k + p, true);
       ask_one(narrow, {2 * p, 2 * p + 1}, poses, answers[k + p]);
     }
   }
@@ -114,7 +79,7 @@ int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<
 }
 
 int describe_engine(const CellSpec& cell, const PairSource& source, ChildReport& report) {
-  begin(report, 0, false);
+  report.begin(0, false);
   auto engine = make_engine(cell);
   if (!engine) {
     report.say(engine.error().line());

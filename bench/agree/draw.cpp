@@ -26,9 +26,9 @@ core::Error failed(const char* what) {
 
 }  // namespace
 
-core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t count, std::uint32_t processes,
-                                               const std::function<void(std::uint64_t)>& progress) {
-  SharedArray<TestPair> pairs(count);
+core::Status draw_in_children(std::uint64_t count, std::uint32_t processes,
+                              const std::function<void(std::uint64_t)>& draw_one,
+                              const std::function<void(std::uint64_t)>& progress) {
   SharedArray<Drawn> drawn(std::max(1U, processes));
   std::vector<pid_t> children;
   const auto end_all = [&] {
@@ -47,7 +47,7 @@ core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t
       die_with(parent);
       // Dealt out in turns, so that slow separations are spread over all processes.
       for (std::uint64_t k = first; k < count; k += step) {
-        pairs[k] = source.pair(k);
+        draw_one(k);
         drawn[first].count = drawn[first].count + 1;
       }
       _exit(0);
@@ -72,6 +72,14 @@ core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t
     });
   }
   if (!is_good) return failed("a process died, perhaps for want of memory");
+  return core::Done{};
+}
+
+core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t count, std::uint32_t processes,
+                                               const std::function<void(std::uint64_t)>& progress) {
+  SharedArray<TestPair> pairs(count);
+  const auto draw_one = [&](std::uint64_t k) { pairs[k] = source.pair(k); };
+  if (core::Status s = draw_in_children(count, processes, draw_one, progress); !s) return s.error();
   return std::vector<TestPair>(pairs.all().begin(), pairs.all().end());
 }
 

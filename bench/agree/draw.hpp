@@ -10,6 +10,12 @@
 
 namespace broadside::bench {
 
+// draw_one(k) for k from 0 to count - 1, in forked processes: it writes to memory that they share. Must be called
+// before this process has started a thread. progress is called with the number that is done.
+core::Status draw_in_children(std::uint64_t count, std::uint32_t processes,
+                              const std::function<void(std::uint64_t)>& draw_one,
+                              const std::function<void(std::uint64_t)>& progress);
+
 // Pairs 0 to count - 1. Must be called before this process has started a thread. progress is called with pairs done.
 core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t count, std::uint32_t processes,
                                                const std::function<void(std::uint64_t)>& progress);

@@ -12,9 +12,11 @@
 #include "bench/agree/answers.hpp"
 #include "bench/agree/case.hpp"
 #include "bench/agree/draw.hpp"
+#include "bench/agree/motion/motion_test.hpp"
 #include "bench/agree/report.hpp"
 #include "bench/build_facts.hpp"
 #include "bench/cell/more_than_zero.hpp"
+#include "bench/cli/agree_motion.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/process/progress.hpp"
 #include "bench/record/run_plan.hpp"
@@ -29,6 +31,7 @@ constexpr std::uint64_t kCasesPerClass = 4;
 
 struct AgreeArguments {
   std::string kind = "boxes";
+  std::string motion;
   std::uint64_t count = 10000;
   std::uint64_t seed = 1;
   std::string mesh;
@@ -154,6 +157,8 @@ core::Exit repeat_case(const AgreeArguments& a) {
 }
 
 core::Exit agree(const AgreeArguments& a) {
+  if (!a.motion.empty())
+    return agree_motion({a.motion, a.count, a.seed, a.mesh, a.engines, a.folder, a.case_file, a.as_json, a.limits});
   if (!a.case_file.empty()) return repeat_case(a);
   const PairKind kind = kind_named(a.kind);
   if (!a.mesh.empty() && kind != PairKind::kMeshes)
@@ -200,11 +205,17 @@ void add_agree(CLI::App& program, core::Exit& exit) {
   command->add_option("--pairs", a->kind, "Bodies of the pairs; kissing = boxes that touch")
       ->check(CLI::IsMember(kinds))
       ->capture_default_str();
+  const std::vector<std::string> motions(std::begin(kMotionKinds), std::end(kMotionKinds));
+  command->add_option("--motion", a->motion, "Continuous queries instead, against the exact first touch: what moves")
+      ->check(CLI::IsMember(motions))
+      ->excludes("--pairs");
   command->add_option("--n", a->count, "Number of pairs")->check(CLI::Range(1, 10'000'000))->capture_default_str();
-  command->add_option("--engine", a->engines, "Narrow-phase engines (default: those that fit); may be repeated")
+  command
+      ->add_option("--engine", a->engines,
+                   "Narrow-phase engines, or with --motion those below (default: those that fit); may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--mesh", a->mesh, "With --pairs meshes: this mesh instead of lumpy bodies");
+  command->add_option("--mesh", a->mesh, "With --pairs or --motion meshes: this mesh instead of lumpy bodies");
   command->add_option("--seed", a->seed, "Of the pairs")->capture_default_str();
   command->add_option("--out", a->folder, "Folder for rows, tables and saved inputs")->capture_default_str();
   command->add_option("--time-limit", a->limits.seconds_per_query, "Processor seconds after which one query is ended")
@@ -214,8 +225,13 @@ void add_agree(CLI::App& program, core::Exit& exit) {
       ->capture_default_str();
   command->add_option("--processes", a->limits.processes, "Processes that ask side by side (default: one per core)")
       ->check(CLI::Range(1, 256));
-  command->add_option("--case", a->case_file, "Ask about one saved pair instead (exit 1 when an answer is wrong)");
+  command->add_option(
+      "--case", a->case_file,
+      "Ask about one saved case instead (exit 1 when an answer is wrong). Of --motion vertex-face and edge-edge: a "
+      "csv file, 8 rows a query (4 points at the start, 4 at the end), each coordinate as "
+      "numerator,denominator, and then whether they touch, 0 or 1");
   command->add_flag("--json", a->as_json, "As JSON");
+  command->footer("Engines of --motion, with their settings:\n" + motion_engines_text());
   command->callback([a, &exit] { exit = agree(*a); });
 }
 
