@@ -22,7 +22,7 @@ std::string_view setting(const core::Stamp& stamp, std::string_view key);
 // keys of their own, such as a device's; then only keys that both have are compared.
 bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initializer_list<std::string_view> but);
 
-// Two runs of one engine, or of engines of which one declares that it repeats the other's bits, or both a third's.
+// Both are of one engine; or one engine declares itself the twin of the other; or both are twins of a third one.
 bool are_twins(const core::TraceHeader& a, const core::TraceHeader& b);
 
 // Why the laws of METHOD do not hold for this engine; empty when it declares that it follows METHOD.
