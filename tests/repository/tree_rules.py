@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 TOP = {
-    "CMakeLists.txt", "CMakePresets.json", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE",
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "LICENSE",
     "broadside", "core", "gpu", "reference", "validation", "bench", "datasets", "reports", "tests", "cmake", ".ci", ".github",
     ".clang-format", ".clang-tidy", ".gitignore", ".gitattributes", ".editorconfig", ".clangd",
 }
