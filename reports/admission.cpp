@@ -19,7 +19,7 @@ std::vector<std::string> differences(const core::Stamp& a, const core::Stamp& b)
   return names;
 }
 
-// The recording that comes nearest to a proof, so that the reason can say what it lacks.
+// Why no recording proves this sample: what the nearest recording lacks.
 std::string why_no_cell(const core::Sample& sample, const core::RunRows& rows) {
   for (const core::Cell& cell : rows.cells)
     if (same_stamp(cell.stamp, sample.stamp)) return "the recording of the same stamp is " + state_text(cell);

@@ -105,7 +105,7 @@ std::uint64_t of_pairs(const core::FrameRecord& f) {
 
 using Digest = std::uint64_t (*)(const core::FrameRecord&);
 
-// What this trace's digests are of; null when it records nothing that they are of.
+// Computes this trace's digests from what it records; null when it records nothing to compute them from.
 Digest digest_of(const core::TraceHeader& header) {
   if (has(header, core::Group::kBodies)) return of_states;
   if (has(header, core::Group::kNarrow)) return of_separations;

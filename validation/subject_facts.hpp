@@ -25,7 +25,7 @@ bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initiali
 // Whether the trace is of an engine that moved the bodies itself: it has states, or digests alone, and was not fed.
 bool moves_bodies(const core::TraceHeader& header);
 
-// Two runs of one engine, or of engines of which one declares that it repeats the other's bits, or both a third's.
+// Both are of one engine; or one engine declares itself the twin of the other; or both are twins of a third one.
 bool are_twins(const core::TraceHeader& a, const core::TraceHeader& b);
 
 // Why the laws of METHOD do not hold for this engine; empty when it declares that it follows METHOD.

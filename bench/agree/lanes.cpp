@@ -111,7 +111,7 @@ class Lane {
   [[nodiscard]] bool ended_with(int exit_code) const { return WIFEXITED(status_) && WEXITSTATUS(status_) == exit_code; }
   [[nodiscard]] bool died_in_a_query() { return report().is_querying; }
 
-  // Records for a child that died what became of the pair that it was at.
+  // How the process ended: the answer for the pair that it was measuring.
   [[nodiscard]] Asked fate() const {
     if (timed_out_) return Asked::kTimedOut;
     return WIFSIGNALED(status_) && WTERMSIG(status_) == SIGABRT ? Asked::kAborted : Asked::kCrashed;

@@ -15,7 +15,7 @@ class FrameTaker {
   // steps_before: how many steps of the run the engine did not make itself, because it went on from a trace.
   FrameTaker(core::Dynamics& dynamics, core::RecordLevel level, std::uint64_t steps_before, float dt_s);
 
-  // After a step whose frame is wanted: a frame that is ready, which may be the wanted one or the one before.
+  // Called after a step whose frame is wanted. Returns a frame that is ready: of this step or of the wanted one before.
   core::Result<std::optional<core::FrameRecord>> take();
   // The last wanted frame, if take() did not give it yet.
   core::Result<std::optional<core::FrameRecord>> rest();

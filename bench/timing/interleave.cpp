@@ -110,7 +110,7 @@ class Side {
 
   void begin() { samples_.resize(plan_.scenes.size()); }
 
-  // As its samples name it; empty where it has none.
+  // The scene's name, from its first sample; empty before there is one.
   [[nodiscard]] std::string scene_name(std::size_t scene) const {
     return samples_[scene].empty() ? std::string() : samples_[scene].front().stamp.scene_name;
   }

@@ -11,7 +11,7 @@ namespace broadside::core {
 // text in a stamp: "0.020" is kept as "0.02".
 inline constexpr std::string_view kMeters = "METERS";
 
-// The value of such a setting that is none of its words.
+// The setting in meters. Its value must be a length, not one of its words.
 double meters_of(const Settings& settings, std::string_view key);
 
 }  // namespace broadside::core

@@ -83,7 +83,7 @@ bool multiply(const std::vector<hsize_t>& factors, std::uint64_t& product) {
   return true;
 }
 
-// No filter that a plugin would bring, and none but those that a trace uses: each is code that works on a stranger's
+// Only the filters that traces use are accepted, and none from a plugin: a filter is code that runs on a stranger's
 // bytes.
 bool has_known_filters(hid_t properties) {
   const int count = H5Pget_nfilters(properties);

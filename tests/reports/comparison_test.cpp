@@ -231,7 +231,7 @@ TEST(Comparison, CountersGateOnAnyMachineWithoutTolerance) {
   EXPECT_EQ(compare(base, shorter).exit(), Exit::kGood) << "fewer frames are other work, not less of the same";
 }
 
-// Alone, because the exit code of a run is its worst: a rise beside it would hide what this one leads to.
+// One change a run: the exit code is that of the worst change, so a second change could hide the first one's.
 TEST(Comparison, EachWayForACounterToChangeHasItsExitCode) {
   struct Way {
     std::map<std::string, std::uint64_t> now;

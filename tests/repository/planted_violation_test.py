@@ -108,6 +108,8 @@ class PlantedViolation(unittest.TestCase):
         self.one(tree_rules, {"datasets/bunny.ply": ""}, "a mesh")
         self.one(tree_rules, {"core/a.hpp": "int a;\n"}, "#pragma once")
         self.one(tree_rules, {"tests/core/a.cpp": ""}, "nothing builds it")
+        self.one(tree_rules, {"core/mesh/a.cpp": "", "tests/core/a_test.cpp": ""}, "tests mirror the source")
+        self.assertEqual([], self.found(tree_rules, {"core/mesh/a.cpp": "", "tests/core/mesh/a_test.cpp": "", "tests/core/b_test.cpp": ""}))
         self.one(tree_rules, {"core/a.txt": "x" * (tree_rules.BIGGEST + 1)}, "larger than")
 
     def test_folder_without_readme(self):

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 TOP = {
-    "CMakeLists.txt", "CMakePresets.json", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE",
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "LICENSE",
     "broadside", "core", "gpu", "reference", "validation", "bench", "datasets", "reports", "tests", "cmake", ".ci", ".github",
     ".clang-format", ".clang-tidy", ".gitignore", ".gitattributes", ".editorconfig", ".clangd",
 }
@@ -34,7 +34,24 @@ def violations(tree):
                 found.append(f"{name}: a name that says nothing")
         if path.suffix in CODE:
             found += _code_faults(tree, name, path)
-    return found
+    return found + list(_misplaced_tests(tree))
+
+
+def _misplaced_tests(tree):
+    """Tests mirror the source: the test of F/noun.cpp is tests/F/noun_test.cpp. Those of gpu/ lie by what they need to run."""
+    folders = {}
+    for name in tree.paths:
+        path = Path(name)
+        if path.suffix in CODE and path.parts[0] not in ("tests", "gpu"):
+            folders.setdefault((path.parts[0], path.stem), set()).add(str(path.parent))
+    for name in tree.paths:
+        path = Path(name)
+        if path.parts[0] != "tests" or len(path.parts) < 3 or not name.endswith("_test.cpp"):
+            continue
+        mirrored = "/".join(path.parts[1:-1])
+        homes = folders.get((path.parts[1], path.stem.removesuffix("_test")), {mirrored})
+        if mirrored not in homes:
+            yield f"{name}: tests mirror the source, and the source of that name is in {' or '.join(sorted(homes))}/"
 
 
 def _code_faults(tree, name, path):

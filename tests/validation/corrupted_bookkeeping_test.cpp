@@ -134,6 +134,8 @@ TEST(Recording, MayEndAnywhereAndHaveWindows) {
   EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kFail);
   r.header.notes["windows of steps"] = "1:50,100:200";
   EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kPass) << line(verdict_of("recording", r));
+  std::erase_if(r.frames, [](const FrameRecord& f) { return f.step == 20; });
+  EXPECT_EQ(verdict_of("recording", r).outcome, core::Outcome::kFail);
 }
 
 }  // namespace

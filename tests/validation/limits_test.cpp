@@ -225,6 +225,35 @@ TEST(Limits, OfStates) {
   });
 }
 
+// Jacobi's only contact stops A, which came with 1 m/s; what the frame ends with is off.
+Recording stopped_by_a_sum(double off_x, double off_v) {
+  Contact c = bounce(-1, 0);
+  c.pre_a.x.x = -1.0F, c.post_a.x.x = 0.0F;
+  Recording r = with_contact(c, 0.0F);
+  r.header.stamp.settings = "solver=jacobi";
+  r.header.declaration = core::method_declaration();
+  r.header.groups |= core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection);
+  FrameRecord& frame = r.frames[0];
+  frame.time_s = 2.0 * r.header.scene.dt_s;
+  frame.detected_position = {c.pre_a.x, c.pre_b.x};
+  frame.detected_velocity = {c.pre_a.v, c.pre_b.v};
+  const Box local = core::bounds(*r.header.scene.meshes[0]);
+  for (const Vec3 x : frame.detected_position) frame.boxes.push_back(core::translated(local, x));
+  frame.position = {{single(off_x), 0, 0}, c.post_b.x};
+  frame.velocity = {{single(off_v), 0, 0}, c.post_b.v};
+  frame.orientation.resize(2);
+  frame.angular_velocity.resize(2);
+  return r;
+}
+
+TEST(Limits, OfChangesThatAreAddedUp) {
+  expect_verges({
+      // One change of 1 m, one of 1 m/s, to near 0: the subtraction and the sum, 2 u.
+      {"a position", "state-sanity", 2 * kU, [](double off) { return stopped_by_a_sum(off, 0.0); }},
+      {"a velocity", "state-sanity", 2 * kU, [](double off) { return stopped_by_a_sum(0.0, off); }},
+  });
+}
+
 // A pair of confirmed cubes 1/8 m apart, whose boxes say that they are within 1 m of the origin.
 TEST(Limits, OfNearestVertices) {
   const double reach = std::sqrt(3.0) * (1 + 1) * kU;

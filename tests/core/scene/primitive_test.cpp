@@ -1,4 +1,4 @@
-// Which meshes count as primitives: those that draw one, and none that only resembles one.
+// Meshes of a box, a sphere or a capsule count as that primitive. Meshes that are only close to one do not.
 #include "core/scene/primitive.hpp"
 
 #include <gtest/gtest.h>

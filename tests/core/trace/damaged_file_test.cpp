@@ -170,7 +170,7 @@ TEST_F(DamagedFile, WhoseOffsetsAreWrong) {
 }
 
 TEST_F(DamagedFile, WhoseStepsDoNotRise) {
-  // The second frame is of step 1: one of that step before it is there twice.
+  // The second frame is of step 1. After 7 the steps fall; after 1 the same step is there twice.
   for (const std::uint64_t step : {7U, 1U}) {
     raw_overwrite(path_, "/trace/step", &step, sizeof step);
     expect_fault({"/trace/step", "do not rise"});
