@@ -1,5 +1,9 @@
 #include "validation/judge.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -112,6 +116,24 @@ class BaselineFrames {
   std::optional<core::FrameRecord> frame_;
 };
 
+// Validators share nothing that they write, so those of one frame look at it on as many threads as there are, beside
+// the reading of the next frame; what each concludes does not depend on which thread it was.
+template <typename Read>
+void look_and_read(std::vector<Entry>& entries, const Evidence& evidence, const Evidence& alone, const Read& read) {
+  const tbb::blocked_range<std::size_t> jobs(0, entries.size() + 1, 1);
+  const auto run = [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      if (k == 0) {
+        read();
+        continue;
+      }
+      Entry& entry = entries[k - 1];
+      if (entry.validator) entry.validator->look(entry.row->compares_scenes ? evidence : alone);
+    }
+  };
+  tbb::parallel_for(jobs, run, tbb::simple_partitioner());
+}
+
 }  // namespace
 
 core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const FrameSource* baseline,
@@ -135,10 +157,12 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
   BaselineFrames baseline_frames(baseline, baseline_groups);
   std::optional<core::FrameRecord> previous;
   const std::uint64_t total = subject.steps.size();
+  std::optional<core::Result<core::FrameRecord>> next;
+  if (total > 0) next = subject.read(0, groups);
   for (std::uint64_t index = 0; index < total; ++index) {
-    auto read = subject.read(index, groups);
-    if (!read) return read.error();
-    core::FrameRecord frame = std::move(read).value();
+    if (!*next) return next->error();
+    core::FrameRecord frame = std::move(*next).value();
+    next.reset();
     const auto counterpart = baseline_frames.at(frame.step);
     if (!counterpart) return counterpart.error();
     const bool follows = previous && previous->step + 1 == frame.step;
@@ -146,8 +170,9 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
     const Motion* motion = motions ? motions->read(frame, before) : nullptr;
     const Evidence evidence{frame, before, counterpart.value(), motion};
     const Evidence alone{frame, before, is_transformed ? nullptr : evidence.baseline, motion};
-    for (Entry& entry : entries)
-      if (entry.validator) entry.validator->look(entry.row->compares_scenes ? evidence : alone);
+    look_and_read(entries, evidence, alone, [&] {
+      if (index + 1 < total) next = subject.read(index + 1, groups);
+    });
     if (options.observe) options.observe(evidence);
     previous = std::move(frame);
     if (options.progress && ((index + 1) % kFramesPerReport == 0 || index + 1 == total))

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "bench/cli/commands.hpp"
 #include "bench/mutants/mutation_score.hpp"
 #include "bench/process/progress.hpp"
 #include "core/whole_file.hpp"
+#include "validation/judge.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -21,6 +23,7 @@ struct MutantArguments {
   std::string json;
   std::uint32_t scenes = 200;
   bool is_reduced = false;
+  bool shows_matrix = false;
 };
 
 std::string others(const MutationRow& row) {
@@ -42,6 +45,25 @@ void print(const MutationScore& score) {
     fmt::print("FALSE ALARM on {}: {}: {}\n", alarm.scene, alarm.validator, alarm.explanation);
 }
 
+// Who caught what: a line a mutation, a column a validator.
+void print_matrix(const MutationScore& score) {
+  const auto validators = validation::validators();
+  std::size_t width = 0;
+  for (const MutationRow& row : score.rows) width = std::max(width, row.name.size());
+  for (std::size_t k = 0; k < validators.size(); ++k)
+    fmt::print("{:<{}}  {}{}\n", "", width, std::string(k, '|'), validators[k].name);
+  for (const MutationRow& row : score.rows) {
+    std::string marks;
+    for (const validation::ValidatorRow& v : validators) {
+      const bool is_by = std::find(row.caught_by.begin(), row.caught_by.end(), v.name) != row.caught_by.end();
+      const bool is_meant = row.validator == v.name;
+      marks += is_meant ? (is_by ? '#' : '!') : (is_by ? '+' : '.');
+    }
+    fmt::print("{:<{}}  {}\n", row.name, width, marks);
+  }
+  fmt::print("# caught by the validator meant for it, ! missed by it, + caught by another one\n");
+}
+
 std::uint64_t caught(const MutationScore& score) {
   return static_cast<std::uint64_t>(
       std::count_if(score.rows.begin(), score.rows.end(), [](const MutationRow& row) { return row.is_caught; }));
@@ -55,6 +77,7 @@ core::Status write_json(const MutationScore& score, const std::string& path) {
                     {"validator", row.validator},
                     {"caught", row.is_caught},
                     {"caught by", row.caught_by},
+                    {"verdict", row.verdict},
                     {"why not run", row.why_not_run}});
   nlohmann::ordered_json alarms = nlohmann::ordered_json::array();
   for (const FalseAlarm& a : score.false_alarms)
@@ -85,7 +108,10 @@ core::Exit mutants(const MutantArguments& a) {
   }
   if (!scored) return complain(scored.error());
   const MutationScore& score = scored.value();
-  print(score);
+  if (a.shows_matrix)
+    print_matrix(score);
+  else
+    print(score);
   fmt::print("{} of {} mutations caught by the validator meant for them", caught(score), score.rows.size());
   if (score.sound_runs > 0)
     fmt::print("; {} false alarms in {} judgements of the sound engine, {} random scenes among them",
@@ -107,6 +133,7 @@ void add_mutants(CLI::App& program, core::Exit& exit) {
   command->add_option("--scenes", a->scenes, "Random scenes on which the sound engine must not be blamed")
       ->capture_default_str();
   command->add_flag("--reduced", a->is_reduced, "All mutations, but a few sound scenes only: for every build");
+  command->add_flag("--matrix", a->shows_matrix, "Print which validator caught which, as a matrix");
   command->add_option("--json", a->json, "Write the rows here");
   command->callback([a, &exit] { exit = mutants(*a); });
 }

@@ -168,8 +168,8 @@ std::span<const RigidMutant> table() {
             [](StagedWorld& w, double h) {
               with_surface(w, h, [](core::Material& m) { m.mu_static *= 2.0F, m.mu_kinetic *= 2.0F; });
             }}},
-      {"no-friction",
-       "everything is ice",
+      {"everything-is-ice",
+       "there is no friction",
        "friction-cone",
        "rigid-mixed",
        {.find_points =

@@ -93,7 +93,7 @@ std::span<const RigidMutant> table() {
             [](StagedWorld&, FrameRecord& f) {
               for (core::Box& b : f.boxes) b.max.x -= 1e-3F;
             }}},
-      {"detection-lags",
+      {"pose-of-detection-lags",
        "the pose of detection is one frame old",
        "box-contains",
        "rigid-mixed",

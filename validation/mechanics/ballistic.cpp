@@ -47,8 +47,10 @@ class Ballistic final : public Validator {
     if (!is_clipped)
       tally_.check(std::abs(v1 - v0 - pull), {off_v, "m/s", kOrigin}, Where::body(m.step, i, "bodies.velocity"),
                    worked);
-    const double low = m.h * std::min(v0, v1);
-    const double high = m.h * std::max(v0, v1);
+    // METHOD clips after it moved.
+    const double last = is_clipped ? v0 + pull : v1;
+    const double low = m.h * std::min(v0, last);
+    const double high = m.h * std::max(v0, last);
     const double dx = b.after.x[k] - b.before.x[k];
     const double offset = length(m.facts[i].center_of_mass);
     const double off_x =

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
@@ -47,15 +49,17 @@ class Penetration final : public Validator {
     const BodyFacts& fa = m.facts[pair.i];
     const BodyFacts& fb = m.facts[pair.j];
     if (!shapes_.knows(fa.mesh) || !shapes_.knows(fb.mesh)) return;
-    const BodyState& sa = m.bodies[pair.i].after;
-    const BodyState& sb = m.bodies[pair.j].after;
     const double size = std::min(fa.smallest_side_m, fb.smallest_side_m);
     const double near = approach(m, pair.i) + approach(m, pair.j);
     if (holds_at_most(m, overlap_bound(boxes_[pair.i], boxes_[pair.j]), size, near)) return;
-    const double distance =
-        exact::signed_distance(shapes_.placed(fa.mesh, sa.origin, sa.q), shapes_.placed(fb.mesh, sb.origin, sb.q))
-            .distance_m;
-    judge(m, Where::pair(m.step, pair.i, pair.j, "bodies.position"), -distance, size, near);
+    const auto depth_of = [&](const BodyState& a, const BodyState& b) {
+      return -exact::signed_distance(shapes_.placed(fa.mesh, a.origin, a.q), shapes_.placed(fb.mesh, b.origin, b.q))
+                  .distance_m;
+    };
+    const BodyStep& a = m.bodies[pair.i];
+    const BodyStep& b = m.bodies[pair.j];
+    judge(m, Where::pair(m.step, pair.i, pair.j, "bodies.position"), depth_of(a.after, b.after), size, near,
+          [&] { return depth_of(a.before, b.before); });
   }
 
   void judge_ground(const Motion& m, std::uint32_t i) {
@@ -68,15 +72,15 @@ class Penetration final : public Validator {
         const double bound = (is_upper ? center - wall : wall - center) + reach_along(boxes_[i], out);
         if (!(bound > 0.0) || holds_at_most(m, bound, f.smallest_side_m, approach(m, i))) continue;
         const std::uint32_t face = core::kFirstFace + 2 * static_cast<std::uint32_t>(axis) + (is_upper ? 1U : 0U);
-        judge(m, Where::pair(m.step, i, face, "bodies.position"), depth_beyond(m, i, axis, is_upper, wall),
-              f.smallest_side_m, approach(m, i));
+        const auto depth_of = [&](const BodyState& s) { return depth_beyond(f, s, axis, is_upper, wall); };
+        judge(m, Where::pair(m.step, i, face, "bodies.position"), depth_of(m.bodies[i].after), f.smallest_side_m,
+              approach(m, i), [&] { return depth_of(m.bodies[i].before); });
       }
   }
 
   // Of any shape: no point of a mesh is farther out than its vertices.
-  [[nodiscard]] double depth_beyond(const Motion& m, std::uint32_t i, int axis, bool is_upper, double wall) const {
-    const BodyFacts& f = m.facts[i];
-    const BodyState& s = m.bodies[i].after;
+  [[nodiscard]] double depth_beyond(const BodyFacts& f, const BodyState& s, int axis, bool is_upper,
+                                    double wall) const {
     double depth = -std::numeric_limits<double>::infinity();
     const auto add = [&](Vec3d p) { depth = std::max(depth, is_upper ? p[axis] - wall : wall - p[axis]); };
     if (!shapes_.knows(f.mesh)) {
@@ -99,9 +103,21 @@ class Penetration final : public Validator {
     return (is_beyond_a_ || bound <= class_a(m, approach)) && tally_.check_bound(std::max(0.0, bound), kClassC * size);
   }
 
-  void judge(const Motion& m, const Where& where, double signed_depth, double size, double approach) {
+  // depth_at_start(): at the start of the step.
+  template <typename DepthAtStart>
+  void judge(const Motion& m, const Where& where, double signed_depth, double size, double approach,
+             const DepthAtStart& depth_at_start) {
     const double depth = std::max(0.0, signed_depth);
     const double share = depth / size;
+    const std::pair bodies(where.bodies[0], where.bodies[1]);
+    // What the scene itself put so deep may stay so.
+    if (m.step == 1 && share > kClassC)
+      if (const double start = depth_at_start(); start > kClassC * size) given_[bodies] = start + approach;
+    const auto given = given_.find(bodies);
+    if (given != given_.end() && depth <= given->second) {
+      tally_.check(depth, {given->second, "m", kGiven}, where);
+      return;
+    }
     worst_share_ = std::max(worst_share_, share);
     is_beyond_a_ = is_beyond_a_ || depth > class_a(m, approach);
     tally_.check(depth, {kClassC * size, "m", kOrigin}, where, [&] {
@@ -111,9 +127,12 @@ class Penetration final : public Validator {
 
   static constexpr std::string_view kOrigin =
       "class C: half of the smaller body's smallest side (A: slop and one step's approach; B: a twentieth)";
+  static constexpr std::string_view kGiven = "the depth that the scene starts with, and one step's approach";
   const core::Scene& scene_;
   ExactShapes shapes_;
   double contact_time_s_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double>
+      given_;  // m, by bodies that the scene puts deeper than class C
   double worst_share_ = 0.0;
   bool is_beyond_a_ = false;
   std::vector<OrientedBox> boxes_;  // at the end of the step

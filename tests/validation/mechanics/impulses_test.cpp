@@ -1,0 +1,164 @@
+// momentum, angular-momentum, friction-cone and unilateral: what points of contact do to bodies.
+#include <cmath>
+
+#include "core/contact.hpp"
+#include "tests/validation/mechanics/one_step.hpp"
+
+namespace broadside::tests {
+namespace {
+
+using bench::Specimen;
+
+core::Vec3 single(double x, double y, double z) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+// A body of 1 kg whose lowest point is on the floor, with one point below its center.
+Specimen on_floor(core::Vec3 v0, core::WideVec3 v1, core::Vec3 impulse, double gap = 0.0) {
+  Specimen r = one_step(1);
+  r.header.scene.domain.min.y = -0.5F;
+  r.header.scene.bodies[0].velocity = v0;
+  end_step(r, [&](core::WideStates& s) { s.velocity[0] = v1; });
+  core::ContactPoint p;
+  p.a = 0;
+  p.b = core::kFirstFace + 2;
+  p.point = {0, -0.5F, 0};
+  p.normal = {0, 1, 0};
+  p.gap_m = static_cast<float>(gap);
+  p.impulse = impulse;
+  add_point(r, p);
+  return r;
+}
+
+TEST(Momentum, AllowsTheRoundingOfItsAdditions) {
+  // At rest: m g h = 1/8 N s and J as much. 4 + 2 additions of 1/4 m/s, and 4 u of J in float32.
+  const double limit = 6 * kU * 0.25 + 4 * kU * 0.125;
+  expect_limit("momentum", limit,
+               [](double off) {
+                 return on_floor({}, {0, off, 0}, {0, 0.125F, 0});
+               },
+               {"m dv = ", "m g h + sum J = (0, 0, 0) N s"});
+}
+
+TEST(Momentum, WithoutPointsIsThatOfBodiesThatMeet) {
+  const auto met = [](double off) {
+    Specimen r = one_step(2);
+    r.header.scene.gravity_m_s2 = {};
+    r.header.scene.bodies[0].velocity = {1, 0, 0};
+    r.header.scene.bodies[1].position = {1, 0, 0};
+    end_step(r, [&](core::WideStates& s) { std::swap(s.velocity[0], s.velocity[1]), s.velocity[1].x += off; });
+    return r;
+  };
+  // 4 + 2 additions a body of the set, of 2 kg m/s before and after.
+  expect_limit("momentum", 8 * kU * 2, met, {"sum m dv = ", "over 2 bodies"});
+}
+
+TEST(Momentum, MeetsNothingWhereNothingMoves) {
+  expect_nothing_met("momentum", only_static(), "no step of a body");
+}
+
+// An impulse of 1 N s across an arm of 1 m turns a body of 1 kg m^2 by 1 rad/s.
+Specimen struck(double more) {
+  Specimen r = one_step(1);
+  end_step(r, [&](core::WideStates& s) { s.angular_velocity[0].z = 1 + more; });
+  core::ContactPoint p;
+  p.b = core::kFirstFace;
+  p.point = {1, 0, 0};
+  p.normal = {0, 1, 0};
+  p.impulse = {0, 1, 0};
+  add_point(r, p);
+  return r;
+}
+
+TEST(AngularMomentum, AllowsTheRoundingOfPointAndState) {
+  // 42 operations of 2 N m s, 2 u of point and arm, 4 u of the moment.
+  expect_limit("angular-momentum", (84 + 4 + 4) * kU, struck, {"dL = (0, 0, 1", "sum (p - x) x J = (0, 0, 1) N m s"});
+}
+
+TEST(AngularMomentum, LeavesThePlaceInTheGapOpenForFrictionAlone) {
+  const auto braked = [](double gap) {
+    Specimen r = struck(0.05);
+    r.frames[0].points[0].gap_m = static_cast<float>(gap);
+    return law("angular-momentum", r).outcome;
+  };
+  EXPECT_EQ(braked(0.1), core::Outcome::kFail) << "along the normal no place in the gap has another moment";
+  Specimen r = struck(0.05);
+  r.frames[0].points[0].normal = {1, 0, 0};
+  r.frames[0].points[0].gap_m = 0.1F;
+  EXPECT_EQ(law("angular-momentum", r).outcome, core::Outcome::kPass);
+}
+
+TEST(AngularMomentum, MeetsNothingWithoutPoints) {
+  Specimen r = struck(0);
+  r.frames[0].points.clear();
+  expect_nothing_met("angular-momentum", r, "no body with a reported point");
+  r.header.groups &= ~core::bit(core::Group::kPoints);
+  expect_nothing_met("angular-momentum", r, "the trace records no points of contact");
+}
+
+TEST(FrictionCone, EndsAtMu) {
+  expect_limit("friction-cone", 0.5, [](double t) { return on_floor({}, {}, single(t, 1, 0)); },
+               {"along the normal 1, across 0.55"});
+}
+
+TEST(FrictionCone, LetsNoContactPull) {
+  const core::Verdict v = law("friction-cone", on_floor({}, {}, {0, -1e-6F, 0}));
+  EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
+  EXPECT_NE(v.origin.find("contacts push"), std::string::npos) << told(v);
+  EXPECT_NE(v.explanation.find("along the normal -1e-06"), std::string::npos) << told(v);
+}
+
+// Slides along x at 4 m/s, braked by mu J n in a direction that is off.
+Specimen slides(double drag, double angle) {
+  const auto impulse = single(-drag * std::cos(angle), 1, -drag * std::sin(angle));
+  return on_floor({4, 0, 0}, {4, 0, 0}, impulse);
+}
+
+TEST(FrictionCone, OpposesWhatSlides) {
+  // Twice 2 g h: what the slip may have changed by since friction acted. A chord of a circle of 4 m/s.
+  expect_limit("friction-cone", 4 * kG * kStep, [](double chord) { return slides(0.5, 2 * std::asin(chord / 8)); },
+               {"friction (-0.4", "slides at (4, 0, 0) m/s"});
+}
+
+TEST(FrictionCone, DoesNotFallShortWhereSomethingSlides) {
+  // mu J n, less the share 2 x 2 g h / 4 m/s that may be another direction's: 0.4375 N s.
+  EXPECT_EQ(law("friction-cone", slides(0.4376, 0)).outcome, core::Outcome::kPass);
+  const core::Verdict v = law("friction-cone", slides(0.4374, 0));
+  EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
+  EXPECT_NE(v.origin.find("braked by mu_kinetic"), std::string::npos) << told(v);
+}
+
+TEST(FrictionCone, TakesAPyramidOnlyWhereItIsDeclared) {
+  Specimen r = on_floor({}, {}, {0.7F, 1, 0});
+  EXPECT_EQ(law("friction-cone", r).outcome, core::Outcome::kFail);
+  r.header.declaration = core::Declaration::of({{"friction", "pyramid"}, {"precision", "f32"}});
+  EXPECT_EQ(law("friction-cone", r).outcome, core::Outcome::kPass);
+}
+
+TEST(FrictionCone, MeetsNothingWithoutAnImpulse) {
+  expect_nothing_met("friction-cone", on_floor({}, {}, {}), "no point of contact with an impulse");
+}
+
+TEST(Unilateral, AllowsWhatClosesWithinTheStep) {
+  // Falls at 1 m/s, and is stopped by 1.125 N s: without them it would have closed at that speed, and gravity may add g
+  // h.
+  expect_limit("unilateral", kStep * (1.125 + 0.125),
+               [](double gap) {
+                 return on_floor({0, -1, 0}, {}, {0, 1.125F, 0}, gap);
+               },
+               {"an impulse over a gap of", "closes at 1.125 m/s"});
+}
+
+TEST(Unilateral, AddsTheDeclaredMargin) {
+  Specimen r = on_floor({}, {}, {0, 0.125F, 0}, 0.01);
+  EXPECT_EQ(law("unilateral", r).outcome, core::Outcome::kFail);
+  r.header.declaration = core::Declaration::of({{"contact_margin_m", "0.01"}, {"precision", "f32"}});
+  EXPECT_EQ(law("unilateral", r).outcome, core::Outcome::kPass);
+}
+
+TEST(Unilateral, MeetsNothingWithoutAnImpulse) {
+  expect_nothing_met("unilateral", on_floor({}, {}, {}, 1.0), "no point of contact with an impulse");
+}
+
+}  // namespace
+}  // namespace broadside::tests
