@@ -38,9 +38,9 @@ class FrictionCone final : public Validator {
     return {widest * std::max(fixed, sliding), model_ == "regularized" ? 0.0 : std::min(fixed, sliding)};
   }
 
-  [[nodiscard]] static Vec3d speed_at(const Motion& m, std::uint32_t body, Vec3d point) {
+  [[nodiscard]] static Vec3d speed_at(const Motion& m, std::uint32_t body, Vec3d point, bool is_after = true) {
     if (core::is_face(body)) return {};
-    const BodyState& s = m.bodies[body].after;
+    const BodyState& s = is_after ? m.bodies[body].after : m.bodies[body].before;
     return m.facts[body].is_dynamic ? s.v + cross(s.w, point - m.bodies[body].before.x) : Vec3d{};
   }
 
@@ -71,14 +71,25 @@ class FrictionCone final : public Validator {
                         std::abs(static_cast<double>(p.gap_m)) * spin(m, p);
     const double sliding = length(slip);
     if (!(sliding > open) || drag <= off) {
-      if (sliding > 4.0 * open && model_ == "cone") judge_least(mu, push, drag, open, sliding, off, where, worked);
+      if (sliding > 4.0 * open && model_ == "cone" && slid_on(m, p, n, slip))
+        judge_least(mu, push, drag, open, sliding, off, where, worked);
       return;
     }
     tally_.check(
         dot(tangent, slip) / drag, {open, "m/s", "2 |g| h: slip slower than this may have any direction"}, where, [&] {
           return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s";
         });
-    if (model_ != "regularized") judge_least(mu, push, drag, open, sliding, off, where, worked);
+    if (model_ != "regularized" && slid_on(m, p, n, slip))
+      judge_least(mu, push, drag, open, sliding, off, where, worked);
+  }
+
+  // A point that slid one way at the start and another at the end had both friction and its opposite: its total says
+  // little. So it must have slid within 60 degrees of the same way.
+  [[nodiscard]] static bool slid_on(const Motion& m, const core::ContactPoint& p, Vec3d n, Vec3d slip) {
+    const Vec3d at(p.point);
+    const Vec3d came = speed_at(m, p.a, at, false) - speed_at(m, p.b, at, false);
+    const Vec3d sliding = came - dot(came, n) * n;
+    return dot(sliding, slip) >= 0.5 * length(sliding) * length(slip) && length(sliding) > 0.0;
   }
 
   template <typename Worked>
