@@ -160,7 +160,12 @@ core::Box MotionReader::swept_box(std::size_t body) const {
   add(b.before, {});
   add(b.after, {});
   // Where it was going before it was turned back.
-  if (f.is_dynamic) add(b.before, motion_.h * (b.before.v + motion_.h * b.acceleration));
+  if (f.is_dynamic) {
+    BodyState ahead = b.before;
+    ahead.r = matrix_of(turn_by(motion_.h * b.before.w) * b.before.q);
+    ahead.origin = b.before.x - ahead.r * f.center_of_mass;
+    add(ahead, motion_.h * (b.before.v + motion_.h * b.acceleration));
+  }
   const auto down = [](double v) {
     return std::nextafter(static_cast<float>(v), -std::numeric_limits<float>::infinity());
   };
