@@ -12,7 +12,7 @@ constexpr std::string_view kId = "plain-rigid";
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 1> rows{{
-      {"iterations", "100", {}, "sweeps of the contact solver over all points"},
+      {"iterations", "100", {}, "at most so many passes of the contact solver, forward and backward over all points"},
   }};
   return rows;
 }
@@ -35,7 +35,7 @@ core::EngineRow plain_rigid_row() {
   core::EngineRow row;
   row.id = kId;
   row.capabilities = "dynamics";
-  row.what = "boxes and spheres that turn: serial, float64, plainly right";
+  row.what = "boxes, spheres and convex meshes that turn: serial, float64, plainly right";
   row.settings = setting_rows();
   row.create = create;
   return row;
@@ -44,17 +44,19 @@ core::EngineRow plain_rigid_row() {
 namespace plain {
 
 core::Declaration declaration(const WorldOptions& options) {
-  return core::Declaration::of({{"motion", "rigid"},
-                                {"detection_at", "start"},
-                                {"contacts", "totals"},
-                                {"integrator", "semi-implicit Euler, exact in free flight; Runge-Kutta 4 for orientation"},
-                                {"order", "1"},
-                                {"iterations", std::to_string(options.iterations)},
-                                {"friction", "cone"},
-                                {"contact_model", "rigid"},
-                                {"correction", "position"},
-                                {"correction_rate", "0.2"},
-                                {"precision", "f64"}});
+  return core::Declaration::of(
+      {{"motion", "rigid"},
+       {"detection_at", "start"},
+       {"contacts", "totals"},
+       {"integrator", "semi-implicit Euler, exact in free flight; Runge-Kutta 4 for orientation"},
+       {"order", "1"},
+       // Each adds to a velocity forward, backward and along a conjugate direction.
+       {"iterations", std::to_string(3 * options.iterations)},
+       {"friction", "cone"},
+       {"contact_model", "rigid"},
+       {"correction", "position"},
+       {"correction_rate", "0.2"},
+       {"precision", "f64"}});
 }
 
 }  // namespace plain

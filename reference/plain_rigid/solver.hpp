@@ -1,4 +1,4 @@
-// Contact impulses of one step: projected Gauss-Seidel over all points, many times.
+// Contact impulses of one step: projected Gauss-Seidel over all points, along conjugate directions, until it is done.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct SolverPoint {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   NearPoint at;
-  core::Material surface;        // of both, combined
+  core::Material surface;       // of both, combined
   double least_speed = 0.0;     // m/s along the normal that a solve must leave, at least
   double normal_impulse = 0.0;  // N s, >= 0, of one solve
   Vec friction_impulse;         // N s on A, of one solve
@@ -34,11 +34,14 @@ struct SolverOptions {
   double correction_rate = 0.2;  // share of the depth beyond the slop that a step takes away
 };
 
-// Changes velocities and angular momenta until every point moves apart at least_speed or faster, pushes only, and has
-// friction within Coulomb's cone. Moreau, Unilateral contact and dry friction (1988), solved as in Jourdan, Alart and
-// Jean, A Gauss-Seidel like algorithm to solve frictional contact problems (1998), with one effective mass for the
-// tangent plane.
-void solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies, std::uint32_t iterations);
+// Begins with the impulses that the points hold; changes velocities and angular momenta until every point moves apart
+// at least_speed or faster, pushes only, and has friction within Coulomb's cone. Moreau, Unilateral contact and dry
+// friction (1988), solved as in Jourdan, Alart and Jean, A Gauss-Seidel like algorithm to solve frictional contact
+// problems (1998), with one effective mass for the tangent plane. Ends after `iterations` sweeps, or when a sweep
+// changes next to nothing.
+// Returns the number of sweeps.
+std::uint32_t solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies,
+                               std::uint32_t iterations);
 
 // Pushes bodies out of each other without touching their velocities.
 void correct_positions(const std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies,
