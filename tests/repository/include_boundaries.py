@@ -21,12 +21,13 @@ ROOMS = {
     "mutants": {"cell", "process"},
     "timing": {"cell", "process", "record"},
     "agree": {"cell", "process"},
+    "converge": set(),
     "forensics": {"cell", "process", "record"},
     "shrink": {"cell", "process", "record"},
     "campaign": {"cell", "process"},
     "paper": {"cell", "process", "record", "timing", "campaign"},
     "benchmarks": {"record"},
-    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "forensics", "shrink", "campaign", "paper"},
+    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "converge", "forensics", "shrink", "campaign", "paper"},
 }
 # Files of bench/ itself that wire rooms. Every other one includes no room.
 WIRING = {
