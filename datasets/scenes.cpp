@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "core/mesh/clean_mesh.hpp"
 #include "core/nearest_name.hpp"
 #include "datasets/box_streams/box_stream.hpp"
+#include "datasets/generators/rigid/rigid_scenes.hpp"
 #include "datasets/generators/scene_families.hpp"
 #include "datasets/generators/small_scenes.hpp"
 #include "datasets/scene_file/import_scene.hpp"
@@ -88,6 +90,13 @@ Result<Scene> small_scene(const SmallSceneRow& row, const SceneName& name, const
   Scene scene = row.make();
   NameOptions given(name);
   given.number("seed", std::uint64_t{0}, kMostSeed, scene.seed);
+  // Another step at the same end time, unless the number of steps is given too.
+  double dt_s = scene.dt_s;
+  given.number("dt_s", 1e-6, 1.0, dt_s);
+  if (dt_s != scene.dt_s) {
+    scene.frames = static_cast<std::uint32_t>(std::max(1.0, std::round(scene.frames * (scene.dt_s / dt_s))));
+    scene.dt_s = static_cast<float>(dt_s);
+  }
   given.number("frames", 1U, kMostFrames, scene.frames);
   if (const auto error = given.finish()) return *error;
   scene.name = name.text;
@@ -149,8 +158,9 @@ Result<Scene> by_name(const std::string& spec, const SceneOptions& options) {
   const Result<SceneName> parsed = parse_scene_name(spec);
   if (!parsed) return parsed.error();
   const SceneName& name = parsed.value();
-  for (const SmallSceneRow& row : small_scenes())
-    if (row.name == name.plain) return small_scene(row, name, options);
+  for (const auto& rows : {small_scenes(), rigid_scenes()})
+    for (const SmallSceneRow& row : rows)
+      if (row.name == name.plain) return small_scene(row, name, options);
   if (const SceneFamily* family = find_family(name.parts[0])) return family_scene(*family, name, options);
   return unknown_scene(spec, name.plain);
 }
@@ -161,7 +171,8 @@ std::vector<SceneRow> scene_table() {
   std::vector<SceneRow> table;
   for (const SceneFamily& family : scene_families())
     table.push_back({family.pattern, family.example, family.what, family.knobs});
-  for (const SmallSceneRow& row : small_scenes()) table.push_back({row.name, row.name, row.what, {}});
+  for (const auto& rows : {small_scenes(), rigid_scenes()})
+    for (const SmallSceneRow& row : rows) table.push_back({row.name, row.name, row.what, {}});
   return table;
 }
 

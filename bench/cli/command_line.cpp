@@ -27,6 +27,7 @@ constexpr AddCommand kCommands[] = {
     add_agree,            //
     add_pairs,            //
     add_check,            //
+    add_converge,         //
     add_time,             //
     add_report,           //
     add_compare,          //

@@ -18,6 +18,7 @@ void add_pairs(CLI::App& program, core::Exit& exit);
 void add_compare(CLI::App& program, core::Exit& exit);
 void add_mutants(CLI::App& program, core::Exit& exit);
 void add_check(CLI::App& program, core::Exit& exit);
+void add_converge(CLI::App& program, core::Exit& exit);
 void add_time(CLI::App& program, core::Exit& exit);
 void add_history(CLI::App& program, core::Exit& exit);
 void add_report(CLI::App& program, core::Exit& exit);

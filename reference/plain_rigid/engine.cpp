@@ -12,7 +12,7 @@ constexpr std::string_view kId = "plain-rigid";
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 1> rows{{
-      {"iterations", "100", {}, "sweeps of the contact solver over all points"},
+      {"iterations", "100", {}, "at most so many passes of the contact solver, forward and backward over all points"},
   }};
   return rows;
 }
@@ -35,7 +35,7 @@ core::EngineRow plain_rigid_row() {
   core::EngineRow row;
   row.id = kId;
   row.capabilities = "dynamics";
-  row.what = "boxes and spheres that turn: serial, float64, plainly right";
+  row.what = "boxes, spheres and convex meshes that turn: serial, float64, plainly right";
   row.settings = setting_rows();
   row.create = create;
   return row;
@@ -50,7 +50,8 @@ core::Declaration declaration(const WorldOptions& options) {
        {"contacts", "totals"},
        {"integrator", "semi-implicit Euler, exact in free flight; Runge-Kutta 4 for orientation"},
        {"order", "1"},
-       {"iterations", std::to_string(options.iterations)},
+       // Each adds to a velocity forward, backward and along a conjugate direction.
+       {"iterations", std::to_string(3 * options.iterations)},
        {"friction", "cone"},
        {"contact_model", "rigid"},
        {"correction", "position"},

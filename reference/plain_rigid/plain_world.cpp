@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
 
 #include "core/method/frame_digest.hpp"
+#include "core/scene/primitive.hpp"
 #include "core/scene/refuse_springs.hpp"
 
 namespace broadside::reference::plain {
@@ -24,20 +26,47 @@ core::WideVec3 wide(Vec v) {
   return {v.x, v.y, v.z};
 }
 
-core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index) {
-  const core::Body& given = scene.bodies[index];
-  const core::Mesh& mesh = *scene.meshes[given.mesh];
+// Faces of a convex mesh; more are another engine's work.
+constexpr std::size_t kMostFaces = 200;
+
+core::Result<RigidBody> shape_of(const core::Scene& scene, std::uint32_t index) {
+  const core::Mesh& mesh = *scene.meshes[scene.bodies[index].mesh];
   const auto primitive = core::primitive_of(mesh);
-  const bool is_known =
-      primitive && (primitive->kind == core::PrimitiveKind::kBox || primitive->kind == core::PrimitiveKind::kSphere);
-  if (!is_known)
-    return core::Error{
-        "unsupported shape: " + (primitive ? std::string(core::primitive_word(primitive->kind)) : "mesh"),
-        scene.name + ": body " + std::to_string(index), "plain-rigid knows boxes and spheres", core::Exit::kMissing};
   RigidBody b;
-  b.kind = primitive->kind;
-  b.half_extents = vec(primitive->half_extents);
-  b.radius = primitive->radius_m;
+  if (primitive && primitive->kind == core::PrimitiveKind::kSphere) {
+    b.radius = primitive->radius_m;
+    return b;
+  }
+  if (primitive && primitive->kind == core::PrimitiveKind::kBox) {
+    b.half_extents = vec(primitive->half_extents);
+    b.polytope = std::make_shared<const Polytope>(box_polytope(b.half_extents));
+    return b;
+  }
+  const std::string where = scene.name + ": body " + std::to_string(index);
+  const std::string advice = "plain-rigid knows boxes, spheres and convex meshes of few faces";
+  if (primitive)
+    return core::Error{"unsupported: " + std::string(core::primitive_word(primitive->kind)), where, advice,
+                       core::Exit::kMissing};
+  if (mesh.triangles.size() > 2 * kMostFaces || !core::is_convex(mesh))
+    return core::Error{mesh.triangles.size() > 2 * kMostFaces ? "unsupported: a mesh of so many faces"
+                                                              : "unsupported: a mesh that is not convex",
+                       where, advice, core::Exit::kMissing};
+  b.polytope = std::make_shared<const Polytope>(polytope_of(mesh));
+  return b;
+}
+
+double reach_of(const RigidBody& b) {
+  if (b.is_sphere()) return length(b.center_of_mass) + b.radius;
+  double reach = 0.0;
+  for (const Vec p : b.polytope->vertices) reach = std::max(reach, length(p - b.center_of_mass));
+  return reach;
+}
+
+core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index, const core::MassProperties& mass) {
+  const core::Body& given = scene.bodies[index];
+  auto shape = shape_of(scene, index);
+  if (!shape) return shape.error();
+  RigidBody b = shape.value();
   b.material = given.material;
   b.inverse_mass = given.inverse_mass;
   b.q = normalized({given.orientation.w, given.orientation.x, given.orientation.y, given.orientation.z});
@@ -46,15 +75,15 @@ core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index) {
   if (b.is_static()) {
     b.inverse_inertia = {{Vec{}, Vec{}, Vec{}}};
     b.static_spin = vec(given.angular_velocity);
+    b.reach = reach_of(b);
     return b;
   }
-  const auto mass = core::mass_properties_of(scene, index);
-  if (!mass) return mass.error();
-  const auto& i = mass.value().inertia_kg_m2;
-  const auto& c = mass.value().center_of_mass_m;
+  const auto& i = mass.inertia_kg_m2;
+  const auto& c = mass.center_of_mass_m;
   b.inertia = {{Vec{i[0], i[3], i[4]}, Vec{i[3], i[1], i[5]}, Vec{i[4], i[5], i[2]}}};
   b.inverse_inertia = inverse(b.inertia);
   b.center_of_mass = {c[0], c[1], c[2]};
+  b.reach = reach_of(b);
   const Mat r = b.rotation();
   const Vec arm = r * b.center_of_mass;
   const Vec spin = vec(given.angular_velocity);
@@ -68,21 +97,20 @@ bool is_before(const SolverPoint& p, const SolverPoint& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
 
-double size_of(const RigidBody& b) {
-  return length(b.center_of_mass) + (b.kind == core::PrimitiveKind::kSphere ? b.radius : length(b.half_extents));
-}
-
 }  // namespace
 
 Status PlainWorld::load(const core::Scene& scene) {
   if (Status s = core::refuse_springs(scene); !s) return s;
   scene_ = &scene;
   steps_ = 0;
+  sweeps_ = 0;
   bodies_.clear();
   points_.clear();
-  last_points_.clear();
+  carried_.clear();
+  const auto mass = core::all_mass_properties(scene);
+  if (!mass) return mass.error();
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
-    auto body = body_of(scene, i);
+    auto body = body_of(scene, i, mass.value()[i]);
     if (!body) return body.error();
     bodies_.push_back(body.value());
     // Bodies that translate have no inverse inertia: nothing turns them.
@@ -105,14 +133,20 @@ core::Box PlainWorld::box_of(const RigidBody& b) const {
   const Mat r = b.rotation();
   core::Box box;
   for (int k = 0; k < 3; ++k) {
-    double half = b.radius;
-    if (b.kind == core::PrimitiveKind::kBox) {
-      half = 0.0;
-      for (int j = 0; j < 3; ++j) half += std::abs(r.row[static_cast<std::size_t>(k)][j]) * b.half_extents[j];
+    double low = -b.radius;
+    double high = b.radius;
+    if (!b.is_sphere()) {
+      low = std::numeric_limits<double>::infinity();
+      high = -low;
+      for (const Vec p : b.polytope->vertices) {
+        const double at = dot(r.row[static_cast<std::size_t>(k)], p);
+        low = std::min(low, at);
+        high = std::max(high, at);
+      }
     }
     // Rounded outward, so that the recorded box contains the shape.
-    box.min[k] = std::nextafter(static_cast<float>(c[k] - half), -std::numeric_limits<float>::infinity());
-    box.max[k] = std::nextafter(static_cast<float>(c[k] + half), std::numeric_limits<float>::infinity());
+    box.min[k] = std::nextafter(static_cast<float>(c[k] + low), -std::numeric_limits<float>::infinity());
+    box.max[k] = std::nextafter(static_cast<float>(c[k] + high), std::numeric_limits<float>::infinity());
   }
   return box;
 }
@@ -120,7 +154,7 @@ core::Box PlainWorld::box_of(const RigidBody& b) const {
 double PlainWorld::farthest(const RigidBody& b, double h) const {
   if (b.is_static()) return 0.0;
   // However fast it spins, no point is farther than the diameter from where it was.
-  const double swing = std::min(h * length(b.angular_velocity()), 2.0) * size_of(b);
+  const double swing = std::min(h * length(b.angular_velocity()), 2.0) * b.reach;
   return h * (length(b.v) + h * length(pull(b))) + swing;
 }
 
@@ -196,7 +230,7 @@ void PlainWorld::solve_impacts(double h) {
     index.push_back(k);
   }
   if (hits.empty()) return;
-  solve_velocities(hits, bodies_, options_.iterations);
+  sweeps_ += solve_velocities(hits, bodies_, options_.iterations);
   for (std::size_t k = 0; k < hits.size(); ++k) {
     hits[k].finish_solve();
     points_[index[k]].total_impulse = hits[k].total_impulse;
@@ -211,35 +245,50 @@ void PlainWorld::accelerate(double h) {
     }
 }
 
-// The points of two bodies keep their order from step to step; where there are as many as before, each starts from the
-// impulse that it had.
-void PlainWorld::warm_start() {
-  for (std::size_t first = 0, last = 0; first < points_.size(); first = last) {
-    const auto [begin, end] = std::equal_range(points_.begin(), points_.end(), points_[first], is_before);
-    last = static_cast<std::size_t>(end - points_.begin());
-    const auto [old, old_end] = std::equal_range(last_points_.begin(), last_points_.end(), points_[first], is_before);
-    if (end - begin != old_end - old) continue;
-    for (auto p = begin, q = old; p != end; ++p, ++q) {
-      const Vec n = p->at.normal;
-      p->normal_impulse = std::max(0.0, dot(q->contact_impulse, n));
-      p->friction_impulse = q->contact_impulse - dot(q->contact_impulse, n) * n;
+// A point takes over the impulses of the one that was nearest to it on A a step ago, so that what rests needs few
+// sweeps.
+void PlainWorld::start_warm() {
+  constexpr double kNear = 0.05;  // of the body's reach: farther ones are other corners
+  for (SolverPoint& p : points_) {
+    const RigidBody& a = bodies_[p.a];
+    const Vec local = transposed(a.rotation()) * (p.at.point - a.x);
+    const auto [first, last] =
+        std::equal_range(carried_.begin(), carried_.end(), Carried{p.a, p.b, {}, 0.0, {}},
+                         [](const Carried& x, const Carried& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+    double least = kNear * a.reach;
+    for (auto c = first; c != last; ++c) {
+      if (!(length(c->local - local) < least)) continue;
+      least = length(c->local - local);
+      p.normal_impulse = c->normal_impulse;
+      p.friction_impulse = c->friction_impulse - dot(c->friction_impulse, p.at.normal) * p.at.normal;
     }
   }
 }
 
+void PlainWorld::carry() {
+  carried_.clear();
+  for (const SolverPoint& p : points_) {
+    const RigidBody& a = bodies_[p.a];
+    if (p.normal_impulse > 0.0)
+      carried_.push_back(
+          {p.a, p.b, transposed(a.rotation()) * (p.at.point - a.x), p.normal_impulse, p.friction_impulse});
+  }
+  std::stable_sort(carried_.begin(), carried_.end(),
+                   [](const Carried& x, const Carried& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+}
+
 void PlainWorld::solve_contacts(double h) {
   for (SolverPoint& p : points_) p.least_speed = p.at.gap > 0.0 ? -p.at.gap / h : 0.0;
-  warm_start();
-  solve_velocities(points_, bodies_, options_.iterations);
+  start_warm();
+  sweeps_ += solve_velocities(points_, bodies_, options_.iterations);
+  carry();
   for (SolverPoint& p : points_) {
     if (p.normal_impulse > 0.0) {
       is_touched_[p.a] = 1;
       if (!core::is_face(p.b)) is_touched_[p.b] = 1;
     }
-    p.contact_impulse = p.normal_impulse * p.at.normal + p.friction_impulse;
     p.finish_solve();
   }
-  last_points_ = points_;
 }
 
 void PlainWorld::move(double h) {
@@ -335,6 +384,10 @@ Status PlainWorld::read_back(core::FrameRecord& frame, core::RecordLevel level) 
   const core::FrameRecord bare{frame.step, frame.time_s, frame.digest};
   frame = bare;
   return core::Done{};
+}
+
+std::vector<core::Counter> PlainWorld::counters() const {
+  return {{"contact sweeps", sweeps_}};
 }
 
 std::uint32_t PlainWorld::groups() const {

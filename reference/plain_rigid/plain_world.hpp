@@ -1,5 +1,5 @@
-// A serial, float64, plainly right simulation of boxes and spheres that turn: a reference, and the engine whose stages
-// mutants replace one at a time.
+// A serial, float64, plainly right simulation of boxes, spheres and convex meshes that turn: a reference, and the
+// engine whose stages mutants replace one at a time.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace broadside::reference::plain {
 
 struct WorldOptions {
-  std::uint32_t iterations = 100;
+  std::uint32_t iterations = 100;  // at most: passes of the contact solver
 };
 
 // One step of h:
@@ -31,6 +31,7 @@ class PlainWorld : public core::Dynamics {
   core::Status step(float dt_s) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   [[nodiscard]] std::uint32_t groups() const override;
+  [[nodiscard]] std::vector<core::Counter> counters() const override;
 
  protected:
   // The stages, in order. A mutant replaces one.
@@ -57,17 +58,28 @@ class PlainWorld : public core::Dynamics {
   void add_pair(std::uint32_t a, std::uint32_t b, double h);
   void add_faces(std::uint32_t a, double h);
   void begin_record();
+  void start_warm();
+  void carry();
   // Acceleration by gravity and wrenches, m/s^2; zero for a static body.
   [[nodiscard]] Vec pull(const RigidBody& body) const;
   // How far any point of the body may come in h, m, with what gravity and wrenches add.
   [[nodiscard]] double farthest(const RigidBody& body, double h) const;
-  void warm_start();
+
+  // What a point of the last step carried, where it lay on A.
+  struct Carried {
+    std::uint32_t a;
+    std::uint32_t b;
+    Vec local;  // m, relative to the center of mass, in A's axes
+    double normal_impulse;
+    Vec friction_impulse;
+  };
 
   const core::Scene* scene_ = nullptr;
+  std::vector<Carried> carried_;
   std::uint64_t steps_ = 0;
+  std::uint64_t sweeps_ = 0;
   std::vector<std::uint8_t> is_touched_;
   std::vector<Vec> velocity_before_gravity_;
-  std::vector<SolverPoint> last_points_;  // of the step before, with the impulses of its contacts
   // What detection saw at the start of the step, and its points.
   core::FrameRecord detected_;
   std::vector<core::ContactPoint> recorded_;

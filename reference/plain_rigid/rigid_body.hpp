@@ -2,17 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "core/material.hpp"
-#include "core/scene/primitive.hpp"
 #include "reference/plain_rigid/linear.hpp"
+#include "reference/plain_rigid/polytope.hpp"
 
 namespace broadside::reference::plain {
 
 struct RigidBody {
-  core::PrimitiveKind kind = core::PrimitiveKind::kBox;  // a box or a sphere
-  Vec half_extents;                                      // m, of a box
-  double radius = 0.0;                                   // m, of a sphere
+  Vec half_extents;                          // m, of a box
+  double radius = 0.0;                       // m, of a sphere
+  std::shared_ptr<const Polytope> polytope;  // a box or a convex mesh, in mesh coordinates; null for a sphere
+  double reach = 0.0;                        // m; of the farthest point from the center of mass
   core::Material material;
 
   double inverse_mass = 0.0;  // 1/kg; 0 = static
@@ -32,6 +34,7 @@ struct RigidBody {
   Vec torque_body;   // N m
   Vec static_spin;   // rad/s: what the scene says of a static body, which never turns
 
+  [[nodiscard]] bool is_sphere() const { return polytope == nullptr; }
   [[nodiscard]] bool is_static() const { return !(inverse_mass > 0.0); }
   [[nodiscard]] Mat rotation() const { return matrix(q); }
   // Of the mesh: where its vertices' origin is.

@@ -1,4 +1,4 @@
-// Contact impulses of one step: projected Gauss-Seidel over all points, many times.
+// Contact impulses of one step: projected Gauss-Seidel over all points, along conjugate directions, until it is done.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,6 @@ struct SolverPoint {
   double normal_impulse = 0.0;  // N s, >= 0, of one solve
   Vec friction_impulse;         // N s on A, of one solve
   Vec total_impulse;            // N s on A, of the whole step
-  Vec contact_impulse;          // N s on A, of the step's contacts without its impacts: the next step starts from it
 
   void finish_solve() {
     total_impulse = total_impulse + normal_impulse * at.normal + friction_impulse;
@@ -35,11 +34,14 @@ struct SolverOptions {
   double correction_rate = 0.2;  // share of the depth beyond the slop that a step takes away
 };
 
-// Changes velocities and angular momenta until every point moves apart at least_speed or faster, pushes only, and has
-// friction within Coulomb's cone. Points start from the impulses that are in them. Moreau, Unilateral contact and dry
+// Begins with the impulses that the points hold; changes velocities and angular momenta until every point moves apart
+// at least_speed or faster, pushes only, and has friction within Coulomb's cone. Moreau, Unilateral contact and dry
 // friction (1988), solved as in Jourdan, Alart and Jean, A Gauss-Seidel like algorithm to solve frictional contact
-// problems (1998), with one effective mass for the tangent plane.
-void solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies, std::uint32_t iterations);
+// problems (1998), with one effective mass for the tangent plane. Ends after `iterations` sweeps, or when a sweep
+// changes next to nothing.
+// Returns the number of sweeps.
+std::uint32_t solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies,
+                               std::uint32_t iterations);
 
 // Pushes bodies out of each other without touching their velocities.
 void correct_positions(const std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies,

@@ -1,13 +1,12 @@
 #include "reference/plain_rigid/touching.hpp"
 
-#include <array>
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace broadside::reference::plain {
 namespace {
-
-using core::PrimitiveKind;
 
 void sphere_sphere(const RigidBody& a, const RigidBody& b, double reach, std::vector<NearPoint>& out) {
   const Vec d = a.origin() - b.origin();
@@ -18,81 +17,88 @@ void sphere_sphere(const RigidBody& a, const RigidBody& b, double reach, std::ve
   out.push_back({b.origin() + (b.radius + 0.5 * gap) * n, n, gap});
 }
 
-// Normal from the box to the sphere.
-void sphere_box(const RigidBody& sphere, const RigidBody& box, double reach, double turn, std::vector<NearPoint>& out) {
-  const Mat r = box.rotation();
-  const Vec p = transposed(r) * (sphere.origin() - box.origin());
-  Vec nearest;
+// The point of a polygon that is nearest to p.
+Vec nearest_on_face(const Polytope& shape, const PolytopeFace& face, Vec p) {
+  const Vec on_plane = p - dot(face.normal, p - shape.vertices[face.corners[0]]) * face.normal;
   bool is_inside = true;
-  for (int k = 0; k < 3; ++k) {
-    nearest[k] = std::clamp(p[k], -box.half_extents[k], box.half_extents[k]);
-    is_inside = is_inside && nearest[k] == p[k];
+  Vec best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < face.corners.size(); ++k) {
+    const Vec a = shape.vertices[face.corners[k]];
+    const Vec d = shape.vertices[face.corners[(k + 1) % face.corners.size()]] - a;
+    is_inside = is_inside && dot(cross(face.normal, d), on_plane - a) >= 0.0;
+    const Vec near = a + std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0) * d;
+    if (length(p - near) < least) least = length(p - near), best = near;
   }
-  Vec n;
-  double distance = 0.0;
-  if (is_inside) {
-    // Out through the nearest face.
-    int axis = 0;
-    for (int k = 1; k < 3; ++k)
-      if (box.half_extents[k] - std::abs(p[k]) < box.half_extents[axis] - std::abs(p[axis])) axis = k;
-    const double sign = p[axis] < 0.0 ? -1.0 : 1.0;
-    n = sign * axis_of(axis);
-    distance = std::abs(p[axis]) - box.half_extents[axis];
-    nearest[axis] = sign * box.half_extents[axis];
-  } else {
-    distance = length(p - nearest);
-    n = (1.0 / distance) * (p - nearest);
-  }
-  const double gap = distance - sphere.radius;
-  if (!(gap <= reach)) return;
-  const Vec world = r * n;
-  out.push_back({box.origin() + r * nearest + (0.5 * gap) * world, turn * world, gap});
+  return is_inside ? on_plane : best;
 }
 
-// One direction along which two boxes are compared.
+// Normal from the polytope to the sphere, times `turn`.
+void sphere_polytope(const RigidBody& sphere, const RigidBody& other, double reach, double turn,
+                     std::vector<NearPoint>& out) {
+  const Polytope shape = placed(*other.polytope, other.rotation(), other.origin());
+  const Vec center = sphere.origin();
+  // The face that the center is farthest in front of, or least behind.
+  const PolytopeFace* front = nullptr;
+  double height = -std::numeric_limits<double>::infinity();
+  for (const PolytopeFace& f : shape.faces) {
+    const double h = dot(f.normal, center - shape.vertices[f.corners[0]]);
+    if (h > height) height = h, front = &f;
+  }
+  Vec n = front->normal;
+  Vec nearest = center - height * n;
+  if (height > 0.0) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const PolytopeFace& f : shape.faces) {
+      const Vec p = nearest_on_face(shape, f, center);
+      if (length(center - p) < least) least = length(center - p), nearest = p;
+    }
+    height = least;
+    n = (1.0 / least) * (center - nearest);
+  }
+  const double gap = height - sphere.radius;
+  if (gap <= reach) out.push_back({nearest + (0.5 * gap) * n, turn * n, gap});
+}
+
+// One direction along which two polytopes are compared.
 struct Separation {
   double gap = -std::numeric_limits<double>::infinity();
   Vec normal;  // from B to A
-  int face_of_a = -1;
-  int face_of_b = -1;
-  std::array<int, 2> edges{-1, -1};
+  const PolytopeFace* face_of_a = nullptr;
+  const PolytopeFace* face_of_b = nullptr;
+  Vec direction_of_a;  // of edges, where no face decides
+  Vec direction_of_b;
 };
 
-struct Boxes {
-  Mat ra;  // columns: the axes of A
-  Mat rb;
-  Vec ha;
-  Vec hb;
-  Vec ca;
-  Vec cb;
-};
-
-double reach_of(const Mat& r, Vec half, Vec n) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) sum += half[k] * std::abs(dot(column(r, k), n));
-  return sum;
+double lowest(const Polytope& shape, Vec n) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec p : shape.vertices) least = std::min(least, dot(n, p));
+  return least;
 }
 
-// The separating direction with the largest gap: the six face normals, then the nine cross products of edges, which
-// have to win by a margin, since a face gives more points.
-Separation widest(const Boxes& s) {
+// The separating direction with the largest gap: normals of faces, then cross products of edges, which have to win by
+// a margin, since a face gives more points.
+Separation widest(const Polytope& a, const Polytope& b, double size) {
   constexpr double kEdgeMargin = 1e-9;
   Separation best;
-  const Vec d = s.ca - s.cb;
-  const double size = length(s.ha) + length(s.hb);
-  const auto consider = [&](Vec n, int face_a, int face_b, std::array<int, 2> edges) {
-    if (dot(n, d) < 0.0) n = -n;
-    const double gap = dot(n, d) - reach_of(s.ra, s.ha, n) - reach_of(s.rb, s.hb, n);
-    const double margin = edges[0] < 0 ? 0.0 : kEdgeMargin * size;
-    if (gap > best.gap + margin) best = {gap, n, face_a, face_b, edges};
-  };
-  for (int k = 0; k < 3; ++k) consider(column(s.ra, k), k, -1, {-1, -1});
-  for (int k = 0; k < 3; ++k) consider(column(s.rb, k), -1, k, {-1, -1});
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const Vec n = cross(column(s.ra, i), column(s.rb, j));
-      const double size_n = length(n);
-      if (size_n > 1e-6) consider((1.0 / size_n) * n, -1, -1, {i, j});
+  for (const PolytopeFace& f : a.faces) {
+    const double gap = lowest(b, f.normal) - dot(f.normal, a.vertices[f.corners[0]]);
+    if (gap > best.gap) best = {gap, -f.normal, &f, nullptr, {}, {}};
+  }
+  for (const PolytopeFace& f : b.faces) {
+    const double gap = lowest(a, f.normal) - dot(f.normal, b.vertices[f.corners[0]]);
+    if (gap > best.gap) best = {gap, f.normal, nullptr, &f, {}, {}};
+  }
+  for (const Vec u : a.directions)
+    for (const Vec w : b.directions) {
+      const Vec c = cross(u, w);
+      const double size_c = length(c);
+      if (!(size_c > 1e-6)) continue;
+      for (const double sign : {1.0, -1.0}) {
+        const Vec n = (sign / size_c) * c;
+        const double gap = lowest(a, n) + lowest(b, -n);
+        if (gap > best.gap + kEdgeMargin * size) best = {gap, n, nullptr, nullptr, u, w};
+      }
     }
   return best;
 }
@@ -111,71 +117,78 @@ std::vector<Vec> clipped(const std::vector<Vec>& polygon, Vec n, double limit) {
   return kept;
 }
 
-// The face of the other box that looks most against n, clipped by the sides of the reference face.
-void face_points(const Mat& rr, Vec hr, Vec cr, int face, Vec outward, const Mat& ri, Vec hi, Vec ci, Vec normal,
-                 double reach, std::vector<NearPoint>& out) {
-  int incident = 0;
-  for (int k = 1; k < 3; ++k)
-    if (std::abs(dot(column(ri, k), outward)) > std::abs(dot(column(ri, incident), outward))) incident = k;
-  const double side = dot(column(ri, incident), outward) > 0.0 ? -1.0 : 1.0;
-  const Vec u = hi[(incident + 1) % 3] * column(ri, (incident + 1) % 3);
-  const Vec w = hi[(incident + 2) % 3] * column(ri, (incident + 2) % 3);
-  const Vec middle = ci + (side * hi[incident]) * column(ri, incident);
-  std::vector<Vec> polygon{middle + u + w, middle - u + w, middle - u - w, middle + u - w};
-  for (int k = 1; k < 3; ++k) {
-    const int axis = (face + k) % 3;
-    const Vec n = column(rr, axis);
-    polygon = clipped(polygon, n, dot(n, cr) + hr[axis]);
-    polygon = clipped(polygon, -n, -dot(n, cr) + hr[axis]);
+// The face of the other polytope that looks most against `face`, clipped by the sides of this one.
+void face_points(const Polytope& own, const PolytopeFace& face, const Polytope& other, Vec normal, double reach,
+                 std::vector<NearPoint>& out) {
+  const auto incident =
+      std::min_element(other.faces.begin(), other.faces.end(), [&](const PolytopeFace& p, const PolytopeFace& q) {
+        return dot(p.normal, face.normal) < dot(q.normal, face.normal);
+      });
+  std::vector<Vec> polygon;
+  for (const std::uint32_t k : incident->corners) polygon.push_back(other.vertices[k]);
+  for (std::size_t k = 0; k < face.corners.size(); ++k) {
+    const Vec a = own.vertices[face.corners[k]];
+    const Vec side = cross(own.vertices[face.corners[(k + 1) % face.corners.size()]] - a, face.normal);
+    const Vec outward = (1.0 / length(side)) * side;
+    polygon = clipped(polygon, outward, dot(outward, a));
   }
-  const double plane = dot(outward, cr) + hr[face];
+  const double plane = dot(face.normal, own.vertices[face.corners[0]]);
   for (const Vec p : polygon) {
-    const double gap = dot(outward, p) - plane;
-    if (gap <= reach) out.push_back({p - (0.5 * gap) * outward, normal, gap});
+    const double gap = dot(face.normal, p) - plane;
+    if (gap <= reach) out.push_back({p - (0.5 * gap) * face.normal, normal, gap});
   }
+}
+
+// The edge along d that reaches farthest toward n.
+std::pair<Vec, Vec> farthest_edge(const Polytope& shape, Vec d, Vec n) {
+  std::pair<Vec, Vec> best;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const auto& [i, j] : shape.edges) {
+    const Vec p = shape.vertices[i];
+    const Vec q = shape.vertices[j];
+    if (length(cross(q - p, d)) > 1e-6 * length(q - p)) continue;
+    const double reach = dot(n, 0.5 * (p + q));
+    if (reach > most) most = reach, best = {p, q};
+  }
+  return best;
 }
 
 // The middle of the shortest way between the two edges that face each other.
-void edge_point(const Boxes& s, const Separation& best, std::vector<NearPoint>& out) {
-  const auto edge = [](const Mat& r, Vec h, Vec c, int along, Vec towards) {
-    Vec p = c;
-    for (int k = 0; k < 3; ++k)
-      if (k != along) p = p + (dot(column(r, k), towards) > 0.0 ? h[k] : -h[k]) * column(r, k);
-    return p;
-  };
-  const Vec p = edge(s.ra, s.ha, s.ca, best.edges[0], -best.normal);
-  const Vec q = edge(s.rb, s.hb, s.cb, best.edges[1], best.normal);
-  const Vec u = column(s.ra, best.edges[0]);
-  const Vec w = column(s.rb, best.edges[1]);
-  const double b = dot(u, w);
-  const double scale = 1.0 - b * b;
+void edge_point(const Polytope& a, const Polytope& b, const Separation& best, std::vector<NearPoint>& out) {
+  const auto [p, p_end] = farthest_edge(a, best.direction_of_a, -best.normal);
+  const auto [q, q_end] = farthest_edge(b, best.direction_of_b, best.normal);
+  const Vec u = p_end - p;
+  const Vec w = q_end - q;
   const Vec d = p - q;
-  const double s_a = std::clamp((b * dot(w, d) - dot(u, d)) / scale, -s.ha[best.edges[0]], s.ha[best.edges[0]]);
-  const double s_b = std::clamp((dot(w, d) - b * dot(u, d)) / scale, -s.hb[best.edges[1]], s.hb[best.edges[1]]);
-  out.push_back({0.5 * ((p + s_a * u) + (q + s_b * w)), best.normal, best.gap});
+  const double uu = dot(u, u);
+  const double ww = dot(w, w);
+  const double uw = dot(u, w);
+  const double scale = uu * ww - uw * uw;
+  const double s = std::clamp((uw * dot(w, d) - ww * dot(u, d)) / scale, 0.0, 1.0);
+  const double t = std::clamp((uu * dot(w, d) - uw * dot(u, d)) / scale, 0.0, 1.0);
+  out.push_back({0.5 * ((p + s * u) + (q + t * w)), best.normal, best.gap});
 }
 
-void box_box(const RigidBody& a, const RigidBody& b, double reach, std::vector<NearPoint>& out) {
-  const Boxes s{a.rotation(), b.rotation(), a.half_extents, b.half_extents, a.origin(), b.origin()};
-  const Separation best = widest(s);
+void polytope_polytope(const RigidBody& a, const RigidBody& b, double reach, std::vector<NearPoint>& out) {
+  const Polytope pa = placed(*a.polytope, a.rotation(), a.origin());
+  const Polytope pb = placed(*b.polytope, b.rotation(), b.origin());
+  const Separation best = widest(pa, pb, a.reach + b.reach);
   if (!(best.gap <= reach)) return;
-  if (best.face_of_a >= 0)
-    face_points(s.ra, s.ha, s.ca, best.face_of_a, -best.normal, s.rb, s.hb, s.cb, best.normal, reach, out);
-  else if (best.face_of_b >= 0)
-    face_points(s.rb, s.hb, s.cb, best.face_of_b, best.normal, s.ra, s.ha, s.ca, best.normal, reach, out);
+  if (best.face_of_a != nullptr)
+    face_points(pa, *best.face_of_a, pb, best.normal, reach, out);
+  else if (best.face_of_b != nullptr)
+    face_points(pb, *best.face_of_b, pa, best.normal, reach, out);
   else
-    edge_point(s, best, out);
+    edge_point(pa, pb, best, out);
 }
 
 }  // namespace
 
 void near_points(const RigidBody& a, const RigidBody& b, double reach, std::vector<NearPoint>& out) {
-  const bool is_a_sphere = a.kind == PrimitiveKind::kSphere;
-  const bool is_b_sphere = b.kind == PrimitiveKind::kSphere;
-  if (is_a_sphere && is_b_sphere) return sphere_sphere(a, b, reach, out);
-  if (is_a_sphere) return sphere_box(a, b, reach, 1.0, out);
-  if (is_b_sphere) return sphere_box(b, a, reach, -1.0, out);
-  box_box(a, b, reach, out);
+  if (a.is_sphere() && b.is_sphere()) return sphere_sphere(a, b, reach, out);
+  if (a.is_sphere()) return sphere_polytope(a, b, reach, 1.0, out);
+  if (b.is_sphere()) return sphere_polytope(b, a, reach, -1.0, out);
+  polytope_polytope(a, b, reach, out);
 }
 
 void near_points(const RigidBody& a, const core::Box& domain, std::uint32_t face, double reach,
@@ -188,15 +201,10 @@ void near_points(const RigidBody& a, const core::Box& domain, std::uint32_t face
     const double gap = is_upper ? wall - p[axis] : p[axis] - wall;
     if (gap <= reach) out.push_back({p - (0.5 * gap) * n, n, gap});
   };
-  if (a.kind == PrimitiveKind::kSphere) return add(a.origin() - a.radius * n);
+  if (a.is_sphere()) return add(a.origin() - a.radius * n);
   const Mat r = a.rotation();
   const Vec c = a.origin();
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    Vec local = a.half_extents;
-    for (int k = 0; k < 3; ++k)
-      if ((corner >> static_cast<unsigned>(k) & 1U) == 0) local[k] = -local[k];
-    add(c + r * local);
-  }
+  for (const Vec p : a.polytope->vertices) add(c + r * p);
 }
 
 }  // namespace broadside::reference::plain

@@ -16,8 +16,8 @@ struct NearPoint {
   double gap = 0.0;  // m; negative is penetration
 };
 
-// Points whose gap is at most reach (m). Two spheres and a sphere against a box have at most one, two boxes at most
-// eight, a box against a face of the domain its eight corners.
+// Points whose gap is at most reach (m). A sphere has at most one, two polytopes the corners of what their faces have
+// in common or one between two edges, a polytope against a face of the domain its corners.
 void near_points(const RigidBody& a, const RigidBody& b, double reach, std::vector<NearPoint>& out);
 // Against face 0 to 5 of the domain: -x +x -y +y -z +z.
 void near_points(const RigidBody& a, const core::Box& domain, std::uint32_t face, double reach,

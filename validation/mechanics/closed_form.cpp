@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <string>
+
 #include "validation/mechanics/scene_answer.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -16,11 +19,10 @@ class ClosedForm final : public Validator {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
     for (const ExactFigure& f : answer_.figures(scene_, m, order_)) {
-      if (f.what == answer_first_ || answer_first_.empty()) {
-        answer_first_ = f.what;
-        last_ = f.error;
-      }
-      tally_.check(f.error, {f.limit, f.unit, kOrigin}, Where::body(m.step, 0, f.what), [&] {
+      if (first_.empty()) first_ = f.what;
+      if (f.what == first_) last_ = f.error;
+      if (f.scale > 0.0) worst_share_ = std::max(worst_share_, f.error / f.scale);
+      tally_.check(f.error, {f.limit, f.unit, f.scale > 0.0 ? kClasses : kOrigin}, Where::body(m.step, 0, f.what), [&] {
         return std::string(f.what) + " is off by " + number_text(f.error) + " " + std::string(f.unit) + " at " +
                number_text(static_cast<double>(m.step) * m.h) + " s, from " + std::string(answer_.what);
       });
@@ -28,18 +30,23 @@ class ClosedForm final : public Validator {
   }
 
   core::Verdict conclude() override {
+    std::string text = std::string(first_) + " off by " + number_text(last_) + " at the end";
+    if (worst_share_ >= 0.0)
+      text += std::string(", class ") + (worst_share_ <= kClassA ? "A" : (worst_share_ <= kClassB ? "B" : "C"));
     return tally_.conclude("the formula says nothing about the recorded times",
-                           std::string(answer_first_) + " off by " + number_text(last_) + " at the end; " +
-                               std::string(answer_.what) + " (" + std::string(answer_.source) + ")");
+                           text + "; " + std::string(answer_.what) + " (" + std::string(answer_.source) + ")");
   }
 
  private:
-  static constexpr std::string_view kOrigin = "C h^p, p the declared order, C from the exact solution's derivative";
+  static constexpr std::string_view kOrigin =
+      "C h^p, p the declared order, C from the exact solution's derivative; where contacts begin or end, C h";
+  static constexpr std::string_view kClasses = "no order is defined: class C, 20 % of the speed (A: 1 %, B: 5 %)";
   const core::Scene& scene_;
   double order_;
   const SceneAnswer& answer_;
-  std::string_view answer_first_;
+  std::string_view first_;  // the figure that the explanation tells
   double last_ = 0.0;
+  double worst_share_ = -1.0;  // of a scale; below zero = no figure had classes
   Tally tally_{"closed-form", "errors against the exact answer", kOrigin};
 };
 
@@ -48,6 +55,7 @@ std::string why_not(const Subject& subject) {
   const std::string& name = subject.header.scene.answer;
   if (name.empty()) return "the scene has no exact answer";
   if (name == kStands) return "rest judges what stands";
+  if (name == kReported) return "the scene has no agreed answer: what engines do is reported";
   return find_answer(name) != nullptr ? "" : "the scene's answer '" + name + "' is not one that is known here";
 }
 

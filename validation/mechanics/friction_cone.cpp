@@ -100,7 +100,8 @@ class FrictionCone final : public Validator {
     const double open = open_slip(m, p) + rounding(16) * length(relative);
     const double sliding = length(slip);
     if (!(sliding > open) || drag <= off) {
-      if (sliding > 4.0 * open && model_ == "cone") judge_least(mu, push, drag, open, sliding, off, where, worked);
+      if (sliding > 4.0 * open && model_ == "cone" && slid_on(m, p, n, slip))
+        judge_least(mu, push, drag, open, sliding, off, where, worked);
       return;
     }
     // Friction acts against the slip at some moment of the step, which differs from that at the end by at most `open`;
@@ -108,7 +109,17 @@ class FrictionCone final : public Validator {
     tally_.check(length(slip + (sliding / drag) * tangent), {2.0 * open, "m/s", kDirection}, where, [&] {
       return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s";
     });
-    if (model_ != "regularized") judge_least(mu, push, drag, open, sliding, off, where, worked);
+    if (model_ != "regularized" && slid_on(m, p, n, slip))
+      judge_least(mu, push, drag, open, sliding, off, where, worked);
+  }
+
+  // A point that slid one way at the start and another at the end had both friction and its opposite: its total says
+  // little. So it must have slid within 60 degrees of the same way.
+  [[nodiscard]] static bool slid_on(const Motion& m, const core::ContactPoint& p, Vec3d n, Vec3d slip) {
+    const Vec3d at(p.point);
+    const Vec3d came = speed_at(m, p.a, at, Moment::kStart) - speed_at(m, p.b, at, Moment::kStart);
+    const Vec3d sliding = came - dot(came, n) * n;
+    return dot(sliding, slip) >= 0.5 * length(sliding) * length(slip) && length(sliding) > 0.0;
   }
 
   template <typename Worked>

@@ -1,4 +1,5 @@
-// Exact answers of scenes that have one, by the name that a scene carries (core::Scene::answer): RIGID 6.
+// Exact answers of scenes that have one, by the name that a scene carries (core::Scene::answer): RIGID 6. They are in
+// validation/mechanics/answers/, one file a group.
 #pragma once
 
 #include <functional>
@@ -11,14 +12,25 @@
 
 namespace broadside::validation {
 
-inline constexpr std::string_view kStands = "stands";
+inline constexpr std::string_view kStands = "stands";      // rest judges it
+inline constexpr std::string_view kReported = "reported";  // no agreed answer
 
-// One figure at one time: what the exact solution says, and how far an engine of order 1 may be from it.
+// Shares of a figure's scale: classes of figures without an order.
+inline constexpr double kClassA = 0.01;
+inline constexpr double kClassB = 0.05;
+inline constexpr double kClassC = 0.2;
+
+// One figure at one time: what the exact solution says, and how far an engine of the declared order may be from it.
 struct ExactFigure {
   std::string_view what;  // static storage
   std::string_view unit;
-  double error = 0.0;  // distance of the recorded state from the exact one
-  double limit = 0.0;  // C h^p, p the declared order
+  double error = 0.0;     // distance of the recorded state from the exact one
+  double limit = 0.0;     // C h^p, or class C of the scale
+  double floor = 0.0;     // the part of the limit that does not fall with h: rounding, and what settles
+  bool has_order = true;  // whether the error falls with a power of h
+  // Where contacts begin or end within a step, no method is of more than the first order.
+  bool is_first_order = false;
+  double scale = 0.0;  // of the classes, where there is no order
 };
 
 struct SceneAnswer {
