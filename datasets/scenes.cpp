@@ -123,6 +123,8 @@ Result<Scene> family_scene(const SceneFamily& family, const SceneName& name, con
   given.number("seed", std::uint64_t{0}, kMostSeed, seed);
   given.number("frames", 1U, kMostFrames, frames);
   given.number("longest_side_m", 1e-6, 1e6, longest_side_m);
+  std::uint32_t rigid = 0;
+  given.number("rigid", 0U, 1U, rigid);
   std::vector<double> knobs;
   for (const SceneKnob& knob : family.knobs) {
     knobs.push_back(knob.usual);
@@ -135,6 +137,7 @@ Result<Scene> family_scene(const SceneFamily& family, const SceneName& name, con
   const auto model = std::make_shared<const core::Mesh>(core::normalized(std::move(mesh).value(), longest_side_m));
   seed = options.seed.value_or(seed);
   Scene scene = family.make({model, count, seed, knobs});
+  if (rigid == 1) scene.motion = core::Motion::kRigid;
   scene.name = name.text;
   scene.description = std::string(family.what);
   scene.frames = options.frames.value_or(frames);

@@ -17,7 +17,7 @@ struct SceneRow {
   std::string_view pattern;  // "freefall:MESH:N", or a whole name: "errata:E2"
   std::string_view example;  // a name of that pattern
   std::string_view what;
-  std::span<const SceneKnob> knobs;  // beside seed, frames and longest_side_m, which every family has
+  std::span<const SceneKnob> knobs;  // beside seed, frames, longest_side_m and rigid, which every family has
 };
 
 std::vector<SceneRow> scene_table();

@@ -36,6 +36,8 @@ constexpr std::array<std::string_view, 16> kEntrants{"plain-rigid",
 
 // Families whose scenes have answers, and scenes that engines are compared on without one.
 constexpr std::string_view kFamily = "rigid:";
+constexpr std::array<std::string_view, 2> kHeaps{"freefall:cube:100[rigid=1,frames=240]",
+                                                 "freefall:cube:1000[rigid=1,frames=240]"};
 
 bool begins_with_one_of(std::string_view name, const std::vector<std::string>& beginnings) {
   return std::any_of(beginnings.begin(), beginnings.end(),
@@ -73,6 +75,7 @@ std::vector<std::string> default_scenes() {
   std::vector<std::string> names;
   for (const datasets::SceneRow& row : datasets::scene_table())
     if (row.pattern.starts_with(kFamily)) names.emplace_back(row.example);
+  names.insert(names.end(), kHeaps.begin(), kHeaps.end());
   return names;
 }
 

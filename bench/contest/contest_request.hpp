@@ -28,7 +28,7 @@ struct Entrant {
 
 // Engines of dynamics whose bodies turn, with the settings that matter, in the order of the page's columns.
 std::vector<std::string_view> default_entrants();
-// Of the families of datasets whose scenes have answers.
+// Those with answers (rigid:*), and heaps.
 std::vector<std::string> default_scenes();
 
 core::Result<std::vector<Entrant>> entrants_of(const ContestRequest& request);

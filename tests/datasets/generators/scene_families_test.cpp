@@ -90,6 +90,16 @@ TEST_P(Family, TakesModelSizeFramesAndSeed) {
   EXPECT_EQ(core::scene_digest(scene), core::scene_digest(made(scene.name)));
 }
 
+// The same bodies, which may turn; and an engine whose bodies do not is told so by the motion.
+TEST_P(Family, MayTurn) {
+  const Scene still = made(name("cube", 12));
+  const Scene turning = made(name("cube", 12, "[rigid=1]"));
+  EXPECT_EQ(still.motion, core::Motion::kTranslate);
+  EXPECT_EQ(turning.motion, core::Motion::kRigid);
+  EXPECT_NE(core::scene_digest(still), core::scene_digest(turning));
+  EXPECT_EQ(core::scene_digest(still), core::scene_digest(made(name("cube", 12, "[rigid=0]"))));
+}
+
 // No verdict of the sound pipeline may fail; the limits of the method show only in the motion.
 TEST_P(Family, TheTwinRunsItAndNoVerdictFails) {
   Scene scene = made(name("cube", 12));
