@@ -73,7 +73,7 @@ core::Result<std::map<std::string, double>> own_steps(const ContestRequest& requ
   return steps;
 }
 
-core::Exit exit_of(const contest::ContestTable& table, std::uint32_t missing) {
+core::Exit exit_of_contest(const contest::ContestTable& table, std::uint32_t missing) {
   for (const contest::SceneTable& scene : table.scenes)
     for (const auto& [label, steps] : scene.entries)
       for (const auto& [step, entry] : steps)
@@ -116,7 +116,7 @@ core::Exit run_contest(const ContestArguments& a) {
   if (is_interrupted())
     return complain({"interrupted: finished cells are kept, and the page shows them", folder.string(),
                      "call it again to go on", core::Exit::kMissing});
-  return exit_of(table, merged.value().missing);
+  return exit_of_contest(table, merged.value().missing);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace broadside::bench {
 namespace {
 
-core::Exit fetch(const std::vector<std::string>& engines) {
+core::Exit install(const std::vector<std::string>& engines) {
   for (const std::string& id : engines) {
     const auto say = [&](std::string_view step) { fmt::print(stderr, "{}: {}\n", id, step); };
     if (core::Status s = fetch_engine(id, say); !s) return complain(s.error());
@@ -29,7 +29,7 @@ void add_fetch_engine(CLI::App& program, core::Exit& exit) {
   std::string names;
   for (const core::EngineRow& row : fetched_engine_rows()) names += (names.empty() ? "" : ", ") + std::string(row.id);
   command->add_option("ENGINE", *engines, "Of " + names)->required();
-  command->callback([engines, &exit] { exit = fetch(*engines); });
+  command->callback([engines, &exit] { exit = install(*engines); });
 }
 
 }  // namespace broadside::bench

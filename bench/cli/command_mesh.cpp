@@ -43,7 +43,7 @@ Json facts_of(const core::Mesh& mesh, const datasets::MeshFacts& f) {
           {"covering_radius", f.covering_radius_m}};
 }
 
-std::string value_text(const Json& value) {
+std::string fact_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return fmt::format("{:.9g}", value.get<double>());
@@ -62,7 +62,7 @@ core::Exit show_mesh(const std::string& name, bool as_json) {
     fmt::print("{}\n", facts.dump(2));
     return core::Exit::kGood;
   }
-  for (const auto& [key, value] : facts.items()) fmt::print("{:<24} {}\n", key, value_text(value));
+  for (const auto& [key, value] : facts.items()) fmt::print("{:<24} {}\n", key, fact_text(value));
   if (!facts["closed"].get<bool>() || facts["misoriented_edges"] != 0)
     fmt::print("\nThe surface encloses no volume: the number is that of its triangles against the origin.\n");
   return core::Exit::kGood;
