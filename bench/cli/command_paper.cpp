@@ -73,7 +73,7 @@ core::Result<std::vector<paper::PaperRow>> rows_of(const PaperArguments& a, std:
 }
 
 // 1 a validator failed; 3 a cell is absent or its time does not count; else 0.
-core::Exit exit_of(const std::vector<paper::PaperRow>& rows) {
+core::Exit exit_of_paper(const std::vector<paper::PaperRow>& rows) {
   core::Exit exit = core::Exit::kGood;
   for (const paper::PaperRow& row : rows) {
     if (row.failed > 0) return core::Exit::kFailed;
@@ -99,7 +99,7 @@ core::Exit run_paper(const PaperArguments& a) {
     return complain(s.error());
   if (core::Status s = paper::write_paper_rows(folder / "rows.json", rows.value()); !s) return complain(s.error());
   fmt::print("{}\n\nReport: {}\n", document.lead, (folder / "paper.html").string());
-  return exit_of(rows.value());
+  return exit_of_paper(rows.value());
 }
 
 std::string list_of_experiments() {

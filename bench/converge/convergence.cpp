@@ -17,7 +17,10 @@ namespace {
 using validation::ExactFigure;
 
 // The figures of one run, by name and by step of the coarsest run.
-using Track = std::map<std::string, std::map<std::uint64_t, ExactFigure>>;
+struct Track {
+  std::vector<std::string> names;  // in the answer's order
+  std::map<std::string, std::map<std::uint64_t, ExactFigure>> figures;
+};
 
 core::Result<Track> follow(const core::TraceReader& trace, std::uint64_t stride) {
   const core::TraceHeader& header = trace.header();
@@ -35,7 +38,10 @@ core::Result<Track> follow(const core::TraceReader& trace, std::uint64_t stride)
     const validation::Motion* m = motions.read(frame.value(), previous ? &*previous : nullptr);
     if (m != nullptr)
       for (const ExactFigure& f : answer->figures(header.scene, *m, order)) {
-        if (m->step % stride == 0) track[std::string(f.what)][m->step / stride] = f;
+        if (m->step % stride != 0) continue;
+        const std::string what(f.what);
+        if (!track.figures.contains(what)) track.names.push_back(what);
+        track.figures[what][m->step / stride] = f;
       }
     previous = std::move(frame).value();
   }
@@ -62,7 +68,8 @@ core::Result<Convergence> measure_convergence(const std::vector<std::filesystem:
     if (!track) return track.error();
     tracks.push_back(std::move(track).value());
   }
-  for (const auto& [what, coarse] : tracks.front()) {
+  for (const std::string& what : tracks.front().names) {
+    const auto& coarse = tracks.front().figures.at(what);
     FigureErrors f;
     f.what = what;
     f.unit = coarse.begin()->second.unit;
@@ -70,16 +77,16 @@ core::Result<Convergence> measure_convergence(const std::vector<std::filesystem:
     f.limit.assign(traces.size(), 0.0);
     bool has_common = false;
     for (const auto& [step, figure] : coarse) {
-      const bool all_have = std::all_of(tracks.begin(), tracks.end(), [&, &w = what, s = step](const Track& t) {
-        const auto at = t.find(w);
-        return at != t.end() && at->second.contains(s);
+      const bool all_have = std::all_of(tracks.begin(), tracks.end(), [&, s = step](const Track& t) {
+        const auto at = t.figures.find(what);
+        return at != t.figures.end() && at->second.contains(s);
       });
       if (!all_have) continue;
       has_common = true;
       f.has_order = figure.has_order;
       f.is_first_order = figure.is_first_order;
       for (std::size_t k = 0; k < tracks.size(); ++k) {
-        const ExactFigure& own = tracks[k].at(what).at(step);
+        const ExactFigure& own = tracks[k].figures.at(what).at(step);
         const bool is_broken = own.error > own.limit;
         f.share = std::max(f.share, own.limit > 0.0 ? own.error / own.limit : (is_broken ? 2.0 : 0.0));
         if (own.error < f.error[k]) continue;

@@ -12,7 +12,7 @@ constexpr std::string_view kId = "plain-rigid";
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 1> rows{{
-      {"iterations", "100", {}, "at most so many passes of the contact solver, forward and backward over all points"},
+      {"iterations", "300", {}, "at most so many passes of the contact solver, forward and backward over all points"},
   }};
   return rows;
 }

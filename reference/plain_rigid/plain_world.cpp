@@ -26,6 +26,8 @@ core::WideVec3 wide(Vec v) {
   return {v.x, v.y, v.z};
 }
 
+// A body that turns by more than this many rad in a step is integrated no better.
+constexpr double kMostParts = 1000.0;
 // Faces of a convex mesh; more are another engine's work.
 constexpr std::size_t kMostFaces = 200;
 
@@ -82,6 +84,8 @@ core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index, c
   const auto& c = mass.center_of_mass_m;
   b.inertia = {{Vec{i[0], i[3], i[4]}, Vec{i[3], i[1], i[5]}, Vec{i[4], i[5], i[2]}}};
   b.inverse_inertia = inverse(b.inertia);
+  const auto moments = core::principal_moments(i);
+  b.slenderness = std::sqrt(moments[2] / moments[0]);
   b.center_of_mass = {c[0], c[1], c[2]};
   b.reach = reach_of(b);
   const Mat r = b.rotation();
@@ -279,6 +283,12 @@ void PlainWorld::carry() {
 
 void PlainWorld::solve_contacts(double h) {
   for (SolverPoint& p : points_) p.least_speed = p.at.gap > 0.0 ? -p.at.gap / h : 0.0;
+  struct Motion {
+    Vec v;
+    Vec angular_momentum;
+  };
+  std::vector<Motion> free;
+  for (const RigidBody& b : bodies_) free.push_back({b.v, b.angular_momentum});
   start_warm();
   sweeps_ += solve_velocities(points_, bodies_, options_.iterations);
   carry();
@@ -289,6 +299,9 @@ void PlainWorld::solve_contacts(double h) {
     }
     p.finish_solve();
   }
+  // Sweeps gave and took from what touched nothing in the end: that is rounding, and goes.
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (is_touched_[i] == 0) bodies_[i].v = free[i].v, bodies_[i].angular_momentum = free[i].angular_momentum;
 }
 
 void PlainWorld::move(double h) {
@@ -301,7 +314,14 @@ void PlainWorld::move(double h) {
 }
 
 // The classical Runge-Kutta method on dq/dt = (0, w(q)) q / 2 with the angular momentum constant.
-void PlainWorld::turn(RigidBody& b, double h) {
+// In parts of at most 1 rad, slender bodies in shorter ones: a stage that turns by an angle t changes the spin about
+// the long axis by t^2 / 2 times the ratio of the moments.
+void PlainWorld::turn(RigidBody& b, double step) {
+  const double parts = std::max(1.0, std::ceil(step * length(b.angular_velocity()) * b.slenderness));
+  for (double k = 0.0; k < parts && k < kMostParts; k += 1.0) turn_part(b, step / std::min(parts, kMostParts));
+}
+
+void PlainWorld::turn_part(RigidBody& b, double h) {
   const auto spin = [&b](Quaternion q) { return b.world_spin(b.angular_momentum, q); };
   const Quaternion q0 = b.q;
   const Quaternion q1 = moved(q0, q0, spin(q0), 0.5 * h);

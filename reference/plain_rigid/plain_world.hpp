@@ -13,7 +13,7 @@
 namespace broadside::reference::plain {
 
 struct WorldOptions {
-  std::uint32_t iterations = 100;  // at most: passes of the contact solver
+  std::uint32_t iterations = 300;  // at most: passes of the contact solver
 };
 
 // One step of h:
@@ -40,7 +40,7 @@ class PlainWorld : public core::Dynamics {
   virtual void accelerate(double h);
   virtual void solve_contacts(double h);
   virtual void move(double h);
-  virtual void turn(RigidBody& body, double h);
+  virtual void turn(RigidBody& body, double step);
   virtual void separate();
   // The last word on what is recorded.
   virtual void record(core::FrameRecord&) {}
@@ -57,6 +57,7 @@ class PlainWorld : public core::Dynamics {
  private:
   void add_pair(std::uint32_t a, std::uint32_t b, double h);
   void add_faces(std::uint32_t a, double h);
+  static void turn_part(RigidBody& body, double h);
   void begin_record();
   void start_warm();
   void carry();

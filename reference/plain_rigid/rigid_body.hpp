@@ -21,6 +21,7 @@ struct RigidBody {
   Vec center_of_mass;         // m, in mesh coordinates
   Mat inertia;                // kg m^2, about the center of mass, in mesh axes
   Mat inverse_inertia;        // zero for a static body
+  double slenderness = 1.0;   // root of the largest over the least principal moment
 
   Vec x;  // center of mass, m
   Quaternion q;

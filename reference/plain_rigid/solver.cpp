@@ -140,9 +140,9 @@ class Directions {
   double last_size_ = 0.0;
 };
 
-// Sweeps are done when they change velocities by no more than this share of what they began with: below it float32
-// would see nothing, and the next step goes on from there.
-constexpr double kDone = 0x1p-24;
+// Sweeps are done when they change velocities by no more than this share of what they began with. Gravity's gain in a
+// step of 1/60 s is 0.16 m/s: what is left is below 1e-6 m/s, and the next step goes on from there.
+constexpr double kDone = 0x1p-18;
 
 }  // namespace
 

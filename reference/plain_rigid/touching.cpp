@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace broadside::reference::plain {
@@ -76,10 +77,8 @@ double lowest(const Polytope& shape, Vec n) {
   return least;
 }
 
-// The separating direction with the largest gap: normals of faces, then cross products of edges, which have to win by
-// a margin, since a face gives more points.
-Separation widest(const Polytope& a, const Polytope& b, double size) {
-  constexpr double kEdgeMargin = 1e-9;
+// Of the normals of faces, the direction with the largest gap.
+Separation widest_face(const Polytope& a, const Polytope& b) {
   Separation best;
   for (const PolytopeFace& f : a.faces) {
     const double gap = lowest(b, f.normal) - dot(f.normal, a.vertices[f.corners[0]]);
@@ -89,15 +88,21 @@ Separation widest(const Polytope& a, const Polytope& b, double size) {
     const double gap = lowest(a, f.normal) - dot(f.normal, b.vertices[f.corners[0]]);
     if (gap > best.gap) best = {gap, f.normal, nullptr, &f, {}, {}};
   }
+  return best;
+}
+
+// Of the directions across an edge of each.
+Separation widest_edges(const Polytope& a, const Polytope& b) {
+  Separation best;
   for (const Vec u : a.directions)
     for (const Vec w : b.directions) {
       const Vec c = cross(u, w);
-      const double size_c = length(c);
-      if (!(size_c > 1e-6)) continue;
+      const double size = length(c);
+      if (!(size > 1e-6)) continue;
       for (const double sign : {1.0, -1.0}) {
-        const Vec n = (sign / size_c) * c;
+        const Vec n = (sign / size) * c;
         const double gap = lowest(a, n) + lowest(b, -n);
-        if (gap > best.gap + kEdgeMargin * size) best = {gap, n, nullptr, nullptr, u, w};
+        if (gap > best.gap) best = {gap, n, nullptr, nullptr, u, w};
       }
     }
   return best;
@@ -153,8 +158,10 @@ std::pair<Vec, Vec> farthest_edge(const Polytope& shape, Vec d, Vec n) {
   return best;
 }
 
-// The middle of the shortest way between the two edges that face each other.
-void edge_point(const Polytope& a, const Polytope& b, const Separation& best, std::vector<NearPoint>& out) {
+// The middle of the shortest way between the two edges that face each other. Nothing where that way is not along the
+// normal: then the edges pass each other, and a face is what is nearest.
+std::optional<NearPoint> edge_point(const Polytope& a, const Polytope& b, const Separation& best, double size) {
+  constexpr double kBeside = 1e-6;
   const auto [p, p_end] = farthest_edge(a, best.direction_of_a, -best.normal);
   const auto [q, q_end] = farthest_edge(b, best.direction_of_b, best.normal);
   const Vec u = p_end - p;
@@ -166,20 +173,28 @@ void edge_point(const Polytope& a, const Polytope& b, const Separation& best, st
   const double scale = uu * ww - uw * uw;
   const double s = std::clamp((uw * dot(w, d) - ww * dot(u, d)) / scale, 0.0, 1.0);
   const double t = std::clamp((uu * dot(w, d) - uw * dot(u, d)) / scale, 0.0, 1.0);
-  out.push_back({0.5 * ((p + s * u) + (q + t * w)), best.normal, best.gap});
+  const Vec on_a = p + s * u;
+  const Vec on_b = q + t * w;
+  if (length((on_a - on_b) - best.gap * best.normal) > kBeside * size) return std::nullopt;
+  return NearPoint{0.5 * (on_a + on_b), best.normal, best.gap};
 }
 
 void polytope_polytope(const RigidBody& a, const RigidBody& b, double reach, std::vector<NearPoint>& out) {
+  // Edges have to win by a margin, since a face gives more points.
+  constexpr double kEdgeMargin = 1e-9;
+  const double size = a.reach + b.reach;
   const Polytope pa = placed(*a.polytope, a.rotation(), a.origin());
   const Polytope pb = placed(*b.polytope, b.rotation(), b.origin());
-  const Separation best = widest(pa, pb, a.reach + b.reach);
-  if (!(best.gap <= reach)) return;
-  if (best.face_of_a != nullptr)
-    face_points(pa, *best.face_of_a, pb, best.normal, reach, out);
-  else if (best.face_of_b != nullptr)
-    face_points(pb, *best.face_of_b, pa, best.normal, reach, out);
+  const Separation face = widest_face(pa, pb);
+  if (!(face.gap <= reach)) return;
+  const Separation edges = widest_edges(pa, pb);
+  if (!(edges.gap <= reach)) return;
+  if (edges.gap > face.gap + kEdgeMargin * size)
+    if (const auto point = edge_point(pa, pb, edges, size)) return out.push_back(*point);
+  if (face.face_of_a != nullptr)
+    face_points(pa, *face.face_of_a, pb, face.normal, reach, out);
   else
-    edge_point(pa, pb, best, out);
+    face_points(pb, *face.face_of_b, pa, face.normal, reach, out);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -99,8 +100,12 @@ class FrictionCone final : public Validator {
     const Vec3d slip = relative - dot(relative, n) * n;
     const double open = open_slip(m, p) + rounding(16) * length(relative);
     const double sliding = length(slip);
+    const std::optional<Vec3d> before = slip_before(m, p, n, open);
+    // One that slid one way at the start and another at the end had both friction and its opposite: the least of their
+    // sum is judged of points that slid within 60 degrees of the same way.
+    const bool slid_on = before && dot(*before, slip) >= 0.5 * length(*before) * sliding && length(*before) > 0.0;
     if (!(sliding > open) || drag <= off) {
-      if (sliding > 4.0 * open && model_ == "cone" && slid_on(m, p, n, slip))
+      if (sliding > 4.0 * open && model_ == "cone" && slid_on)
         judge_least(mu, push, drag, open, sliding, off, where, worked);
       return;
     }
@@ -109,17 +114,17 @@ class FrictionCone final : public Validator {
     tally_.check(length(slip + (sliding / drag) * tangent), {2.0 * open, "m/s", kDirection}, where, [&] {
       return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s";
     });
-    if (model_ != "regularized" && slid_on(m, p, n, slip))
-      judge_least(mu, push, drag, open, sliding, off, where, worked);
+    if (model_ != "regularized" && slid_on) judge_least(mu, push, drag, open, sliding, off, where, worked);
   }
 
-  // A point that slid one way at the start and another at the end had both friction and its opposite: its total says
-  // little. So it must have slid within 60 degrees of the same way.
-  [[nodiscard]] static bool slid_on(const Motion& m, const core::ContactPoint& p, Vec3d n, Vec3d slip) {
+  // Tangential velocity at the start; nothing where the point met the other in the step, beyond what gravity explains:
+  // in an impact it may have stuck, or slid another way than in the end.
+  [[nodiscard]] static std::optional<Vec3d> slip_before(const Motion& m, const core::ContactPoint& p, Vec3d n,
+                                                        double open) {
     const Vec3d at(p.point);
     const Vec3d came = speed_at(m, p.a, at, Moment::kStart) - speed_at(m, p.b, at, Moment::kStart);
-    const Vec3d sliding = came - dot(came, n) * n;
-    return dot(sliding, slip) >= 0.5 * length(sliding) * length(slip) && length(sliding) > 0.0;
+    if (-dot(came, n) > open) return std::nullopt;
+    return came - dot(came, n) * n;
   }
 
   template <typename Worked>

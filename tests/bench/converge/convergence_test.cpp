@@ -95,13 +95,14 @@ TEST(Convergence, AWrongDeclarationFails) {
   EXPECT_NE(wrong.explanation.find("attitude falls with order 1"), std::string::npos) << wrong.explanation;
 }
 
-// Its orientations are by a method of the fourth order.
-TEST(Convergence, FreeTurningOfPlainRigidIsOfTheFourthOrder) {
+// Its orientations are by a method of the fourth order; with the angular momentum constant they do better.
+TEST(Convergence, FreeTurningOfPlainRigidIsOfTheFourthOrderAtLeast) {
   const Convergence c = measured("rigid:torque-free:box[dt_s=0.02,frames=150]", "4");
   const auto verdict = bench::judge_convergence(c);
   EXPECT_EQ(verdict.outcome, Outcome::kPass) << verdict.explanation;
   ASSERT_FALSE(c.figures.empty());
-  EXPECT_NEAR(bench::observed_order(c.figures[0], 2), 4.0, 0.3);
+  EXPECT_EQ(c.figures[0].what, "attitude");
+  EXPECT_GT(bench::observed_order(c.figures[0], 2), 3.7);
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ FreeTurning::FreeTurning(Vec3d moments, Vec3d w, Quatd start) {
   moments_ = {part(moments, axis_[0]), part(moments, axis_[1]), part(moments, axis_[2])};
   const auto [a, b, c] = std::array{moments_.x, moments_.y, moments_.z};
   // Landau and Lifshitz, Mechanics, section 37; where moments fall, two negative factors cancel.
-  rate_ = std::sqrt((c - b) * (squared - energy_2 * a) / (a * b * c));
+  // There time runs the other way round the same curve.
+  rate_ = std::copysign(std::sqrt((c - b) * (squared - energy_2 * a) / (a * b * c)), c - a);
   parameter_ = (b - a) * (energy_2 * c - squared) / ((c - b) * (squared - energy_2 * a));
   amplitude_ = {std::sqrt((energy_2 * c - squared) / (a * (c - a))),
                 std::sqrt((energy_2 * c - squared) / (b * (c - b))),
@@ -115,7 +116,7 @@ double FreeTurning::growth() const {
 }
 
 double FreeTurning::period_s() const {
-  return 4.0 * quarter_period(parameter_) / rate_;
+  return 4.0 * quarter_period(parameter_) / std::abs(rate_);
 }
 
 }  // namespace broadside::validation
