@@ -50,7 +50,8 @@ std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, c
   return out + "</section>";
 }
 
-std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, const PageParts& page) {
+std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, bool is_leftward,
+                         const PageParts& page) {
   const auto scene_number = static_cast<std::size_t>(&scene - page.scenes.data());
   const auto& said = trace.verdicts[column];
   const std::string name = html(scene.validators[column]);
@@ -62,7 +63,7 @@ std::string matrix_place(const SceneView& scene, const TraceView& trace, std::si
          "<span class=\"unseen\"> <b>" + name + "</b> on " + html(trace.label) + "</span>";
   if (said.size() > 1) out += "<span class=\"unseen\">,</span> <i>\xC3\x97" + std::to_string(said.size()) + "</i>";
   out += "</summary><div class=\"card";
-  if (column * 2 >= scene.validators.size()) out += " leftward";
+  if (is_leftward) out += " leftward";
   out += "\">";
   for (const core::Verdict* verdict : said) out += verdict_card(*verdict, trace, page);
   return out + "</div></details></td>";
@@ -93,6 +94,68 @@ std::string row_head(const TraceView& trace, bool says_baselines) {
   if (is_partial) below += (below.empty() ? "" : "; ") + state_text(*trace.cell);
   if (!below.empty()) out += "<small>" + html(below) + "</small>";
   return out + "</th>";
+}
+
+// The laws that stand in one table.
+struct Columns {
+  core::LawKind kind = core::LawKind::kTrace;
+  std::vector<std::size_t> validators;
+};
+
+core::LawKind kind_of(const SceneView& scene, std::size_t validator) {
+  for (const TraceView& trace : scene.traces)
+    if (validator < trace.verdicts.size() && !trace.verdicts[validator].empty())
+      return trace.verdicts[validator].front()->kind;
+  return core::LawKind::kTrace;
+}
+
+// One table, or of many laws one for each kind, so that a wide screen holds them.
+std::vector<Columns> tables_of(const SceneView& scene) {
+  constexpr std::size_t kManyColumns = 15;
+  std::vector<Columns> tables;
+  for (const core::LawKind kind : core::kLawKinds) {
+    Columns columns{kind, {}};
+    for (std::size_t c = 0; c < scene.validators.size(); ++c)
+      if (scene.validators.size() <= kManyColumns || kind_of(scene, c) == kind) columns.validators.push_back(c);
+    if (!columns.validators.empty()) tables.push_back(std::move(columns));
+    if (scene.validators.size() <= kManyColumns) break;
+  }
+  return tables;
+}
+
+std::string_view heading_of(core::LawKind kind) {
+  switch (kind) {
+    case core::LawKind::kMechanics:
+      return "Laws of mechanics";
+    case core::LawKind::kMethod:
+      return "Laws of the published method";
+    case core::LawKind::kTrace:
+      return "Laws of the trace";
+  }
+  return "";
+}
+
+std::string matrix_table(const SceneView& scene, const std::vector<std::size_t>& columns, bool says_baselines,
+                         const PageParts& page) {
+  // With more columns, two-line names no longer fit side by side on a wide screen.
+  constexpr std::size_t kManyColumns = 12;
+  std::string out = "<table class=\"matrix";
+  if (columns.size() > kManyColumns) out += " many";
+  out += "\"><thead><tr><th scope=\"col\">engine</th>";
+  for (const std::size_t c : columns) out += "<th scope=\"col\"><span>" + html(scene.validators[c]) + "</span></th>";
+  out += "</tr></thead><tbody>";
+  for (const TraceView& trace : scene.traces) {
+    out += "<tr>" + row_head(trace, says_baselines);
+    if (!trace.is_judged()) {
+      out +=
+          "<td class=\"absent\" colspan=\"" + std::to_string(columns.size()) + "\">" + html(trace.absence()) + "</td>";
+    } else {
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        out += matrix_place(scene, trace, columns[k], k * 2 >= columns.size(), page);
+    }
+    out += "</tr>";
+  }
+  return out + "</tbody></table>";
 }
 
 struct Finding {
@@ -153,25 +216,12 @@ std::string matrix_section(const SceneView& scene, PageParts& page) {
       "comes from, and the worst place.";
   const std::string shared = shared_baselines(scene);
   if (!shared.empty()) out += " All were judged " + html(shared) + ".";
-  // With more columns, two-line names no longer fit side by side on a wide screen.
-  constexpr std::size_t kManyColumns = 15;
-  out += "</p><table class=\"matrix";
-  if (scene.validators.size() > kManyColumns) out += " many";
-  out += "\"><thead><tr><th scope=\"col\">engine</th>";
-  for (const std::string& validator : scene.validators)
-    out += "<th scope=\"col\"><span>" + html(validator) + "</span></th>";
-  out += "</tr></thead><tbody>";
-  for (const TraceView& trace : scene.traces) {
-    out += "<tr>" + row_head(trace, shared.empty());
-    if (!trace.is_judged()) {
-      out += "<td class=\"absent\" colspan=\"" + std::to_string(scene.validators.size()) + "\">" +
-             html(trace.absence()) + "</td>";
-    } else {
-      for (std::size_t c = 0; c < scene.validators.size(); ++c) out += matrix_place(scene, trace, c, page);
-    }
-    out += "</tr>";
-  }
-  return out + "</tbody></table></section>";
+  out += "</p>";
+  const std::vector<Columns> tables = tables_of(scene);
+  for (const Columns& columns : tables)
+    out += (tables.size() > 1 ? "<h4>" + std::string(heading_of(columns.kind)) + "</h4>" : std::string()) +
+           matrix_table(scene, columns.validators, shared.empty(), page);
+  return out + "</section>";
 }
 
 std::string findings_section(PageParts& page) {
