@@ -56,6 +56,10 @@ bool Tally::check(double measured, const Limit& limit, const Where& where, const
   return holds;
 }
 
+bool Tally::require(bool holds, std::string_view origin, const Where& where) {
+  return check(holds ? 0.0 : 1.0, {0.0, "violations", origin}, where);
+}
+
 void Tally::absorb(const Tally& other) {
   checked_ += other.checked_;
   undecided_ += other.undecided_;
@@ -71,10 +75,6 @@ void Tally::absorb(const Tally& other) {
   worst_limit_ = other.worst_limit_;
   worst_where_ = other.worst_where_;
   worst_worked_ = other.worst_worked_;
-}
-
-bool Tally::require(bool holds, std::string_view origin, const Where& where) {
-  return check(holds ? 0.0 : 1.0, {0.0, "violations", origin}, where);
 }
 
 core::Verdict Tally::conclude(std::string_view nothing, const std::string& notes) const {

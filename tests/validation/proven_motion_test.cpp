@@ -20,7 +20,7 @@ Recording of_nothing() {
   core::Scene scene = sound_run("two-body:apart").header.scene;
   scene.gravity_m_s2 = {};
   for (core::Body& body : scene.bodies) body.velocity = {};
-  return record(scene);
+  return record(scene, {});
 }
 
 TEST(ProvenMotion, OfARightRunByItsIntegrationAndItsFreeFlight) {
