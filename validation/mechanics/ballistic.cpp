@@ -1,9 +1,10 @@
+#include "validation/validator.hpp"
+
 #include <algorithm>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
-#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
@@ -39,21 +40,19 @@ class Ballistic final : public Validator {
     const double off_v =
         substeps_ * (m.rounding_of(6) * std::abs(pull) + m.rounding_of(2) * (std::abs(v0) + std::abs(v1))) + kSubnormal;
     const auto worked = [&] {
-      return "dv = " + number_text(v1 - v0) + " m/s, g h = " + number_text(pull) +
-             " m/s; dx = " + number_text(b.after.x[k] - b.before.x[k]) + " m, h v = " + number_text(m.h * v0) + " to " +
+      return "dv = " + number_text(v1 - v0) + " m/s, g h = " + number_text(pull) + " m/s; dx = " +
+             number_text(b.after.x[k] - b.before.x[k]) + " m, h v = " + number_text(m.h * v0) + " to " +
              number_text(m.h * v1) + " m";
     };
     if (!is_clipped)
-      tally_.check(std::abs(v1 - v0 - pull), {off_v, "m/s", kOrigin}, Where::body(m.step, i, "bodies.velocity"),
-                   worked);
+      tally_.check(std::abs(v1 - v0 - pull), {off_v, "m/s", kOrigin}, Where::body(m.step, i, "bodies.velocity"), worked);
     const double low = m.h * std::min(v0, v1);
     const double high = m.h * std::max(v0, v1);
     const double dx = b.after.x[k] - b.before.x[k];
     const double offset = length(m.facts[i].center_of_mass);
-    const double off_x =
-        substeps_ * (m.rounding_of(2) * (std::abs(b.before.x[k]) + std::abs(b.after.x[k]) + 12 * offset) +
-                     m.rounding_of(4) * (std::abs(low) + std::abs(high))) +
-        m.h * off_v + kSubnormal;
+    const double off_x = substeps_ * (m.rounding_of(2) * (std::abs(b.before.x[k]) + std::abs(b.after.x[k]) + 12 * offset) +
+                                      m.rounding_of(4) * (std::abs(low) + std::abs(high))) +
+                         m.h * off_v + kSubnormal;
     tally_.check(std::max({0.0, low - dx, dx - high}), {off_x, "m", kOrigin}, Where::body(m.step, i, "bodies.position"),
                  worked);
   }

@@ -1,17 +1,18 @@
+#include "validation/validator.hpp"
+
 #include <algorithm>
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
-#include "validation/validator.hpp"
 
 namespace broadside::validation {
 namespace {
 
 // What a body was given in one step.
 struct Given {
-  Vec3d impulse;           // N s
+  Vec3d impulse;          // N s
   double magnitude = 0.0;  // sum of |J|
   double points = 0.0;
 };
@@ -51,18 +52,18 @@ class Momentum final : public Validator {
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
       const BodyFacts& f = m.facts[i];
       if (!f.is_dynamic || f.has_spring) continue;
+      if (has_moved(m.bodies[i])) tally_.note_moved();
       const BodyStep& b = m.bodies[i];
       const Vec3d change = f.mass_kg * (b.after.v - b.before.v);
       const Vec3d expected = (f.mass_kg * m.h) * m.gravity + given_[i].impulse;
-      const double speed =
-          length(b.before.v) + length(b.after.v) + m.h * length(m.gravity) + given_[i].magnitude / f.mass_kg;
+      const double speed = length(b.before.v) + length(b.after.v) + m.h * length(m.gravity) +
+                           given_[i].magnitude / f.mass_kg;
       // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
       const double limit = m.rounding_of(4 + 2 * accumulations_ * given_[i].points) * f.mass_kg * speed +
                            rounding(4) * given_[i].magnitude + kSubnormal;
-      if (has_moved(b)) tally_.note_moved();
-      tally_.check(
-          length(change - expected), {limit, "N s", kOfBodies}, Where::body(m.step, i, "bodies.velocity"),
-          [&] { return "m dv = " + vector_text(change) + " N s, m g h + sum J = " + vector_text(expected) + " N s"; });
+      tally_.check(length(change - expected), {limit, "N s", kOfBodies}, Where::body(m.step, i, "bodies.velocity"), [&] {
+        return "m dv = " + vector_text(change) + " N s, m g h + sum J = " + vector_text(expected) + " N s";
+      });
     }
   }
 
@@ -91,9 +92,8 @@ class Momentum final : public Validator {
       const double limit = m.rounding_of(4 + 2 * accumulations_ * static_cast<double>(members_[set])) * scale_[set];
       tally_.check(length(change_[set] - expected_[set]), {limit, "N s", kOfSets},
                    Where::body(m.step, set, "bodies.velocity"), [&] {
-                     return "sum m dv = " + vector_text(change_[set]) +
-                            " N s, sum m g h = " + vector_text(expected_[set]) + " N s over " +
-                            std::to_string(members_[set]) + " bodies";
+                     return "sum m dv = " + vector_text(change_[set]) + " N s, sum m g h = " +
+                            vector_text(expected_[set]) + " N s over " + std::to_string(members_[set]) + " bodies";
                    });
     }
   }
