@@ -1,7 +1,5 @@
 // How much was judged: laws that applied by kind, whether a motion was proven, and why the others did not apply.
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
@@ -27,19 +25,17 @@ std::string motion_html(const TraceView& trace) {
   return trace.has_proven_motion() ? "proven" : "<strong class=\"reason\">nothing of its motion was proven</strong>";
 }
 
-// Laws that share a reason stand together.
 std::string reasons_html(const TraceView& trace) {
-  std::vector<std::pair<std::string, std::string>> reasons;  // why, and which laws
-  for (const core::Verdict* verdict : trace.not_applied()) {
-    auto found = reasons.begin();
-    while (found != reasons.end() && found->first != verdict->explanation) ++found;
-    if (found == reasons.end()) found = reasons.insert(found, {verdict->explanation, ""});
-    found->second += (found->second.empty() ? "" : ", ") + verdict->validator;
+  std::size_t count = 0;
+  std::string items;
+  for (const auto& [why, laws] : trace.not_applied()) {
+    count += laws.size();
+    items += "<li><b>";
+    for (std::size_t k = 0; k < laws.size(); ++k) items += (k == 0 ? "" : ", ") + html(laws[k]);
+    items += "</b>: " + html(why) + "</li>";
   }
-  if (reasons.empty()) return "every law applied";
-  std::string out = "<details><summary>" + counted(trace.not_applied().size(), "law") + " did not apply</summary><ul>";
-  for (const auto& [why, laws] : reasons) out += "<li><b>" + html(laws) + "</b>: " + html(why) + "</li>";
-  return out + "</ul></details>";
+  if (count == 0) return "every law applied";
+  return "<details><summary>" + counted(count, "law") + " did not apply</summary><ul>" + items + "</ul></details>";
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, c
   return element("section.verdict", out);
 }
 
-std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, const PageParts& page) {
+std::string matrix_place(const SceneView& scene, const TraceView& trace, std::size_t column, bool is_leftward,
+                         const PageParts& page) {
   const auto scene_number = static_cast<std::size_t>(&scene - page.scenes.data());
   const auto& said = trace.verdicts[column];
   const std::string& name = scene.validators[column];
@@ -57,13 +58,12 @@ std::string matrix_place(const SceneView& scene, const TraceView& trace, std::si
       outcome_html(outcome, true) + element("span.unseen", " ", element("b", html(name)), " on ", html(trace.label));
   if (said.size() > 1)
     summary += element("span.unseen", ",") + " " + element("i", "\u00D7", std::to_string(said.size()));
-  const bool opens_leftward = column * 2 >= scene.validators.size();
   std::string cards;
   for (const core::Verdict* verdict : said) cards += verdict_card(*verdict, trace, page);
   // All share one name: opening one closes the one that was open, with scripts off too.
   return element("td." + std::string(outcome_class(outcome)), {{"data-name", name}},
                  element("details", {{"name", "matrix-" + std::to_string(scene_number)}}, element("summary", summary),
-                         element(opens_leftward ? "div.card.leftward" : "div.card", cards)));
+                         element(is_leftward ? "div.card.leftward" : "div.card", cards)));
 }
 
 std::string baselines_text(const TraceView& trace) {
@@ -89,6 +89,65 @@ std::string engine_head(const TraceView& trace, bool says_baselines) {
   const bool is_partial = trace.cell != nullptr && trace.cell->state != core::CellState::kRecorded && trace.is_judged();
   if (is_partial) below += (below.empty() ? "" : "; ") + state_text(*trace.cell);
   return row_head(label_html(trace.stamp, trace.label) + (below.empty() ? "" : element("small", html(below))));
+}
+
+// The laws that stand in one table.
+struct Columns {
+  core::LawKind kind = core::LawKind::kTrace;
+  std::vector<std::size_t> validators;
+};
+
+core::LawKind kind_of(const SceneView& scene, std::size_t validator) {
+  for (const TraceView& trace : scene.traces)
+    if (validator < trace.verdicts.size() && !trace.verdicts[validator].empty())
+      return trace.verdicts[validator].front()->kind;
+  return core::LawKind::kTrace;
+}
+
+// One table, or of many laws one for each kind, so that a wide screen holds them.
+std::vector<Columns> tables_of(const SceneView& scene) {
+  constexpr std::size_t kManyColumns = 15;
+  std::vector<Columns> tables;
+  for (const core::LawKind kind : core::kLawKinds) {
+    Columns columns{kind, {}};
+    for (std::size_t c = 0; c < scene.validators.size(); ++c)
+      if (scene.validators.size() <= kManyColumns || kind_of(scene, c) == kind) columns.validators.push_back(c);
+    if (!columns.validators.empty()) tables.push_back(std::move(columns));
+    if (scene.validators.size() <= kManyColumns) break;
+  }
+  return tables;
+}
+
+std::string_view heading_of(core::LawKind kind) {
+  switch (kind) {
+    case core::LawKind::kMechanics:
+      return "Laws of mechanics";
+    case core::LawKind::kMethod:
+      return "Laws of the published method";
+    case core::LawKind::kTrace:
+      return "Laws of the trace";
+  }
+  return "";
+}
+
+std::string matrix_table(const SceneView& scene, const std::vector<std::size_t>& columns, bool says_baselines,
+                         const PageParts& page) {
+  std::string rows;
+  for (const TraceView& trace : scene.traces) {
+    std::string places;
+    for (std::size_t k = 0; trace.is_judged() && k < columns.size(); ++k)
+      places += matrix_place(scene, trace, columns[k], k * 2 >= columns.size(), page);
+    if (!trace.is_judged())
+      places = element("td.absent", {{"colspan", std::to_string(columns.size())}}, html(trace.absence()));
+    rows += element("tr", engine_head(trace, says_baselines), places);
+  }
+  // With more columns, two-line names no longer fit side by side on a wide screen.
+  constexpr std::size_t kManyColumns = 12;
+  std::string head = column_head({"engine"});
+  for (const std::size_t c : columns)
+    head += element("th", {{"scope", "col"}}, element("span", html(scene.validators[c])));
+  return element(columns.size() > kManyColumns ? "table.matrix.many" : "table.matrix",
+                 element("thead", element("tr", head)), element("tbody", rows));
 }
 
 struct Finding {
@@ -142,26 +201,16 @@ std::string matrix_section(const SceneView& scene, PageParts& page) {
                    absences.empty() ? "" : element("ul.plain", absences));
   }
   const std::string shared = shared_baselines(scene);
-  std::string rows;
-  for (const TraceView& trace : scene.traces) {
-    std::string places;
-    for (std::size_t c = 0; trace.is_judged() && c < scene.validators.size(); ++c)
-      places += matrix_place(scene, trace, c, page);
-    if (!trace.is_judged())
-      places = element("td.absent", {{"colspan", std::to_string(scene.validators.size())}}, html(trace.absence()));
-    rows += element("tr", engine_head(trace, shared.empty()), places);
-  }
-  // With more columns, two-line names no longer fit side by side on a wide screen.
-  constexpr std::size_t kManyColumns = 15;
-  std::string head = column_head({"engine"});
-  for (const std::string& validator : scene.validators)
-    head += element("th", {{"scope", "col"}}, element("span", html(validator)));
+  const std::vector<Columns> tables = tables_of(scene);
+  std::string all;
+  for (const Columns& columns : tables)
+    all += (tables.size() > 1 ? element("h4", heading_of(columns.kind)) : std::string()) +
+           matrix_table(scene, columns.validators, shared.empty(), page);
   return element(
       "section", element("h3", "Verdicts"),
       element("p.hint", "Each word opens what was measured, the limit and where it comes from, and the worst place.",
               shared.empty() ? "" : " All were judged " + html(shared) + "."),
-      element(scene.validators.size() > kManyColumns ? "table.matrix.many" : "table.matrix",
-              element("thead", element("tr", head)), element("tbody", rows)));
+      all);
 }
 
 std::string findings_section(PageParts& page) {

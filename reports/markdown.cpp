@@ -136,8 +136,11 @@ void add_coverage(Comment& comment, const SceneView& scene) {
   for (const TraceView& trace : scene.traces) {
     if (!trace.is_judged()) continue;
     std::string others;
-    for (const core::Verdict* verdict : trace.not_applied())
-      others += (others.empty() ? "" : "; ") + verdict->validator + ": " + verdict->explanation;
+    for (const auto& [why, laws] : trace.not_applied()) {
+      std::string names;
+      for (const std::string& law : laws) names += (names.empty() ? "" : ", ") + law;
+      others += (others.empty() ? "" : "; ") + names + ": " + why;
+    }
     const std::string motion = !trace.is_simulation        ? "it moved nothing itself"
                                : trace.has_proven_motion() ? "proven"
                                                            : "**nothing of its motion was proven**";

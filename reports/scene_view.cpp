@@ -103,11 +103,16 @@ bool TraceView::has_proven_motion() const {
   });
 }
 
-std::vector<const core::Verdict*> TraceView::not_applied() const {
-  std::vector<const core::Verdict*> out;
-  for (const auto& said : verdicts)
-    if (!said.empty() && said.front()->outcome == core::Outcome::kNotApplicable) out.push_back(said.front());
-  return out;
+std::vector<std::pair<std::string, std::vector<std::string>>> TraceView::not_applied() const {
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+  for (const auto& said : verdicts) {
+    if (said.empty() || said.front()->outcome != core::Outcome::kNotApplicable) continue;
+    const std::string& why = said.front()->explanation;
+    auto found = std::find_if(reasons.begin(), reasons.end(), [&](const auto& r) { return r.first == why; });
+    if (found == reasons.end()) found = reasons.insert(found, {why, {}});
+    found->second.push_back(said.front()->validator);
+  }
+  return reasons;
 }
 
 std::string TraceView::absence() const {

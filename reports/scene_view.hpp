@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/coverage.hpp"
@@ -29,8 +30,8 @@ struct TraceView {
   [[nodiscard]] core::Coverage coverage() const;
   // Whether a law that ties motion to forces passed on a body that moved.
   [[nodiscard]] bool has_proven_motion() const;
-  // The laws that met nothing, each with the reason.
-  [[nodiscard]] std::vector<const core::Verdict*> not_applied() const;
+  // The laws that met nothing, those that share a reason together: the reason, and the laws.
+  [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> not_applied() const;
   // Text for the cells of a line that has no verdict: "not measured: no device", "recorded, not judged".
   [[nodiscard]] std::string absence() const;
 };

@@ -25,6 +25,8 @@ constexpr std::uint64_t kFramesPerReport = 50;
 // One row of the pass: a running validator, or the verdict that says why it did not run.
 struct Entry {
   const ValidatorRow* row = nullptr;
+  bool compares_scenes = false;
+  bool reads_motion = false;
   std::unique_ptr<Validator> validator;
   core::Verdict verdict;
 };
@@ -67,6 +69,8 @@ std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& opti
       continue;
     Entry entry;
     entry.row = &row;
+    entry.compares_scenes = row.compares_scenes;
+    entry.reads_motion = row.reads_motion;
     const Subject& seen = row.compares_scenes ? subject : alone;
     entry.verdict.validator = row.name;
     entry.verdict.explanation = row.why_not(seen);
@@ -151,7 +155,7 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
   std::vector<Entry> entries = make_entries(facts, options, groups, baseline_groups);
 
   std::optional<MotionReader> motions;
-  if (std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.validator && e.row->reads_motion; }))
+  if (std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.validator && e.reads_motion; }))
     motions.emplace(subject.header);
 
   BaselineFrames baseline_frames(baseline, baseline_groups);

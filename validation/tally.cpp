@@ -56,6 +56,10 @@ bool Tally::check(double measured, const Limit& limit, const Where& where, const
   return holds;
 }
 
+bool Tally::require(bool holds, std::string_view origin, const Where& where) {
+  return check(holds ? 0.0 : 1.0, {0.0, "violations", origin}, where);
+}
+
 void Tally::absorb(const Tally& other) {
   checked_ += other.checked_;
   undecided_ += other.undecided_;
@@ -77,10 +81,6 @@ bool Tally::check_bound(double bound, double limit) {
   if (!(bound <= limit) || ratio_of(bound, limit) > worst_ratio_) return false;
   ++checked_;
   return true;
-}
-
-bool Tally::require(bool holds, std::string_view origin, const Where& where) {
-  return check(holds ? 0.0 : 1.0, {0.0, "violations", origin}, where);
 }
 
 core::Verdict Tally::conclude(std::string_view nothing, const std::string& notes) const {

@@ -108,7 +108,7 @@ void print(const Convergence& c) {
   }
 }
 
-core::Exit exit_of(core::Outcome outcome) {
+core::Exit exit_of_outcome(core::Outcome outcome) {
   switch (outcome) {
     case core::Outcome::kPass:
       return core::Exit::kGood;
@@ -151,7 +151,7 @@ core::Exit converge(const ConvergeArguments& a) {
     const Json json = as_json(measured.value(), verdict, scene.value(), engine);
     if (core::Status s = core::write_whole_file(a.json, json.dump(2) + "\n"); !s) return complain(s.error());
   }
-  return exit_of(verdict.outcome);
+  return exit_of_outcome(verdict.outcome);
 }
 
 }  // namespace

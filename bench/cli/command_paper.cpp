@@ -95,8 +95,7 @@ core::Exit run_paper(const PaperArguments& a) {
   const Document document = paper::paper_document(rows.value(), text);
   if (core::Status s = write_document(document, folder, "paper"); !s) return complain(s.error());
   const Table cells = paper::cell_table(rows.value());
-  if (core::Status s = core::write_whole_file(folder / "cells.csv", csv_text(cells)); !s)
-    return complain(s.error());
+  if (core::Status s = core::write_whole_file(folder / "cells.csv", csv_text(cells)); !s) return complain(s.error());
   if (core::Status s = paper::write_paper_rows(folder / "rows.json", rows.value()); !s) return complain(s.error());
   fmt::print("{}\n\nReport: {}\n", document.lead, (folder / "paper.html").string());
   return exit_of_paper(rows.value());

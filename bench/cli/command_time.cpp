@@ -35,7 +35,7 @@ struct TimeArguments {
 };
 
 // Exit 3 when a cell that was asked for has no sample.
-core::Exit exit_of(const RunPlan& plan, const std::vector<core::Sample>& samples) {
+core::Exit exit_of_samples(const RunPlan& plan, const std::vector<core::Sample>& samples) {
   for (const CellSpec& spec : plan.cells)
     if (std::none_of(samples.begin(), samples.end(),
                      [&](const core::Sample& s) { return s.stamp.label() == label_of(spec); }))
@@ -88,7 +88,7 @@ core::Exit time(const TimeArguments& a) {
   if (!a.in_process.empty()) {
     if (core::Status s = core::write_samples(std::filesystem::path(a.in_process) / "samples.json", samples.value()); !s)
       return complain(s.error());
-    return exit_of(plan, samples.value());
+    return exit_of_samples(plan, samples.value());
   }
   // In a folder with recorded cells and verdicts a time is admitted or struck out; without them it is a number without
   // proof.
@@ -97,7 +97,7 @@ core::Exit time(const TimeArguments& a) {
   rows.value().samples = samples.value();
   fmt::print("{}", reports::timing_table(reports::pool_samples(rows.value())));
   if (core::Status s = core::write_samples(out, samples.value()); !s) return complain(s.error());
-  return exit_of(plan, samples.value());
+  return exit_of_samples(plan, samples.value());
 }
 
 }  // namespace

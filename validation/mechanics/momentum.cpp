@@ -51,6 +51,7 @@ class Momentum final : public Validator {
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
       const BodyFacts& f = m.facts[i];
       if (!f.is_dynamic || f.has_spring) continue;
+      if (has_moved(m.bodies[i])) tally_.note_moved();
       const BodyStep& b = m.bodies[i];
       const Vec3d change = f.mass_kg * (b.after.v - b.before.v);
       const Vec3d expected = (f.mass_kg * m.h) * b.acceleration + given_[i].impulse;
@@ -59,7 +60,6 @@ class Momentum final : public Validator {
       // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
       const double limit = m.rounding_of(4 + 2 * accumulations_ * given_[i].points) * f.mass_kg * speed +
                            rounding(4) * given_[i].magnitude + kSubnormal + f.mass_kg * m.h * b.acceleration_slack;
-      if (has_moved(b)) tally_.note_moved();
       tally_.check(
           length(change - expected), {limit, "N s", kOfBodies}, Where::body(m.step, i, "bodies.velocity"),
           [&] { return "m dv = " + vector_text(change) + " N s, m g h + sum J = " + vector_text(expected) + " N s"; });
