@@ -57,7 +57,6 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   if (body_count_ <= kMostSmallBodies) {
     BROADSIDE_TRY(measured_.reserve(count, "nearest vertices"));
     BROADSIDE_TRY(placed_.reserve(count, "nearest vertices"));
-    BROADSIDE_TRY(placed_.fill_bytes(0xFF));
   }
   BROADSIDE_TRY(links_.reserve(count, "touching pairs"));
   BROADSIDE_TRY(keys_.reserve(2 * count, "order of contacts"));
@@ -80,8 +79,6 @@ core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_l
   if (confirmed > confirmed_.capacity()) BROADSIDE_TRY(reserve_confirmed(with_slack(confirmed)));
   if (demanded.faces > face_contacts_.capacity())
     BROADSIDE_TRY(face_contacts_.reserve(with_slack(demanded.faces), "contacts with faces"));
-  // The aborted frame left there what it had put.
-  BROADSIDE_TRY(placed_.fill_bytes(0xFF));
   return wait_for_device("making room");
 }
 

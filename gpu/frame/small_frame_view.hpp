@@ -17,7 +17,7 @@ struct SmallFrameView : FrameView {
   std::uint32_t ring_share = 1;  // places of the ring that a warp takes
   FloatDivisor ring_shares;      // by ring_shares() of them: made on the host, as all warps would wait for the division
   MeasuredPair* measured = nullptr;         // one per pair whose vertices are searched
-  PlacedPair* placed = nullptr;             // likewise; PlacedShape::kNone between frames
+  PlacedPair* placed = nullptr;             // likewise
   unsigned long long* given_out = nullptr;  // pairs that warps took to search; zero between frames
   LeftoverView leftovers[2];
 };

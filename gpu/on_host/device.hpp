@@ -49,7 +49,7 @@ class GridBarrier {
     if (threadIdx.x == 0) *word_ += GridWord::share(blockIdx.x, gridDim.x);
     on_host::sync_grid();
   }
-  GridTally sync_and_read(GridTally* /*in_block*/, bool /*is_loose*/) {
+  GridTally sync_and_read(GridTally* /*in_block*/) {
     sync();
     const GridTally tally{word_[0] & GridWord::kTally, word_[1]};
     // Nobody goes on to change it before all have seen it.

@@ -88,8 +88,7 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
   const bool is_needed = integrate_and_find_pairs(grid, f, shapes, first);
   shapes.end(f);
   if (!is_needed) return;
-  // With a vertex stage there is another barrier before anything of this is read but where a pair's bodies are.
-  SmallCounts counts = SmallCounts::unpacked(grid.sync_and_read(&scratch.tally, f.has_vertex_stage));
+  SmallCounts counts = SmallCounts::unpacked(grid.sync_and_read(&scratch.tally));
   mark_end(grid, f.outcome, core::Stage::kBroad);
   shapes.end_upper();
   if (counts.pairs > f.pairs.capacity) return abort_small(grid, f, counts, 0);

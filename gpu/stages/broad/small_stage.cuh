@@ -87,7 +87,7 @@ __device__ inline void find_small_pairs(const SmallFrameView& f, const ShapesInB
   if (confirmed_place < f.confirmed.capacity) f.confirmed.items[confirmed_place] = pair;
   const std::uint32_t measured_place = f.are_levels_first ? confirmed_place : place;
   if (f.has_vertex_stage && measured_place < f.confirmed.capacity)
-    put(f.placed + measured_place, at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i});
+    f.placed[measured_place] = at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i};
 }
 
 // Integrates bodies and finds pairs with no barrier between: a warp that tests a pair integrates both bodies itself.

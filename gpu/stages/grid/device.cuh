@@ -44,24 +44,19 @@ class GridBarrier {
   }
 
   // Waits for all blocks; what any thread wrote before is visible to all threads after. By all threads.
-  __device__ void sync() { arrive_and_wait_for_all(nullptr, false); }
+  __device__ void sync() { arrive_and_wait_for_all(nullptr); }
   // The same, and returns the tally and the word behind it. `in_block`: in the block's shared memory, for this alone.
-  // If `is_loose`, only these two words are sure to be visible, and the barrier does not wait for other writes: until a
-  // later barrier, threads may read of them only words that say themselves whether they are there (GridWords).
-  __device__ GridTally sync_and_read(GridTally* in_block, bool is_loose) {
-    arrive_and_wait_for_all(in_block, is_loose);
+  __device__ GridTally sync_and_read(GridTally* in_block) {
+    arrive_and_wait_for_all(in_block);
     return *in_block;
   }
 
  private:
-  __device__ __forceinline__ void arrive_and_wait_for_all(GridTally* tally, bool is_loose) {
+  __device__ __forceinline__ void arrive_and_wait_for_all(GridTally* tally) {
     __syncthreads();
     if (threadIdx.x == 0) {
       const unsigned long long share = GridWord::share(blockIdx.x, gridDim.x);
-      if (is_loose)
-        asm volatile("red.relaxed.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
-      else
-        asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
+      asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
       unsigned long long now = 0;
       unsigned long long behind = 0;
       do {
