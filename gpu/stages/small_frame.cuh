@@ -19,7 +19,7 @@ struct SmallScratch {
   ProximityScratch proximity;
   BlockCopy octree_copy;
   BlockCopy upper_copy;
-  GridTally tally;
+  unsigned long long tally;
   Counters counters;
   std::uint32_t listed;
 };
@@ -27,7 +27,6 @@ struct SmallScratch {
 // By one thread, when no other adds to the tally any more. The tally is cleared for the next frame.
 __device__ inline void report_small(const SmallFrameView& f, const Counters& counters, const SmallCounts& counts,
                                     bool is_aborted) {
-  f.barrier[1] = 0;
   *f.given_out = 0;
   tell_host(f, counters, is_aborted);
   if (const unsigned long long tally = counts.packed(); tally != 0) atomicAdd(f.barrier, 0ULL - tally);

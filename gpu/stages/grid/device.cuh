@@ -45,31 +45,24 @@ class GridBarrier {
 
   // Waits for all blocks; what any thread wrote before is visible to all threads after. By all threads.
   __device__ void sync() { arrive_and_wait_for_all(nullptr); }
-  // The same, and returns the tally and the word behind it. `in_block`: in the block's shared memory, for this alone.
-  __device__ GridTally sync_and_read(GridTally* in_block) {
+  // The same, and returns the tally. `in_block`: in the block's shared memory, for this alone.
+  __device__ unsigned long long sync_and_read(unsigned long long* in_block) {
     arrive_and_wait_for_all(in_block);
     return *in_block;
   }
 
  private:
-  __device__ __forceinline__ void arrive_and_wait_for_all(GridTally* tally) {
+  __device__ __forceinline__ void arrive_and_wait_for_all(unsigned long long* tally) {
     __syncthreads();
     if (threadIdx.x == 0) {
       const unsigned long long share = GridWord::share(blockIdx.x, gridDim.x);
       asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
       unsigned long long now = 0;
-      unsigned long long behind = 0;
       do {
-        if (tally == nullptr)
-          asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
-        else
-          asm volatile("{ .reg .b128 w; ld.acquire.gpu.global.b128 w, [%2]; mov.b128 {%0, %1}, w; }"
-                       : "=l"(now), "=l"(behind)
-                       : "l"(word_)
-                       : "memory");
+        asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
       } while (((now ^ seen_) & GridWord::kFlipped) == 0);
       seen_ = now;
-      if (tally != nullptr) *tally = {now & GridWord::kTally, behind};
+      if (tally != nullptr) *tally = now & GridWord::kTally;
     }
     __syncthreads();
   }
