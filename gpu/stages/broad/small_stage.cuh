@@ -20,7 +20,7 @@ constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 class RingItem {
  public:
   __device__ RingItem(const GridPlaces& team, const SmallFrameView& f)
-      : ring_(f.body_count, f.ring_share, f.ring_shares),
+      : ring_(f.body_count, f.ring_share, FloatDivisor(ring_shares(f.body_count, f.ring_share))),
         item_(static_cast<std::uint32_t>(team.spread_rank() / 32)),
         stride_(static_cast<std::uint32_t>(warp_count(team))) {
     enter();
