@@ -120,13 +120,9 @@ class LeftoverPart {
 };
 
 // Writes `found` to the pair's result if it is nearer; other threads may do the same at the same time. By one thread.
-// `had_none`: the team had found nothing when it handed over; then the word most likely still says so, and is not
-// loaded first.
-__device__ inline void improve(MeasuredPair* pair, const core::Proximity& found, bool had_none) {
+__device__ inline void improve(MeasuredPair* pair, const core::Proximity& found) {
   auto* word = reinterpret_cast<uint4*>(pair);
-  constexpr core::Proximity kNone;
-  uint4 seen{__float_as_uint(kNone.squared_distance_m2), kNone.vertex_a, kNone.vertex_b, 0};
-  if (!had_none) seen = GridWords::load_whole(word);
+  uint4 seen = GridWords::load_whole(word);
   for (bool is_done = false; !is_done;) {
     const core::Proximity nearest{__uint_as_float(seen.x), seen.y, seen.z};
     is_done = !core::is_nearer(found, nearest) ||

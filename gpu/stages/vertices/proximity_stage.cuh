@@ -191,7 +191,7 @@ class ProximityStage {
     }
     __syncthreads();
     if (threadIdx.x == 0 && scratch_.nearest[0] != ProximityScratch::kNoVertices)
-      improve(f_.measured + leftover.k, nearest_of_team(0), leftover.bound_m2 == INFINITY);
+      improve(f_.measured + leftover.k, nearest_of_team(0));
   }
 
   // By all lanes of a team, after a barrier behind its search: the bound is the least distance then, and the lanes that

@@ -89,7 +89,7 @@ TEST(MeasuredPair, IsImprovedToTheNearestInAnyOrder) {
   for (std::size_t first = 0; first < found.size(); ++first) {
     MeasuredPair pair;
     pair.is_rejected = 1;
-    for (std::size_t k = 0; k < found.size(); ++k) improve(&pair, found[(first + k) % found.size()], k == 0);
+    for (std::size_t k = 0; k < found.size(); ++k) improve(&pair, found[(first + k) % found.size()]);
     EXPECT_EQ(pair.nearest, (core::Proximity{1.0F, 7, 2}));
     EXPECT_EQ(pair.is_rejected, 1U);
   }
