@@ -77,7 +77,6 @@ __device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs&
 __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallScratch& scratch, unsigned char* shared) {
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);
   // Until the frame before has ended, nothing is read that it writes.
-  scratch.proximity.clear();
   shapes.begin(f);
   const RingItem first(GridPlaces{}, f);
   wait_for_launch_before();

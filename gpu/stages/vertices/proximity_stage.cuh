@@ -149,12 +149,8 @@ class ProximityStage {
     const std::uint32_t members = 1U << shift;
     const WarpShare share{warp & (members - 1), members};
     const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
-    // A small frame's kernel clears it when it begins, which saves a barrier of the block. In a grid frame's kernel
-    // that makes a pile's frame 7 % slower.
-    if constexpr (!Levels::kIsSmallFrame) {
-      scratch_.clear();
-      __syncthreads();
-    }
+    scratch_.clear();
+    __syncthreads();
     if (k < pairs_.count) {
       const PlacedPair bodies = pairs_.bodies(f_, k);
       const CellRoles roles = cell_roles(f_, headers_, bodies);
