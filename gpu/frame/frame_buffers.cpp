@@ -43,7 +43,7 @@ core::Status FrameBuffers::load(const core::Scene& scene) {
   BROADSIDE_TRY(live_.reserve(n, "order of contacts"));
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(counters_.fill_bytes(0));
-  BROADSIDE_TRY(barrier_.reserve(3, "barrier"));
+  BROADSIDE_TRY(barrier_.reserve(2, "barrier"));
   BROADSIDE_TRY(barrier_.fill_bytes(0));
   const std::uint64_t pairs = std::max(kLeastPairs, kPairsPerBody * n);
   BROADSIDE_TRY(pairs_.reserve(pairs, "candidate pairs"));
@@ -57,7 +57,6 @@ core::Status FrameBuffers::reserve_confirmed(std::uint64_t count) {
   if (body_count_ <= kMostSmallBodies) {
     BROADSIDE_TRY(measured_.reserve(count, "nearest vertices"));
     BROADSIDE_TRY(placed_.reserve(count, "nearest vertices"));
-    BROADSIDE_TRY(placed_.fill_bytes(0xFF));
   }
   BROADSIDE_TRY(links_.reserve(count, "touching pairs"));
   BROADSIDE_TRY(keys_.reserve(2 * count, "order of contacts"));
@@ -80,8 +79,6 @@ core::Status FrameBuffers::grow(const Counters& demanded, bool is_confirmed_by_l
   if (confirmed > confirmed_.capacity()) BROADSIDE_TRY(reserve_confirmed(with_slack(confirmed)));
   if (demanded.faces > face_contacts_.capacity())
     BROADSIDE_TRY(face_contacts_.reserve(with_slack(demanded.faces), "contacts with faces"));
-  // The aborted frame left there what it had put.
-  BROADSIDE_TRY(placed_.fill_bytes(0xFF));
   return wait_for_device("making room");
 }
 
@@ -109,7 +106,7 @@ void FrameBuffers::fill(FrameView& view, std::uint64_t under_way) const {
 void FrameBuffers::fill_small(SmallFrameView& view) const {
   view.measured = measured_.data();
   view.placed = placed_.data();
-  view.given_out = barrier_.data() + 2;
+  view.given_out = barrier_.data() + 1;
   view.leftovers[0] = {leftovers_.data(), leftover_entries_.data()};
   view.leftovers[1] = {leftovers_.data() + LeftoverView::kMost,
                        leftover_entries_.data() + LeftoverView::kMost * LeftoverView::kEntries};

@@ -134,7 +134,7 @@ struct FrameView {
   std::uint32_t* list_begin = nullptr;  // [bodies]
 
   Counters* counters = nullptr;  // until this frame begins, those of the frame before it
-  // The barrier word, and the word behind it: SmallCounts::marked of small frames, zero between frames.
+  // The barrier word.
   unsigned long long* barrier = nullptr;
   Outcome* outcome = nullptr;
   // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.

@@ -31,8 +31,6 @@ static_assert(sizeof(LeftoverSearch) == 48, "read in words of 16 bytes");
 // Room for the leftovers of one turn. There are two: while the grid works on one, it writes new leftovers to the other.
 struct LeftoverView {
   static constexpr std::uint32_t kMost = 128;
-  // Up to so many pairs each have a place of their own.
-  static constexpr std::uint32_t kMostMarked = 64;
   static constexpr std::uint32_t kEntries = 256;  // of each
 
   LeftoverSearch* items = nullptr;  // [kMost]

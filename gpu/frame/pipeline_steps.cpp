@@ -39,7 +39,6 @@ SmallFrameView Pipeline::Impl::small_view(const LaunchShape& shape) const {
   SmallFrameView small{view};
   buffers.fill_small(small);
   small.ring_share = ring_share(view.body_count, shape);
-  small.ring_shares = FloatDivisor(ring_shares(view.body_count, small.ring_share));
   small.are_levels_first = levels_come_first(shape);
   return small;
 }

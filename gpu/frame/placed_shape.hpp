@@ -10,8 +10,6 @@
 namespace broadside::gpu {
 
 struct alignas(16) PlacedShape {
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;  // as shape, where nothing was put since it was taken away
-
   core::Vec3 x;
   std::uint32_t shape = 0;
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "core/attributes.hpp"
-#include "gpu/frame/divisor.hpp"
 #include "gpu/frame/frame_view.hpp"
 #include "gpu/frame/leftover_work.hpp"
 #include "gpu/frame/measured_pair.hpp"
@@ -14,10 +13,9 @@ namespace broadside::gpu {
 struct SmallFrameView : FrameView {
   // The levels below 0 are tested where pairs are found, not while their vertices are searched.
   bool are_levels_first = false;
-  std::uint32_t ring_share = 1;  // places of the ring that a warp takes
-  FloatDivisor ring_shares;      // by ring_shares() of them: made on the host, as all warps would wait for the division
+  std::uint32_t ring_share = 1;             // places of the ring that a warp takes
   MeasuredPair* measured = nullptr;         // one per pair whose vertices are searched
-  PlacedPair* placed = nullptr;             // likewise; PlacedShape::kNone between frames
+  PlacedPair* placed = nullptr;             // likewise
   unsigned long long* given_out = nullptr;  // pairs that warps took to search; zero between frames
   LeftoverView leftovers[2];
 };

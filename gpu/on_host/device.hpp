@@ -49,9 +49,9 @@ class GridBarrier {
     if (threadIdx.x == 0) *word_ += GridWord::share(blockIdx.x, gridDim.x);
     on_host::sync_grid();
   }
-  GridTally sync_and_read(GridTally* /*in_block*/, bool /*is_loose*/) {
+  unsigned long long sync_and_read(unsigned long long* /*in_block*/) {
     sync();
-    const GridTally tally{word_[0] & GridWord::kTally, word_[1]};
+    const unsigned long long tally = *word_ & GridWord::kTally;
     // Nobody goes on to change it before all have seen it.
     on_host::sync_grid();
     return tally;

@@ -18,8 +18,6 @@ struct SmallCounts {
   std::uint32_t pairs = 0;
   std::uint32_t judged = 0;  // pairs whose levels were tested: the confirmed, if levels come first; else the rejected
   std::uint32_t leftovers = 0;  // how often a team asked for a place for leftover work
-  // Bit k: pair k's work was left in the place reserved for it.
-  unsigned long long marked = 0;
 
   // Pairs that the levels below 0 keep; 0 for flat levels.
   __device__ std::uint32_t confirmed(const SmallFrameView& f) const {
@@ -33,12 +31,7 @@ struct SmallCounts {
   __device__ static SmallCounts unpacked(unsigned long long word) {
     const unsigned long long tally = word & GridWord::kTally;
     return {static_cast<std::uint32_t>(tally) & kMostPairs, static_cast<std::uint32_t>(tally >> kPairBits) & kMostPairs,
-            static_cast<std::uint32_t>(tally >> 2 * kPairBits), 0};
-  }
-  __device__ static SmallCounts unpacked(const GridTally& read) {
-    SmallCounts counts = unpacked(read.tally);
-    counts.marked = read.behind;
-    return counts;
+            static_cast<std::uint32_t>(tally >> 2 * kPairBits)};
   }
 
  private:

@@ -19,7 +19,7 @@ struct SmallScratch {
   ProximityScratch proximity;
   BlockCopy octree_copy;
   BlockCopy upper_copy;
-  GridTally tally;
+  unsigned long long tally;
   Counters counters;
   std::uint32_t listed;
 };
@@ -27,7 +27,6 @@ struct SmallScratch {
 // By one thread, when no other adds to the tally any more. The tally is cleared for the next frame.
 __device__ inline void report_small(const SmallFrameView& f, const Counters& counters, const SmallCounts& counts,
                                     bool is_aborted) {
-  f.barrier[1] = 0;
   *f.given_out = 0;
   tell_host(f, counters, is_aborted);
   if (const unsigned long long tally = counts.packed(); tally != 0) atomicAdd(f.barrier, 0ULL - tally);
@@ -78,7 +77,6 @@ __device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs&
 __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallScratch& scratch, unsigned char* shared) {
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);
   // Until the frame before has ended, nothing is read that it writes.
-  scratch.proximity.clear();
   shapes.begin(f);
   const RingItem first(GridPlaces{}, f);
   wait_for_launch_before();
@@ -88,8 +86,7 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
   const bool is_needed = integrate_and_find_pairs(grid, f, shapes, first);
   shapes.end(f);
   if (!is_needed) return;
-  // With a vertex stage there is another barrier before anything of this is read but where a pair's bodies are.
-  SmallCounts counts = SmallCounts::unpacked(grid.sync_and_read(&scratch.tally, f.has_vertex_stage));
+  SmallCounts counts = SmallCounts::unpacked(grid.sync_and_read(&scratch.tally));
   mark_end(grid, f.outcome, core::Stage::kBroad);
   shapes.end_upper();
   if (counts.pairs > f.pairs.capacity) return abort_small(grid, f, counts, 0);

@@ -20,7 +20,7 @@ constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 class RingItem {
  public:
   __device__ RingItem(const GridPlaces& team, const SmallFrameView& f)
-      : ring_(f.body_count, f.ring_share, f.ring_shares),
+      : ring_(f.body_count, f.ring_share, FloatDivisor(ring_shares(f.body_count, f.ring_share))),
         item_(static_cast<std::uint32_t>(team.spread_rank() / 32)),
         stride_(static_cast<std::uint32_t>(warp_count(team))) {
     enter();
@@ -87,7 +87,7 @@ __device__ inline void find_small_pairs(const SmallFrameView& f, const ShapesInB
   if (confirmed_place < f.confirmed.capacity) f.confirmed.items[confirmed_place] = pair;
   const std::uint32_t measured_place = f.are_levels_first ? confirmed_place : place;
   if (f.has_vertex_stage && measured_place < f.confirmed.capacity)
-    put(f.placed + measured_place, at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i});
+    f.placed[measured_place] = at.i == pair.i ? PlacedPair{placed_i, placed_j} : PlacedPair{placed_j, placed_i};
 }
 
 // Integrates bodies and finds pairs with no barrier between: a warp that tests a pair integrates both bodies itself.

@@ -51,32 +51,6 @@ __device__ inline PlacedPair fetched(const PlacedPair* from) {
   return {fetched(&from->i), fetched(&from->j)};
 }
 
-// A pair that other blocks may read after a loose barrier, when it is sure to be written but perhaps not visible: two
-// words, each written whole, whose shape is PlacedShape::kNone until then.
-__device__ inline void put(PlacedPair* to, const PlacedPair& pair) {
-  const auto word = [](const PlacedShape& s) {
-    return uint4{__float_as_uint(s.x.x), __float_as_uint(s.x.y), __float_as_uint(s.x.z), s.shape};
-  };
-  GridWords::store_whole(reinterpret_cast<uint4*>(&to->i), word(pair.i));
-  GridWords::store_whole(reinterpret_cast<uint4*>(&to->j), word(pair.j));
-}
-__device__ inline PlacedPair awaited(const PlacedPair* from) {
-  uint4 words[2];
-  for (;;) {
-    GridWords::load_two_whole(reinterpret_cast<const uint4*>(from), words);
-    if (words[0].w != PlacedShape::kNone && words[1].w != PlacedShape::kNone) break;
-    relax();
-  }
-  const auto shape = [](const uint4& w) {
-    return PlacedShape{{__uint_as_float(w.x), __uint_as_float(w.y), __uint_as_float(w.z)}, w.w};
-  };
-  return {shape(words[0]), shape(words[1])};
-}
-// When no thread reads it any more in this frame.
-__device__ inline void take_away(PlacedPair* pair) {
-  pair->i.shape = pair->j.shape = PlacedShape::kNone;
-}
-
 __device__ inline LeftoverSearch fetched(const LeftoverSearch* from) {
   const uint4 last = reinterpret_cast<const uint4*>(from)[2];
   return {fetched(&from->bodies), last.x, __uint_as_float(last.y), last.z, last.w};

@@ -19,10 +19,4 @@ struct GridWord {
   }
 };
 
-// What every block reads when the barrier releases, in one access: the tally, and the word behind the barrier word.
-struct GridTally {
-  unsigned long long tally = 0;
-  unsigned long long behind = 0;
-};
-
 }  // namespace broadside::gpu

@@ -27,9 +27,9 @@ class GridTeam : public GridPlaces {
   // `barrier`: the word of GridBarrier.
   __device__ explicit GridTeam(unsigned long long* barrier) : barrier_(barrier) {}
   __device__ void sync() const { barrier_.sync(); }
-  // The same; returns the tally and the word behind it. `is_loose`: as for GridBarrier.
-  __device__ GridTally sync_and_read(GridTally* in_block, bool is_loose = false) const {
-    return barrier_.sync_and_read(in_block, is_loose);
+  // The same; returns the tally.
+  __device__ unsigned long long sync_and_read(unsigned long long* in_block) const {
+    return barrier_.sync_and_read(in_block);
   }
 
  private:

@@ -22,13 +22,12 @@ __device__ inline std::uint32_t most_leftovers() {
 // apart.
 class LeftoverOfPair {
  public:
-  // `to`: room for the leftovers of this turn; `before`: how many there were in earlier turns. `is_marked`: place k is
-  // reserved for pair k; otherwise the team takes one by an atomic. `place`: a word of the team in shared memory.
-  __device__ LeftoverOfPair(const FrameView& f, const LeftoverView& to, bool is_marked, std::uint32_t before,
-                            const PlacedPair& bodies, std::uint64_t k, std::uint32_t rounds, std::uint32_t* place)
+  // `to`: room for the leftovers of this turn; `before`: how many there were in earlier turns. `place`: a word
+  // of the team in shared memory.
+  __device__ LeftoverOfPair(const FrameView& f, const LeftoverView& to, std::uint32_t before, const PlacedPair& bodies,
+                            std::uint64_t k, std::uint32_t rounds, std::uint32_t* place)
       : f_(f),
         to_(to),
-        is_marked_(is_marked),
         before_(before),
         bodies_(bodies),
         k_(k),
@@ -47,14 +46,9 @@ class LeftoverOfPair {
   __device__ bool hand_over(const SearchTeam& team, const TeamCounts& left, float limit) {
     if (is_refused_ || left.nodes + left.leaves > LeftoverView::kEntries) return false;
     const bool is_first = team.member == 0 && lane() == 0;
-    auto place = static_cast<std::uint32_t>(k_);
-    if (is_marked_) {
-      if (is_first) atomicOr(f_.barrier + 1, 1ULL << k_);
-    } else {
-      place = asked_place(team);
-      is_refused_ = place >= most_leftovers();
-      if (is_refused_) return false;
-    }
+    const std::uint32_t place = asked_place(team);
+    is_refused_ = place >= most_leftovers();
+    if (is_refused_) return false;
     for (std::uint32_t e = team.member * 32 + lane(); e < left.nodes + left.leaves; e += team.members * 32)
       to_.entries[place * LeftoverView::kEntries + e] = team.at(left, e);
     if (is_first) to_.items[place] = {bodies_, static_cast<std::uint32_t>(k_), limit, left.nodes, left.leaves};
@@ -73,7 +67,6 @@ class LeftoverOfPair {
 
   const FrameView& f_;
   const LeftoverView& to_;
-  bool is_marked_;
   std::uint32_t before_;
   PlacedPair bodies_;
   std::uint64_t k_;
@@ -95,19 +88,16 @@ struct NoLeftover {
 // the stack come last here too.
 class LeftoverPart {
  public:
-  // By all threads of a block, which are the team; a barrier of the block must follow. `marked`: the places of the
-  // leftovers, or 0: the first ones.
-  __device__ LeftoverPart(const LeftoverView& leftovers, std::uint32_t count, unsigned long long marked,
-                          const SearchTeam& team) {
+  // By all threads of a block, which are the team; a barrier of the block must follow.
+  __device__ LeftoverPart(const LeftoverView& leftovers, std::uint32_t count, const SearchTeam& team) {
     const FloatDivisor by_count(count);
     const std::uint32_t part = by_count.quotient(blockIdx.x);
     const std::uint32_t rank = blockIdx.x - part * count;
     const std::uint32_t parts = by_count.rounded_up(gridDim.x - rank);
-    const std::uint32_t place = marked != 0 ? bit_of_rank(marked, rank) : rank;
     const FloatDivisor by_parts(parts);
     const auto up_to = [&](std::uint32_t end) { return end > part ? by_parts.rounded_up(end - part) : 0U; };
-    const NodePair* entries = leftovers.entries + place * LeftoverView::kEntries;
-    leftover_ = fetched(leftovers.items + place);
+    const NodePair* entries = leftovers.entries + rank * LeftoverView::kEntries;
+    leftover_ = fetched(leftovers.items + rank);
     // The first entries are loaded together with their count: one wait.
     std::uint32_t k = threadIdx.x;
     NodePair entry;
@@ -125,31 +115,14 @@ class LeftoverPart {
   __device__ const TeamCounts& counts() const { return own_; }
 
  private:
-  // The position of the set bit that has `rank` set bits below it. By whole warps.
-  __device__ static std::uint32_t bit_of_rank(unsigned long long bits, std::uint32_t rank) {
-    const auto low = static_cast<std::uint32_t>(bits);
-    const auto high = static_cast<std::uint32_t>(bits >> 32U);
-    const unsigned below = (1U << lane()) - 1U;
-    const auto ours = [&](std::uint32_t half, std::uint32_t before) {
-      return __ballot_sync(kFullWarp, (half >> lane() & 1U) != 0 && before + __popc(half & below) == rank);
-    };
-    const unsigned in_low = ours(low, 0);
-    const unsigned in_high = ours(high, __popc(low));
-    return in_low != 0 ? __ffs(static_cast<int>(in_low)) - 1 : 31 + __ffs(static_cast<int>(in_high));
-  }
-
   LeftoverSearch leftover_;
   TeamCounts own_;
 };
 
 // Writes `found` to the pair's result if it is nearer; other threads may do the same at the same time. By one thread.
-// `had_none`: the team had found nothing when it handed over; then the word most likely still says so, and is not
-// loaded first.
-__device__ inline void improve(MeasuredPair* pair, const core::Proximity& found, bool had_none) {
+__device__ inline void improve(MeasuredPair* pair, const core::Proximity& found) {
   auto* word = reinterpret_cast<uint4*>(pair);
-  constexpr core::Proximity kNone;
-  uint4 seen{__float_as_uint(kNone.squared_distance_m2), kNone.vertex_a, kNone.vertex_b, 0};
-  if (!had_none) seen = GridWords::load_whole(word);
+  uint4 seen = GridWords::load_whole(word);
   for (bool is_done = false; !is_done;) {
     const core::Proximity nearest{__uint_as_float(seen.x), seen.y, seen.z};
     is_done = !core::is_nearer(found, nearest) ||

@@ -23,7 +23,7 @@ struct NarrowPairs {
   PlacedPair* placed = nullptr;  // in small frames: where their bodies are; null in others
 
   __device__ PlacedPair bodies(const FrameView& f, std::uint64_t k) const {
-    if (placed != nullptr) return awaited(placed + k);
+    if (placed != nullptr) return fetched(placed + k);
     const core::Pair pair = items[k];
     return {placed_shape(f, pair.i), placed_shape(f, pair.j)};
   }
@@ -73,7 +73,6 @@ __device__ inline void list_measured(const FrameView& f, const NarrowPairs& pair
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
     const std::uint64_t k = base + threadIdx.x;
     const NarrowPair narrow(f, pairs, k);
-    if (k < pairs.count) take_away(pairs.placed + k);
     std::uint64_t place = k;
     if (pairs.are_levels_left) place = warp_append_one(narrow.is_confirmed(), listed);
     if (!narrow.is_confirmed()) continue;

@@ -86,13 +86,10 @@ class ProximityStage {
   __device__ void share_leftovers(const Sync& sync) const {
     std::uint32_t before = 0;
     std::uint32_t turn = 0;
-    SmallCounts counts = sync();
-    for (bool is_marked = counts.marked != 0; is_marked || counts.leftovers > before; ++turn) {
-      const std::uint32_t count =
-          is_marked ? __popcll(counts.marked) : min(counts.leftovers - before, most_leftovers());
+    for (SmallCounts counts = sync(); counts.leftovers > before; ++turn) {
+      const std::uint32_t count = min(counts.leftovers - before, most_leftovers());
       before = counts.leftovers;
-      search_part(f_.leftovers[turn % 2], count, is_marked ? counts.marked : 0, f_.leftovers[(turn + 1) % 2], before);
-      is_marked = false;
+      search_part(f_.leftovers[turn % 2], count, f_.leftovers[(turn + 1) % 2], before);
       counts = sync();
     }
   }
@@ -152,12 +149,8 @@ class ProximityStage {
     const std::uint32_t members = 1U << shift;
     const WarpShare share{warp & (members - 1), members};
     const std::uint64_t k = std::uint64_t{team} * gridDim.x + blockIdx.x;
-    // A small frame's kernel clears it when it begins, which saves a barrier of the block. In a grid frame's kernel
-    // that makes a pile's frame 7 % slower.
-    if constexpr (!Levels::kIsSmallFrame) {
-      scratch_.clear();
-      __syncthreads();
-    }
+    scratch_.clear();
+    __syncthreads();
     if (k < pairs_.count) {
       const PlacedPair bodies = pairs_.bodies(f_, k);
       const CellRoles roles = cell_roles(f_, headers_, bodies);
@@ -174,12 +167,12 @@ class ProximityStage {
   }
 
   // This block's part of what was handed over: all its warps are one team.
-  __device__ void search_part(const LeftoverView& leftovers, std::uint32_t count, unsigned long long marked,
-                              const LeftoverView& to, std::uint32_t before) const {
+  __device__ void search_part(const LeftoverView& leftovers, std::uint32_t count, const LeftoverView& to,
+                              std::uint32_t before) const {
     const std::uint32_t warp = threadIdx.x / 32;
     const std::uint32_t warps = blockDim.x / 32;
     const SearchTeam all{{warp, warps}, 0, stack_of_warps(f_, stacks_, 0, warps), scratch_.counts[0]};
-    const LeftoverPart part(leftovers, count, marked, all);
+    const LeftoverPart part(leftovers, count, all);
     const LeftoverSearch& leftover = part.leftover();
     if (threadIdx.x == 0) {
       scratch_.bound[0] = __float_as_uint(leftover.bound_m2);
@@ -188,13 +181,13 @@ class ProximityStage {
     }
     __syncthreads();
     if (part.counts().any()) {
-      LeftoverOfPair next(f_, to, false, before, leftover.bodies, leftover.k, kRoundsOfBlock, &scratch_.place[0]);
+      LeftoverOfPair next(f_, to, before, leftover.bodies, leftover.k, kRoundsOfBlock, &scratch_.place[0]);
       tell_team(
           0, nearest_by_trees(TreePair(f_, headers_, leftover.bodies, &scratch_.bound[0]), all, part.counts(), next));
     }
     __syncthreads();
     if (threadIdx.x == 0 && scratch_.nearest[0] != ProximityScratch::kNoVertices)
-      improve(f_.measured + leftover.k, nearest_of_team(0), leftover.bound_m2 == INFINITY);
+      improve(f_.measured + leftover.k, nearest_of_team(0));
   }
 
   // By all lanes of a team, after a barrier behind its search: the bound is the least distance then, and the lanes that
@@ -228,17 +221,13 @@ class ProximityStage {
     if (headers_.upper_copy != nullptr) headers_.upper_copy->wait();
     const TeamCounts left = TreeStart(trees, all).begin();
     if constexpr (Levels::kIsSmallFrame) {
-      LeftoverOfPair leftover(f_, f_.leftovers[0], has_marks(), 0, bodies, k, rounds_of_team(trees),
-                              &scratch_.place[team]);
+      LeftoverOfPair leftover(f_, f_.leftovers[0], 0, bodies, k, rounds_of_team(trees), &scratch_.place[team]);
       return nearest_by_trees(trees, all, left, leftover);
     } else {
       NoLeftover leftover;
       return nearest_by_trees(trees, all, left, leftover);
     }
   }
-
-  // Whether there are as few pairs as SmallCounts::marked has bits, and each has a block or more to be shared by.
-  __device__ bool has_marks() const { return pairs_.count <= min(LeftoverView::kMostMarked, gridDim.x); }
 
   // A barrier of the grid costs as much as some four rounds. The more levels are left to go down, the more there may be
   // to hand over, and the sooner.

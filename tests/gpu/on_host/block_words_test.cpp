@@ -51,29 +51,6 @@ TEST(BlockLink, KnowsBodiesThatAreNeverWritten) {
   EXPECT_EQ(BlockDegree::of(unwritten), 0U) << "it has no list";
 }
 
-// By the second warp, which is asked before the first puts it.
-TEST(PlacedPair, IsAwaitedUntilBothWordsAreThere) {
-  PlacedPair place;
-  for (const float x : {1.0F, 2.0F}) {
-    take_away(&place);
-    PlacedPair seen;
-    bool was_there = true;
-    on_host::run({{1}, {64}, 0}, 0, [&](unsigned char*) {
-      if (threadIdx.x == 63) {
-        was_there = place.i.shape != PlacedShape::kNone;
-        seen = awaited(&place);
-      }
-      for (int k = 0; k < 3 && threadIdx.x == 0; ++k) relax();
-      if (threadIdx.x == 0) put(&place, {{{x, 2, 3}, 4}, {{5, 6, 7}, 8}});
-    });
-    EXPECT_EQ(seen.i.x, (core::Vec3{x, 2, 3}));
-    EXPECT_EQ(seen.i.shape, 4U);
-    EXPECT_EQ(seen.j.x, (core::Vec3{5, 6, 7}));
-    EXPECT_EQ(seen.j.shape, 8U);
-    EXPECT_FALSE(was_there);
-  }
-}
-
 // The arrays must neither overlap nor pass the end when they just fit, and a byte less must not fit.
 TEST(BlockRoom, FitsWhatItHolds) {
   for (const std::uint32_t bodies : {1U, 2U, 33U, 512U}) {

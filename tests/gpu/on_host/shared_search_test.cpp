@@ -24,9 +24,6 @@ TEST(SmallCounts, AreFoundAgainInTheWordWhereBlocksMeet) {
     EXPECT_EQ(again.pairs, counts.pairs);
     EXPECT_EQ(again.judged, counts.judged);
     EXPECT_EQ(again.leftovers, counts.leftovers);
-    EXPECT_EQ(again.marked, 0U);
-    EXPECT_EQ(SmallCounts::unpacked(GridTally{word, 5}).marked, 5U);
-    EXPECT_EQ(SmallCounts::unpacked(GridTally{word, 5}).leftovers, counts.leftovers);
   }
 }
 
@@ -49,27 +46,26 @@ TEST(GridWord, SharesOfAllBlocksFlipOneBit) {
   }
 }
 
-// All entries of three leftovers, over seven blocks: each entry in one block, as what it is. They lie in these places.
-void expect_all_parts(const std::vector<std::uint32_t>& places, unsigned long long marked) {
+// All entries of three leftovers, over seven blocks: each entry in one block, as what it is.
+TEST(LeftoverPart, OfAllBlocksAreTheRest) {
   constexpr std::uint32_t kBlocks = 7;
   constexpr std::uint32_t kEntries = 64 * 4;
   const std::vector<TeamCounts> handed_over = {{40, 216}, {3, 0}, {0, 0}};
   std::vector<LeftoverSearch> items(LeftoverView::kMost);
   std::vector<NodePair> entries(std::size_t{LeftoverView::kMost} * LeftoverView::kEntries, {999000, 999, 0});
   for (std::uint32_t r = 0; r < handed_over.size(); ++r) {
-    LeftoverSearch& leftover = items[places[r]];
+    LeftoverSearch& leftover = items[r];
     leftover.nodes = handed_over[r].nodes;
     leftover.leaves = handed_over[r].leaves;
     for (std::uint32_t e = 0; e < LeftoverView::kEntries; ++e)
-      entries[places[r] * LeftoverView::kEntries + e] = {1000 * r + e, e, 0};
+      entries[r * LeftoverView::kEntries + e] = {1000 * r + e, e, 0};
   }
   std::vector<std::vector<std::uint32_t>> stacks(kBlocks, std::vector<std::uint32_t>(3 * 2 * kEntries));
   std::vector<TeamCounts> counts(kBlocks);
   on_host::run({{kBlocks}, {64}, 0}, 0, [&](unsigned char*) {
     const WarpShare share{threadIdx.x / 32, 2};
     const SearchTeam team{share, 0, {stacks[blockIdx.x].data(), 2 * kEntries, 2 * kEntries}, nullptr};
-    const LeftoverPart part({items.data(), entries.data()}, static_cast<std::uint32_t>(handed_over.size()), marked,
-                            team);
+    const LeftoverPart part({items.data(), entries.data()}, static_cast<std::uint32_t>(handed_over.size()), team);
     if (threadIdx.x == 0) counts[blockIdx.x] = part.counts();
   });
   std::vector<std::vector<int>> met(handed_over.size(), std::vector<int>(LeftoverView::kEntries, 0));
@@ -88,25 +84,12 @@ void expect_all_parts(const std::vector<std::uint32_t>& places, unsigned long lo
       EXPECT_EQ(met[r][e], e < handed_over[r].nodes + handed_over[r].leaves ? 1 : 0) << r << ' ' << e;
 }
 
-TEST(LeftoverPart, OfAllBlocksAreTheRest) {
-  expect_all_parts({0, 1, 2}, 0);
-}
-
-TEST(LeftoverPart, IsOfRestsWhereTheirBitsSay) {
-  const std::vector<std::vector<std::uint32_t>> kPlaces = {{0, 1, 2}, {3, 31, 32}, {0, 5, 63}, {32, 40, 62}};
-  for (const std::vector<std::uint32_t>& places : kPlaces) {
-    unsigned long long marked = 0;
-    for (const std::uint32_t place : places) marked |= 1ULL << place;
-    expect_all_parts(places, marked);
-  }
-}
-
 TEST(MeasuredPair, IsImprovedToTheNearestInAnyOrder) {
   const std::vector<core::Proximity> found = {{2.0F, 1, 1}, {1.0F, 7, 3}, {1.0F, 7, 2}, {1.0F, 9, 0}, {3.0F, 0, 0}};
   for (std::size_t first = 0; first < found.size(); ++first) {
     MeasuredPair pair;
     pair.is_rejected = 1;
-    for (std::size_t k = 0; k < found.size(); ++k) improve(&pair, found[(first + k) % found.size()], k == 0);
+    for (std::size_t k = 0; k < found.size(); ++k) improve(&pair, found[(first + k) % found.size()]);
     EXPECT_EQ(pair.nearest, (core::Proximity{1.0F, 7, 2}));
     EXPECT_EQ(pair.is_rejected, 1U);
   }
