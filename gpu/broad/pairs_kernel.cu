@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "gpu/runtime/kernel_launch.cuh"
+#include "gpu/stages/pairs_only/bulk_launch.cuh"
 #include "gpu/stages/pairs_only/pairs.cuh"
 
 namespace broadside::gpu {

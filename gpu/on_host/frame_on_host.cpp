@@ -5,6 +5,7 @@
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/stages/digest.cuh"
 #include "gpu/stages/grid_frame.cuh"
+#include "gpu/stages/pairs_only/bulk_launch.cuh"
 #include "gpu/stages/pairs_only/pairs.cuh"
 #include "gpu/stages/small_frame.cuh"
 

@@ -1,12 +1,10 @@
-// The broad phase alone, as the threads of its launches run it.
+// The broad phase alone, as the threads of its last launch run it; bulk_launch.cuh is the launch before it.
 #pragma once
 
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/stages/broad/broad_stage.cuh"
 #include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/pairs_only/bulk_bins.cuh"
-#include "gpu/stages/pairs_only/bulk_chunks.cuh"
 #include "gpu/stages/pairs_only/bulk_search.cuh"
 #include "gpu/stages/pairs_only/bulk_sort.cuh"
 
@@ -16,24 +14,6 @@ namespace broadside::gpu {
 __device__ inline void start_counts(const PairsView& view) {
   *view.counters = Counters{};
   if (view.broad.start == Start::kBulk) *view.bulk.turns = 0;
-}
-
-// Before run_pairs<true>, where there are bins. `shared`: a block's own, tile_bytes or bin_bytes, the larger.
-__device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
-  const GridTeam grid(view.barrier);
-  const BulkView& bulk = view.bulk;
-  mark_begin(grid, view.outcome);
-  if (grid.rank() == 0) start_counts(view);
-  count_chunks(grid, bulk, view.boxes, view.box_count);
-  grid.sync();
-  mark_end(grid, view.outcome, FindStep::kCount);
-  place_chunks_in_order(grid, bulk, reinterpret_cast<std::uint32_t*>(shared));
-  grid.sync();
-  mark_end(grid, view.outcome, FindStep::kPlace);
-  fill_bins(bulk, view.boxes, view.box_count, shared);
-  grid.sync();
-  empty_bins(bulk, shared);
-  end_entries(grid, bulk, view.box_count);
 }
 
 // What a warp has in shared memory.
