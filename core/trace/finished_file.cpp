@@ -1,6 +1,8 @@
 #include "core/trace/finished_file.hpp"
 
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "core/trace/hdf5_sink.hpp"
 #include "core/trace/trace_header.hpp"
@@ -17,6 +19,16 @@ Handle open_hdf5(PartFile& part, unsigned flags) {
   const Handle access = part.access_properties();
   if (!access) return {};
   return {H5Fopen(part.path().c_str(), flags, access.get()), H5Fclose};
+}
+
+std::vector<std::string> names_in_root(hid_t file) {
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
+  return names;
 }
 
 }  // namespace
@@ -44,8 +56,8 @@ std::unique_ptr<PartFile> compacted(PartFile& part, const std::filesystem::path&
       sink.text("/", "format", "broadside-trace");
       sink.number("/", "format_version", Element::kU32, &kTraceFormatVersion);
       good = sink.ok();
-      for (const char* name : {"trace", "scene", "provenance"})
-        good = good && H5Ocopy(source.get(), name, target.get(), name, H5P_DEFAULT, H5P_DEFAULT) >= 0;
+      for (const std::string& name : names_in_root(source.get()))
+        good = good && H5Ocopy(source.get(), name.c_str(), target.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0;
     }
     good = target.close() && good && copy->commit();
   }
