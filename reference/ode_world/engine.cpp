@@ -6,6 +6,7 @@
 
 #include "reference/engines.hpp"
 #if BROADSIDE_HAS_ODE
+#include "reference/ode_world/ode_library.hpp"
 #include "reference/ode_world/ode_world.hpp"
 #include "reference/rigid_world/solid.hpp"
 #endif

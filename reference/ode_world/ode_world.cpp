@@ -4,19 +4,14 @@
 
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
-#include <cstring>
 #include <deque>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "reference/loaded_library.hpp"
+#include "reference/ode_world/ode_library.hpp"
 #include "reference/ode_world/ode_shapes.hpp"
 #include "reference/rigid_world/world_record.hpp"
-#include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
 
 namespace broadside::reference {
@@ -29,36 +24,6 @@ using plain::Vec;
 constexpr int kMostPoints = 64;
 // A body that only translates: its inverse inertia is zero in any precision.
 constexpr double kNeverTurns = 1e200;
-
-// What ODE said since the last look. It reports through global functions; this thread's steps are this thread's words.
-thread_local std::uint64_t lcp_errors = 0;
-
-void hear_message(int, const char* text, va_list) {
-  if (std::strstr(text, "LCP internal error") != nullptr) ++lcp_errors;
-}
-
-// ODE would end the program after either of these.
-[[noreturn]] void hear_error(int, const char* text, va_list arguments) {
-  char line[256];
-  std::vsnprintf(line, sizeof line, text, arguments);
-  throw std::runtime_error(line);
-}
-
-// ODE's own state of the process: entered once, left when the program ends.
-struct Library {
-  Library() {
-    dInitODE2(0);
-    dSetMessageHandler(hear_message);
-    dSetErrorHandler(hear_error);
-    dSetDebugHandler(hear_error);
-  }
-  ~Library() { dCloseODE(); }
-};
-
-void enter_library() {
-  static const Library library;
-  dAllocateODEDataForThread(dAllocateMaskAll);
-}
 
 Vec vec(const dReal* v) {
   return {v[0], v[1], v[2]};
@@ -119,7 +84,7 @@ class OdeWorld final : public core::Dynamics {
 
   Status load(const core::Scene& scene) override {
     return vendor_call("ode-world: load", [&]() -> Status {
-      enter_library();
+      enter_ode();
       scene_ = &scene;
       if (Status s = record_.load(scene); !s) return s;
       touches_.clear();
@@ -138,15 +103,15 @@ class OdeWorld final : public core::Dynamics {
 
   Status step(float dt_s) override {
     return vendor_call("ode-world: step", [&]() -> Status {
-      enter_library();
+      enter_ode();
       record_.begin_step();
       collide();
-      lcp_errors = 0;
+      forget_lcp_errors();
       // QuickStep reorders constraints by a random number whose seed is the whole process's.
       dRandSetSeed(seed_);
       const int is_done = options_.is_quick ? dWorldQuickStep(world_->world, dt_s) : dWorldStep(world_->world, dt_s);
       seed_ = dRandGetSeed();
-      lcp_->note(lcp_errors > 0 ? 1 : 0, 1);
+      lcp_->note(ode_lcp_errors() > 0 ? 1 : 0, 1);
       if (is_done == 0)
         return core::Error{"ODE had no memory for this step", "ode-world: step", "run a smaller scene",
                            core::Exit::kMissing};
@@ -300,27 +265,6 @@ class OdeWorld final : public core::Dynamics {
 
 std::unique_ptr<core::Dynamics> make_ode_world(const OdeOptions& options, SharedDefectCounter lcp) {
   return std::make_unique<OdeWorld>(options, std::move(lcp));
-}
-
-std::string ode_build() {
-  return "ODE " BROADSIDE_ODE_VERSION " (" + loaded_library(reinterpret_cast<const void*>(&dWorldCreate)) + "), " +
-         (sizeof(dReal) == sizeof(double) ? "double" : "float");
-}
-
-core::EquivalenceCard ode_card() {
-  return library_card(ode_build(), reinterpret_cast<const void*>(&dWorldCreate), "float64", "none", 1);
-}
-
-double ode_erp() {
-  enter_library();
-  const World world;
-  return dWorldGetERP(world.world);
-}
-
-double ode_cfm() {
-  enter_library();
-  const World world;
-  return dWorldGetCFM(world.world);
 }
 
 }  // namespace broadside::reference

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "core/engine/dynamics.hpp"
-#include "core/engine/equivalence.hpp"
 #include "reference/vendor_defects.hpp"
 
 namespace broadside::reference {
@@ -23,10 +21,5 @@ struct OdeOptions {
 // Records states, boxes and points; detection is at the start of the step. `lcp` counts the steps in which Dantzig's
 // solver reported an internal error.
 std::unique_ptr<core::Dynamics> make_ode_world(const OdeOptions& options, SharedDefectCounter lcp);
-
-std::string ode_build();           // "ODE 0.16.2 (libode.so.8.1.2), double"
-core::EquivalenceCard ode_card();  // the library
-double ode_erp();                  // share of the depth that a step corrects, as ODE ships
-double ode_cfm();                  // constraint force mixing as ODE ships, s/kg
 
 }  // namespace broadside::reference
