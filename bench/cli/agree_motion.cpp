@@ -134,8 +134,9 @@ core::Status save_cases(const MotionArguments& a, const Questions& questions, Mo
     const std::filesystem::path file =
         cases / fmt::format("{}-{}-{}-{}.{}", a.kind, study.label, word, k, questions.bodies ? "json" : "csv");
     if (core::Status s = save_case(questions, k, a.seed, file); !s) return s;
-    study.repeats.push_back(
-        fmt::format("broadside agree --motion {} --case '{}' --engine '{}'", a.kind, file.string(), study.label));
+    if (count == 0)
+      study.repeats.push_back(
+          fmt::format("broadside agree --motion {} --case '{}' --engine '{}'", a.kind, file.string(), study.label));
     ++count;
   }
   return core::Done{};
