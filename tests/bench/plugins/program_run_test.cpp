@@ -103,6 +103,14 @@ TEST(ProgramRun, AProgramThatNeverAnswersEndsAtTheTimeLimit) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(120)) << "and so has the program itself";
 }
 
+TEST(ProgramRun, ItIsUnderTheLimitOfMemory) {
+  const ScratchFolder folder;
+  const Ended ended = run_program({"run", "freefall:cube:3", "--frames", "5", "--engine", wrong("step-takes-memory"),
+                                   "--memory-limit", "1024", "--out", folder.text()});
+  EXPECT_EQ(ended.exit_code, 3) << ended.out << ended.err;
+  EXPECT_NE(ended.out.find("MemoryError"), std::string::npos) << ended.out;
+}
+
 TEST(ProgramRunSlow, AProgramThatNeverSaysHelloIsRefusedSlow) {
   const Ended ended =
       run_program({"run", "freefall:cube:3", "--frames", "5", "--engine", wrong("never-answers-hello")});

@@ -27,6 +27,8 @@ class World:
         self.steps += 1
         if self.steps == 3 and FAULT == "step-raises":
             raise RuntimeError("the moon\nis full")
+        if self.steps == 3 and FAULT == "step-takes-memory":
+            self.hoard = bytearray(8 << 30)
         if self.steps == 3 and FAULT == "step-prints":
             print("step 3", flush=True)  # the client sends this to standard error
         for state in self.states:
@@ -77,7 +79,7 @@ def main():
         time.sleep(60)
     if FAULT == "says-nothing":
         sys.exit(7)
-    if FAULT in ("none", "tells-seconds", "step-raises", "step-prints"):
+    if FAULT in ("none", "tells-seconds", "step-raises", "step-prints", "step-takes-memory"):
         return broadside_engine.serve(World())
     engine = World()
     while len(head := sys.stdin.buffer.read(4)) == 4:

@@ -106,6 +106,36 @@ TEST(PluginWorld, TablesOfOtherHeadersAreRefusedOrRead) {
   EXPECT_NE(described("half_world").find("half a dynamics engine"), std::string::npos);
 }
 
+// A library of version 1 declares nothing: the laws of METHOD are held against it, as before there were declarations.
+TEST(PluginWorld, ALibraryOfVersion1WorksAsBefore) {
+  auto settings = core::Settings::parse("falling", {}, {});
+  auto engine =
+      reference::create_plugin_engine(kFolder + "/libfalling_engine.so", settings.value(), core::make_host_space());
+  ASSERT_TRUE(engine.ok()) << engine.error().line();
+  EXPECT_EQ(engine.value().declaration, core::method_declaration());
+  core::Dynamics& dynamics = *engine.value().dynamics;
+  EXPECT_EQ(dynamics.groups(), bit(core::Group::kBodies));
+  core::Scene cubes = scene("freefall:cube:3");
+  ASSERT_TRUE(dynamics.load(cubes).ok());
+  ASSERT_TRUE(dynamics.step(cubes.dt_s).ok());
+  core::FrameRecord frame;
+  ASSERT_TRUE(dynamics.read_back(frame, core::RecordLevel::kFull).ok());
+  EXPECT_EQ(frame.velocity[2].y, cubes.bodies[2].velocity.y + cubes.dt_s * cubes.gravity_m_s2.y);
+
+  cubes.motion = core::Motion::kRigid;
+  const core::Status refused = dynamics.load(cubes);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().line().find("version 1 of the interface gives no inertia; export broadside_engine_v2"),
+            std::string::npos)
+      << refused.error().line();
+}
+
+TEST(PluginWorld, WhereALibraryHasBothVersionsTheSecondIsUsed) {
+  const auto both = reference::describe_plugin(kFolder + "/libfalling_both.so");
+  ASSERT_FALSE(both.ok());
+  EXPECT_NE(both.error().line().find("broadside_engine_v2 returned null"), std::string::npos) << both.error().line();
+}
+
 // Expected values are the example's own numbers: a brick of 2 kg, 0.2 x 0.4 x 0.6 m, and a ball of 0.25 m.
 TEST(PluginScene, SaysShapesMassesAndThresholds) {
   const std::string examples = std::string(BROADSIDE_SOURCE_DIR) + "/core/plugin/examples/";
