@@ -68,7 +68,9 @@ Row row_of(SolverPoint& p, std::vector<RigidBody>& bodies) {
   return row;
 }
 
-void solve(const Row& row) {
+// keeps_sliding: what slid in the sweep before slides in this one too. Between two coefficients of friction the sweeps
+// would not settle otherwise.
+void solve(const Row& row, bool keeps_sliding) {
   SolverPoint& p = *row.point;
   const Vec n = p.at.normal;
   const double before = p.normal_impulse;
@@ -80,8 +82,9 @@ void solve(const Row& row) {
   const Vec old = p.friction_impulse;
   Vec wanted = old - (1.0 / row.tangent_mobility) * slip;
   const double size = length(wanted);
-  if (size > p.surface.mu_static * p.normal_impulse)
-    wanted = size > 0.0 ? (p.surface.mu_kinetic * p.normal_impulse / size) * wanted : Vec{};
+  p.slides = (p.slides && keeps_sliding) || size > p.surface.mu_static * p.normal_impulse;
+  const double most = (p.slides ? p.surface.mu_kinetic : p.surface.mu_static) * p.normal_impulse;
+  if (size > most) wanted = size > 0.0 ? (most / size) * wanted : Vec{};
   p.friction_impulse = wanted;
   row.apply(wanted - old);
 }
@@ -95,10 +98,11 @@ void solve_velocities(std::vector<SolverPoint>& points, std::vector<RigidBody>& 
   for (const Row& row : rows) row.apply(row.point->normal_impulse * row.point->at.normal + row.point->friction_impulse);
   for (std::uint32_t k = 0; k < iterations; ++k) {
     // Forward and backward in turn, so that no end of a stack is favored.
+    const auto solve_row = [keeps_sliding = 2 * k >= iterations](const Row& row) { solve(row, keeps_sliding); };
     if (k % 2 == 0)
-      std::for_each(rows.begin(), rows.end(), solve);
+      std::for_each(rows.begin(), rows.end(), solve_row);
     else
-      std::for_each(rows.rbegin(), rows.rend(), solve);
+      std::for_each(rows.rbegin(), rows.rend(), solve_row);
   }
 }
 

@@ -19,6 +19,7 @@ struct SolverPoint {
   double least_speed = 0.0;     // m/s along the normal that a solve must leave, at least
   double normal_impulse = 0.0;  // N s, >= 0, of one solve
   Vec friction_impulse;         // N s on A, of one solve
+  bool slides = false;          // in one solve, from when static friction did not hold it
   Vec total_impulse;            // N s on A, of the whole step
   Vec contact_impulse;          // N s on A, of the step's contacts without its impacts: the next step starts from it
 
@@ -26,6 +27,7 @@ struct SolverPoint {
     total_impulse = total_impulse + normal_impulse * at.normal + friction_impulse;
     normal_impulse = 0.0;
     friction_impulse = {};
+    slides = false;
   }
 };
 
