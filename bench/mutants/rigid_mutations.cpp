@@ -20,10 +20,12 @@ namespace {
 
 using reference::RigidMutant;
 
-// Of a random scene: a step that games take, one of engineers, and one between.
-constexpr std::array kSteps_s{1.0F / 60.0F, 1.0F / 240.0F, 1.0F / 1000.0F};
-// Half a second at the longest step.
-constexpr std::uint32_t kFrames = 30;
+// Of a random scene: a step that games take, one of engineers, and one between; long enough for bodies to land.
+struct Pace {
+  float dt_s;
+  std::uint32_t frames;
+};
+constexpr std::array kPaces{Pace{1.0F / 60.0F, 90}, Pace{1.0F / 240.0F, 150}, Pace{1.0F / 1000.0F, 250}};
 
 std::array<std::span<const RigidMutant>, 4> mutants() {
   return {reference::flight_mutants(), reference::touch_mutants(), reference::impulse_mutants(),
@@ -159,8 +161,8 @@ core::Status judge_sound_rigid(std::uint32_t random_scenes, MutationScore& score
     tick();
   }
   for (std::uint32_t k = 0; k < random_scenes && !is_interrupted(); ++k) {
-    for (const float dt_s : kSteps_s)
-      if (core::Status s = judge_sound(random_rigid_scene(k, dt_s, kFrames), score); !s) return s;
+    for (const Pace& pace : kPaces)
+      if (core::Status s = judge_sound(random_rigid_scene(k, pace.dt_s, pace.frames), score); !s) return s;
     tick();
   }
   return core::Done{};

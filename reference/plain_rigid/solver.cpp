@@ -68,8 +68,9 @@ Row row_of(SolverPoint& p, std::vector<RigidBody>& bodies) {
   return row;
 }
 
-// Returns how fast it had to change the point's velocity, m/s.
-double solve(const Row& row) {
+// keeps_sliding: what slid in the sweep before slides in this one too. Between two coefficients of friction the sweeps
+// would not settle otherwise. Returns how fast it had to change the point's velocity, m/s.
+double solve(const Row& row, bool keeps_sliding) {
   SolverPoint& p = *row.point;
   const Vec n = p.at.normal;
   const double before = p.normal_impulse;
@@ -81,8 +82,9 @@ double solve(const Row& row) {
   const Vec old = p.friction_impulse;
   Vec wanted = old - (1.0 / row.tangent_mobility) * slip;
   const double size = length(wanted);
-  if (size > p.surface.mu_static * p.normal_impulse)
-    wanted = size > 0.0 ? (p.surface.mu_kinetic * p.normal_impulse / size) * wanted : Vec{};
+  p.slides = (p.slides && keeps_sliding) || size > p.surface.mu_static * p.normal_impulse;
+  const double most = (p.slides ? p.surface.mu_kinetic : p.surface.mu_static) * p.normal_impulse;
+  if (size > most) wanted = size > 0.0 ? (most / size) * wanted : Vec{};
   p.friction_impulse = wanted;
   row.apply(wanted - old);
   return std::max(std::abs(p.normal_impulse - before) * row.normal_mobility,
@@ -90,10 +92,10 @@ double solve(const Row& row) {
 }
 
 // One forward and one backward pass, so that no end of a stack is favored. Returns the largest change, m/s.
-double sweep(const std::vector<Row>& rows) {
+double sweep(const std::vector<Row>& rows, bool keeps_sliding) {
   double change = 0.0;
-  for (auto row = rows.begin(); row != rows.end(); ++row) change = std::max(change, solve(*row));
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) change = std::max(change, solve(*row));
+  for (auto row = rows.begin(); row != rows.end(); ++row) change = std::max(change, solve(*row, keeps_sliding));
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) change = std::max(change, solve(*row, keeps_sliding));
   return change;
 }
 
@@ -158,7 +160,7 @@ std::uint32_t solve_velocities(std::vector<SolverPoint>& points, std::vector<Rig
   for (std::uint32_t k = 1; k <= iterations; ++k) {
     directions.begin_sweep();
     // The last word is a sweep's: it leaves every impulse in its cone.
-    if (sweep(rows) <= kDone * fastest || k == iterations) return k;
+    if (sweep(rows, 2 * k >= iterations) <= kDone * fastest || k == iterations) return k;
     directions.follow();
   }
   return 0;

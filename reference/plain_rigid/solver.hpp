@@ -19,12 +19,14 @@ struct SolverPoint {
   double least_speed = 0.0;     // m/s along the normal that a solve must leave, at least
   double normal_impulse = 0.0;  // N s, >= 0, of one solve
   Vec friction_impulse;         // N s on A, of one solve
+  bool slides = false;          // in one solve, from when static friction did not hold it
   Vec total_impulse;            // N s on A, of the whole step
 
   void finish_solve() {
     total_impulse = total_impulse + normal_impulse * at.normal + friction_impulse;
     normal_impulse = 0.0;
     friction_impulse = {};
+    slides = false;
   }
 };
 

@@ -216,8 +216,12 @@ std::span<const RigidMutant> table() {
        "e = 1.2",
        "energy-growth",
        "rigid-bounce",
-       {.find_points = [](StagedWorld& w,
-                          double h) { with_surface(w, h, [](core::Material& m) { m.restitution = 1.2F; }); }}},
+       {.solve_impacts =
+            [](StagedWorld& w, double h) {
+              // (1 + 1.2) / (1 + 0.8) of the impulse.
+              w.sound_solve_impacts(h);
+              for (SolverPoint& p : w.points_) push(w, p, (2.2 / 1.8 - 1.0) * p.total_impulse);
+            }}},
       {"explodes",
        "bodies that rest on each other are thrown apart at 1 m/s",
        "energy-growth",

@@ -64,7 +64,9 @@ class AngularMomentum final : public Validator {
     // The gyroscopic torque may be that of the spin before or after the impulses.
     const double gyroscopic = m.h * (length(cross(b.before.w, b.before.angular_momentum)) +
                                      length(cross(b.after.w, b.after.angular_momentum)));
-    const double spin = length(b.before.w) + length(b.after.w);
+    // What turning L back rounds is divided by the least moment, and multiplied by the largest one.
+    const double spin = length(b.before.w) + length(b.after.w) +
+                        (length(b.before.angular_momentum) + length(b.after.angular_momentum)) / f.least_moment;
     const double scale = f.largest_moment * spin + scale_[i];
     const double limit = gyroscopic + slack_[i] + m.rounding_of(40 + 2 * accumulations_ * points_[i]) * scale +
                          rounding(4) * scale_[i] + kSubnormal + m.h * b.torque_slack;

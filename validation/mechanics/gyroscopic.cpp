@@ -28,8 +28,10 @@ class Gyroscopic final : public Validator {
       const Vec3d l0 = b.before.angular_momentum;
       const Vec3d l1 = b.after.angular_momentum;
       const double torque = std::max(length(cross(b.before.w, l0)), length(cross(b.after.w, l1)));
-      // A quaternion turns the inertia: 4 roundings and 12 operations, twice; the product with w.
-      const double rounding = substeps_ * m.rounding_of(40) * m.facts[i].largest_moment * spin;
+      // A quaternion turns the inertia: 4 roundings and 12 operations, twice; the product with w. What turning L back
+      // rounds is divided by the least moment, and multiplied by the largest one.
+      const double size = spin + std::max(length(l0), length(l1)) / m.facts[i].least_moment;
+      const double rounding = substeps_ * m.rounding_of(40) * m.facts[i].largest_moment * size;
       judge_energy(m, i, torque, rounding * spin);
       tally_.check(length(l1 - l0), {0.5 * m.h * torque + rounding, "N m s", kOrigin},
                    Where::body(m.step, i, "bodies.angular_velocity"), [&] {
