@@ -38,9 +38,11 @@ std::string word(MujocoIntegrator integrator) {
   return integrator == MujocoIntegrator::kRungeKutta ? "RK4" : "Euler";
 }
 
-// MuJoCo has one coefficient and takes the larger of two surfaces.
+// MuJoCo has one coefficient and takes the larger of two surfaces. It never takes less than 1e-5, so surfaces without
+// friction are contacts of one dimension; of two surfaces MuJoCo takes the larger number of dimensions too.
 std::string friction(const core::Material& material) {
-  return attribute("friction", text({material.mu_kinetic, 0.0, 0.0}));
+  return attribute("friction", text({material.mu_kinetic, 0.0, 0.0})) +
+         (material.mu_kinetic > 0.0F ? "" : " condim=\"1\"");
 }
 
 // Turns z to the inward normal of a face.

@@ -58,6 +58,24 @@ TEST(MujocoWorld, ContactsDeeperThanTheBoxesOverlapAreCounted) {
   EXPECT_EQ(engine.defects().front().hits, 0U) << "nothing was too deep, and something was counted";
 }
 
+// MuJoCo raises friction to 1e-5; a scene without friction has none.
+TEST(MujocoWorld, SurfacesWithoutFrictionDoNotBrake) {
+  if (!reference::mujoco_world_row().absent().empty()) GTEST_SKIP() << "built without MuJoCo";
+  const core::Engine engine = make();
+  core::Scene scene = stack();
+  scene.bodies.resize(1);
+  scene.bodies[0].material = scene.face_material = {0.0F, 0.0F, 0.0F};
+  scene.bodies[0].velocity = {1, 0, 0};
+  ASSERT_TRUE(engine.dynamics->load(scene).ok());
+  for (int k = 0; k < 120; ++k) ASSERT_TRUE(engine.dynamics->step(scene.dt_s).ok());
+  core::FrameRecord frame;
+  ASSERT_TRUE(engine.dynamics->read_back(frame, core::RecordLevel::kFull).ok());
+  ASSERT_FALSE(frame.points.empty());
+  // 1e-5 of the weight for a second would take 1e-4 m/s.
+  EXPECT_NEAR(frame.wide.velocity[0].x, 1.0, 1e-9);
+  for (const core::ContactPoint& p : frame.points) EXPECT_LT(std::hypot(p.impulse.x, p.impulse.z), 1e-12F);
+}
+
 // As shipped the library would start the scene again, and go on as if nothing had been.
 TEST(MujocoWorld, AStateThatIsTooFastEndsTheStepWithItsWarning) {
   if (!reference::mujoco_world_row().absent().empty()) GTEST_SKIP() << "built without MuJoCo";
