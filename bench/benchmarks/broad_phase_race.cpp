@@ -15,6 +15,7 @@
 #include <string>
 
 #include "bench/benchmarks/box_families.hpp"
+#include "bench/benchmarks/feature_queries.hpp"
 #include "bench/benchmarks/racers.hpp"
 #include "core/pair.hpp"
 
@@ -164,6 +165,7 @@ int main(int argc, char** argv) {
   register_suite("scratch", counted, Work::kScratch);
   register_suite("moving", moved, Work::kMoving);
   register_suite("sweep", swept, Work::kScratch);
+  register_feature_queries();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

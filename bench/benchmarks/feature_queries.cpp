@@ -1,7 +1,5 @@
-// First touch of vertices and faces, and of edges, by each engine that answers such queries, on the same random
-// motions of three kinds: anywhere (few touch), near (all are near enough to be candidates of a broad phase) and
-// touching. A rate counts when our own engine was neither late nor missed a touch on them; what others miss is a
-// counter beside their rate.
+#include "bench/benchmarks/feature_queries.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -83,7 +81,9 @@ void ask(benchmark::State& state, const core::MotionEngineRow& row, const std::m
   state.counters["late"] = static_cast<double>(late);
 }
 
-const bool kAreRegistered = [] {
+}  // namespace
+
+void register_feature_queries() {
   const std::pair<std::string, std::map<std::string, std::string>> subjects[] = {
       {"feature-impact", {}},
       {"fcl-features", {}},
@@ -102,8 +102,6 @@ const bool kAreRegistered = [] {
               ask(state, row, given, kind, which);
             });
           }
-  return true;
-}();
+}
 
-}  // namespace
 }  // namespace broadside::bench
