@@ -186,9 +186,9 @@ Scene random_rigid_scene(std::uint32_t seed, float dt_s, std::uint32_t frames) {
         scene.meshes.push_back(is_ball ? ball(0.5F * sides.x) : box(sides.x, sides.y, sides.z));
         const Vec3 cell{-1.2F + 1.2F * static_cast<float>(x), 0.65F + 1.2F * static_cast<float>(y),
                         -1.2F + 1.2F * static_cast<float>(z)};
-        const float mass_kg = draw.uniform(0.0F, 1.0F) < 0.1F ? 0.0F : std::exp(draw.uniform(-1.5F, 1.5F));
+        const float mass_kg = draw.uniform(0.0F, 1.0F) < 0.1F ? 0.0F : std::exp(draw.uniform(-1.0F, 1.0F));
         Body& body = add(scene, mesh++, cell, mass_kg > 0.0F ? vec3(-3, 3) : Vec3{}, mass_kg,
-                         mass_kg > 0.0F ? vec3(-6, 6) : Vec3{});
+                         mass_kg > 0.0F ? vec3(-4, 4) : Vec3{});
         body.material = material();
       }
   if (scene.bodies.empty()) {

@@ -11,6 +11,7 @@ Recording two_cubes(Vec3 a, Vec3 b, Vec3 normal, float depth_m) {
   scene.bodies = {body_at(a, {}, 1.0F), body_at(b, {}, 1.0F)};
   Recording r;
   r.header.stamp.settings = "solver=colored";
+  r.header.declaration = core::method_declaration();
   r.header.groups = core::bit(core::Group::kContacts);
   Contact c;
   c.a = 0;

@@ -44,6 +44,7 @@ Recording with_contact(const Contact& contact, float w_b) {
   scene.parameters.delta_m = 0.0F;
   scene.bodies = {body_at(contact.pre_a.x, {}, 1.0F), body_at(contact.pre_b.x, {}, w_b)};
   r.header.stamp.settings = "solver=colored";
+  r.header.declaration = core::method_declaration();
   r.header.groups = core::bit(core::Group::kContacts);
   r.frames.emplace_back().step = 2;
   r.frames[0].contacts = {contact};
@@ -170,6 +171,7 @@ Recording one_body(Vec3 start, Vec3 velocity, Vec3 gravity, const Kinematics& se
   scene.dt_s = 0x1p-6F;
   scene.gravity_m_s2 = gravity;
   scene.bodies = {body_at(start, velocity, 1.0F)};
+  r.header.declaration = core::method_declaration();
   r.header.groups = core::bit(core::Group::kDetection);
   FrameRecord& frame = r.frames.emplace_back();
   frame.step = 1;
@@ -263,6 +265,7 @@ TEST(Limits, OfNearestVertices) {
          Recording r;
          r.header.scene = mixed_scene();
          r.header.scene.bodies = {body_at({}, {}, 1.0F), body_at({1.125F, 0, 0}, {}, 1.0F)};
+         r.header.declaration = core::method_declaration();
          r.header.groups = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
          FrameRecord& frame = r.frames.emplace_back();
          frame.step = 1;

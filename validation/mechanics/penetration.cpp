@@ -139,6 +139,13 @@ class Penetration final : public Validator {
   Tally tally_{"penetration", "overlaps", kOrigin};
 };
 
+std::string why_not(const Subject& subject) {
+  if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
+  // How much of a depth an application corrects is a parameter of the scene there.
+  if (subject.header.declaration.follows_method()) return "contraction judges each correction of the method";
+  return {};
+}
+
 }  // namespace
 
 ValidatorRow penetration_row() {
@@ -147,7 +154,7 @@ ValidatorRow penetration_row() {
           "a body 3 m under the floor; an ignored pair",
           core::bit(core::Group::kBodies),
           0,
-          [](const Subject& subject) { return lacking(subject.header, core::bit(core::Group::kBodies)); },
+          why_not,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Penetration>(subject); },
           false,
           true};

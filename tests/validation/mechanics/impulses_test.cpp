@@ -72,8 +72,8 @@ Specimen struck(double more) {
 }
 
 TEST(AngularMomentum, AllowsTheRoundingOfPointAndState) {
-  // 42 operations of 2 N m s, 2 u of point and arm, 4 u of the moment.
-  expect_limit("angular-momentum", (84 + 4 + 4) * kU, struck, {"dL = (0, 0, 1", "sum (p - x) x J = (0, 0, 1) N m s"});
+  // 42 operations of L twice and of the moment, 2 u of point and arm, 4 u of the moment.
+  expect_limit("angular-momentum", (126 + 4 + 4) * kU, struck, {"dL = (0, 0, 1", "sum (p - x) x J = (0, 0, 1) N m s"});
 }
 
 TEST(AngularMomentum, LeavesThePlaceInTheGapOpenForFrictionAlone) {
