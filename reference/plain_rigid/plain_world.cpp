@@ -1,7 +1,6 @@
 #include "reference/plain_rigid/plain_world.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -25,28 +24,6 @@ core::WideVec3 wide(Vec v) {
 
 // A body that turns by more than this many rad in a step is integrated no better.
 constexpr double kMostParts = 1000.0;
-
-std::uint64_t point_digest(const core::ContactPoint& p) {
-  return core::RecordHash(0x706f696eULL, core::pair_key({p.a, p.b}))
-      .add(p.point.x, p.point.y, p.point.z, p.gap_m)
-      .add(p.normal.x, p.normal.y, p.normal.z, 0.0F)
-      .add(p.impulse.x, p.impulse.y, p.impulse.z, 0.0F)
-      .value();
-}
-
-std::uint64_t wide_digest(std::uint32_t body, const RigidBody& b) {
-  const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d); };
-  const Vec& l = b.angular_momentum;
-  return core::RecordHash(0x77696465ULL, body)
-      .add(bits(b.x.x), bits(b.x.y))
-      .add(bits(b.x.z), bits(b.v.x))
-      .add(bits(b.v.y), bits(b.v.z))
-      .add(bits(b.q.w), bits(b.q.x))
-      .add(bits(b.q.y), bits(b.q.z))
-      .add(bits(l.x), bits(l.y))
-      .add(bits(l.z), 0)
-      .value();
-}
 
 }  // namespace
 
@@ -334,19 +311,19 @@ Status PlainWorld::read_back(core::FrameRecord& frame, core::RecordLevel level) 
     frame.wide.angular_velocity.push_back(wide(b.angular_velocity()));
   }
   record(frame);
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) frame.digest += wide_digest(i, bodies_[i]);
-  for (const core::ContactPoint& p : frame.points) frame.digest += point_digest(p);
-  if (level != core::RecordLevel::kFull) {
-    frame.wide = {};
-    frame.points.clear();
-    return core::Done{};
-  }
   for (std::size_t i = 0; i < frame.wide.position.size(); ++i) {
     frame.position.push_back(core::narrowed(frame.wide.position[i]));
     frame.orientation.push_back(core::narrowed(frame.wide.orientation[i]));
     frame.velocity.push_back(core::narrowed(frame.wide.velocity[i]));
     frame.angular_velocity.push_back(core::narrowed(frame.wide.angular_velocity[i]));
   }
+  // SCHEMA.md: of what a trace records in float32; determinism compares the other fields themselves.
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+    frame.digest +=
+        core::body_digest(i, frame.position[i], frame.orientation[i], frame.velocity[i], frame.angular_velocity[i]);
+  if (level == core::RecordLevel::kFull) return core::Done{};
+  const core::FrameRecord bare{frame.step, frame.time_s, frame.digest};
+  frame = bare;
   return core::Done{};
 }
 
