@@ -45,7 +45,7 @@ void SceneArguments::add_to(CLI::App& command) {
           "SCENE", spec,
           "A scene's name, such as freefall:bunny:50 or tower:cube:20[offset=0.2,seed=7], a .toml, .gltf or .glb "
           "file, or a trace (.h5), whose scene is taken (broadside list scenes); "
-          "@mirrored-x, @doubled, @renumbered or @grown after it: the scene transformed")
+          "@mirrored-x, @turned-x, @doubled, @renumbered or @grown after it: the scene transformed")
       ->required();
   command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")
       ->check(more_than_zero, "POSITIVE");
