@@ -47,7 +47,8 @@ void SceneArguments::add_to(CLI::App& command) {
           "SCENE", spec,
           "A scene's name, such as freefall:bunny:50 or tower:cube:20[offset=0.2,seed=7], a .toml, .gltf or .glb "
           "file, or a trace (.h5), whose scene is taken (broadside list scenes); "
-          "@mirrored-x, @doubled, @renumbered or @grown after it: the scene transformed; @1/240: in steps of 1/240 s")
+          "@mirrored-x, @turned-x, @doubled, @renumbered or @grown after it: the scene transformed; @1/240: in steps of "
+          "1/240 s")
       ->required();
   command.add_option("--frames", frames, "Frames to simulate (default: the scene's own)")
       ->check(more_than_zero, "POSITIVE");

@@ -33,8 +33,8 @@ struct ConvergeArguments {
 
 // Runs the engine over the scene at a part of its step and gives its trace. The scene goes through a file, so that an
 // engine that runs in a child process gets the same one.
-core::Result<fs::path> recorded(const core::Scene& whole, int part, const CellSpec& spec, const ChildLimits& limits,
-                                const fs::path& folder) {
+core::Result<fs::path> recorded_part(const core::Scene& whole, int part, const CellSpec& spec,
+                                     const ChildLimits& limits, const fs::path& folder) {
   core::Scene scene = whole;
   scene.dt_s = std::ldexp(whole.dt_s, -part);
   scene.frames = whole.frames << static_cast<unsigned>(part);
@@ -66,7 +66,8 @@ core::Result<fs::path> recorded(const core::Scene& whole, int part, const CellSp
   return own / cell.trace_file;
 }
 
-Json as_json(const Convergence& c, const core::Verdict& v, const core::Scene& scene, const std::string& engine) {
+Json convergence_json(const Convergence& c, const core::Verdict& v, const core::Scene& scene,
+                      const std::string& engine) {
   Json figures = Json::array();
   for (const FigureErrors& f : c.figures) {
     Json orders = Json::array();
@@ -93,7 +94,7 @@ Json as_json(const Convergence& c, const core::Verdict& v, const core::Scene& sc
           {"origin", v.origin}};
 }
 
-void print(const Convergence& c) {
+void print_convergence(const Convergence& c) {
   fmt::print("{:<34}", "largest error at h =");
   for (const double dt : c.dt_s) fmt::print(" {:>12}", fmt::format("{:.4g} s", dt));
   fmt::print("  orders\n");
@@ -108,7 +109,7 @@ void print(const Convergence& c) {
   }
 }
 
-core::Exit exit_of_outcome(core::Outcome outcome) {
+core::Exit exit_of_convergence(core::Outcome outcome) {
   switch (outcome) {
     case core::Outcome::kPass:
       return core::Exit::kGood;
@@ -136,7 +137,7 @@ core::Exit converge(const ConvergeArguments& a) {
   const ScratchFolder scratch;
   std::vector<fs::path> traces;
   for (int part = 0; part < kStepSizes; ++part) {
-    auto trace = recorded(scene.value(), part, spec, a.limits, scratch.path());
+    auto trace = recorded_part(scene.value(), part, spec, a.limits, scratch.path());
     if (!trace) return complain(trace.error());
     traces.push_back(trace.value());
   }
@@ -144,14 +145,14 @@ core::Exit converge(const ConvergeArguments& a) {
   if (!measured) return complain(measured.error());
   const core::Verdict verdict = judge_convergence(measured.value());
   const std::string engine = label_of(spec);
-  print(measured.value());
+  print_convergence(measured.value());
   fmt::print("converge: {} of {} on {}: {}\n", core::outcome_word(verdict.outcome), engine, scene.value().name,
              verdict.explanation);
   if (!a.json.empty()) {
-    const Json json = as_json(measured.value(), verdict, scene.value(), engine);
+    const Json json = convergence_json(measured.value(), verdict, scene.value(), engine);
     if (core::Status s = core::write_whole_file(a.json, json.dump(2) + "\n"); !s) return complain(s.error());
   }
-  return exit_of_outcome(verdict.outcome);
+  return exit_of_convergence(verdict.outcome);
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// The bodies of a scene as plain-rigid has them.
+#pragma once
+
+#include "core/result.hpp"
+#include "core/scene/scene.hpp"
+#include "reference/plain_rigid/rigid_body.hpp"
+
+namespace broadside::reference::plain {
+
+inline Vec vec(core::Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+// At its start, with its mass properties. A shape that the engine has not is an error that says "unsupported".
+core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index, const core::MassProperties& mass);
+
+}  // namespace broadside::reference::plain
