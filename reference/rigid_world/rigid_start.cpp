@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/scene/refuse_springs.hpp"
+#include "core/scene/refuse_wrenches.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -42,6 +43,7 @@ core::Result<RigidStart> start_of(const core::Scene& scene, std::uint32_t index)
 
 core::Result<std::vector<RigidStart>> rigid_starts(const core::Scene& scene) {
   if (core::Status s = core::refuse_springs(scene); !s) return s.error();
+  if (core::Status s = core::refuse_wrenches(scene); !s) return s.error();
   std::vector<RigidStart> starts;
   starts.reserve(scene.bodies.size());
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {

@@ -79,7 +79,7 @@ TEST(RoundTrip, ACompactedFileHasEveryGroup) {
   std::uniform_real_distribution<float> place(-1.0F, 1.0F);
   for (std::uint32_t k = 0; k < 60'000; ++k) {
     large->vertices.push_back({place(random), place(random), place(random)});
-    large->triangles.push_back({random() % (k + 4), k + 4, (k + 3) % (k + 4)});
+    large->triangles.push_back({static_cast<std::uint32_t>(random()) % (k + 4), k + 4, (k + 3) % (k + 4)});
   }
   scene.meshes[0] = large;
   const TraceHeader wrote = header_of(std::move(scene), 0);
