@@ -28,8 +28,8 @@ class Determinism final : public Validator {
   explicit Determinism(const Subject& subject)
       : baseline_(subject.baseline->stamp.label()),
         // Who reads states gets them in float64, where a trace has them.
-        common_(subject.header.groups & subject.baseline->groups &
-                (kAllGroups | core::bit(core::Group::kWideBodies))) {}
+        common_(subject.header.groups & subject.baseline->groups & (kAllGroups | core::bit(core::Group::kWideBodies))) {
+  }
 
   void look(const Evidence& evidence) override {
     if (evidence.baseline == nullptr) {
