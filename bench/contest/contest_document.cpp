@@ -38,6 +38,12 @@ const Entry* own_entry(const SceneTable& scene, const std::string& engine) {
   return own == of->second.end() ? nullptr : &own->second;
 }
 
+Tone tone_of(const Entry* entry) {
+  if (entry == nullptr || entry->state != core::CellState::kRecorded || entry->coverage.applied() == 0)
+    return Tone::kAbsent;
+  return entry->broken.empty() ? Tone::kGood : Tone::kBad;
+}
+
 std::vector<std::string> columns_of(const ContestTable& table, std::vector<std::string> first) {
   for (const Entrant& e : table.entrants) first.push_back(e.engine);
   return first;
@@ -56,7 +62,9 @@ void add_verdicts(Document& document, const ContestTable& table) {
     std::vector<TableCell> line{{scene.scene}};
     for (const Entrant& e : table.entrants) {
       const Entry* entry = own_entry(scene, e.engine);
-      line.push_back({entry != nullptr ? entry_text(*entry) : e.absent.empty() ? "not run" : "absent: " + e.absent});
+      TableCell cell{entry != nullptr ? entry_text(*entry) : e.absent.empty() ? "not run" : "absent: " + e.absent};
+      cell.tone = tone_of(entry);
+      line.push_back(std::move(cell));
     }
     verdicts.rows.push_back(std::move(line));
   }
@@ -64,13 +72,13 @@ void add_verdicts(Document& document, const ContestTable& table) {
 }
 
 void add_broken_laws(Document& document, const ContestTable& table) {
-  Table broken{"broken", "Broken laws at the scenes' own steps", {"scene", "engine", "law", "what was found"}, {}};
+  Notes broken;
   for (const SceneTable& scene : table.scenes)
     for (const Entrant& e : table.entrants)
       if (const Entry* entry = own_entry(scene, e.engine))
         for (const core::Verdict& v : entry->broken)
-          broken.rows.push_back({{scene.scene}, {e.engine}, {v.validator}, {v.explanation}});
-  if (broken.rows.empty()) return;
+          broken.items.push_back(scene.scene + ", " + e.engine + ", " + v.validator + ": " + v.explanation);
+  if (broken.items.empty()) return;
   document.blocks.emplace_back(Heading{"What was broken", "broken"});
   document.blocks.emplace_back(
       Paragraph{"A broken law is a defect of the engine, a wrong declaration or setting of ours, or an error of the "

@@ -31,8 +31,8 @@ Curve curve_of(const ContestTable& table, const std::string& label, const std::m
   std::sort(points.begin(), points.end(), [](const Entry* a, const Entry* b) { return a->cost < b->cost; });
   Curve curve;
   curve.name = label;
-  curve.is_fitted = !is_native(table, label);
-  if (curve.is_fitted) curve.name += " (Node)";
+  curve.is_hollow = !is_native(table, label);
+  if (curve.is_hollow) curve.name += " (Node)";
   for (const Entry* entry : points) {
     curve.x.push_back(entry->cost);
     curve.y.push_back(entry->error);

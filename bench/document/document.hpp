@@ -12,12 +12,16 @@
 
 namespace broadside::bench {
 
+// What a cell says at a glance: a color on the page, nothing elsewhere.
+enum class Tone { kPlain, kGood, kBad, kAbsent };
+
 struct TableCell {
   std::string text;  // as people read it
   // For CSV: the number behind the text, and its standard deviation where it has one. NaN = the text itself.
   double value = std::numeric_limits<double>::quiet_NaN();
   double deviation = std::numeric_limits<double>::quiet_NaN();
   bool is_struck = false;  // a time without proof
+  Tone tone = Tone::kPlain;
 };
 
 struct Table {

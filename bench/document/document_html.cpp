@@ -20,6 +20,7 @@ constexpr std::string_view kBlockStyle = R"(
     linear-gradient(to left, var(--soft), transparent) right / .9rem 100% no-repeat scroll }
 .wide table { width: auto; min-width: 60% }
 .wide th, .wide td { white-space: nowrap }
+.wide td.good { color: var(--pass) } .wide td.bad { color: var(--fail); font-weight: 600 } .wide td.away { color: var(--soft) }
 figure.drawing { margin: 1rem 0; display: inline-block; vertical-align: top; max-width: 100% }
 figure.drawing figcaption { font-size: .8rem; color: var(--soft); max-width: 40rem }
 .notes { font-size: .875rem; padding-left: 1.2rem; max-width: 80ch; overflow-wrap: anywhere }
@@ -62,6 +63,20 @@ std::string as_html(const Notes& notes) {
   return element("ul.notes", "\n", items) + "\n";
 }
 
+std::string_view class_of(Tone tone) {
+  switch (tone) {
+    case Tone::kGood:
+      return ".good";
+    case Tone::kBad:
+      return ".bad";
+    case Tone::kAbsent:
+      return ".away";
+    case Tone::kPlain:
+      break;
+  }
+  return "";
+}
+
 std::string as_html(const Table& table) {
   std::vector<reports::Column> columns;
   for (const std::string& name : table.columns) columns.push_back({name, !columns.empty()});
@@ -70,7 +85,7 @@ std::string as_html(const Table& table) {
     std::string cells;
     for (const auto& cell : row) {
       const std::string text = cell.is_struck ? element("s", html(cell.text)) : html(cell.text);
-      cells += cells.empty() ? reports::row_head(text) : element("td.figure", text);
+      cells += cells.empty() ? reports::row_head(text) : element("td.figure" + std::string(class_of(cell.tone)), text);
     }
     rows += element("tr", cells) + "\n";
   }

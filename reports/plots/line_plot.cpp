@@ -17,6 +17,10 @@ std::string color_of(int curve) {
   return std::to_string(kApart[static_cast<std::size_t>(curve % kSeriesColors)]);
 }
 
+std::string mark_style(const Curve& curve, const std::string& color) {
+  return (curve.is_hollow ? "hollow l" : "s") + color;
+}
+
 constexpr std::size_t kMostMarks = 60;  // more would hide the curve
 
 struct Columns {
@@ -123,7 +127,7 @@ std::string svg(const LinePlot& plot, Placement placement) {
     if (plot.curves[k].is_fitted)
       legend.push_back({plot.curves[k].name, "fitted l" + number, LegendEntry::kLineOnly});
     else
-      legend.push_back({plot.curves[k].name, "s" + number, colors[k] % 4});
+      legend.push_back({plot.curves[k].name, mark_style(plot.curves[k], number), colors[k] % 4});
   }
   const Area area = area_below(draw_head(drawing, plot.text.title, legend), y);
   draw_y_axis(drawing, area, y, plot.text.y_label);
@@ -135,8 +139,8 @@ std::string svg(const LinePlot& plot, Placement placement) {
   for (std::size_t k = 0; k < plot.curves.size(); ++k) {
     const Curve& curve = plot.curves[k];
     const std::string number = color_of(colors[k]);
-    curves.line(curve, (curve.is_fitted ? "fitted l" : "curve l") + number);
-    if (!curve.is_fitted) curves.marks(curve, "s" + number, colors[k] % 4, plot.text);
+    curves.line(curve, (curve.is_fitted || curve.is_hollow ? "fitted l" : "curve l") + number);
+    if (!curve.is_fitted) curves.marks(curve, mark_style(curve, number), colors[k] % 4, plot.text);
   }
   draw_cross_lines(drawing, area, plot.lines, &x, y);
   const bool is_empty = std::none_of(ys.begin(), ys.begin() + static_cast<std::ptrdiff_t>(points),

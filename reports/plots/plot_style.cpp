@@ -52,7 +52,8 @@ std::string colored(Shade shade) {
   css += rule("grid", "stroke", "line", shade) + rule("frame", "stroke", "soft", shade) +
          rule("whisker", "stroke", "ink", shade) + rule("across", "stroke", "ink", shade) +
          rule("across-name", "fill", "ink", shade) + rule("across-name", "stroke", "paper", shade) +
-         rule("model-box", "stroke", "fail", shade) + rule("paper", "fill", "paper", shade);
+         rule("model-box", "stroke", "fail", shade) + rule("paper", "fill", "paper", shade) +
+         rule("hollow", "fill", "paper", shade);
   for (const std::string_view text : {"tick", "name"}) css += rule(text, "fill", "soft", shade);
   for (const std::string_view text : {"heading", "value"}) css += rule(text, "fill", "ink", shade);
   return css + rule("on-full", "fill", "paper", shade);
