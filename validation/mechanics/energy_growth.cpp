@@ -16,7 +16,11 @@ class EnergyGrowth final : public Validator {
         scene_(header_.scene),
         correction_(header_.declaration.text("correction")),
         rate_(header_.declaration.number("correction_rate")),
-        accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")) {}
+        accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")) {
+    for (const core::Body& b : scene_.bodies)
+      bounce_ = std::max({bounce_, static_cast<double>(b.material.restitution),
+                          static_cast<double>(scene_.face_material.restitution)});
+  }
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
@@ -96,10 +100,10 @@ class EnergyGrowth final : public Validator {
                     b.torque_slack * std::max(length(b.before.w), length(b.after.w)));
     sum += f.mass_kg * b.acceleration_slack * length(b.after.x - b.before.x);
     if (!b.is_alone) {
-      // When in the step it was thrown up is not known: it may rise at its last speed for up to h, though it was thrown
-      // at the end of the step.
+      // When in the step it bounced, or was thrown up by its spin, is not known: gravity acts on the way in and on the
+      // way out for up to h.
       const double rise = g > 0.0 ? std::max(0.0, -dot(b.after.v, m.gravity) / g) : 0.0;
-      sum += weight * m.h * (rise + m.h * g);
+      sum += weight * m.h * (std::max(rise, bounce_ * speed) + m.h * g);
       const double lifted = rate_ * depth_[i];
       if (correction_ == "position") sum += weight * lifted;
       if (correction_ == "velocity") sum += weight * lifted + 0.5 * f.mass_kg * (lifted / m.h) * (lifted / m.h);
@@ -131,6 +135,7 @@ class EnergyGrowth final : public Validator {
   std::string_view correction_;
   double rate_;
   double accumulations_;
+  double bounce_ = 0.0;  // largest restitution
   bool has_most_ = false;
   double most_ = 0.0;
   double slack_ = 0.0;
