@@ -231,7 +231,7 @@ TEST(SceneFile, EachBadFileIsOneLineWithItsPlace) {
       {"[[mesh]]\ncatalogue = \"buny\"\n", "s.toml:2", "did you mean 'bunny'?"},
       {"[[mesh]]\nfile = \"absent.ply\"\n", "s.toml:2", "no such mesh file"},
       {"[[mesh]]\nname = \"x\"\n", "s.toml:1", "exactly one of"},
-      {"[[mesh]]\nshape = \"blob\"\n", "s.toml:2", "one of: box sphere lumpy"},
+      {"[[mesh]]\nshape = \"blob\"\n", "s.toml:2", "one of: box sphere capsule cylinder lumpy"},
       {"[[mesh]]\nshape = \"box\"\nradius_m = 1\n", "s.toml:3", "unknown key 'radius_m'"},
       {"[[mesh]]\nshape = \"box\"\nscale = 0\n", "s.toml:3", "zero or negative"},
       {"[[mesh]]\nshape = \"box\"\n[[mesh]]\nshape = \"box\"\n", "s.toml:3", "a second mesh"},
