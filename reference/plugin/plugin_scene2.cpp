@@ -50,18 +50,17 @@ broadside_mesh mesh_to_c(const core::Mesh& mesh) {
           .triangle_count = mesh.triangles.size()};
 }
 
-// Where scenes have wrenches.
-template <typename Scene>
-void add_wrenches(const Scene& scene, std::vector<broadside_wrench>& wrenches) {
-  if constexpr (requires { scene.wrenches; })
-    for (const auto& w : scene.wrenches) {
-      broadside_wrench wrench{};
-      wrench.body = w.body;
-      wrench.axes = static_cast<std::uint32_t>(w.axes);
-      to_c(wrench.force, w.force_n);
-      to_c(wrench.torque, w.torque_n_m);
-      wrenches.push_back(wrench);
-    }
+std::vector<broadside_wrench> wrenches_to_c(const core::Scene& scene) {
+  std::vector<broadside_wrench> wrenches;
+  for (const core::Wrench& w : scene.wrenches) {
+    broadside_wrench wrench{};
+    wrench.body = w.body;
+    wrench.axes = static_cast<std::uint32_t>(w.axes);
+    to_c(wrench.force, w.force_n);
+    to_c(wrench.torque, w.torque_n_m);
+    wrenches.push_back(wrench);
+  }
+  return wrenches;
 }
 
 broadside_body2 body_to_c(const core::Body& b) {
@@ -103,7 +102,7 @@ core::Result<std::unique_ptr<PluginScene2>> PluginScene2::of(const core::Scene& 
     made->shapes_.push_back(shape_of(*mesh));
   }
   if (core::Status s = made->add_bodies(scene); !s) return s.error();
-  add_wrenches(scene, made->wrenches_);
+  made->wrenches_ = wrenches_to_c(scene);
   broadside_scene2& c = made->scene_;
   c.size = sizeof c;
   c.motion = scene.motion == core::Motion::kRigid ? BROADSIDE_RIGID : BROADSIDE_TRANSLATE;
