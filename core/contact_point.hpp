@@ -12,10 +12,10 @@ namespace broadside::core {
 struct ContactPoint {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
-  Vec3 point;             // m
-  Vec3 normal;            // unit, from B to A
-  float gap_m = 0.0F;     // at detection, along the normal; negative is penetration
-  Vec3 impulse;           // N s on A, of the whole step: normal part and friction together
+  Vec3 point;                 // m
+  Vec3 normal;                // unit, from B to A
+  float gap_m = 0.0F;         // at detection, along the normal; negative is penetration
+  Vec3 impulse;               // N s on A, of the whole step: normal part and friction together
   std::uint32_t feature = 0;  // the engine's own name of this point, the same while it lasts; 0 = none
 };
 

@@ -118,8 +118,7 @@ core::Status PairSource::add(core::Result<core::Mesh> made) {
   if (!made) return made.error();
   auto mesh = std::make_shared<const core::Mesh>(std::move(made).value());
   double reach = 0.0;
-  for (const Vec3 v : mesh->vertices)
-    reach = std::max(reach, std::sqrt(dot(exact::to_point(v), exact::to_point(v))));
+  for (const Vec3 v : mesh->vertices) reach = std::max(reach, std::sqrt(dot(exact::to_point(v), exact::to_point(v))));
   const Vec3 size = core::bounds(*mesh).max - core::bounds(*mesh).min;
   if (is_convex_) {
     auto core = exact::convex_core_of(*mesh);
@@ -273,8 +272,8 @@ const exact::TriangleTree& PairSource::tree(std::uint32_t mesh, Quat q) {
 
 void PairSource::arbitrate(TestPair& pair) {
   if (is_convex_) {
-    const exact::SignedDistance found = exact::signed_distance(
-        exact::placed(cores_[pair.mesh_a], pair.pose_a), exact::placed(cores_[pair.mesh_b], pair.pose_b));
+    const exact::SignedDistance found = exact::signed_distance(exact::placed(cores_[pair.mesh_a], pair.pose_a),
+                                                               exact::placed(cores_[pair.mesh_b], pair.pose_b));
     pair.distance_m = found.distance_m;
     pair.normal = found.normal;
   } else {
@@ -301,7 +300,7 @@ void PairSource::arbitrate(TestPair& pair) {
 
 double PairSource::overlap_along(const TestPair& pair, Point direction) const {
   return exact::overlap_along(exact::placed(cores_[pair.mesh_a], pair.pose_a),
-                                  exact::placed(cores_[pair.mesh_b], pair.pose_b), direction);
+                              exact::placed(cores_[pair.mesh_b], pair.pose_b), direction);
 }
 
 }  // namespace broadside::bench

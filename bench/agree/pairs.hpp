@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/engine/narrow_phase.hpp"
-#include "core/result.hpp"
-#include "core/scene/mesh.hpp"
 #include "core/exact/convex_core.hpp"
 #include "core/exact/triangle_tree.hpp"
+#include "core/result.hpp"
+#include "core/scene/mesh.hpp"
 
 namespace broadside::bench {
 

@@ -7,7 +7,7 @@ namespace {
 
 // Sound motion under a declaration that lies.
 constexpr RigidTampering kTable[] = {
-    {"closed-form", "an order that is too high", "rigid-slide",
+    {"closed-form", "an order that is too high", "rigid-spin-up",
      [](Specimen& r) {
        declare(r, {{"order", "4"}});
      }},

@@ -139,15 +139,25 @@ Scene slide() {
   return scene;
 }
 
+Scene spin_up() {
+  Scene scene = world("rigid-spin-up", 60, 1.0F / 60.0F);
+  scene.meshes = {box(0.5, 0.5, 0.5)};
+  scene.gravity_m_s2 = {};
+  add(scene, 0, {0, 8, 0}, {}, 1.0F);
+  scene.wrenches = {{0, core::WrenchAxes::kBody, {}, {0, 0.125F, 0}}};
+  scene.answer = "spin-up";
+  return scene;
+}
+
 struct SceneRow {
   std::string_view name;
   Scene (*make)();
 };
-constexpr std::array kScenes{SceneRow{"rigid-mixed", mixed},     SceneRow{"rigid-stack", stack},
-                             SceneRow{"rigid-overlap", overlap}, SceneRow{"rigid-offset", offset},
-                             SceneRow{"rigid-fast", fast},       SceneRow{"rigid-blade", blade},
-                             SceneRow{"rigid-million", million}, SceneRow{"rigid-bounce", bounce},
-                             SceneRow{"rigid-flight", flight},   SceneRow{"rigid-slide", slide}};
+constexpr std::array kScenes{
+    SceneRow{"rigid-mixed", mixed},     SceneRow{"rigid-stack", stack},    SceneRow{"rigid-overlap", overlap},
+    SceneRow{"rigid-offset", offset},   SceneRow{"rigid-fast", fast},      SceneRow{"rigid-blade", blade},
+    SceneRow{"rigid-million", million}, SceneRow{"rigid-bounce", bounce},  SceneRow{"rigid-flight", flight},
+    SceneRow{"rigid-slide", slide},     SceneRow{"rigid-spin-up", spin_up}};
 
 }  // namespace
 

@@ -84,7 +84,11 @@ std::span<const DeclarationKey> declaration_keys() {
        {"none", "velocity", "position"},
        "how depth is corrected: through velocities, through positions alone, or not: energy"},
       {"correction_rate", kNumber, "1", {}, "share of the depth that a step corrects, 0 to 1: energy"},
-      {"precision", kWord, "f64", {"f32", "f64"}, "of its arithmetic; rounding is that of the coarser of it and the trace"},
+      {"precision",
+       kWord,
+       "f64",
+       {"f32", "f64"},
+       "of its arithmetic; rounding is that of the coarser of it and the trace"},
   }};
   return kRows;
 }

@@ -22,7 +22,7 @@ struct Engine {
   std::string id;
   std::string build;  // library and version really loaded, precision, SIMD: "Bullet 3.24, float"
   Settings settings;
-  Declaration declaration;  // of its dynamics
+  Declaration declaration;                    // of its dynamics
   std::unique_ptr<BroadPhase> broad_phase;    // null = not offered
   std::unique_ptr<NarrowPhase> narrow_phase;  // null = not offered
   std::unique_ptr<Dynamics> dynamics;         // null = not offered

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/exact/triangle_distance.hpp"
 #include "core/math/box.hpp"
 #include "core/math/quat.hpp"
 #include "core/scene/mesh.hpp"
-#include "core/exact/triangle_distance.hpp"
 
 namespace broadside::exact {
 

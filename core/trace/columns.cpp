@@ -155,14 +155,20 @@ constexpr std::array kColumns{
 };
 
 constexpr std::array kGroupRows{
-    GroupRow{Group::kBodies, "/trace/body"},      GroupRow{Group::kDetection, "/trace/detection"},
-    GroupRow{Group::kPairs, "/trace/pairs"},      GroupRow{Group::kConfirmed, "/trace/confirmed"},
-    GroupRow{Group::kContacts, "/trace/contact"}, GroupRow{Group::kNarrow, "/trace/narrow"},
-    GroupRow{Group::kOctree, "/trace/octree"},    GroupRow{Group::kBodyOctree, "/trace/body_octree"},
-    GroupRow{Group::kPoints, "/trace/point"},     GroupRow{Group::kDetectedOrientation, "/trace/detection/orientation", true},
+    GroupRow{Group::kBodies, "/trace/body"},
+    GroupRow{Group::kDetection, "/trace/detection"},
+    GroupRow{Group::kPairs, "/trace/pairs"},
+    GroupRow{Group::kConfirmed, "/trace/confirmed"},
+    GroupRow{Group::kContacts, "/trace/contact"},
+    GroupRow{Group::kNarrow, "/trace/narrow"},
+    GroupRow{Group::kOctree, "/trace/octree"},
+    GroupRow{Group::kBodyOctree, "/trace/body_octree"},
+    GroupRow{Group::kPoints, "/trace/point"},
+    GroupRow{Group::kDetectedOrientation, "/trace/detection/orientation", true},
 };
 
-static_assert(sizeof(Vec3) == 12 && sizeof(Quat) == 16 && sizeof(Box) == 24 && sizeof(WideVec3) == 24 && sizeof(WideQuat) == 32 && sizeof(Pair) == 8 && sizeof(bool) == 1,
+static_assert(sizeof(Vec3) == 12 && sizeof(Quat) == 16 && sizeof(Box) == 24 && sizeof(WideVec3) == 24 &&
+                  sizeof(WideQuat) == 32 && sizeof(Pair) == 8 && sizeof(bool) == 1,
               "rows are copied as they lie in memory");
 
 // The one place that knows which member an enumerator means. visit gets a vector or a single value.

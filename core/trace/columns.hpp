@@ -67,8 +67,8 @@ struct Column {
   Element element;
   std::uint32_t width;  // elements in a row
   Records records;
-  std::size_t offset;     // of the first element in a record, bytes
-  std::string_view unit;  // "1" = a pure number
+  std::size_t offset;        // of the first element in a record, bytes
+  std::string_view unit;     // "1" = a pure number
   bool is_optional = false;  // a file may lack it, and then its fields keep their defaults
 };
 

@@ -42,7 +42,7 @@ constexpr std::uint32_t bit(Group g) {
 struct WideStates {
   std::vector<WideVec3> position;  // [n] m
   std::vector<WideQuat> orientation;
-  std::vector<WideVec3> velocity;  // [n] m/s
+  std::vector<WideVec3> velocity;          // [n] m/s
   std::vector<WideVec3> angular_velocity;  // [n] rad/s
 };
 

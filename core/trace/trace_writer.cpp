@@ -40,8 +40,10 @@ Status check_header(const std::filesystem::path& path, const TraceHeader& header
   if (header.stamp.scene_digest != scene_digest(header.scene))
     return misuse(path, "the stamp's scene_digest is not the digest of the scene", "stamp the scene that is recorded");
   const auto has = [&header](Group g) { return (header.groups & bit(g)) != 0U; };
-  if ((has(Group::kWideBodies) && !has(Group::kBodies)) || (has(Group::kDetectedOrientation) && !has(Group::kDetection)))
-    return misuse(path, "a group is there without the one that it adds to", "give float64 states with the group of states");
+  if ((has(Group::kWideBodies) && !has(Group::kBodies)) ||
+      (has(Group::kDetectedOrientation) && !has(Group::kDetection)))
+    return misuse(path, "a group is there without the one that it adds to",
+                  "give float64 states with the group of states");
   if (header.every == 0) return misuse(path, "every is 0", "record every 1st frame or fewer");
   for (const auto& [name, value] : header.notes)
     if (name.empty()) return misuse(path, "a note has no name", "name every note");

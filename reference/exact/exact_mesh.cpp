@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/engines.hpp"
 #include "core/exact/triangle_tree.hpp"
+#include "reference/engines.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/turned_shapes.hpp"
 #include "reference/vendor_build.hpp"

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "reference/vendor_build.hpp"
+
 namespace broadside::reference {
 namespace {
 
@@ -17,6 +19,25 @@ std::span<const core::SettingRow> setting_rows() {
   return rows;
 }
 
+core::EquivalenceCard card_of(const core::Scene& scene, const plain::WorldOptions& options) {
+  core::EquivalenceCard card = own_card("Broadside, float64", "float64", "none", 1);
+  card.push_back({"shape margin", "none", ""});
+  card.push_back({"contact margin", "none: a gap may close within the step, no more", ""});
+  card.push_back({"broad-phase margin", "how far bodies may come in the step", ""});
+  card.push_back({"friction rule", "geometric mean", ""});
+  card.push_back({"restitution rule", "the larger, before gravity acts", ""});
+  card.push_back({"contact solver", "projected Gauss-Seidel along conjugate directions, from the step before",
+                  "one application a contact"});
+  card.push_back(
+      {"solver iterations", "until little changes, at most " + std::to_string(options.iterations), "one pass"});
+  card.push_back({"position correction", "a fifth of the depth beyond the slop a step, without velocity", ""});
+  card.push_back(
+      {"rotation", scene.motion == core::Motion::kRigid ? "bodies turn, with the gyroscopic torque" : "none", ""});
+  card.push_back({"warm starting", "from the nearest point of the step before", ""});
+  card.push_back({"sleeping", "off", ""});
+  return card;
+}
+
 core::Result<core::Engine> create(const core::Settings& settings) {
   plain::WorldOptions options;
   options.iterations = static_cast<std::uint32_t>(std::max(1UL, settings.number("iterations")));
@@ -25,6 +46,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.build = "Broadside, float64";
   engine.settings = settings;
   engine.declaration = plain::declaration(options);
+  engine.equivalence = [options](const core::Scene& scene) { return card_of(scene, options); };
   engine.dynamics = std::make_unique<plain::PlainWorld>(options);
   return engine;
 }
@@ -37,6 +59,7 @@ core::EngineRow plain_rigid_row() {
   row.capabilities = "dynamics";
   row.what = "boxes, spheres and convex meshes that turn: serial, float64, plainly right";
   row.settings = setting_rows();
+  row.runs_in_child = false;
   row.create = create;
   return row;
 }

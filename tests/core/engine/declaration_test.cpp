@@ -31,7 +31,8 @@ TEST(Declaration, WhatIsNotDeclaredIsWhatThePlainestRightEngineWouldDeclare) {
 }
 
 TEST(Declaration, ValuesAreReadBack) {
-  const auto parsed = Declaration::parse({{"friction", "pyramid"}, {"contact_margin_m", "0.02"}, {"order", "2"}}, "there");
+  const auto parsed =
+      Declaration::parse({{"friction", "pyramid"}, {"contact_margin_m", "0.02"}, {"order", "2"}}, "there");
   ASSERT_TRUE(parsed.ok()) << parsed.error().line();
   EXPECT_EQ(parsed.value().text("friction"), "pyramid");
   EXPECT_EQ(parsed.value().number("contact_margin_m"), 0.02);
@@ -42,8 +43,7 @@ TEST(Declaration, ValuesAreReadBack) {
 TEST(Declaration, UnknownKeysAndWordsAreOneClearLine) {
   EXPECT_EQ(refusal({{"frictoin", "cone"}}), "there: a declaration has no key 'frictoin'; did you mean 'friction'?");
   EXPECT_EQ(refusal({{"friction", "con"}}), "there: 'friction' cannot be declared as 'con'; did you mean 'cone'?");
-  for (const char* text : {"-1", "nan", "inf", "1e", ""})
-    EXPECT_NE(refusal({{"contact_margin_m", text}}), "") << text;
+  for (const char* text : {"-1", "nan", "inf", "1e", ""}) EXPECT_NE(refusal({{"contact_margin_m", text}}), "") << text;
   for (const char* text : {"0", "-1", "1.5", "01", "9999999999"}) EXPECT_NE(refusal({{"substeps", text}}), "") << text;
 }
 

@@ -17,7 +17,8 @@ using namespace core;
 constexpr std::uint32_t kBodies = 6;
 
 std::optional<FrameDifference> compared(const FrameRecord& a, const FrameRecord& b) {
-  return core::first_difference(a, b, kAllGroups, Bookkeeping::kCountsAndDigest);
+  const std::uint32_t wide = a.wide.position.empty() ? 0U : bit(Group::kWideBodies);
+  return core::first_difference(a, b, kAllGroups | wide, Bookkeeping::kCountsAndDigest);
 }
 
 // With rows in every dataset, and pairs in order.
@@ -38,6 +39,16 @@ FrameRecord full_frame() {
   return f;
 }
 
+// States in float64 take the place of those in float32.
+FrameRecord wide_frame() {
+  FrameRecord f = full_frame();
+  f.wide.position.assign(kBodies, {1.0, 2.0, 3.0});
+  f.wide.velocity.assign(kBodies, {4.0, 5.0, 6.0});
+  f.wide.angular_velocity.assign(kBodies, {7.0, 8.0, 9.0});
+  f.wide.orientation.assign(kBodies, {0.5, 0.5, 0.5, 0.5});
+  return f;
+}
+
 TEST(FrameDifference, IsNoneForEqualBitsEvenOfNaN) {
   FrameRecord f = full_frame();
   f.position[2].y = std::numeric_limits<float>::quiet_NaN();
@@ -45,7 +56,8 @@ TEST(FrameDifference, IsNoneForEqualBitsEvenOfNaN) {
 }
 
 TEST(FrameDifference, NamesTheDatasetRowAndElementOfEveryFlippedBit) {
-  const FrameRecord good = full_frame();
+  const FrameRecord narrow = full_frame();
+  const FrameRecord wide = wide_frame();
   int tried = 0;
   for (const Column& c : columns()) {
     if (c.layout == Layout::kOffsets || c.layout == Layout::kWindows || c.records == Records::kStep) continue;
@@ -53,6 +65,7 @@ TEST(FrameDifference, NamesTheDatasetRowAndElementOfEveryFlippedBit) {
         c.records == Records::kPairs || c.records == Records::kConfirmed || c.records == Records::kMeasured;
     const bool is_id = c.path == "/trace/contact/a" || c.path == "/trace/contact/b";
     if (is_pair || is_id) continue;  // other bodies are another pair: see below
+    const FrameRecord& good = records_of(narrow, c.records).count > 0 ? narrow : wide;
     for (std::uint32_t e = 0; e < c.width; ++e) {
       FrameRecord bad = good;
       const std::size_t count = records_of(good, c.records).count;

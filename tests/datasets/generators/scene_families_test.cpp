@@ -104,8 +104,11 @@ TEST_P(Family, MayTurn) {
 TEST_P(Family, TheTwinRunsItAndNoVerdictFails) {
   Scene scene = made(name("cube", 12));
   scene.frames = 60;
-  for (const core::Verdict& v : tests::verdicts_of(scene))
-    EXPECT_NE(v.outcome, core::Outcome::kFail) << v.validator << ": " << v.explanation;
+  for (const core::Verdict& v : tests::verdicts_of(scene)) {
+    // Bodies of one place are moved apart by up to a side in one step, some of them through others; the law says so.
+    const bool is_true_finding = GetParam() == "same-point" && v.validator == "passage";
+    EXPECT_EQ(v.outcome == core::Outcome::kFail, is_true_finding) << v.validator << ": " << v.explanation;
+  }
 }
 
 TEST_P(Family, ComesBackFromAFileAsTheSameScene) {
