@@ -63,7 +63,7 @@ TEST(MotionEngines, ABoxThatFallsOnABox) {
                             {"fcl-motion", {{"motion", "translation"}}, 1e-4},
                             {"fcl-motion", {{"samples", "2001"}, {"solver", "naive"}}, 1e-3},  // two samples
                             {"fcl-motion", {{"motion", "spline"}, {"samples", "2001"}, {"solver", "naive"}}, 1e-3},
-                            {"fcl-motion", {{"shape", "mesh"}}, 1e-4},
+                            {"fcl-motion", {{"samples", "2001"}, {"shape", "mesh"}, {"solver", "naive"}}, 1e-3},
                             {"fcl-motion", polynomial, 1e-4},
                             {"bullet-cast", {}, 1e-4},  // float, and its own tolerance of 1e-4 m
                             {"bullet-cast", {{"method", "subsimplex"}}, 1e-3}}) {
@@ -75,6 +75,17 @@ TEST(MotionEngines, ABoxThatFallsOnABox) {
     EXPECT_TRUE(found.value().touches) << subject.id << " " << subject.settings.size();
     EXPECT_NEAR(found.value().time, 0.5, subject.time_off) << subject.id;
   }
+}
+
+// A known defect of FCL 0.7.0 (reference/README.md). Should it be mended one day, the row there goes.
+TEST(MotionEngines, FclsAdvancementOnMeshesPassesThrough) {
+  const std::vector<std::shared_ptr<const core::Mesh>> meshes{
+      std::make_shared<const core::Mesh>(datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value())};
+  auto engine = make("fcl-motion", {{"shape", "mesh"}});
+  ASSERT_TRUE(engine.value().bodies->load(meshes).ok());
+  const auto found = engine.value().bodies->first_touch({0, {{{0.25F, 3, 0.125F}, {}}, {0, -4, 0}, {}}}, {0, {}});
+  ASSERT_TRUE(found.ok());
+  EXPECT_FALSE(found.value().touches);
 }
 
 TEST(MotionEngines, WhichPathsTheyFollow) {
