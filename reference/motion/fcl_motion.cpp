@@ -34,10 +34,10 @@ using Model = fcl::BVHModel<fcl::RSS<double>>;
 
 enum class Path { kLinear, kTranslation, kScrew, kSpline };
 
-// Bound volumes: RSS, the only ones with which its advancement on meshes is not refused or wrong.
-std::unique_ptr<Geometry> mesh_geometry(const core::Mesh& mesh) {
+// Bound volumes: RSS, the only ones for which its advancement on meshes is meant.
+std::unique_ptr<Geometry> mesh_geometry(const core::Mesh& mesh, const Transform& pose) {
   std::vector<Vector> vertices;
-  for (const core::Vec3 v : mesh.vertices) vertices.emplace_back(v.x, v.y, v.z);
+  for (const core::Vec3 v : mesh.vertices) vertices.push_back(pose * Vector(v.x, v.y, v.z));
   std::vector<fcl::Triangle> triangles;
   for (const core::Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
   auto model = std::make_unique<Model>();
@@ -45,6 +45,7 @@ std::unique_ptr<Geometry> mesh_geometry(const core::Mesh& mesh) {
       model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size())) == fcl::BVH_OK &&
       model->addSubModel(vertices, triangles) == fcl::BVH_OK && model->endModel() == fcl::BVH_OK;
   if (!is_built) throw std::runtime_error("BVHModel could not be built for mesh '" + mesh.name + "'");
+  model->computeLocalAABB();
   return model;
 }
 
@@ -68,7 +69,7 @@ core::Result<Shape> shape_of(const core::Mesh& mesh, bool as_mesh) {
   Shape out;
   const auto primitive = core::primitive_of(mesh);
   if (as_mesh) {
-    out.geometry = mesh_geometry(mesh);
+    out.geometry = mesh_geometry(mesh, Transform::Identity());
   } else if (!primitive && !core::is_convex(mesh)) {
     return core::Error{"mesh '" + mesh.name + "' is no box, sphere, capsule or convex body", "fcl-motion",
                        "ask with shape=mesh", core::Exit::kMissing};
@@ -153,17 +154,9 @@ class Bodies final : public core::BodyMotionQuery {
 
   core::Result<core::FirstTouch> first_touch(const core::MovingBody& a, const core::MovingBody& b) override {
     return vendor_call("fcl-motion: first touch", [&]() -> core::Result<core::FirstTouch> {
-      // Its polynomial solver moves the models' own vertices, so each query gets models of its own.
-      const bool is_changed = query_.request.ccd_solver_type == fcl::CCDC_POLYNOMIAL_SOLVER;
-      const Shape own_a = is_changed ? shape_of(*meshes_[a.mesh], true).value() : Shape{};
-      const Shape own_b = is_changed ? shape_of(*meshes_[b.mesh], true).value() : Shape{};
-      const Shape& shape_a = is_changed ? own_a : shapes_[a.mesh];
-      const Shape& shape_b = is_changed ? own_b : shapes_[b.mesh];
-      const auto motion_a = motion_of(a, shape_a);
-      const auto motion_b = motion_of(b, shape_b);
       fcl::ContinuousCollisionResult<double> result;
-      const double said = fcl::continuousCollide<double>(shape_a.geometry.get(), motion_a.get(), shape_b.geometry.get(),
-                                                         motion_b.get(), query_.request, result);
+      const double said =
+          query_.request.ccd_solver_type == fcl::CCDC_POLYNOMIAL_SOLVER ? ask_placed(a, b, result) : ask(a, b, result);
       if (said == -1.0) throw std::runtime_error("it refuses these shapes with this solver");
       return core::FirstTouch{result.is_collide, result.is_collide ? result.time_of_contact : 1.0};
     });
@@ -172,6 +165,31 @@ class Bodies final : public core::BodyMotionQuery {
  private:
   [[nodiscard]] std::unique_ptr<Motion> motion_of(const core::MovingBody& body, const Shape& shape) const {
     return make_motion(query_.path, transform(body.motion, shape, 0.0), transform(body.motion, shape, 1.0));
+  }
+
+  double ask(const core::MovingBody& a, const core::MovingBody& b, fcl::ContinuousCollisionResult<double>& result) {
+    const auto motion_a = motion_of(a, shapes_[a.mesh]);
+    const auto motion_b = motion_of(b, shapes_[b.mesh]);
+    return fcl::continuousCollide<double>(shapes_[a.mesh].geometry.get(), motion_a.get(),
+                                          shapes_[b.mesh].geometry.get(), motion_b.get(), query_.request, result);
+  }
+
+  // The polynomial solver leaves poses out, and moves the models' own vertices: so each query gets models of its own
+  // whose vertices are where they are at the start.
+  double ask_placed(const core::MovingBody& a, const core::MovingBody& b,
+                    fcl::ContinuousCollisionResult<double>& result) {
+    const auto placed = [&](const core::MovingBody& body) {
+      return mesh_geometry(*meshes_[body.mesh], transform(body.motion, Shape{}, 0.0));
+    };
+    const auto way = [](const core::MovingBody& body) {
+      const exact::Point d = body.motion.displacement_m;
+      return fcl::TranslationMotion<double>(Matrix::Identity(), Vector(0.0, 0.0, 0.0), Vector(d.x, d.y, d.z));
+    };
+    const auto model_a = placed(a);
+    const auto model_b = placed(b);
+    const auto motion_a = way(a);
+    const auto motion_b = way(b);
+    return fcl::continuousCollide<double>(model_a.get(), &motion_a, model_b.get(), &motion_b, query_.request, result);
   }
 
   Query query_;

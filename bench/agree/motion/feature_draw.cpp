@@ -93,22 +93,32 @@ void make_touching(MovingFeatures& f, RandomStream& random) {
   }
 }
 
-// Whole numbers over one of a few odd denominators: none but the whole ones is a double.
+// Whole numbers over an odd denominator: few of them are doubles. In half of them the motion ends where the features
+// just touch: a vertex on the plane x + y + z = 1, or one edge's end on the line along (3, 5, 7).
 exact::RationalFeatures fractions(FeatureKind kind, RandomStream& random) {
   exact::RationalFeatures out;
   out.kind = kind;
-  const std::uint32_t denominators[] = {3, 5, 7, 9};
-  const std::string common = std::to_string(denominators[random.below(4)]);
+  const int denominators[] = {3, 5, 7, 9, 11};
+  const int over = denominators[random.below(5)];
+  const auto fraction = [&](int whole) { return exact::RationalText{std::to_string(whole), std::to_string(over)}; };
   for (auto& point : out.points)
-    for (auto& coordinate : point)
-      coordinate = {std::to_string(static_cast<int>(random.below(9)) - 4),
-                    random.below(3) == 0 ? std::string("1") : common};
-  // A flat triangle, or an edge along x that stands still, so that exact touches are not rare.
-  const int standing = kind == FeatureKind::kVertexFace ? 1 : 2;
-  for (int k = standing; k < 4; ++k) {
-    out.points[k][2] = out.points[standing][2];
-    out.points[k + 4] = out.points[k];
-  }
+    for (auto& coordinate : point) coordinate = fraction(static_cast<int>(random.below(5 * over)) - 2 * over);
+  const bool is_face = kind == FeatureKind::kVertexFace;
+  const int standing[] = {1, 2, 3};
+  const int corners[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int ends[][3] = {{0, 0, 0}, {3, 5, 7}};
+  for (int k = 0; k < (is_face ? 3 : 2); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int step : {0, 4})
+        out.points[(is_face ? standing[k] : k) + step][axis] = {
+            std::to_string(is_face ? corners[k][axis] : ends[k][axis])};
+  if (random.below(2) == 0) return out;
+  const int x = 1 + static_cast<int>(random.below(over - 2));
+  const int y = static_cast<int>(random.below(over - x));
+  if (is_face)
+    out.points[4] = {fraction(x), fraction(y), fraction(over - x - y)};
+  else
+    out.points[6] = {fraction(3 * x), fraction(5 * x), fraction(7 * x)};
   return out;
 }
 

@@ -54,8 +54,6 @@ TEST(MotionEngines, ABoxThatFallsOnABox) {
       std::make_shared<const core::Mesh>(datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value())};
   const core::MovingBody falls{0, {{{0.25F, 3, 0.125F}, {}}, {0, -4, 0}, {}}};
   const core::MovingBody stands{0, {}};
-  const std::map<std::string, std::string> polynomial{
-      {"motion", "translation"}, {"shape", "mesh"}, {"solver", "polynomial"}};
   for (const Subject& subject :
        std::vector<Subject>{{"exact-motion", {}},
                             {"fcl-motion", {}, 1e-4},  // its toc_err
@@ -63,8 +61,7 @@ TEST(MotionEngines, ABoxThatFallsOnABox) {
                             {"fcl-motion", {{"motion", "translation"}}, 1e-4},
                             {"fcl-motion", {{"samples", "2001"}, {"solver", "naive"}}, 1e-3},  // two samples
                             {"fcl-motion", {{"motion", "spline"}, {"samples", "2001"}, {"solver", "naive"}}, 1e-3},
-                            {"fcl-motion", {{"shape", "mesh"}}, 1e-4},
-                            {"fcl-motion", polynomial, 1e-4},
+                            {"fcl-motion", {{"samples", "2001"}, {"shape", "mesh"}, {"solver", "naive"}}, 1e-3},
                             {"bullet-cast", {}, 1e-4},  // float, and its own tolerance of 1e-4 m
                             {"bullet-cast", {{"method", "subsimplex"}}, 1e-3}}) {
     auto engine = make(subject.id, subject.settings);
@@ -74,6 +71,20 @@ TEST(MotionEngines, ABoxThatFallsOnABox) {
     ASSERT_TRUE(found.ok()) << subject.id << ": " << found.error().line();
     EXPECT_TRUE(found.value().touches) << subject.id << " " << subject.settings.size();
     EXPECT_NEAR(found.value().time, 0.5, subject.time_off) << subject.id;
+  }
+}
+
+// Known defects of FCL 0.7.0 (reference/README.md). Should one be mended some day, its row there goes.
+TEST(MotionEngines, FclsMeshesPassThroughEachOther) {
+  const std::vector<std::shared_ptr<const core::Mesh>> meshes{
+      std::make_shared<const core::Mesh>(datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value())};
+  for (const std::map<std::string, std::string>& settings : std::vector<std::map<std::string, std::string>>{
+           {{"shape", "mesh"}}, {{"motion", "translation"}, {"shape", "mesh"}, {"solver", "polynomial"}}}) {
+    auto engine = make("fcl-motion", settings);
+    ASSERT_TRUE(engine.value().bodies->load(meshes).ok());
+    const auto found = engine.value().bodies->first_touch({0, {{{0.25F, 3, 0.125F}, {}}, {0, -4, 0}, {}}}, {0, {}});
+    ASSERT_TRUE(found.ok());
+    EXPECT_FALSE(found.value().touches);
   }
 }
 
