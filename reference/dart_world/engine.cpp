@@ -49,6 +49,10 @@ core::EquivalenceCard card_of(const core::Scene& scene, const DartOptions& o) {
         {"shape of " + mesh->name, solid.what + (is_meshed ? ", as a mesh that DART draws" : ""), solid.differs});
   }
   const core::Parameters& p = scene.parameters;
+  card.push_back({"shape margin", "none", ""});
+  card.push_back({"broad-phase margin", "none", ""});
+  card.push_back({"warm starting", "none", ""});
+  card.push_back({"solver iterations", "pivoting to the end; projected Gauss-Seidel at most 30", "one pass"});
   card.push_back({"contact margin", "none", ""});
   card.push_back({"domain faces", "six static boxes outside of the domain", ""});
   card.push_back(

@@ -61,6 +61,10 @@ core::EquivalenceCard card_of(const core::Scene& scene, const MujocoOptions& o) 
                     is_hull ? "a mesh that is not convex" : solid.differs});
   }
   const core::Parameters& p = scene.parameters;
+  card.push_back({"shape margin", "none", ""});
+  card.push_back({"broad-phase margin", "none", ""});
+  card.push_back({"warm starting", "from the accelerations of the step before", "none"});
+  card.push_back({"solver iterations", "until the gain is below 1e-8, at most 100", "one pass"});
   card.push_back({"contact margin", "none", ""});
   card.push_back({"domain faces", "six static planes", ""});
   card.push_back({"friction rule", "the larger", has_unequal_friction(scene) ? "geometric mean" : ""});

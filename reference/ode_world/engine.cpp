@@ -49,6 +49,9 @@ core::EquivalenceCard card_of(const core::Scene& scene, const OdeOptions& o) {
     card.push_back({"shape of " + mesh->name, shape_word(solid, o), solid.differs});
   }
   const core::Parameters& p = scene.parameters;
+  card.push_back({"shape margin", "none: the surface layer is apart", ""});
+  card.push_back({"broad-phase margin", "none", ""});
+  card.push_back({"warm starting", "none", ""});
   card.push_back({"contact margin", "none", ""});
   card.push_back({"domain faces", "six static planes", ""});
   card.push_back({"friction rule", "geometric mean", ""});

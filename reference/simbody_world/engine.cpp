@@ -40,6 +40,11 @@ core::EquivalenceCard card_of(const core::Scene& scene, const SimbodyOptions& o)
     card.push_back({"shape of " + mesh->name, solid.what, solid.differs});
   }
   const core::Parameters& p = scene.parameters;
+  card.push_back({"shape margin", "none", ""});
+  card.push_back({"broad-phase margin", "none", ""});
+  card.push_back({"warm starting", "none", ""});
+  card.push_back({"solver iterations", "none: forces are explicit", "one pass"});
+  card.push_back({"contact solver", "none: each contact is a spring and a damper", "one application a contact"});
   card.push_back({"contact margin", "none", ""});
   card.push_back({"domain faces", "six half-spaces", ""});
   card.push_back({"friction rule", "2 a b / (a + b)", "geometric mean"});
