@@ -23,6 +23,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+constexpr std::size_t kMostInALine = 40;
+
 }  // namespace
 
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> known) {
@@ -40,6 +42,7 @@ std::string advise_name(std::string_view typed, std::span<const std::string_view
   // Up to a third of the longer word may be wrong for it to be taken as a typing error.
   if (!best.empty() && edit_distance(typed, best) * 3 <= std::max(typed.size(), best.size()))
     return "did you mean '" + std::string(best) + "'?";
+  if (known.size() > kMostInALine) return "the nearest is '" + std::string(best) + "'";
   std::string text = "one of:";
   for (const std::string_view name : known) text += " " + std::string(name);
   return text;

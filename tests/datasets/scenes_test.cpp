@@ -203,6 +203,8 @@ TEST(Scenes, EachBadNameIsOneClearLine) {
   EXPECT_TRUE(has(line("freefall:cube:many"), "whole number"));
   EXPECT_TRUE(has(line("freefall:cube:99999999999"), "whole number"));
   EXPECT_TRUE(has(line(""), "no such scene"));
+  EXPECT_TRUE(has(line("rigid:sphere:bounce"), "the nearest is 'rigid:"));
+  EXPECT_LT(line("rigid:sphere:bounce").size(), 250U) << "more names than a line holds are not listed";
 }
 
 }  // namespace
