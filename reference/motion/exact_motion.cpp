@@ -52,7 +52,8 @@ core::MotionEngineRow exact_motion_row() {
   return {"exact-motion",
           "first touch of features, exact, and of bodies, certified: the arbiter of continuous queries",
           {},
-          create};
+          create,
+          true};
 }
 
 }  // namespace broadside::reference

@@ -28,8 +28,11 @@ core::Result<core::MotionEngine> create(const core::Settings& settings) {
 }  // namespace
 
 core::MotionEngineRow feature_impact_row() {
-  return {
-      "feature-impact", "our own first touch of features: directions that part them, certified in double", {}, create};
+  return {"feature-impact",
+          "our own first touch of features: directions that part them, certified in double",
+          {},
+          create,
+          true};
 }
 
 }  // namespace broadside::reference
