@@ -23,7 +23,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-constexpr std::size_t kMostInALine = 40;
+constexpr std::size_t kMostInALine = 16;
 
 }  // namespace
 
