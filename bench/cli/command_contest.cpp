@@ -129,7 +129,10 @@ void add_contest(CLI::App& program, core::Exit& exit) {
                       "Engines, such as ode-world[solver=dantzig] (default: all)");
   command->add_option("--scene,--scenes", a->request.scenes,
                       "Scenes, or how names begin: rigid:incline:* (default: all rigid:*)");
-  command->add_option("--steps", a->request.step_factors, "Shares of each scene's own step; 1 is in the matrix")
+  command
+      ->add_option(
+          "--steps", a->request.step_factors,
+          "Shares of each scene's own step; 1 is in the matrix. Without --scenes, one scene of each kind takes them all")
       ->delimiter(',')
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();

@@ -27,6 +27,22 @@ TEST(ContestRequest, CellsAreScenesTimesEnginesTimesSteps) {
   EXPECT_NE(campaign.value().cells[0].scene.find("two-body:head-on@"), std::string::npos);
 }
 
+// The whole contest has an hour: of the scenes that nobody named, one of each kind runs at every step.
+TEST(ContestRequest, WithoutScenesOneOfEachKindTakesEveryStep) {
+  ContestRequest request;
+  request.engines = {"plain-rigid"};
+  const auto campaign = contest_campaign(request);
+  ASSERT_TRUE(campaign) << campaign.error().line();
+  const auto& cells = campaign.value().cells;
+  const auto of = [&](std::string_view name) {
+    return std::count_if(cells.begin(), cells.end(), [&](const auto& w) { return w.scene.starts_with(name); });
+  };
+  EXPECT_EQ(of("rigid:torque-free:box"), 4);
+  EXPECT_EQ(of("rigid:slide:heading-3"), 4);
+  EXPECT_EQ(of("rigid:slide:heading-5"), 1);
+  EXPECT_EQ(cells.size(), default_scenes().size() + 9 * 3);
+}
+
 // An engine that is not on this machine is a word on the page, and no cell.
 TEST(ContestRequest, AbsentEnginesHaveAReasonAndNoCell) {
   ContestRequest request;
