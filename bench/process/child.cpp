@@ -311,7 +311,15 @@ core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const 
     return cell;
   }
   if (ending.exit_code == static_cast<int>(core::Exit::kBadInput)) return core::Error{ending.last_line};
-  return ended_badly(request, ending, args);
+  core::Cell cell = ended_badly(request, ending, args);
+  // An engine that refuses a scene before its first step says why in one line, and is well.
+  if (ending.exit_code == static_cast<int>(core::Exit::kMissing) && !ending.is_interrupted &&
+      !ending.last_line.empty()) {
+    constexpr std::string_view kName = "broadside: ";
+    cell.state = core::CellState::kUnsupported;
+    cell.reason = ending.last_line.starts_with(kName) ? ending.last_line.substr(kName.size()) : ending.last_line;
+  }
+  return cell;
 }
 
 core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const ChildLimits& limits) {

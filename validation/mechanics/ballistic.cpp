@@ -36,9 +36,10 @@ class Ballistic final : public Validator {
     const double pull = m.h * b.acceleration[k];
     // METHOD clips velocities, P(23).
     const bool is_clipped = is_method_ && std::abs(v0 + pull) >= v_max_;
-    const double off_v =
-        substeps_ * (m.rounding_of(6) * std::abs(pull) + m.rounding_of(2) * (std::abs(v0) + std::abs(v1))) +
-        kSubnormal + m.h * b.acceleration_slack;
+    // An engine may hold velocities in the body's axes: then each component is rounded as the whole.
+    const double off_v = substeps_ * (m.rounding_of(6) * m.h * length(b.acceleration) +
+                                      m.rounding_of(2) * (length(b.before.v) + length(b.after.v))) +
+                         kSubnormal + m.h * b.acceleration_slack;
     const auto worked = [&] {
       return "dv = " + number_text(v1 - v0) + " m/s, g h + F h / m = " + number_text(pull) +
              " m/s; dx = " + number_text(b.after.x[k] - b.before.x[k]) + " m, h v = " + number_text(m.h * v0) + " to " +

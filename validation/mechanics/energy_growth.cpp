@@ -87,11 +87,11 @@ class EnergyGrowth final : public Validator {
     const double weight = f.mass_kg * g;
     const double speed = std::max(length(b.before.v), length(b.after.v));
     double sum = 0.5 * weight * g * m.h * m.h;
-    // A turn of second order moves L by up to h |w x L| / 2, across w.
+    // A step that takes the gyroscopic torque as it was at the start changes the spin by h w x L, across w, and gains
+    // half of that times the change of w (explicit Euler; seen of two libraries, which gain all of it).
     if (f.has_inertia) {
-      const double l = 0.5 * m.h *
-                       std::max(length(cross(b.before.w, b.before.angular_momentum)),
-                                length(cross(b.after.w, b.after.angular_momentum)));
+      const double l = m.h * std::max(length(cross(b.before.w, b.before.angular_momentum)),
+                                      length(cross(b.after.w, b.after.angular_momentum)));
       sum += 0.5 * l * l / f.least_moment;
     }
     // The same of a torque; where body axes turn, its work is that of the mean.

@@ -10,6 +10,9 @@ namespace broadside::validation {
 namespace {
 
 constexpr double kPointsOfAPatch = 4.0;
+// Operations on a component of the velocity beside the applications: m dv and m g h, and two turns, of 5 each, in
+// engines that hold velocities in the body's axes.
+constexpr double kOfAxes = 14.0;
 
 // What a body was given in one step.
 struct Given {
@@ -62,7 +65,7 @@ class Momentum final : public Validator {
       // What touches may be given impulses and relieved of them again, without a point that tells: those of one patch.
       const double applied = given_[i].points + (b.is_alone ? 0.0 : kPointsOfAPatch);
       // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
-      const double limit = m.rounding_of(4 + 2 * accumulations_ * applied) * f.mass_kg * speed +
+      const double limit = m.rounding_of(kOfAxes + 2 * accumulations_ * applied) * f.mass_kg * speed +
                            rounding(4) * given_[i].magnitude + kSubnormal + f.mass_kg * m.h * b.acceleration_slack;
       tally_.check(
           length(change - expected), {limit, "N s", kOfBodies}, Where::body(m.step, i, "bodies.velocity"),

@@ -34,6 +34,9 @@ const scale = new P.PxTolerancesScale();
 const physics = P.CreatePhysics(P.PHYSICS_VERSION, foundation, scale);
 const cooking = new P.PxCookingParams(scale);
 
+// PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, which the binding's enumeration lacks.
+const GYROSCOPIC = 1 << 10;
+
 let hasGyroscopic = false;
 let scene, world, bodies;
 
@@ -87,7 +90,7 @@ function bodyOf(b) {
     const { moments, axes } = principal(scene.turns ? b.inertia : [1, 1, 1, 0, 0, 0]);
     actor.setMass(b.mass), actor.setCMassLocalPose(pose(b.center_of_mass, axes)), actor.setMassSpaceInertiaTensor(vec3(moments));
     actor.setLinearDamping(0), actor.setAngularDamping(0), actor.setMaxLinearVelocity(1e8), actor.setMaxAngularVelocity(1e8), actor.setSleepThreshold(0);
-    if (hasGyroscopic) actor.setRigidBodyFlag(P.PxRigidBodyFlagEnum.eENABLE_GYROSCOPIC_FORCES, true);
+    if (hasGyroscopic) actor.setRigidBodyFlag(GYROSCOPIC, true);
     if (!scene.turns) for (const flag of ["X", "Y", "Z"]) actor.setRigidDynamicLockFlag(P.PxRigidDynamicLockFlagEnum[`eLOCK_ANGULAR_${flag}`], true);
     actor.setLinearVelocity(vec3(b.velocity)), actor.setAngularVelocity(vec3(b.angular_velocity));
   }
