@@ -8,6 +8,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "reference/plain_rigid/impacts.hpp"
 #include "reference/plain_rigid/scene_bodies.hpp"
 
 namespace broadside::reference::plain {
@@ -29,16 +30,6 @@ bool is_before(const SolverPoint& p, const SolverPoint& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
 
-// Relative: some hundred sweeps of float64 additions.
-constexpr double kRoundingOfSweeps = 0x1p-44;
-
-double kinetic_energy(const std::vector<RigidBody>& bodies) {
-  double sum = 0.0;
-  for (const RigidBody& b : bodies)
-    if (!b.is_static())
-      sum += 0.5 * dot(b.v, b.v) / b.inverse_mass + 0.5 * dot(b.angular_velocity(), b.angular_momentum);
-  return sum;
-}
 }  // namespace
 
 Status PlainWorld::load(const core::Scene& scene) {
@@ -171,22 +162,8 @@ void PlainWorld::solve_impacts(double h) {
     hits.back().least_speed = p.surface.restitution * approach;
     index.push_back(k);
   }
-  if (hits.empty()) return;
-  // Newton's restitution with friction may add energy where a body lands askew (Kane and Levinson, Dynamics, 1985):
-  // then less of it acts, at last none.
-  const std::vector<RigidBody> before = bodies_;
-  const double energy = kinetic_energy(bodies_);
-  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
-    bodies_ = before;
-    std::vector<SolverPoint> rebounds = hits;
-    for (SolverPoint& p : rebounds) p.least_speed *= share;
-    sweeps_ += solve_velocities(rebounds, bodies_, options_.iterations);
-    for (std::size_t k = 0; k < rebounds.size(); ++k) {
-      rebounds[k].finish_solve();
-      points_[index[k]].total_impulse = rebounds[k].total_impulse;
-    }
-    if (kinetic_energy(bodies_) <= energy * (1.0 + kRoundingOfSweeps)) return;
-  }
+  sweeps_ += solve_rebounds(hits, bodies_, options_.iterations);
+  for (std::size_t k = 0; k < hits.size(); ++k) points_[index[k]].total_impulse = hits[k].total_impulse;
 }
 
 void PlainWorld::accelerate(double h) {
