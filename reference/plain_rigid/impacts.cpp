@@ -66,15 +66,14 @@ std::uint64_t solve_group(const Group& group, std::vector<SolverPoint>& hits, st
                           std::uint32_t iterations) {
   std::vector<RigidBody> before;
   for (const std::uint32_t i : group.bodies) before.push_back(bodies[i]);
+  std::vector<SolverPoint> unsolved;
+  for (const std::size_t k : group.hits) unsolved.push_back(hits[k]);
   const double energy = kinetic_energy(group, bodies);
   std::uint64_t sweeps = 0;
   for (const double share : {1.0, 0.5, 0.25, 0.0}) {
     for (std::size_t k = 0; k < before.size(); ++k) bodies[group.bodies[k]] = before[k];
-    std::vector<SolverPoint> rebounds;
-    for (const std::size_t k : group.hits) {
-      rebounds.push_back(hits[k]);
-      rebounds.back().least_speed *= share;
-    }
+    std::vector<SolverPoint> rebounds = unsolved;
+    for (SolverPoint& p : rebounds) p.least_speed *= share;
     sweeps += solve_velocities(rebounds, bodies, iterations);
     for (std::size_t k = 0; k < rebounds.size(); ++k) {
       rebounds[k].finish_solve();
