@@ -29,6 +29,9 @@ constexpr double kMostParts = 1000.0;
 bool is_before(const SolverPoint& p, const SolverPoint& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
+bool is_same(Vec p, Vec q) {
+  return p.x == q.x && p.y == q.y && p.z == q.z;
+}
 
 }  // namespace
 
@@ -166,6 +169,27 @@ void PlainWorld::solve_impacts(double h) {
   for (std::size_t k = 0; k < hits.size(); ++k) points_[index[k]].total_impulse = hits[k].total_impulse;
 }
 
+// What was struck may come farther within h than detection thought: then more points are found, at the same poses.
+// Those that were found before stay, with their impulses.
+void PlainWorld::find_points_of_struck(double h) {
+  const auto is_struck = [](const SolverPoint& p) { return dot(p.total_impulse, p.total_impulse) > 0.0; };
+  if (std::none_of(points_.begin(), points_.end(), is_struck)) return;
+  std::vector<SolverPoint> before;
+  before.swap(points_);
+  find_points(h);
+  std::vector<SolverPoint> others;
+  for (const SolverPoint& p : before) {
+    const auto [first, last] = std::equal_range(points_.begin(), points_.end(), p, is_before);
+    const auto same = std::find_if(first, last, [&p](const SolverPoint& q) { return is_same(p.at.point, q.at.point); });
+    if (same != last)
+      same->total_impulse = p.total_impulse;
+    else
+      others.push_back(p);
+  }
+  points_.insert(points_.end(), others.begin(), others.end());
+  std::stable_sort(points_.begin(), points_.end(), is_before);
+}
+
 void PlainWorld::accelerate(double h) {
   for (RigidBody& b : bodies_)
     if (!b.is_static()) {
@@ -268,6 +292,7 @@ Status PlainWorld::step(float dt_s) {
   begin_record();
   find_points(h);
   solve_impacts(h);
+  find_points_of_struck(h);
   velocity_before_gravity_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) velocity_before_gravity_[i] = bodies_[i].v;
   accelerate(h);

@@ -135,6 +135,23 @@ TEST(PlainRigid, NoBodyGainsWhatOthersLoseInTheSameStep) {
   }
 }
 
+// Before the blow the cube is at rest 0.2 m above the floor; the ball drives it at 20 m/s, 0.33 m in a step.
+TEST(PlainRigid, WhatIsStruckStopsAtTheFloorInTheSameStep) {
+  Scene scene = world(shared(datasets::box_mesh({1, 1, 1}, {1, 1, 1})), 1.0F / 60.0F, 1);
+  scene.gravity_m_s2 = {};
+  scene.meshes.push_back(shared(datasets::sphere_mesh(0.5, 4)));
+  scene.bodies.resize(2);
+  scene.bodies[0].position = {0, 0.7F, 0};
+  scene.bodies[1].mesh = 1;
+  scene.bodies[1].position = {0, 1.8F, 0};
+  scene.bodies[1].velocity = {0, -20, 0};
+  scene.bodies[1].inverse_mass = 0.1F;
+  const FrameRecord frame = last_frame(scene);
+  EXPECT_LT(frame.wide.position[0].y, 0.7);
+  // Sweeps end at 2^-18 of the fastest, here 20 m/s.
+  EXPECT_GE(frame.wide.position[0].y, 0.5 - 20.0 * 0x1p-18 / 60.0);
+}
+
 TEST(PlainRigid, AStackStandsAndItsLowestPointsCarryTheWeight) {
   Scene scene = world(shared(datasets::box_mesh({1, 1, 1}, {1, 1, 1})), 1.0F / 60.0F, 300);
   scene.bodies.resize(4);
