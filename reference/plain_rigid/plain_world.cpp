@@ -8,6 +8,7 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
+#include "reference/plain_rigid/impacts.hpp"
 #include "reference/plain_rigid/scene_bodies.hpp"
 
 namespace broadside::reference::plain {
@@ -28,17 +29,10 @@ constexpr double kMostParts = 1000.0;
 bool is_before(const SolverPoint& p, const SolverPoint& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
-
-// Relative: some hundred sweeps of float64 additions.
-constexpr double kRoundingOfSweeps = 0x1p-44;
-
-double kinetic_energy(const std::vector<RigidBody>& bodies) {
-  double sum = 0.0;
-  for (const RigidBody& b : bodies)
-    if (!b.is_static())
-      sum += 0.5 * dot(b.v, b.v) / b.inverse_mass + 0.5 * dot(b.angular_velocity(), b.angular_momentum);
-  return sum;
+bool is_same(Vec p, Vec q) {
+  return p.x == q.x && p.y == q.y && p.z == q.z;
 }
+
 }  // namespace
 
 Status PlainWorld::load(const core::Scene& scene) {
@@ -171,22 +165,29 @@ void PlainWorld::solve_impacts(double h) {
     hits.back().least_speed = p.surface.restitution * approach;
     index.push_back(k);
   }
-  if (hits.empty()) return;
-  // Newton's restitution with friction may add energy where a body lands askew (Kane and Levinson, Dynamics, 1985):
-  // then less of it acts, at last none.
-  const std::vector<RigidBody> before = bodies_;
-  const double energy = kinetic_energy(bodies_);
-  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
-    bodies_ = before;
-    std::vector<SolverPoint> rebounds = hits;
-    for (SolverPoint& p : rebounds) p.least_speed *= share;
-    sweeps_ += solve_velocities(rebounds, bodies_, options_.iterations);
-    for (std::size_t k = 0; k < rebounds.size(); ++k) {
-      rebounds[k].finish_solve();
-      points_[index[k]].total_impulse = rebounds[k].total_impulse;
-    }
-    if (kinetic_energy(bodies_) <= energy * (1.0 + kRoundingOfSweeps)) return;
+  sweeps_ += solve_rebounds(hits, bodies_, options_.iterations);
+  for (std::size_t k = 0; k < hits.size(); ++k) points_[index[k]].total_impulse = hits[k].total_impulse;
+}
+
+// What was struck may come farther within h than detection thought: then more points are found, at the same poses.
+// Those that were found before stay, with their impulses.
+void PlainWorld::find_points_of_struck(double h) {
+  const auto is_struck = [](const SolverPoint& p) { return dot(p.total_impulse, p.total_impulse) > 0.0; };
+  if (std::none_of(points_.begin(), points_.end(), is_struck)) return;
+  std::vector<SolverPoint> before;
+  before.swap(points_);
+  find_points(h);
+  std::vector<SolverPoint> others;
+  for (const SolverPoint& p : before) {
+    const auto [first, last] = std::equal_range(points_.begin(), points_.end(), p, is_before);
+    const auto same = std::find_if(first, last, [&p](const SolverPoint& q) { return is_same(p.at.point, q.at.point); });
+    if (same != last)
+      same->total_impulse = p.total_impulse;
+    else
+      others.push_back(p);
   }
+  points_.insert(points_.end(), others.begin(), others.end());
+  std::stable_sort(points_.begin(), points_.end(), is_before);
 }
 
 void PlainWorld::accelerate(double h) {
@@ -291,6 +292,7 @@ Status PlainWorld::step(float dt_s) {
   begin_record();
   find_points(h);
   solve_impacts(h);
+  find_points_of_struck(h);
   velocity_before_gravity_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) velocity_before_gravity_[i] = bodies_[i].v;
   accelerate(h);

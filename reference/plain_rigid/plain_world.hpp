@@ -18,7 +18,8 @@ struct WorldOptions {
 
 // One step of h:
 //   1. points where bodies touch or may touch within h, at the poses of the start;
-//   2. impacts: bodies that meet faster than the scene's threshold rebound, before gravity acts;
+//   2. impacts: bodies that meet faster than the scene's threshold rebound, before gravity acts; points that what was
+//      struck may now reach are added;
 //   3. gravity, then impulses that keep bodies from moving into each other (speculative: the gap may close, no more);
 //   4. positions move with the mean velocity where nothing touched, so that free flight is exact, and with the last
 //      velocity where something did; orientations by the classical Runge-Kutta method, angular momentum constant;
@@ -57,6 +58,7 @@ class PlainWorld : public core::Dynamics {
  private:
   void add_pair(std::uint32_t a, std::uint32_t b, double h);
   void add_faces(std::uint32_t a, double h);
+  void find_points_of_struck(double h);
   static void turn_part(RigidBody& body, double h);
   void begin_record();
   void start_warm();
