@@ -100,6 +100,16 @@ TEST(RigidTouch, BoxesThatFallTouchStandOrPass) {
   EXPECT_EQ(deep.upper, 0.0);
 }
 
+// Over the other at a height of 2^-20 m, which is 550 times the tolerance of 1e-9 of both cubes' sizes.
+TEST(RigidTouch, AMillionthApartIsApart) {
+  const core::Mesh cube = box(1, 1, 1);
+  for (const bool as_solid : {true, false}) {
+    const MovingShape shape(cube, as_solid);
+    const RigidTouch over = first_touch(shape, motion({-2, 1 + 0x1p-20F, 0}, {4, 0, 0}), shape, motion({0, 0, 0}, {}));
+    EXPECT_EQ(over.meeting, Meeting::kApart) << over.lower;
+  }
+}
+
 // 2000 samples a step see no overlap before `lower`, and one at `upper`; where they see any, there is a touch.
 TEST(RigidTouch, SamplingFindsNothingEarlierAndNothingMissed) {
   std::mt19937 random(5);
