@@ -197,13 +197,16 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
   return cell;
 }
 
-// An engine that has not what a scene asks for says so: "broadside: SCENE: unsupported: WHAT; ADVICE". The child's own
+// An engine that refuses a scene before its first step says so and ends with 3: "broadside: SCENE: unsupported: WHAT;
+// ADVICE", or that its bodies only translate. The child's own
 // words then are a cell's reason, and nothing has crashed. Empty for other ends.
 std::string unsupported_words(const ChildEnding& ending) {
+  if (ending.exit_code != static_cast<int>(core::Exit::kMissing) || ending.is_interrupted) return {};
+  constexpr std::string_view kName = "broadside: ";
   constexpr std::string_view kWord = "unsupported: ";
   const std::size_t at = ending.last_line.find(kWord);
-  if (ending.exit_code != static_cast<int>(core::Exit::kMissing) || at == std::string::npos) return {};
-  return ending.last_line.substr(at + kWord.size());
+  if (at != std::string::npos) return ending.last_line.substr(at + kWord.size());
+  return ending.last_line.starts_with(kName) ? ending.last_line.substr(kName.size()) : ending.last_line;
 }
 
 core::Cell unsupported_cell(const CellRequest& request, std::string words) {
