@@ -172,17 +172,21 @@ void name_ending(ChildEnding& ending, int status, double time_limit_s) {
   }
 }
 
+core::Stamp stamp_of_request(const CellRequest& request) {
+  core::Engine nameless;
+  nameless.id = std::string(request.row->id);
+  if (auto settings = core::Settings::parse(request.row->id, request.row->settings, request.settings))
+    nameless.settings = std::move(settings).value();
+  return stamp_of(*request.scene, nameless);
+}
+
 core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, const std::vector<std::string>& args) {
   core::Cell cell;
   cell.state = ending.is_interrupted ? core::CellState::kInterrupted
                : ending.timed_out    ? core::CellState::kTimedOut
                                      : core::CellState::kCrashed;
   cell.reason = ending.words;
-  auto settings = core::Settings::parse(request.row->id, request.row->settings, request.settings);
-  core::Engine nameless;
-  nameless.id = std::string(request.row->id);
-  if (settings) nameless.settings = settings.value();
-  cell.stamp = stamp_of(*request.scene, nameless);
+  cell.stamp = stamp_of_request(request);
   // The driver's trace is the input of an engine that does not simulate. Together with the arguments it repeats the
   // failure, in a process that may crash.
   cell.notes["repeat"] = command_line(args);
@@ -190,6 +194,23 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
   const std::string part = trace_file_name(cell.stamp) + ".part";
   std::error_code ignored;
   if (std::filesystem::exists(request.folder / part, ignored)) cell.trace_file = part;
+  return cell;
+}
+
+// An engine that has not what a scene asks for says so: "broadside: SCENE: unsupported: WHAT; ADVICE". The child's own
+// words then are a cell's reason, and nothing has crashed. Empty for other ends.
+std::string unsupported_words(const ChildEnding& ending) {
+  constexpr std::string_view kWord = "unsupported: ";
+  const std::size_t at = ending.last_line.find(kWord);
+  if (ending.exit_code != static_cast<int>(core::Exit::kMissing) || at == std::string::npos) return {};
+  return ending.last_line.substr(at + kWord.size());
+}
+
+core::Cell unsupported_cell(const CellRequest& request, std::string words) {
+  core::Cell cell;
+  cell.state = core::CellState::kUnsupported;
+  cell.reason = std::move(words);
+  cell.stamp = stamp_of_request(request);
   return cell;
 }
 
@@ -311,6 +332,7 @@ core::Result<core::Cell> record_cell_in_child(const CellRequest& request, const 
     return cell;
   }
   if (ending.exit_code == static_cast<int>(core::Exit::kBadInput)) return core::Error{ending.last_line};
+  if (std::string words = unsupported_words(ending); !words.empty()) return unsupported_cell(request, std::move(words));
   return ended_badly(request, ending, args);
 }
 
