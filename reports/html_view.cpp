@@ -16,16 +16,18 @@ std::string view_section(PageParts& page) {
     for (const PlaybackMark& mark : playback.marks)
       marks += element("li", html(playback.stamp.scene_name), " ", label_html(playback.stamp, playback.stamp.label()),
                        ": ", html(mark.text));
-  return element("section", {{"id", "view-section"}}, element("h2", "The scene, frame by frame"),
-                 element("p.hint",
-                         "Boxes of the octree levels in red, candidate pairs, contacts with their normals from B to A. "
-                         "Drag turns, the wheel zooms; with the picture in focus, space plays and the arrow keys step. "
-                         "Of a long run, frames around each place that a verdict names are all here, the others spread "
-                         "evenly."),
-                 element("div", {{"id", "view"}}, element("div", {{"id", "view-picture"}}, picture)),
-                 marks.empty() ? ""
-                               : element("details.beside", element("summary", "Places that verdicts name"),
-                                         element("ul.plain", marks)));
+  return element(
+      "section", {{"id", "view-section"}}, element("h2", "The scene, frame by frame"),
+      element("p.hint",
+              "Boxes of the octree levels in red, turned with their body; candidate pairs; contacts with their "
+              "normals from B to A. "
+              "Drag turns, the wheel zooms; with the picture in focus, space plays and the arrow keys step. "
+              "Of a long run, frames around each place that a verdict names are all here, the others spread "
+              "evenly."),
+      element("div", {{"id", "view"}}, element("div", {{"id", "view-picture"}}, picture)),
+      marks.empty()
+          ? ""
+          : element("details.beside", element("summary", "Places that verdicts name"), element("ul.plain", marks)));
 }
 
 std::string to_view_button(const PageParts& page, const core::Stamp& stamp, const std::string& trace_file,

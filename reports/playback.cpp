@@ -53,6 +53,17 @@ struct Grid {
   [[nodiscard]] Json cell_json() const { return {cell[0], cell[1], cell[2]}; }
 };
 
+// From -1 to 1.
+std::uint16_t packed_unit(float value) {
+  const double share = (static_cast<double>(value) + 1.0) / 2.0;
+  return static_cast<std::uint16_t>(std::isfinite(share) ? std::clamp(std::round(share * kMostWord), 0.0, kMostWord)
+                                                         : 0.0);
+}
+
+void pack(core::Quat q, Words& into) {
+  for (const float part : {q.w, q.x, q.y, q.z}) into.push_back(packed_unit(part));
+}
+
 bool is_finite(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -127,6 +138,7 @@ Json to_json(const Playback& p) {
   const double depth_cell = std::max(static_cast<double>(deepest), 1e-30) / kMostWord;
   Json steps = Json::array();
   Words positions;
+  Words turns;
   Words pairs;
   Words contacts;
   std::vector<std::uint32_t> pair_begin{0};
@@ -134,6 +146,7 @@ Json to_json(const Playback& p) {
   for (const PlaybackFrame& frame : p.frames) {
     steps.push_back(frame.step);
     for (const Vec3 x : frame.position) grid.pack(x, positions);
+    for (const core::Quat q : frame.turn) pack(q, turns);
     for (const core::Pair pair : frame.pairs) {
       pairs.push_back(static_cast<std::uint16_t>(pair.i));
       pairs.push_back(static_cast<std::uint16_t>(pair.j));
@@ -142,11 +155,7 @@ Json to_json(const Playback& p) {
       contacts.push_back(short_name(c.a, bodies));
       contacts.push_back(short_name(c.b, bodies));
       grid.pack(c.point, contacts);
-      for (int axis = 0; axis < 3; ++axis) {
-        const double share = (static_cast<double>(c.normal[axis]) + 1.0) / 2.0;
-        contacts.push_back(static_cast<std::uint16_t>(
-            std::isfinite(share) ? std::clamp(std::round(share * kMostWord), 0.0, kMostWord) : 0.0));
-      }
+      for (int axis = 0; axis < 3; ++axis) contacts.push_back(packed_unit(c.normal[axis]));
       const double depth = static_cast<double>(c.depth_m) / depth_cell;
       contacts.push_back(
           static_cast<std::uint16_t>(std::isfinite(depth) ? std::clamp(std::round(depth), 0.0, kMostWord) : 0.0));
@@ -181,6 +190,7 @@ Json to_json(const Playback& p) {
           {"depth_cell_m", depth_cell},
           {"steps", std::move(steps)},
           {"positions", base64(positions)},
+          {"turns", base64(turns)},
           {"pair_begin", base64(pair_begin)},
           {"pairs", base64(pairs)},
           {"contact_begin", base64(contact_begin)},
@@ -197,7 +207,8 @@ std::uint64_t playback_bytes(const Playback& playback) {
     bytes += 6 * shape.vertices.size() + 6 * shape.triangles.size();
   }
   for (const PlaybackFrame& frame : playback.frames)
-    bytes += 16 + 6 * frame.position.size() + 4 * frame.pairs.size() + 18 * frame.contacts.size();
+    bytes +=
+        16 + 6 * frame.position.size() + 8 * frame.turn.size() + 4 * frame.pairs.size() + 18 * frame.contacts.size();
   return bytes * 4 / 3;  // base64
 }
 

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "core/math/box.hpp"
+#include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
 #include "core/pair.hpp"
 #include "core/stamp.hpp"
 
 namespace broadside::reports {
 
-// In body coordinates, m. Bodies translate only, so adding the body's position gives its place.
+// Relative to the body's position, in its first orientation, m.
 struct PlaybackShape {
   std::vector<std::vector<core::Box>> levels;  // octree boxes of level 0, 1, 2; level 0 is one box
   std::vector<core::Vec3> vertices;            // empty when there are too many for a page: then boxes are drawn
@@ -22,14 +23,15 @@ struct PlaybackShape {
 
 struct PlaybackContact {
   std::uint32_t a = 0, b = 0;  // b may be a face of the domain, kFirstFace + k
-  core::Vec3 point;            // m: the middle of the overlap
+  core::Vec3 point;            // m: the engine's point, or the middle of the overlap
   core::Vec3 normal;           // unit, from b to a
   float depth_m = 0.0F;
 };
 
 struct PlaybackFrame {
   std::uint64_t step = 0;
-  std::vector<core::Vec3> position;  // [bodies] at detection, m
+  std::vector<core::Vec3> position;  // [bodies] at detection where the trace has it, else at the end of the step, m
+  std::vector<core::Quat> turn;      // [bodies] from the first orientation to this one; empty: bodies translate only
   std::vector<core::Pair> pairs;     // candidates
   std::vector<PlaybackContact> contacts;
 };

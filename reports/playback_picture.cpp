@@ -36,12 +36,8 @@ class Projection {
     const double f = along(front_);
     return {0.94 * s - 0.34 * f, -(0.92 * u - 0.13 * s - 0.37 * f), 0.34 * s + 0.86 * f + 0.39 * u};
   }
-  // The visible sides of a box: on each axis the one on the eye's side.
-  [[nodiscard]] bool sees(int axis, bool is_max) const {
-    Vec3 outward{};
-    outward[axis] = is_max ? 1.0F : -1.0F;
-    return (*this)(outward).depth > 0.0;
-  }
+  // Whether a side with this outward normal is on the eye's side.
+  [[nodiscard]] bool sees(Vec3 outward) const { return (*this)(outward).depth > 0.0; }
 
  private:
   Vec3 up_, side_, front_;
@@ -51,6 +47,22 @@ Vec3 corner(const core::Box& box, unsigned k) {
   return {(k & 1U) != 0 ? box.max.x : box.min.x, (k & 2U) != 0 ? box.max.y : box.min.y,
           (k & 4U) != 0 ? box.max.z : box.min.z};
 }
+
+// The box of a body's shape where the body is.
+struct PlacedBox {
+  core::Box box;
+  Vec3 position;
+  core::Quat turn;
+
+  [[nodiscard]] Vec3 placed(Vec3 p) const { return core::rotate(turn, p) + position; }
+  [[nodiscard]] Vec3 corner_at(unsigned k) const { return placed(corner(box, k)); }
+  [[nodiscard]] Vec3 middle() const { return placed(0.5F * (box.min + box.max)); }
+  [[nodiscard]] Vec3 outward(int axis, bool is_max) const {
+    Vec3 normal{};
+    normal[axis] = is_max ? 1.0F : -1.0F;
+    return core::rotate(turn, normal);
+  }
+};
 
 std::string fixed(double value) {
   std::array<char, 32> text;
@@ -64,18 +76,18 @@ struct Frame {
   [[nodiscard]] std::string at(Point p) const { return fixed((p.x - left) * scale) + "," + fixed((p.y - top) * scale); }
 };
 
-std::string box_svg(const core::Box& box, const Projection& project, const Frame& frame, std::string_view style) {
+std::string box_svg(const PlacedBox& box, const Projection& project, const Frame& frame, std::string_view style) {
   std::string sides;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool is_max : {false, true}) {
-      if (!project.sees(axis, is_max)) continue;
+      if (!project.sees(box.outward(axis, is_max))) continue;
       const auto bit = 1U << static_cast<unsigned>(axis);
       const auto next = 1U << static_cast<unsigned>((axis + 1) % 3);
       const auto last = 1U << static_cast<unsigned>((axis + 2) % 3);
       const unsigned base = is_max ? bit : 0U;
       std::string corners;
       for (const unsigned k : {base, base | next, base | next | last, base | last})
-        corners += (corners.empty() ? "" : " ") + frame.at(project(corner(box, k)));
+        corners += (corners.empty() ? "" : " ") + frame.at(project(box.corner_at(k)));
       sides += element("polygon", {{"points", corners}});
     }
   }
@@ -95,7 +107,7 @@ std::string playback_picture(const Playback& playback, int mark) {
   const Projection project(playback.up);
   struct Item {
     std::uint32_t body;
-    core::Box box;
+    PlacedBox box;
     double depth;
     bool is_marked;
   };
@@ -107,12 +119,13 @@ std::string playback_picture(const Playback& playback, int mark) {
     if (body >= kMostBodies && !is_marked) continue;
     const PlaybackShape& shape = playback.shapes[playback.shape_of_body[body]];
     if (shape.levels.empty() || shape.levels[0].empty()) continue;
-    const core::Box box = core::translated(shape.levels[0][0], shown->position[body]);
-    const Point middle = project(0.5F * (box.min + box.max));
+    const core::Quat turn = body < shown->turn.size() ? shown->turn[body] : core::Quat{};
+    const PlacedBox box{shape.levels[0][0], shown->position[body], turn};
+    const Point middle = project(box.middle());
     if (!std::isfinite(middle.depth)) continue;
     items.push_back({body, box, middle.depth, is_marked});
     for (unsigned k = 0; k < 8; ++k) {
-      const Point p = project(corner(box, k));
+      const Point p = project(box.corner_at(k));
       left = std::min(left, p.x);
       right = std::max(right, p.x);
       top = std::min(top, p.y);
@@ -138,7 +151,7 @@ std::string playback_picture(const Playback& playback, int mark) {
   for (const Item& item : items) {
     boxes += box_svg(item.box, project, frame, item.is_marked ? "body.marked" : "body");
     if (!item.is_marked) continue;
-    const Point middle = project(0.5F * (item.box.min + item.box.max));
+    const Point middle = project(item.box.middle());
     names += element("text",
                      {{"x", fixed((middle.x - frame.left) * scale)},
                       {"y", fixed((middle.y - frame.top) * scale)},

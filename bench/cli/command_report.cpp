@@ -58,7 +58,7 @@ core::Result<core::RunRows> gather(const ReportArguments& a, reports::ReportOpti
     if (r.cells.empty() && r.verdicts.empty() && r.samples.empty() && !has_paper.value())
       return core::Error{"there is nothing to report: no cells.json, verdicts.json or samples.json", folder,
                          "run 'broadside run' and 'broadside check --json' into it first"};
-    if (!a.html.empty()) append(options.playbacks, playbacks_of(r, folder, a.folders.size()));
+    if (!a.html.empty()) append(options.playbacks, playbacks_of(r, folder, share_of(a.folders.size())));
     if (!a.html.empty() || !a.plots.empty()) append(options.series, penetration_of(r, folder));
     append(all.cells, std::move(r.cells));
     append(all.verdicts, std::move(r.verdicts));

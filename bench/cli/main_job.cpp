@@ -126,7 +126,7 @@ core::Status write_reports(const MainJob& job, const core::RunRows& rows) {
   options.title = job.scene.spec;
   options.command = fmt::format("./broadside demo --scene {} --out {}", job.scene.spec, job.folder.string());
   if (reports::has_html_page()) {
-    options.playbacks = playbacks_of(rows, job.folder);
+    options.playbacks = playbacks_of(rows, job.folder, share_of(1));
     options.series = penetration_of(rows, job.folder);
     if (core::Status s = reports::write_html(rows, options, job.folder / "report.html"); !s) return s;
   }

@@ -18,7 +18,7 @@ namespace {
 using core::Group;
 using reports::Playback;
 
-constexpr std::uint64_t kMostBytes = 700'000;  // for all playbacks of a report, encoded; with the script under 3 MB
+constexpr std::uint64_t kMostBytes = 700'000;  // for all playbacks of a report; with the script about 3 MB
 constexpr std::size_t kMostPlaybacks = 4;
 constexpr std::size_t kMostBodies = 20'000;     // 120 kB a frame
 constexpr std::size_t kMostTriangles = 12'000;  // of one mesh; larger ones are shown as their level-2 boxes
@@ -66,6 +66,13 @@ core::Vec3 point_of(const core::Contact& c, const std::vector<core::Box>& local)
   return point;
 }
 
+// now after the inverse of first, both unit quaternions.
+core::Quat turn_from(core::Quat first, core::Quat now) {
+  const core::Quat f{first.w, -first.x, -first.y, -first.z};
+  return {now.w * f.w - now.x * f.x - now.y * f.y - now.z * f.z, now.w * f.x + now.x * f.w + now.y * f.z - now.z * f.y,
+          now.w * f.y - now.x * f.z + now.y * f.w + now.z * f.x, now.w * f.z + now.x * f.y - now.y * f.x + now.z * f.w};
+}
+
 class Taker {
  public:
   Taker(const core::TraceReader& trace, std::vector<reports::PlaybackMark> marks) : trace_(trace) {
@@ -94,18 +101,33 @@ class Taker {
   }
 
  private:
+  // The poses that collision detection saw, where the trace has all of them; else those at the end of the step.
+  void take_poses(core::FrameRecord& record, reports::PlaybackFrame& frame) const {
+    const std::vector<core::Body>& bodies = trace_.header().scene.bodies;
+    const bool turns = trace_.header().scene.motion == core::Motion::kRigid;
+    const bool has_detection =
+        !record.detected_position.empty() && (!turns || record.detected_orientation.size() == bodies.size());
+    frame.position = std::move(has_detection ? record.detected_position : record.position);
+    const std::vector<core::Quat>& now = has_detection ? record.detected_orientation : record.orientation;
+    if (!turns || now.size() != bodies.size()) return;
+    for (std::size_t k = 0; k < bodies.size(); ++k) frame.turn.push_back(turn_from(bodies[k].orientation, now[k]));
+  }
+
   std::optional<reports::PlaybackFrame> frame_at(std::uint64_t k) const {
-    const std::uint32_t groups =
-        bit(Group::kDetection) | bit(Group::kPairs) | bit(Group::kConfirmed) | bit(Group::kContacts);
+    const std::uint32_t groups = bit(Group::kBodies) | bit(Group::kDetection) | bit(Group::kDetectedOrientation) |
+                                 bit(Group::kPairs) | bit(Group::kConfirmed) | bit(Group::kContacts) |
+                                 bit(Group::kPoints);
     auto read = trace_.read(k, groups & trace_.header().groups);
     if (!read) return std::nullopt;
     core::FrameRecord& record = read.value();
     reports::PlaybackFrame frame;
     frame.step = record.step;
-    frame.position = std::move(record.detected_position);
+    take_poses(record, frame);
     frame.pairs = std::move(record.pairs.empty() ? record.confirmed : record.pairs);
     for (const core::Contact& c : record.contacts)
       frame.contacts.push_back({c.a, c.b, point_of(c, local_), c.normal, c.depth_m});
+    for (const core::ContactPoint& p : record.points)
+      frame.contacts.push_back({p.a, p.b, p.point, p.normal, std::max(0.0F, -p.gap_m)});
     return frame;
   }
 
@@ -164,8 +186,8 @@ struct Choice {
   std::vector<reports::PlaybackMark> marks;
 };
 
-// Runs that did not pass, then one run per scene to look at.
-std::vector<Choice> choices(const core::RunRows& rows) {
+// Runs that did not pass, then one run per scene to look at; or every run, in the order of the rows.
+std::vector<Choice> choices(const core::RunRows& rows, bool every_run) {
   std::vector<Choice> chosen;
   for (const core::Cell& cell : rows.cells) {
     if (cell.trace_file.empty() || cell.state != core::CellState::kRecorded) continue;
@@ -173,8 +195,9 @@ std::vector<Choice> choices(const core::RunRows& rows) {
     const bool is_first_of_scene = std::none_of(chosen.begin(), chosen.end(), [&](const Choice& c) {
       return c.cell->stamp.scene_digest == cell.stamp.scene_digest;
     });
-    if (!marks.empty() || is_first_of_scene) chosen.push_back({&cell, std::move(marks)});
+    if (every_run || !marks.empty() || is_first_of_scene) chosen.push_back({&cell, std::move(marks)});
   }
+  if (every_run) return chosen;
   std::stable_sort(chosen.begin(), chosen.end(),
                    [](const Choice& a, const Choice& b) { return a.marks.empty() < b.marks.empty(); });
   return chosen;
@@ -182,17 +205,22 @@ std::vector<Choice> choices(const core::RunRows& rows) {
 
 }  // namespace
 
+PlaybackShare share_of(std::size_t folders) {
+  return {kMostBytes / folders, std::max<std::size_t>(1, kMostPlaybacks / folders), false};
+}
+
 std::vector<Playback> playbacks_of(const core::RunRows& rows, const std::filesystem::path& folder,
-                                   std::size_t sharers) {
+                                   const PlaybackShare& share) {
   std::vector<Playback> playbacks;
-  std::vector<Choice> chosen = choices(rows);
-  std::uint64_t left = kMostBytes / sharers;
-  const std::size_t most = std::max<std::size_t>(1, kMostPlaybacks / sharers);
+  std::vector<Choice> chosen = choices(rows, share.every_run);
+  std::uint64_t left = share.most_bytes;
+  const std::size_t most = share.most_runs;
   for (std::size_t k = 0; k < chosen.size() && playbacks.size() < most; ++k) {
     auto trace = core::TraceReader::open(folder / chosen[k].cell->trace_file);
     if (!trace || trace.value().steps().empty()) continue;
     const core::TraceHeader& header = trace.value().header();
-    if ((header.groups & bit(Group::kDetection)) == 0 || header.scene.bodies.size() > kMostBodies) continue;
+    const bool has_poses = (header.groups & (bit(Group::kDetection) | bit(Group::kBodies))) != 0;
+    if (!has_poses || header.scene.bodies.size() > kMostBodies) continue;
     const std::uint64_t to_come = std::min(most - playbacks.size(), chosen.size() - k);
     Playback playback = Taker(trace.value(), std::move(chosen[k].marks)).take(left / to_come);
     if (playback.frames.empty()) continue;

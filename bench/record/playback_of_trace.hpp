@@ -1,6 +1,7 @@
 // What the 3-D view of a report shows, taken from traces; no other part of a report reads traces.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -10,12 +11,22 @@
 
 namespace broadside::bench {
 
+// What one folder may add to a page.
+struct PlaybackShare {
+  std::uint64_t most_bytes = 0;  // of all playbacks, encoded
+  std::size_t most_runs = 0;
+  // Every run, so that engines can be looked at side by side, and not only those with something to show.
+  bool every_run = false;
+};
+
+// An equal part of what a page can carry, for one of so many folders.
+PlaybackShare share_of(std::size_t folders);
+
 // Some frames of some traces of the folder: for each scene the runs in which a verdict failed or is inconclusive, and
 // one that passed; spread evenly over the run, with all recorded frames around each place that a verdict names; all
-// together about as much as a page can carry. A trace that is gone or damaged has no playback, and that is no error.
-// sharers: how many folders one report shows.
+// together about as much as the share allows. A trace that is gone or damaged has no playback, and that is no error.
 std::vector<reports::Playback> playbacks_of(const core::RunRows& rows, const std::filesystem::path& folder,
-                                            std::size_t sharers = 1);
+                                            const PlaybackShare& share);
 
 // Penetration over steps (METHOD 9) of each trace that has contacts.
 std::vector<reports::FrameSeries> penetration_of(const core::RunRows& rows, const std::filesystem::path& folder);

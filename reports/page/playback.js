@@ -18,6 +18,7 @@ export class Playback {
     for (const key of ["name", "domain", "up", "dt_s", "last_step", "bodies", "min", "cell", "depth_cell_m", "steps", "marks"]) this[key] = data[key];
     this.shape_of_body = words(data.shape_of_body);
     this.places = words(data.positions);
+    this.turns = words(data.turns);
     this.pair_begin = longs(data.pair_begin);
     this.pair_words = words(data.pairs);
     this.contact_begin = longs(data.contact_begin);
@@ -41,6 +42,15 @@ export class Playback {
 
   position(frame, body) {
     return this.#point(this.places, 3 * (frame * this.bodies + body));
+  }
+
+  // The unit quaternion x y z w that turns the body from its first orientation.
+  turn(frame, body) {
+    const at = 4 * (frame * this.bodies + body);
+    if (at >= this.turns.length) return [0, 0, 0, 1];
+    const [w, x, y, z] = [0, 1, 2, 3].map((k) => this.turns[at + k] / 32767.5 - 1);
+    const length = Math.hypot(w, x, y, z);
+    return [x / length, y / length, z / length, w / length];
   }
 
   pairs(frame) {

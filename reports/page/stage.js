@@ -1,13 +1,14 @@
 // The picture of one frame: bodies, their octree boxes, candidate pairs, contacts. Draws only when something changed.
 import {
   AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, InstancedMesh,
-  LineBasicMaterial, LineSegments, Matrix4, MeshLambertMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  LineBasicMaterial, LineSegments, Matrix4, MeshLambertMaterial, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { css_color, reduced_motion } from "./colors.js";
 
 const kMostTriangles = 4e6; // above that, level-2 boxes stand in for meshes
 const kMostLevelLines = 4e6; // floats
+const kUnitScale = new Vector3(1, 1, 1);
 
 // Corner k of a box, bits of k choose min or max; the twelve edges and the triangles of the six sides.
 const corner = (box, k) => [0, 1, 2].map((axis) => box[(k >> axis) & 1 ? 3 + axis : axis]);
@@ -112,13 +113,23 @@ export class Stage {
     object.visible = points.length > 0;
   }
 
+  // From the coordinates of the body's shape to the world, in the frame that is shown.
+  #pose(body) {
+    const { playback, frame } = this;
+    return new Matrix4().compose(new Vector3(...playback.position(frame, body)), new Quaternion(...playback.turn(frame, body)), kUnitScale);
+  }
+
   // The boxes of the bodies, in the frame that is shown.
   #moved(bodies, level) {
     const out = [];
+    const point = new Vector3();
     for (const body of bodies) {
-      const [x, y, z] = this.playback.position(this.frame, body);
+      const pose = this.#pose(body);
       const points = this.level_points[this.playback.shape_of_body[body]][level] ?? [];
-      for (let k = 0; k < points.length; k += 3) out.push(points[k] + x, points[k + 1] + y, points[k + 2] + z);
+      for (let k = 0; k < points.length; k += 3) {
+        point.set(points[k], points[k + 1], points[k + 2]).applyMatrix4(pose);
+        out.push(point.x, point.y, point.z);
+      }
       if (out.length > kMostLevelLines) break;
     }
     return out;
@@ -127,7 +138,7 @@ export class Stage {
   center_of(body) {
     const shape = this.playback.shapes[this.playback.shape_of_body[body]];
     const box = shape.levels[0];
-    return this.playback.position(this.frame, body).map((x, axis) => x + (box[axis] + box[3 + axis]) / 2);
+    return new Vector3(...[0, 1, 2].map((axis) => (box[axis] + box[3 + axis]) / 2)).applyMatrix4(this.#pose(body)).toArray();
   }
 
   size_of(body) {
@@ -138,12 +149,11 @@ export class Stage {
   show(frame) {
     this.frame = frame;
     const { playback, shown } = this;
-    const matrix = new Matrix4();
     const marked = new Set(this.marked);
     for (const mesh of this.meshes) {
       mesh.visible = shown.bodies;
       mesh.userData.members.forEach((body, k) => {
-        mesh.setMatrixAt(k, matrix.makeTranslation(...playback.position(frame, body)));
+        mesh.setMatrixAt(k, this.#pose(body));
         mesh.setColorAt(k, marked.has(body) ? this.mark : this.base);
       });
       mesh.instanceMatrix.needsUpdate = true;

@@ -46,8 +46,8 @@ Playback two_cubes() {
   p.shape_of_body = {0, 0};
   p.shapes.push_back({{{cube}}, {}, {}});
   p.frames.push_back(
-      {3, {{-1.25F, 0, 2}, {3.5F, -2, 0}}, {{0, 1}}, {{0, core::kFirstFace + 2, {1, 2, 3}, {0, 1, 0}, 0.25F}}});
-  p.frames.push_back({7, {{0, 0, 0}, {1, 1, 1}}, {}, {}});
+      {3, {{-1.25F, 0, 2}, {3.5F, -2, 0}}, {}, {{0, 1}}, {{0, core::kFirstFace + 2, {1, 2, 3}, {0, 1, 0}, 0.25F}}});
+  p.frames.push_back({7, {{0, 0, 0}, {1, 1, 1}}, {}, {}, {}});
   p.marks.push_back({"fail: law at step 3, bodies 0 and face -y", "law", "", 3, {0, core::kFirstFace + 2}});
   return p;
 }
@@ -76,6 +76,39 @@ TEST(Playback, FacesFollowTheLastBodyAndContactsKeepTheirNormal) {
   EXPECT_NEAR(c[8] * json["depth_cell_m"].get<double>(), 0.25, 1e-5);
   EXPECT_EQ(json["marks"][0]["bodies"], (std::vector<int>{0, 4}));
   EXPECT_EQ(playbacks_json({two_cubes()}).find('<'), std::string::npos);
+}
+
+TEST(Playback, TurnsSurviveAndWhatTranslatesHasNone) {
+  Playback p = two_cubes();
+  EXPECT_EQ(nlohmann::json::parse(playbacks_json({p}))[0]["turns"], "");
+  // By 90 degrees about y, and by 120 about (1, 1, 1).
+  const float half = std::sqrt(0.5F);
+  p.frames[0].turn = {{half, 0, half, 0}, {0.5F, 0.5F, 0.5F, 0.5F}};
+  p.frames[1].turn = {{-1, 0, 0, 0}, {1, 0, 0, 0}};
+  const std::vector<unsigned> words = words_of(nlohmann::json::parse(playbacks_json({p}))[0]["turns"]);
+  const double expected[] = {half, 0, half, 0, 0.5, 0.5, 0.5, 0.5, -1, 0, 0, 0, 1, 0, 0, 0};
+  ASSERT_EQ(words.size(), 16U);
+  for (std::size_t k = 0; k < 16; ++k)
+    EXPECT_NEAR(words[k] / 32767.5 - 1.0, expected[k], 0.51 / 32767.5) << k << ": half a cell, and its rounding";
+}
+
+TEST(Playback, ATurnedBodyIsDrawnTurned) {
+  Playback p = two_cubes();
+  p.shapes[0].levels[0][0] = {{-1, -0.1F, -0.1F}, {1, 0.1F, 0.1F}};
+  p.frames.resize(1);
+  p.frames[0].position = {{0, 0, 0}, {0, 0, 0}};
+  // A rod along x; then, after a quarter of a turn about z, along y: the picture is taller.
+  const std::string lying = playback_picture(p, -1);
+  const float half = std::sqrt(0.5F);
+  p.frames[0].turn = {{half, 0, 0, half}, {half, 0, 0, half}};
+  const std::string standing = playback_picture(p, -1);
+  const auto height_of = [](const std::string& svg) {
+    const std::size_t at = svg.find("viewBox=\"0 0 720.0 ");
+    return at == std::string::npos ? 0.0 : std::stod(svg.substr(at + 19));
+  };
+  ASSERT_GT(height_of(lying), 0.0) << lying;
+  EXPECT_GT(height_of(standing), height_of(lying));
+  EXPECT_EQ(testing_markup::check_markup(standing, false).problem, "");
 }
 
 TEST(Playback, WhatIsNotFiniteNeitherSpoilsTheOthersNorEndsTheProgram) {
