@@ -141,7 +141,8 @@ std::string html_page(const core::RunRows& rows, const ReportOptions& options) {
                                   "tables hold the same figures.");
   std::string out = std::string(kHeadStart) + element("title", title) + "\n<style>\n" + std::string(kPageStyle) +
                     plots::plot_style() + guest_style(options) + "</style>\n</head>\n<body>\n";
-  out += element("header", brand, "\n", verdict, "\n", tally_list(counts), "\n", contents(page, body)) + "\n";
+  const std::string note = options.note.empty() ? "" : element("p.hint", html(options.note)) + "\n";
+  out += element("header", brand, "\n", verdict, "\n", note, tally_list(counts), "\n", contents(page, body)) + "\n";
   out += element("main", "\n", body, without_charts, "\n") + "\n";
   if (has_page_bundle() && !page.charts.charts().empty()) out += data_block("charts", page.charts.json());
   if (has_page_bundle() && !options.playbacks.empty())

@@ -198,6 +198,7 @@ std::string markdown_text(const core::RunRows& rows, const ReportOptions& option
   const core::Outcome state = overall(tally(scenes));
   comment.add("## Broadside: " + name(options.title.empty() ? kDefaultTitle : options.title) + "\n\n**" +
               std::string(symbol(state)) + "** " + sentence(headline(scenes)) + "\n");
+  if (!options.note.empty()) comment.add("\n" + sentence(options.note) + "\n");
   add_failures(comment, scenes);
   for (const SceneView& scene : scenes) {
     add_matrix(comment, scene);

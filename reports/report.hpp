@@ -26,6 +26,7 @@ struct GuestPart {
 
 struct ReportOptions {
   std::string title;                // empty = kDefaultTitle
+  std::string note;                 // a sentence under the result; empty = none
   std::string command;              // the command line that made the rows; empty = not shown
   std::vector<std::string> repeat;  // more commands for "how to repeat", in order
   std::string generated_at;         // as printed; empty = left out, and the same rows give the same bytes

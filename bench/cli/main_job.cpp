@@ -3,170 +3,151 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
-#include "bench/build_facts.hpp"
-#include "bench/cell/scene_meshes.hpp"
+#include "bench/cli/job_part.hpp"
+#include "bench/contest/contest_request.hpp"
 #include "bench/record/judging.hpp"
 #include "bench/record/playback_of_trace.hpp"
-#include "bench/record/run_plan.hpp"
-#include "bench/timing/timing.hpp"
+#include "core/energy_series.hpp"
 #include "reports/report.hpp"
 
 namespace broadside::bench {
 namespace {
 
-// The cells that run, and what each is compared with after it was judged alone.
-struct JobRow {
-  std::string_view cell;
-  std::array<std::string_view, 3> against;  // labels; empty = no more
-};
+constexpr const char* kTurningFolder = "turning";
+constexpr const char* kPipeline = "octree-cpu";
 
-constexpr std::string_view kPipeline = "octree-cpu";
-constexpr JobRow kJob[] = {
-    {kPipeline, {"octree-cpu[threads=1]", "all-pairs", "fcl-mesh"}},
-    {"octree-cpu[threads=1]", {}},
-    {"octree-cpu[broad=brute,levels=flat]", {kPipeline}},
-    {"octree-cpu[broad=brute,levels=level1]", {kPipeline}},
-    {"octree-cpu[broad=brute,levels=A]", {kPipeline}},
-    {"octree-cpu[broad=brute,levels=B]", {kPipeline}},
-    {"octree-cpu[broad=brute]", {kPipeline}},  // levels=C, the default, from the published start
-    {"all-pairs", {}},
-    {"bullet-dbvt", {"all-pairs"}},
-    {"fcl-tree", {"all-pairs"}},
-    {"fcl-mesh", {}},
-    {"hash-cpu", {}},
-    {"octree-gpu", {kPipeline}},
-};
-
-core::Result<RunPlan> plan_of(const MainJob& job) {
-  RunPlan plan;
-  auto scene = job.scene.allow_stand_in ? make_scene_with_meshes(job.scene) : job.scene.make();
-  if (!scene) return scene.error();
-  plan.source = job.scene;
-  plan.scene = std::move(scene).value();
-  plan.frames = plan.scene.frames;
-  plan.narrow_every = default_narrow_every(plan.frames);
-  plan.folder = job.folder;
-  plan.reuse = true;
-  for (const JobRow& row : kJob) {
-    auto cell = parse_cell_spec(row.cell);
-    if (!cell) return cell.error();
-    plan.cells.push_back(std::move(cell).value());
-  }
-  return plan;
+JobPart first_part(const MainJob& job) {
+  return {job.scene,
+          {
+              {kPipeline, {"octree-cpu[threads=1]", "all-pairs", "fcl-mesh"}},
+              {"octree-cpu[threads=1]", {}},
+              {"octree-cpu[broad=brute,levels=flat]", {kPipeline}},
+              {"octree-cpu[broad=brute,levels=level1]", {kPipeline}},
+              {"octree-cpu[broad=brute,levels=A]", {kPipeline}},
+              {"octree-cpu[broad=brute,levels=B]", {kPipeline}},
+              {"octree-cpu[broad=brute]", {kPipeline}},  // levels=C, the default, from the published start
+              {"all-pairs", {}},
+              {"bullet-dbvt", {"all-pairs"}},
+              {"fcl-tree", {"all-pairs"}},
+              {"fcl-mesh", {}},
+              {"hash-cpu", {}},
+              {"octree-gpu", {kPipeline}},
+          },
+          kPipeline,
+          job.folder,
+          job.repetitions};
 }
 
-const core::Cell* recorded(const std::vector<core::Cell>& cells, std::string_view label) {
-  for (const core::Cell& cell : cells)
-    if (cell.stamp.label() == label && !cell.trace_file.empty()) return &cell;
-  return nullptr;
+// The engines of a contest, each as it comes.
+JobPart turning_part(const MainJob& job) {
+  JobPart part{job.turning, {}, "", job.folder / kTurningFolder, job.repetitions};
+  for (const std::string_view entrant : contest::default_entrants())
+    if (entrant.find('[') == std::string_view::npos) part.rows.push_back({std::string(entrant), {}});
+  return part;
 }
 
-std::vector<Matter> matters_of(const MainJob& job, const std::vector<core::Cell>& cells) {
-  std::vector<Matter> matters;
-  for (const JobRow& row : kJob) {
-    const core::Cell* cell = recorded(cells, row.cell);
-    if (cell == nullptr) continue;
-    matters.push_back({job.folder / cell->trace_file, {}, false, {}});
-    for (const std::string_view label : row.against) {
-      const core::Cell* baseline = label.empty() ? nullptr : recorded(cells, label);
-      if (baseline != nullptr)
-        matters.push_back({job.folder / cell->trace_file, job.folder / baseline->trace_file, true, {}});
-    }
-  }
-  return matters;
+// A name in the turning scene's folder as it is seen from the job's.
+std::string moved_up(const std::string& file) {
+  return file.empty() ? file : fmt::format("{}/{}", kTurningFolder, file);
 }
 
-core::Status judge_all(const MainJob& job, core::RunRows& rows) {
-  rows.verdicts.clear();
-  std::vector<core::EnergySeries> energy;
-  for (Matter matter : matters_of(job, rows.cells)) {
-    core::EnergySeries series;
-    const bool is_pipeline = matter.trace.stem().string() == kPipeline;
-    if (is_pipeline && matter.baseline.empty()) matter.energy = &series;
-    auto judged = judge_matter(matter);
-    if (!judged) return judged.error();
-    if (!series.step.empty()) energy.push_back(std::move(series));
-    if (!judged.value().verdicts.empty()) rows.verdicts.push_back(std::move(judged).value());
-  }
-  if (core::Status s = core::write_energy(job.folder / "energy.json", energy); !s) return s;
-  return core::write_verdicts(job.folder / "verdicts.json", rows.verdicts);
+core::RunRows moved_up(core::RunRows rows) {
+  for (core::Cell& cell : rows.cells) cell.trace_file = moved_up(cell.trace_file);
+  for (core::CellVerdicts& row : rows.verdicts) row.trace_file = moved_up(row.trace_file);
+  return rows;
 }
 
-core::Status time_all(const MainJob& job, const RunPlan& plan, core::RunRows& rows) {
-  RunPlan timed = plan;
-  // Only a recorded cell has a digest that a time can be checked against.
-  std::vector<CellSpec> cells;
-  for (std::size_t k = 0; k < std::size(kJob); ++k)
-    if (recorded(rows.cells, kJob[k].cell) != nullptr) cells.push_back(plan.cells[k]);
-  timed.cells = std::move(cells);
-  Turns alone;
-  auto samples = time_plan(timed, job.repetitions, alone);
-  if (!samples) return samples.error();
-  rows.samples = std::move(samples).value();
-  return core::write_samples(job.folder / "samples.json", rows.samples);
+template <typename T>
+void append(std::vector<T>& to, std::vector<T> more) {
+  to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-// Whether this very program recorded it.
-template <typename Row>
-bool is_current(const std::vector<Row>& rows) {
-  const std::string build = build_line();
-  return !rows.empty() &&
-         std::all_of(rows.begin(), rows.end(), [&](const Row& r) { return r.stamp.broadside_build == build; });
+// Takes the rows whose label is among these, or those whose label is not.
+core::RunRows selected(const core::RunRows& rows, const std::vector<std::string>& labels, bool is_among) {
+  const auto is_other = [&](const auto& row) {
+    return (std::find(labels.begin(), labels.end(), row.stamp.label()) != labels.end()) != is_among;
+  };
+  core::RunRows chosen = rows;
+  std::erase_if(chosen.cells, is_other);
+  std::erase_if(chosen.verdicts, is_other);
+  std::erase_if(chosen.samples, is_other);
+  return chosen;
 }
 
-core::Status write_reports(const MainJob& job, const core::RunRows& rows) {
+core::RunRows joined(core::RunRows rows, core::RunRows more) {
+  append(rows.cells, std::move(more.cells));
+  append(rows.verdicts, std::move(more.verdicts));
+  append(rows.samples, std::move(more.samples));
+  return rows;
+}
+
+// What the page shows of the traces; rows with the file names of their own folders.
+core::Status add_pictures(const MainJob& job, const core::RunRows& first, const core::RunRows& turning,
+                          reports::ReportOptions& options) {
   auto energy = core::read_energy(job.folder);
   if (!energy) return energy.error();
-  reports::ReportOptions options;
   options.energy = std::move(energy).value();
-  options.title = job.scene.spec;
-  options.command = fmt::format("./broadside demo --scene {} --out {}", job.scene.spec, job.folder.string());
-  if (reports::has_html_page()) {
-    options.playbacks = playbacks_of(rows, job.folder, share_of(1));
-    options.series = penetration_of(rows, job.folder);
-    if (core::Status s = reports::write_html(rows, options, job.folder / "report.html"); !s) return s;
+  options.series = penetration_of(first, job.folder);
+  options.playbacks = playbacks_of(first, job.folder, share_of(2));
+  // Every run, because there motion is what is compared.
+  PlaybackShare all_runs = share_of(2);
+  all_runs.every_run = true;
+  all_runs.most_runs = turning.cells.size();
+  for (reports::Playback& playback : playbacks_of(turning, job.folder / kTurningFolder, all_runs)) {
+    playback.trace_file = moved_up(playback.trace_file);
+    options.playbacks.push_back(std::move(playback));
   }
-  if (core::Status s = reports::write_markdown(rows, options, job.folder / "report.md"); !s) return s;
-  return reports::write_junit(rows, options, job.folder / "junit.xml");
+  return core::Done{};
+}
+
+core::Status write_reports(const MainJob& job, const core::RunRows& first, const core::RunRows& turning,
+                           const MainJobRows& rows) {
+  reports::ReportOptions options;
+  options.title = fmt::format("{}, and {}", job.scene.spec, job.turning.spec);
+  options.note = fmt::format(
+      "On {} engines made by others are compared: what they break is listed like everything else, and does not decide "
+      "the exit code of demo.",
+      job.turning.spec);
+  options.command = fmt::format("./broadside demo --scene '{}' --turning-scene '{}' --out {}", job.scene.spec,
+                                job.turning.spec, job.folder.string());
+  if (reports::has_html_page()) {
+    if (core::Status s = add_pictures(job, first, turning, options); !s) return s;
+    if (core::Status s = reports::write_html(rows.all, options, job.folder / "report.html"); !s) return s;
+  }
+  if (core::Status s = reports::write_markdown(rows.all, options, job.folder / "report.md"); !s) return s;
+  return reports::write_junit(rows.deciding, options, job.folder / "junit.xml");
 }
 
 }  // namespace
 
-core::Result<core::RunRows> run_main_job(const MainJob& job) {
-  if (core::Status s = prepare_folder(job.folder); !s) return s.error();
-  auto plan = plan_of(job);
-  if (!plan) return plan.error();
-  auto outcome = run_plan(plan.value());
-  if (!outcome) return outcome.error();
-  auto known = core::read_rows(job.folder);
-  if (!known) return known.error();
-  core::RunRows rows = std::move(known).value();
-  rows.cells = outcome.value().cells;
-  for (const core::Cell& cell : rows.cells)
-    if (cell.state == core::CellState::kInterrupted)
-      return core::Error{"interrupted: what was recorded is in the folder, nothing was judged", job.folder.string(),
-                         "run it again to go on", core::Exit::kMissing};
+core::Result<MainJobRows> run_main_job(const MainJob& job) {
+  auto first = run_part(first_part(job));
+  if (!first) return first.error();
+  const JobPart turning_job = turning_part(job);
+  auto turning = run_part(turning_job);
+  if (!turning) return turning.error();
+  auto foreign = foreign_labels(turning_job);
+  if (!foreign) return foreign.error();
 
-  const auto runnable = static_cast<std::uint64_t>(std::count_if(
-      rows.cells.begin(), rows.cells.end(), [](const auto& c) { return c.state == core::CellState::kRecorded; }));
-  const bool all_reused = outcome.value().reused == runnable;
-  if (!all_reused || !is_current(rows.verdicts))
-    if (core::Status s = judge_all(job, rows); !s) return s.error();
-  const bool same_repetitions = !rows.samples.empty() && rows.samples.back().repetition + 1 == job.repetitions;
-  if (!all_reused || !same_repetitions || !is_current(rows.samples))
-    if (core::Status s = time_all(job, plan.value(), rows); !s) return s.error();
-  if (core::Status s = write_reports(job, rows); !s) return s.error();
+  const core::RunRows seen = moved_up(turning.value());
+  MainJobRows rows;
+  rows.all = joined(first.value(), seen);
+  rows.deciding = joined(first.value(), selected(seen, foreign.value(), false));
+  rows.others = selected(seen, foreign.value(), true);
+  if (core::Status s = write_reports(job, first.value(), turning.value(), rows); !s) return s.error();
   return rows;
 }
 
-core::Exit exit_of(const core::RunRows& rows) {
-  core::Exit exit = exit_of(rows.verdicts);
+core::Exit exit_of(const MainJobRows& rows) {
+  core::Exit exit = exit_of(rows.deciding.verdicts);
   if (exit != core::Exit::kGood) return exit;
-  for (const core::Cell& cell : rows.cells)
+  for (const core::Cell& cell : rows.deciding.cells)
     if (cell.state != core::CellState::kRecorded && cell.state != core::CellState::kNotMeasured &&
         cell.state != core::CellState::kUnsupported)
       return core::Exit::kMissing;

@@ -1,4 +1,5 @@
-// The main job: one scene on every engine, judged, timed and reported.
+// The main job: two scenes on every engine, judged, timed and reported. In the first, bodies translate, and broad
+// phases, narrow phases and the pipeline are compared; in the second, bodies turn, and engines of rigid bodies are.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +13,26 @@ namespace broadside::bench {
 
 struct MainJob {
   SceneArguments scene{"freefall:bunny:50", 0, true};
+  // Bricks, because a cube's inertia hides whether an engine knows the gyroscopic torque.
+  SceneArguments turning{"freefall:brick:12[rigid=1,frames=240]", 0, true};
   std::uint32_t repetitions = 2;
   std::filesystem::path folder = "out/demo";
 };
 
-// Leaves one trace per engine, cells.json, verdicts.json, samples.json, report.html, report.md and junit.xml in the
-// folder. Results of the same build and scene that are there already are reused.
-core::Result<core::RunRows> run_main_job(const MainJob& job);
+struct MainJobRows {
+  core::RunRows all;  // the first scene's, then the turning scene's; file names are relative to the job's folder
+  // All but the turning scene's rows of engines made by others: what the exit code speaks of.
+  core::RunRows deciding;
+  core::RunRows others;  // the rest
+};
 
-// 1 when a verdict failed, 3 when one is inconclusive or a cell is missing that this machine could have run, else 0.
-core::Exit exit_of(const core::RunRows& rows);
+// Leaves report.html, report.md and junit.xml (the deciding rows) in the folder, with the first scene's traces and
+// rows; those of the turning scene are in its folder "turning". Results of the same build and scene that are there
+// already are reused.
+core::Result<MainJobRows> run_main_job(const MainJob& job);
+
+// 1 when a deciding verdict failed, 3 when one is inconclusive or a cell is missing that this machine could have run,
+// else 0.
+core::Exit exit_of(const MainJobRows& rows);
 
 }  // namespace broadside::bench

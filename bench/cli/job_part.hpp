@@ -1,0 +1,36 @@
+// One scene of the main job: its engines recorded, judged and timed into one folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/cell/scene_arguments.hpp"
+#include "core/result.hpp"
+#include "core/rows.hpp"
+
+namespace broadside::bench {
+
+// A cell, and the labels of those that it is compared with after it was judged alone.
+struct PartRow {
+  std::string cell;
+  std::vector<std::string> against;
+};
+
+struct JobPart {
+  SceneArguments scene;
+  std::vector<PartRow> rows;
+  std::string ledger_of;  // the cell whose energy ledger is kept; empty = none
+  std::filesystem::path folder;
+  std::uint32_t repetitions = 1;
+};
+
+// Leaves one trace per engine, cells.json, verdicts.json, samples.json and energy.json in the folder. Results of the
+// same build and scene that are there already are reused.
+core::Result<core::RunRows> run_part(const JobPart& part);
+
+// Labels of the rows whose engines are libraries or programs of others: what runs in a child process.
+core::Result<std::vector<std::string>> foreign_labels(const JobPart& part);
+
+}  // namespace broadside::bench
