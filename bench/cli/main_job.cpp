@@ -96,7 +96,7 @@ core::Status add_pictures(const MainJob& job, const core::RunRows& first, const 
   options.series = penetration_of(first, job.folder);
   options.playbacks = playbacks_of(first, job.folder, share_of(2));
   // Every run, because there motion is what is compared.
-  PlaybackShare all_runs = share_of(1);
+  PlaybackShare all_runs = share_of(2);
   all_runs.every_run = true;
   all_runs.most_runs = turning.cells.size();
   for (reports::Playback& playback : playbacks_of(turning, job.folder / kTurningFolder, all_runs)) {

@@ -198,8 +198,8 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
 }
 
 // An engine that refuses a scene before its first step says so and ends with 3: "broadside: SCENE: unsupported: WHAT;
-// ADVICE", or that its bodies only translate. The child's own
-// words then are a cell's reason, and nothing has crashed. Empty for other ends.
+// ADVICE", or that its bodies only translate. The child's own words then are a cell's reason, and nothing has crashed.
+// Empty for other ends.
 std::string unsupported_words(const ChildEnding& ending) {
   if (ending.exit_code != static_cast<int>(core::Exit::kMissing) || ending.is_interrupted) return {};
   constexpr std::string_view kName = "broadside: ";

@@ -19,7 +19,7 @@ struct PlaybackShare {
   bool every_run = false;
 };
 
-// Of a page that shows so many folders; the whole with the script stays under 3 MB.
+// An equal part of what a page can carry, for one of so many folders.
 PlaybackShare share_of(std::size_t folders);
 
 // Some frames of some traces of the folder: for each scene the runs in which a verdict failed or is inconclusive, and

@@ -46,8 +46,8 @@ Playback two_cubes() {
   p.shape_of_body = {0, 0};
   p.shapes.push_back({{{cube}}, {}, {}});
   p.frames.push_back(
-      {3, {{-1.25F, 0, 2}, {3.5F, -2, 0}}, {{0, 1}}, {{0, core::kFirstFace + 2, {1, 2, 3}, {0, 1, 0}, 0.25F}}});
-  p.frames.push_back({7, {{0, 0, 0}, {1, 1, 1}}, {}, {}});
+      {3, {{-1.25F, 0, 2}, {3.5F, -2, 0}}, {}, {{0, 1}}, {{0, core::kFirstFace + 2, {1, 2, 3}, {0, 1, 0}, 0.25F}}});
+  p.frames.push_back({7, {{0, 0, 0}, {1, 1, 1}}, {}, {}, {}});
   p.marks.push_back({"fail: law at step 3, bodies 0 and face -y", "law", "", 3, {0, core::kFirstFace + 2}});
   return p;
 }
@@ -96,6 +96,7 @@ TEST(Playback, ATurnedBodyIsDrawnTurned) {
   Playback p = two_cubes();
   p.shapes[0].levels[0][0] = {{-1, -0.1F, -0.1F}, {1, 0.1F, 0.1F}};
   p.frames.resize(1);
+  p.frames[0].position = {{0, 0, 0}, {0, 0, 0}};
   // A rod along x; then, after a quarter of a turn about z, along y: the picture is taller.
   const std::string lying = playback_picture(p, -1);
   const float half = std::sqrt(0.5F);
