@@ -31,7 +31,11 @@ class Gyroscopic final : public Validator {
       // A quaternion turns the inertia: 4 roundings and 12 operations, twice; the product with w. What turning L back
       // rounds is divided by the least moment, and multiplied by the largest one.
       const double size = spin + std::max(length(l0), length(l1)) / m.facts[i].least_moment;
-      const double rounding = substeps_ * m.rounding_of(40) * m.facts[i].largest_moment * size;
+      // An engine that solves translations and turns together rounds a spin as it rounds the speed of the body's
+      // points.
+      const double shared = (length(b.before.v) + length(b.after.v)) / m.facts[i].reach_m;
+      const double rounding =
+          substeps_ * m.facts[i].largest_moment * (m.rounding_of(40) * size + m.rounding_of(2) * shared);
       judge_energy(m, i, torque, rounding * spin);
       tally_.check(length(l1 - l0), {0.5 * m.h * torque + rounding, "N m s", kOrigin},
                    Where::body(m.step, i, "bodies.angular_velocity"), [&] {
