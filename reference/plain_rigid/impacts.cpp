@@ -49,6 +49,7 @@ std::vector<Group> groups_of(const std::vector<SolverPoint>& hits, const std::ve
   for (std::size_t k = 0; k < hits.size(); ++k)
     by_root[root_of(parent, moves(hits[k].a, bodies) ? hits[k].a : hits[k].b)].hits.push_back(k);
   std::vector<Group> groups;
+  groups.reserve(by_root.size());
   for (auto& [root, group] : by_root) groups.push_back(std::move(group));
   return groups;
 }
