@@ -1,7 +1,8 @@
 """Writes the inputs that fuzzing starts from:  make_seeds.py FOLDER
 
-Small files of every kind that the readers take, generated here: FOLDER/scene, boxes, trace, mesh and program. A mesh
-begins with one more byte, which names its format, and a program's answer with two (tests/fuzz/readers.hpp). Needs numpy and h5py (Debian: python3-h5py).
+Small files of every kind that the readers take, generated here: FOLDER/scene, boxes, trace, mesh, program and manifest. A
+mesh begins with one more byte, which names its format, and a program's answer with two (tests/fuzz/readers.hpp). Needs
+numpy and h5py (Debian: python3-h5py).
 """
 
 import json
@@ -190,8 +191,34 @@ def answers():
     yield "printed", b"\0\0Hello, I am an engine.\n"
 
 
+def manifests():
+    def cell(name, **changed):
+        return {"against": "", "engine": "octree-cpu", "frames": 5, "id": name, "needs_gpu": False, "processes": 1,
+                "repetitions": 1, "scene": "freefall:cube:5", "stand_in": False, "time_limit_s": 60.0, "turns": name,
+                **changed}
+
+    def manifest(*cells, **more):
+        return json.dumps({"build": "Broadside", "cells": cells, "format": "broadside-campaign", "name": "n",
+                           "version": 2, **more})
+
+    one, other = "304dade30fa2b4bf", "76448a428746de64"
+    paper = {"beside_hash": "octree-cpu", "counts": [50], "device": "", "experiments": ["table5"], "frames": 5,
+             "hash": "hash-cpu", "keeps_traces": False, "limit_s": 60.0, "machine": "", "models": ["bunny"],
+             "octree": "octree-cpu", "runs": 1, "stand_in": False}
+    yield "two-cells", manifest(cell(one), cell(other, turns=one, against="all-pairs"))
+    yield "of-the-paper", manifest(cell(one, scene="randommove:bunny:50"), paper=paper)
+    yield "nothing", manifest()
+    yield "frames-below-zero", manifest(cell(one, frames=-5))
+    yield "frames-1e30", manifest(cell(one, frames=1e30))
+    yield "one-id-twice", manifest(cell(one), cell(one))
+    yield "an-id-that-climbs", manifest(cell("../../etc/passwd"))
+    yield "no-time", manifest(cell(one, time_limit_s=0.0))
+    yield "nested", "[" * 5000
+
+
 def main(folder):
-    readers = {"scene": scenes, "boxes": boxes, "trace": traces, "mesh": meshes, "program": answers}
+    readers = {"scene": scenes, "boxes": boxes, "trace": traces, "mesh": meshes, "program": answers,
+               "manifest": manifests}
     for reader, seeds in readers.items():
         Path(folder, reader).mkdir(parents=True, exist_ok=True)
         for name, content in seeds():

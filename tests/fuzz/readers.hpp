@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/campaign/manifest.hpp"
 #include "core/engine/narrow_phase.hpp"
 #include "core/mesh/load_mesh.hpp"
 #include "core/plugin/program_protocol.hpp"
@@ -145,14 +147,30 @@ inline void read_program(const std::uint8_t* data, std::size_t size) {
   }
 }
 
+// The manifest of a campaign. What is read must not be able to run without end.
+inline void read_manifest(const std::uint8_t* data, std::size_t size) {
+  const auto file = scratch().file("manifest.json", data, size);
+  const auto manifest = bench::campaign::read_manifest(file.parent_path());
+  if (!manifest) return check_refusal(manifest.error());
+  std::size_t cells = 0;
+  for (const auto& group : bench::campaign::groups_of(manifest.value())) cells += group.size();
+  if (cells != manifest.value().cells.size()) __builtin_trap();
+  for (const auto& cell : manifest.value().cells) {
+    if (cell.id.size() != 16 || cell.id.find('/') != std::string::npos) __builtin_trap();  // it names a folder
+    if (!(cell.work.time_limit_s > 0.0 && std::isfinite(cell.work.time_limit_s))) __builtin_trap();
+    if (cell.work.processes < 1) __builtin_trap();
+  }
+}
+
 struct Reader {
   std::string_view name;  // of its fuzzer and of its folder in corpus/
   void (*read)(const std::uint8_t* data, std::size_t size);
 };
-inline constexpr std::array<Reader, 5> kReaders{{{"scene", read_scene},
+inline constexpr std::array<Reader, 6> kReaders{{{"scene", read_scene},
                                                  {"boxes", read_boxes},
                                                  {"trace", read_trace},
                                                  {"mesh", read_mesh},
-                                                 {"program", read_program}}};
+                                                 {"program", read_program},
+                                                 {"manifest", read_manifest}}};
 
 }  // namespace broadside::fuzz
