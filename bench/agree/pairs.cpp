@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/agree/random_pose.hpp"
 #include "core/mesh/load_mesh.hpp"
 #include "datasets/mesh/acquire_mesh.hpp"
 #include "datasets/random.hpp"
@@ -26,26 +27,6 @@ constexpr int kOrientations = 8;  // of meshes
 // Sides of plates and needles against their others. Below this ratio a float's resolution decides, and no longer the
 // shape.
 constexpr double kThin = 0.02;
-
-Vec3 to_core(Point p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-
-// Uniform over orientations, as four numbers in a ball.
-Quat orientation(RandomStream& random) {
-  for (;;) {
-    std::array<double, 4> q;
-    double squared = 0.0;
-    for (double& c : q) {
-      c = random.between(-1.0, 1.0);
-      squared += c * c;
-    }
-    if (squared > 1.0 || squared < 1e-4) continue;
-    const double r = std::sqrt(squared);
-    return {static_cast<float>(q[0] / r), static_cast<float>(q[1] / r), static_cast<float>(q[2] / r),
-            static_cast<float>(q[3] / r)};
-  }
-}
 
 std::array<double, 3> sides(RandomStream& random, Degeneracy form) {
   std::array<double, 3> s{random.between(0.3, 1.0), random.between(0.3, 1.0), random.between(0.3, 1.0)};
@@ -183,9 +164,9 @@ TestPair PairSource::pair(std::uint64_t index) {
   pair.mesh_a = special > 0 ? first + draw.random.below(special) : draw.random.below(general_);
   pair.mesh_b = pair.degeneracy == Degeneracy::kParallelFaces ? pair.mesh_a : draw.random.below(general_);
   const auto turn = [&] {
-    if (is_convex_) return orientation(draw.random);
+    if (is_convex_) return random_orientation(draw.random);
     RandomStream few(core::splitmix64(seed_ ^ (0x717561ULL + draw.random.below(kOrientations))));
-    return orientation(few);
+    return random_orientation(few);
   };
   pair.pose_a.orientation = turn();
   pair.pose_b.orientation = pair.degeneracy == Degeneracy::kParallelFaces ? pair.pose_a.orientation : turn();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/agree/pairs.hpp"
+#include "bench/agree/random_pose.hpp"
 #include "datasets/random.hpp"
 
 namespace broadside::bench {
@@ -27,25 +28,6 @@ constexpr double kGrazing = 1e-4;
 Point direction(RandomStream& random) {
   const auto d = random.direction();
   return {d.x, d.y, d.z};
-}
-
-core::Vec3 to_core(Point p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-
-core::Quat orientation(RandomStream& random) {
-  for (;;) {
-    std::array<double, 4> q;
-    double squared = 0.0;
-    for (double& c : q) {
-      c = random.between(-1.0, 1.0);
-      squared += c * c;
-    }
-    if (squared > 1.0 || squared < 1e-4) continue;
-    const double r = std::sqrt(squared);
-    return {static_cast<float>(q[0] / r), static_cast<float>(q[1] / r), static_cast<float>(q[2] / r),
-            static_cast<float>(q[3] / r)};
-  }
 }
 
 bool is_thin(const core::Mesh& mesh) {
@@ -114,8 +96,8 @@ MotionTest BodySource::test(std::uint64_t index) const {
   const double reach = reach_m(test.a.mesh) + reach_m(test.b.mesh);
   RigidMotion& a = test.a.motion;
   RigidMotion& b = test.b.motion;
-  a.start.orientation = orientation(random);
-  b.start.orientation = orientation(random);
+  a.start.orientation = random_orientation(random);
+  b.start.orientation = random_orientation(random);
   const Point at = random.between(0.0, 2.0) * direction(random);
   const Point way = direction(random);  // from A to B
   Point beside = cross(way, direction(random));
