@@ -31,6 +31,7 @@ constexpr AddCommand kCommands[] = {
     add_time,             //
     add_report,           //
     add_compare,          //
+    add_bisect,           //
     add_history,          //
     add_demo,             //
     add_fetch,            //

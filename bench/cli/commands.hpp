@@ -16,6 +16,7 @@ void add_run(CLI::App& program, core::Exit& exit);
 void add_agree(CLI::App& program, core::Exit& exit);
 void add_pairs(CLI::App& program, core::Exit& exit);
 void add_compare(CLI::App& program, core::Exit& exit);
+void add_bisect(CLI::App& program, core::Exit& exit);
 void add_mutants(CLI::App& program, core::Exit& exit);
 void add_check(CLI::App& program, core::Exit& exit);
 void add_converge(CLI::App& program, core::Exit& exit);

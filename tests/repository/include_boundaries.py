@@ -25,13 +25,14 @@ ROOMS = {
     "converge": set(),
     "forensics": {"cell", "process", "record"},
     "shrink": {"cell", "process", "record"},
+    "bisect": {"process", "record", "timing", "forensics"},
     "campaign": {"cell", "process"},
     "paper": {"cell", "document", "process", "record", "timing", "campaign"},
     "contest": {"cell", "document", "process", "record", "campaign"},
     "fetched": {"process"},
     "benchmarks": {"record"},
-    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "converge", "forensics", "shrink", "campaign", "document", "paper",
-            "contest", "fetched"},
+    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "converge", "forensics", "shrink", "bisect", "campaign", "document",
+            "paper", "contest", "fetched"},
 }
 # Files of bench/ itself that wire rooms. Every other one includes no room.
 WIRING = {

@@ -204,6 +204,23 @@ class PlantedViolation(unittest.TestCase):
         self.one(workflows, workflow("run: cat x", head="env: {}"), "nothing that starts it")
         self.one(workflows, {f"{workflows.FOLDER}a.yml": "name: [\n"}, "no YAML")
 
+    def test_action_that_the_forge_cannot_run(self):
+        def action(step, head="inputs: {a: {description: d, required: true}}"):
+            text = f"name: n\ndescription: d\n{head}\nruns:\n  using: composite\n  steps:\n    - {step}\n"
+            return {".github/actions/g/action.yml": text}
+
+        try:
+            self.assertEqual([], self.found(workflows, action("{run: 'cat \"$A\"', shell: bash, env: {A: '${{ inputs.a }}'}}")))
+        except formatting.Absent as reason:
+            self.skipTest(str(reason))
+        self.one(workflows, action("run: cat x"), "with its shell")
+        self.one(workflows, action("uses: actions/cache"), "no version")
+        self.one(workflows, action("{run: 'cat ${{ inputs.a }}', shell: bash}"), "part of a script")
+        self.one(workflows, action("{run: cat x, shell: bash, env: {B: '${{ inputs.b }}'}}"), "no input b")
+        self.one(workflows, action("{run: 'if true', shell: bash}"), "bash cannot read")
+        self.one(workflows, action("{run: '\"$GITHUB_ACTION_PATH/../../../nothing\" x', shell: bash}"), "no program of this tree")
+        self.one(workflows, action("{run: cat x, shell: bash}", head="inputs: {a: {description: d}}"), "default and required")
+
     def test_change_that_no_longer_applies(self):
         change = "file: core/body.hpp\nold: {}\nnew: x\ntarget: t\ntests: ^core\n"
         self.assertEqual([], self.found(mutations, {"tests/mutate/changes.txt": change.format("#pragma once")}))
