@@ -6,7 +6,7 @@ import numpy as np
 
 from . import native
 from .arrays import fitted
-from .errors import BadInput
+from .errors import BadInput, Error
 from .scenes import Scene, scene as make_scene
 
 STATES = ("position", "orientation", "velocity", "angular_velocity")
@@ -65,11 +65,16 @@ class TraceWriter:
         """
         step = self._step + self._every if step is None else int(step)
         arrays = self._arrays_of(groups)
-        if self._file is None:
+        is_first = self._file is None
+        if is_first:
             self._begin(arrays)
-        fitting = {path: fitted(value, self._kinds[path], f"{self.path}: step {step}: {path}") if path in self._kinds else
-                   np.asarray(value) for path, value in arrays.items()}
-        self._file.append(step, fitting, pairs_demanded, pairs_raw)
+        try:
+            self._file.append(step, self._fitted(step, arrays), pairs_demanded, pairs_raw)
+        except Error:
+            if is_first:  # a refused frame does not say which groups the trace has
+                self._file = None
+                os.unlink(self.path + ".part")
+            raise
         self._step = step
         return step
 
@@ -81,6 +86,12 @@ class TraceWriter:
             raise BadInput(f"{self.path}: no frame was appended; append at least one")
         self._file.finish()
         self._is_finished = True
+
+    def _fitted(self, step, arrays):
+        """Each array in the type of its column; those of no column as they are, for the file to refuse."""
+        where = f"{self.path}: step {step}: "
+        return {path: fitted(value, self._kinds[path], where + path) if path in self._kinds else np.asarray(value)
+                for path, value in arrays.items()}
 
     def _arrays_of(self, groups):
         """Every array by its path in the file."""
