@@ -1,5 +1,10 @@
 """Engines as objects of this process: broad phases, and dynamics step by step."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from . import native
@@ -19,13 +24,13 @@ class BroadPhase:
     they are refused unless may_abort=True.
     """
 
-    def __init__(self, engine="octree-cpu", settings=None, *, may_abort=False):
+    def __init__(self, engine: str = "octree-cpu", settings: Mapping[str, Any] | None = None, *, may_abort: bool = False):
         self._held = native.BroadPhase(engine, _settings(settings), may_abort)
         self.id, self.build = self._held.id, self._held.build
         self.is_exact, self.margin_m = self._held.is_exact, self._held.margin_m
         self.demanded = self.raw = 0  # of the last call: pairs that there were, pairs before the filter
 
-    def find_pairs(self, boxes, is_static=None):
+    def find_pairs(self, boxes: Any, is_static: Any = None) -> np.ndarray:
         """Pairs [rows, 2] of uint32, sorted, i < j: closed boxes that overlap, touching included; no two static ones.
 
         boxes: [n, 6] float32, min x y z, max x y z, in m; of NumPy or of any library that speaks DLPack on the host.
@@ -40,7 +45,7 @@ class BroadPhase:
         return pairs
 
 
-def find_pairs(boxes, is_static=None, engine="octree-cpu"):
+def find_pairs(boxes: Any, is_static: Any = None, engine: str = "octree-cpu") -> np.ndarray:
     """The pairs of boxes that overlap, once; BroadPhase keeps the engine for many calls."""
     return BroadPhase(engine).find_pairs(boxes, is_static)
 
@@ -52,7 +57,7 @@ class State:
         self._held = held
         self.step, self.time_s, self.digest = held.step, held.time_s, held.digest
 
-    def __getitem__(self, path):
+    def __getitem__(self, path: str) -> np.ndarray:
         return self._held.rows(path)
 
 
@@ -64,24 +69,24 @@ class Dynamics:
         heights_m = world.read()["body/position"][:, 1]
     """
 
-    def __init__(self, engine, scene, settings=None, *, may_abort=False):
+    def __init__(self, engine: str, scene: Scene | str, settings: Mapping[str, Any] | None = None, *, may_abort: bool = False):
         self.scene = scene if isinstance(scene, Scene) else make_scene(scene)
         self._held = native.Dynamics(engine, self.scene, _settings(settings), may_abort)
         self.id, self.build, self.declaration = self._held.id, self._held.build, self._held.declaration
 
     @property
-    def steps_done(self):
+    def steps_done(self) -> int:
         return self._held.steps_done
 
-    def step(self, count=1):
+    def step(self, count: int = 1) -> None:
         """Advances by `count` steps of the scene's dt_s."""
         self._held.step(count)
 
-    def read(self):
+    def read(self) -> State:
         """The State after the last step; its arrays stay as they are when the engine goes on."""
         return State(self._held.read())
 
 
-def engines():
+def engines() -> list[dict[str, Any]]:
     """Every engine: id, capabilities, what it is, its settings with their defaults, and why it is absent here ("" = it is not)."""
     return native.engine_rows()

@@ -1,5 +1,7 @@
 """The program broadside, which the wheel holds: engines that may abort run in its processes, not in this one."""
 
+from __future__ import annotations
+
 import os
 import subprocess
 import sys
@@ -9,7 +11,7 @@ from pathlib import Path
 from .errors import error_of
 
 
-def path():
+def path() -> str:
     """The program: $BROADSIDE_PROGRAM, or that of the wheel."""
     return os.environ.get("BROADSIDE_PROGRAM") or str(Path(__file__).parent / "bin" / "broadside")
 
@@ -23,14 +25,14 @@ class Answer:
     command: tuple
 
     @property
-    def ok(self):
+    def ok(self) -> bool:
         return self.exit_code == 0
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.text
 
 
-def call(*arguments, passes=(0,)):
+def call(*arguments: object, passes: tuple[int, ...] = (0,)) -> Answer:
     """Runs the program. An exit code that is not in `passes` is the exception of it, with the line that was printed."""
     command = (path(), *map(str, arguments))
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
@@ -48,6 +50,6 @@ def _last_line(done):
     return rest[-1] if rest else f"broadside ended with {done.returncode}; it printed nothing"
 
 
-def main():
+def main() -> None:
     """The command `broadside` of this environment."""
     os.execv(path(), [path(), *sys.argv[1:]])

@@ -1,9 +1,13 @@
 """run, time, report, compare and contest: the program's commands, with values in place of arguments."""
 
+from __future__ import annotations
+
 import json
 import os
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from . import program
 from .errors import BadInput, Missing
@@ -36,7 +40,8 @@ def _options(frames, settings):
     return arguments
 
 
-def run(scene, engines, *, out="out", frames=None, settings=None, more=()):
+def run(scene: Any, engines: Any, *, out: str | os.PathLike[str] = "out", frames: int | None = None,
+        settings: Mapping[str, Any] | None = None, more: Sequence[Any] = ()) -> list[Trace]:
     """Records a Trace of each engine, in processes of their own, into the folder `out`.
 
     scene: a name, a path, a Scene or a SceneBuilder. engines: ids, commands, paths of libraries, or classes with
@@ -53,7 +58,8 @@ def run(scene, engines, *, out="out", frames=None, settings=None, more=()):
     return [Trace(Path(out) / cell["trace_file"]) for cell in cells]
 
 
-def time(scene, engines, *, out=None, frames=None, settings=None, repetitions=5, more=()):
+def time(scene: Any, engines: Any, *, out: str | os.PathLike[str] | None = None, frames: int | None = None,
+         settings: Mapping[str, Any] | None = None, repetitions: int = 5, more: Sequence[Any] = ()) -> list[dict[str, Any]]:
     """Times each engine with recording off; a list of samples, as samples.json has them. Traces in the same folder prove them."""
     with tempfile.TemporaryDirectory() as scratch:
         file = Path(out) if out is not None else Path(scratch) / "samples.json"
@@ -63,7 +69,7 @@ def time(scene, engines, *, out=None, frames=None, settings=None, repetitions=5,
         return json.loads(file.read_text(encoding="utf-8"))["rows"]
 
 
-def report(folders, *, html=None, markdown=None, junit=None, title=None):
+def report(folders: Any, *, html: Any = None, markdown: Any = None, junit: Any = None, title: str | None = None) -> Answer:
     """Makes the page, the comment or the JUnit file of these folders of runs."""
     many = folders if isinstance(folders, (list, tuple)) else [folders]
     named = {"--html": html, "--markdown": markdown, "--junit": junit, "--title": title}
@@ -71,12 +77,13 @@ def report(folders, *, html=None, markdown=None, junit=None, title=None):
     return program.call("report", *many, *arguments, passes=(0, 1, 3))
 
 
-def compare(base, head, *, delta=None):
+def compare(base: Any, head: Any, *, delta: float | None = None) -> Answer:
     """Compares the folders of two runs; exit_code 1 is a regression, 3 a missing result or an inconclusive time."""
     return program.call("compare", base, head, *([] if delta is None else ["--delta", delta]), passes=(0, 1, 3))
 
 
-def contest(*, engines=(), scenes=(), out="out/contest", repetitions=1, more=()):
+def contest(*, engines: Sequence[Any] = (), scenes: Sequence[str] = (), out: str | os.PathLike[str] = "out/contest",
+            repetitions: int = 1, more: Sequence[Any] = ()) -> Answer:
     """Every engine of rigid bodies on scenes with a known answer; `out` gets the cells and the page."""
     arguments = [part for one in engines for part in ("--engine", one if isinstance(one, str) else command_of(one))]
     arguments += [part for one in scenes for part in ("--scene", one)]

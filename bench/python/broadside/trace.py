@@ -1,6 +1,10 @@
 """Traces: what an engine did, frame by frame. Names, shapes and units of the columns are those of core/trace/SCHEMA.md."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -17,24 +21,24 @@ class Column:
 
     def __init__(self, trace, facts):
         self._trace = trace
-        self.path = facts["path"]
-        self.layout = facts["layout"]  # frames, bodies, rows, offsets or windows
-        self.dtype = facts["dtype"]
-        self.width = facts["width"]
-        self.unit = facts["unit"]  # "1" = a pure number
+        self.path: str = facts["path"]
+        self.layout: str = facts["layout"]  # frames, bodies, rows, offsets or windows
+        self.dtype: np.dtype = facts["dtype"]
+        self.width: int = facts["width"]
+        self.unit: str = facts["unit"]  # "1" = a pure number
         self._groups = facts["groups"]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<column {self.path}: {self.layout}, {self.dtype} x {self.width}, unit {self.unit}>"
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._trace)
 
-    def __array__(self, dtype=None):
+    def __array__(self, dtype=None) -> np.ndarray:
         whole = self._trace._file.whole(self.path)
         return whole if dtype is None else whole.astype(dtype)
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: Any) -> np.ndarray:
         by_frame = self.layout in ("bodies", "rows", "frames")
         if by_frame and isinstance(key, (int, np.integer)):
             return self._trace[int(key)][self.path]
@@ -57,7 +61,7 @@ class Frame:
     def __repr__(self):
         return f"<frame {self.index}: step {self.step}, {self.time_s:g} s>"
 
-    def __getitem__(self, path):
+    def __getitem__(self, path: str) -> np.ndarray:
         groups = self._trace.column(path)._groups
         if groups not in self._parts:
             self._parts[groups] = self._trace._file.read(self.index, groups) if groups else self._bare
@@ -70,7 +74,7 @@ class Trace:
     len(trace) frames; trace[k] is a Frame, trace["body/position"] a Column; trace.frame(step) is that of a step.
     """
 
-    def __init__(self, path):
+    def __init__(self, path: str | os.PathLike[str]):
         self.path = os.fspath(path)
         self._file = native.Trace(self.path)
         header = self._file.header
@@ -85,13 +89,13 @@ class Trace:
     def __repr__(self):
         return f"<trace {self.path}: {self.label} on {self.scene.name}, {len(self)} frames of {self.scene.body_count} bodies>"
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._file)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Frame]:
         return (self[k] for k in range(len(self)))
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: int | str) -> Any:
         if isinstance(key, str):
             return self.column(key)
         index = int(key)
@@ -100,17 +104,17 @@ class Trace:
         return Frame(self, index % len(self))
 
     @property
-    def columns(self):
+    def columns(self) -> dict[str, Column]:
         """Every column that the trace has, by path."""
         return dict(self._columns)
 
-    def column(self, path):
+    def column(self, path: str) -> Column:
         """The column of this path; an unknown one is BadInput with the nearest."""
         if path not in self._columns:
             self._file.whole(path)  # says what is wrong with the path
         return self._columns[path]
 
-    def frame(self, step):
+    def frame(self, step: int) -> Frame:
         """The frame of this step."""
         index = int(np.searchsorted(self.steps, step))
         if index == len(self) or self.steps[index] != step:
@@ -118,19 +122,19 @@ class Trace:
         return self[index]
 
     @property
-    def times_s(self):
+    def times_s(self) -> np.ndarray:
         """[frames] step * dt."""
         return np.asarray(self["time"])
 
     @property
-    def digests(self):
+    def digests(self) -> np.ndarray:
         """[frames] of 64 bits: equal digests are bit-identical frames."""
         return np.asarray(self["digest"])
 
-    def to_pandas(self, group="body"):
+    def to_pandas(self, group: str = "body") -> Any:
         """A DataFrame of one group: a row a step and body, or a step and row. Needs pandas."""
         return tables.data_frame(self, group)
 
-    def to_xarray(self):
+    def to_xarray(self) -> Any:
         """A Dataset of all columns with units; dimensions step, body, and a dimension of rows a group. Needs xarray."""
         return tables.dataset(self)

@@ -1,10 +1,13 @@
 """check: every law that applies to a trace, with its limit and where the limit comes from."""
 
+from __future__ import annotations
+
 import html
 import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from . import native
 from .errors import error_of
@@ -31,7 +34,7 @@ class Verdict:
     baseline: str  # label of the trace that this was judged against; empty = alone
     parts: tuple = field(default=())
 
-    def __bool__(self):
+    def __bool__(self) -> bool:
         """True where the law was not broken and not in doubt."""
         return self.outcome in ("pass", "not applicable")
 
@@ -40,7 +43,7 @@ def _verdict(facts):
     return Verdict(**{**facts, "parts": tuple(_verdict(part) for part in facts["parts"])})
 
 
-class Verdicts(Sequence):
+class Verdicts(Sequence[Verdict]):
     """The verdicts of one or more traces. verdicts["ballistic"] is that of a law, verdicts[k] the k-th.
 
     str() is the table that the command line prints; in a notebook it is a table of HTML.
@@ -50,10 +53,10 @@ class Verdicts(Sequence):
         self._judgements = judgements
         self._all = [_verdict(facts) for judgement in judgements for facts in judgement.verdicts()]
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._all)
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
             named = [verdict for verdict in self._all if verdict.law == key]
             if not named:
@@ -62,56 +65,56 @@ class Verdicts(Sequence):
         return self._all[key]
 
     @property
-    def exit_code(self):
+    def exit_code(self) -> int:
         """0 good; 1 a law is broken; 3 inconclusive, or nothing was judged. As `broadside check` exits."""
         codes = {judgement.exit_code for judgement in self._judgements}
         return next(code for code in (1, 3, 0) if code in codes or code == 0)
 
     @property
-    def ok(self):
+    def ok(self) -> bool:
         """Whether laws were judged and every one of them holds."""
         return self.exit_code == 0
 
     @property
-    def failed(self):
+    def failed(self) -> list[Verdict]:
         """The verdicts of broken laws."""
         return [verdict for verdict in self._all if verdict.outcome == "fail"]
 
     @property
-    def lines(self):
+    def lines(self) -> str:
         """For each broken or inconclusive law a line: what was measured, the limit, where, and the limit's origin."""
         return native.failure_lines(self._judgements)
 
-    def table(self):
+    def table(self) -> str:
         """The table for a terminal of 100 columns."""
         return native.verdict_table(self._judgements)
 
-    def require(self):
+    def require(self) -> Verdicts:
         """Self; LawBroken, or Missing where nothing could be said, with the lines as text."""
         if not self.ok:
             raise error_of(self.lines.strip() or f"{self._judgements[0].trace_file}: no law was judged; "
                            "see why in the table of broadside.check", self.exit_code)
         return self
 
-    def save(self, path):
+    def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the rows as JSON, as `broadside report` reads them: a folder's verdicts.json."""
         native.write_verdicts(os.fspath(path), self._judgements)
 
-    def junit(self, path):
+    def junit(self, path: str | os.PathLike[str]) -> None:
         """Writes JUnit XML."""
         native.write_junit(os.fspath(path), self._judgements)
 
-    def page(self, path, title="", command=""):
+    def page(self, path: str | os.PathLike[str], title: str = "", command: str = "") -> None:
         """Writes the report of these verdicts, one HTML file that needs no network."""
         native.write_page(self._judgements, os.fspath(path), title, command)
 
-    def __str__(self):
+    def __str__(self) -> str:
         lines = self.lines
         return self.table() + ("\n" + lines if lines else "")
 
     __repr__ = __str__
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         rows = []
         for judgement in self._judgements:
             rows.append(f'<tr><th colspan="6" style="text-align:left">{html.escape(judgement.label)} on '
@@ -137,7 +140,7 @@ def _html_row(verdict):
     return f'<tr style="{weight}">' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
 
 
-def check(traces, laws=(), against=None):
+def check(traces: Any, laws: Sequence[str] = (), against: Any = None) -> Verdicts:
     """Judges a trace, or several, each a Trace or a path. laws: names of those to judge; () = all that apply.
 
     against: a second trace of the same scene, for the laws that compare two.
@@ -151,6 +154,6 @@ def _path(trace):
     return os.fspath(getattr(trace, "path", trace))
 
 
-def laws():
+def laws() -> list[dict[str, str]]:
     """Every law: name, what it says, what it must reject, and its kind."""
     return native.laws()

@@ -1,6 +1,10 @@
 """TraceWriter: the trace of an engine of your own, which check then judges as it judges every other."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -26,8 +30,9 @@ class TraceWriter:
     BadInput at the call that caused it.
     """
 
-    def __init__(self, path, scene, engine, declaration=None, *, build="", settings="", every=1, broad_is_exact=True,
-                 broad_margin_m=0.0, notes=None):
+    def __init__(self, path: str | os.PathLike[str], scene: Scene | str, engine: str,
+                 declaration: Mapping[str, Any] | None = None, *, build: str = "", settings: str = "", every: int = 1,
+                 broad_is_exact: bool = True, broad_margin_m: float = 0.0, notes: Mapping[str, Any] | None = None):
         self.path = os.fspath(path)
         folder = os.path.dirname(os.path.abspath(self.path))
         if not os.path.isdir(folder):
@@ -43,16 +48,17 @@ class TraceWriter:
         self._every, self._step = every, 0
         self._file, self._kinds, self._is_finished = None, {}, False
 
-    def __enter__(self):
+    def __enter__(self) -> TraceWriter:
         return self
 
-    def __exit__(self, kind, error, traceback):
+    def __exit__(self, kind, error, traceback) -> None:
         if kind is None:
             self.finish()
         elif self._file is not None:
             self._file.flush()  # what was appended stays readable as PATH.part
 
-    def append(self, step=None, *, pairs_demanded=None, pairs_raw=None, **groups):
+    def append(self, step: int | None = None, *, pairs_demanded: int | None = None, pairs_raw: int | None = None,
+               **groups: Any) -> int:
         """Appends a frame and returns its step: `every` more than the last one unless it is given; 1 is after the first.
 
         body:      position [n, 3] m, orientation [n, 4] w x y z, velocity [n, 3] m/s, angular_velocity [n, 3] rad/s.
@@ -78,7 +84,7 @@ class TraceWriter:
         self._step = step
         return step
 
-    def finish(self):
+    def finish(self) -> None:
         """Closes the file and gives it its final name."""
         if self._is_finished:
             return
