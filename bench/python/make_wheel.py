@@ -1,7 +1,9 @@
-"""Makes the wheel of the package broadside: make_wheel.py --version V --package DIR --module SO --program FILE --client PY --out DIR
+"""Makes the wheel of the package broadside.
 
-The module and the program are taken as they were built, for this machine and this Python; nothing is compiled or fetched here.
-The same files give the same bytes.
+    make_wheel.py --version V --package DIR --module SO --program FILE --client PY --out DIR
+
+The module and the program are taken as they were built, for this machine and this Python; nothing is compiled or
+fetched here. The same files give the same bytes.
 """
 
 import argparse

@@ -24,7 +24,8 @@ class BroadPhase:
     they are refused unless may_abort=True.
     """
 
-    def __init__(self, engine: str = "octree-cpu", settings: Mapping[str, Any] | None = None, *, may_abort: bool = False):
+    def __init__(self, engine: str = "octree-cpu", settings: Mapping[str, Any] | None = None, *,
+                 may_abort: bool = False):
         self._held = native.BroadPhase(engine, _settings(settings), may_abort)
         self.id, self.build = self._held.id, self._held.build
         self.is_exact, self.margin_m = self._held.is_exact, self._held.margin_m
@@ -39,7 +40,8 @@ class BroadPhase:
         """
         given = host_array(boxes, "boxes")
         if given.dtype != np.float32:
-            raise BadInput(f"boxes: they are {given.dtype}, and rounding could lose a pair; give float32, rounded outward")
+            raise BadInput(f"boxes: they are {given.dtype}, and rounding could lose a pair; "
+                           "give float32, rounded outward")
         flags = None if is_static is None else fitted(host_array(is_static, "is_static"), np.uint8, "is_static")
         pairs, self.demanded, self.raw = self._held.find_pairs(np.ascontiguousarray(given), flags)
         return pairs
@@ -69,7 +71,8 @@ class Dynamics:
         heights_m = world.read()["body/position"][:, 1]
     """
 
-    def __init__(self, engine: str, scene: Scene | str, settings: Mapping[str, Any] | None = None, *, may_abort: bool = False):
+    def __init__(self, engine: str, scene: Scene | str, settings: Mapping[str, Any] | None = None, *,
+                 may_abort: bool = False):
         self.scene = scene if isinstance(scene, Scene) else make_scene(scene)
         self._held = native.Dynamics(engine, self.scene, _settings(settings), may_abort)
         self.id, self.build, self.declaration = self._held.id, self._held.build, self._held.declaration
@@ -88,5 +91,5 @@ class Dynamics:
 
 
 def engines() -> list[dict[str, Any]]:
-    """Every engine: id, capabilities, what it is, its settings with their defaults, and why it is absent here ("" = it is not)."""
+    """Every engine: id, capabilities, what it is, its settings, and why it is absent here ("" = it is not)."""
     return native.engine_rows()

@@ -18,7 +18,7 @@ def path() -> str:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a command printed, and its exit code: 0 good; 1 a law is broken or a regression; 3 inconclusive or missing."""
+    """What a command printed, and its exit code: 0 good; 1 a law is broken or a regression; 3 inconclusive."""
 
     exit_code: int
     text: str

@@ -1,4 +1,4 @@
-"""@broadside.engine: a Python class as an engine for run, check and time. A program engine underneath, in a process of its own.
+"""@broadside.engine: a Python class as an engine for run, check and time.
 
     @broadside.engine(declared={"motion": "translate"})
     class Ballistic:
@@ -10,8 +10,8 @@
 
 Write what you have: find_pairs(boxes, is_static) of a broad phase; begin(scene), step(dt), read_states() of dynamics,
 and with it read_points(), read_detection(), read_step_pairs(). Each read_... gives a dict of arrays named as in
-core/plugin/PROGRAMS.md, or pairs [rows, 2]. The class must be in a file: the engine's process loads that file by its
-path, under another name than __main__.
+core/plugin/PROGRAMS.md, or pairs [rows, 2]. The class must be in a file: it is served as a program engine, whose
+process loads that file by its path, under another name than __main__.
 """
 
 import importlib.util
@@ -36,7 +36,8 @@ def engine(cls=None, *, id=None, build=None, what=None, declared=None):
     if cls is None:
         return lambda given: engine(given, id=id, build=build, what=what, declared=declared)
     words = "".join("-" + c.lower() if c.isupper() else c for c in cls.__name__).strip("-").replace("_", "-")
-    cls.broadside_facts = {"id": id or words, "build": build or f"{cls.__module__}.{cls.__qualname__}, Python {sys.version.split()[0]}",
+    own = f"{cls.__module__}.{cls.__qualname__}, Python {sys.version.split()[0]}"
+    cls.broadside_facts = {"id": id or words, "build": build or own,
                            "what": what or (inspect.getdoc(cls) or f"the class {cls.__name__}").splitlines()[0],
                            "declared": dict(declared or {})}
     return cls
@@ -51,7 +52,8 @@ def command_of(cls):
     except TypeError:
         file = None
     if file is None or not Path(file).is_file():
-        raise BadInput(f"{cls.__name__}: its class is in no file; write it to one (in a notebook: %%writefile mine.py) and import it")
+        raise BadInput(f"{cls.__name__}: its class is in no file; write it to one (in a notebook: %%writefile mine.py) "
+                       "and import it")
     return shlex.join([sys.executable, "-m", "broadside.program_engine", f"{Path(file).resolve()}:{cls.__qualname__}"])
 
 

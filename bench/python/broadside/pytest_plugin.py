@@ -25,7 +25,8 @@ WRITTEN = pytest.StashKey[list]()
 
 def pytest_addoption(parser):
     group = parser.getgroup("broadside", "traces judged by Broadside")
-    group.addoption("--broadside-update", action="store_true", help="write the baselines of assert_baseline anew instead of comparing")
+    group.addoption("--broadside-update", action="store_true",
+                    help="write the baselines of assert_baseline anew instead of comparing")
     group.addoption("--broadside-artifacts", metavar="DIR", default="broadside-artifacts",
                     help="folder for recorded traces and reports of failures (default: broadside-artifacts)")
 
@@ -49,8 +50,9 @@ def _path(trace):
 def assert_lawful(trace, laws=(), against=None):
     """Fails unless laws were judged on the trace and none is broken or in doubt; returns the Verdicts.
 
-    trace: a Trace, a TraceWriter or a path. A failure has a line for each law: what was measured, the limit, where, and
-    where the limit comes from. Report and verdicts are left beside the trace, as NAME.report.html and NAME.verdicts.json.
+    trace: a Trace, a TraceWriter or a path. A failure has a line for each law: what was measured, the limit, where,
+    and where the limit comes from. Report and verdicts are left beside the trace, as NAME.report.html and
+    NAME.verdicts.json.
     """
     __tracebackhide__ = True
     import broadside
@@ -108,7 +110,8 @@ class Recorder:
             raise AssertionError(f"there is no baseline {file}; pytest --broadside-update writes it")
         wrong = KINDS[kind][1](json.loads(file.read_text(encoding="utf-8")), found)
         if wrong:
-            raise AssertionError(f"{wrong}\nbaseline: {file}\ntrace: {path}\npytest --broadside-update keeps what is there now")
+            raise AssertionError(f"{wrong}\nbaseline: {file}\ntrace: {path}\n"
+                                 "pytest --broadside-update keeps what is there now")
 
 
 def _digests(path):
@@ -127,7 +130,8 @@ def _other_digests(baseline, found):
     if not wrong:
         return ""
     now, then = (rows["digests"].get(wrong[0], "not recorded") for rows in (found, baseline))
-    return f"step {wrong[0]}: the digest is {now}, and the baseline's {then}; {len(wrong)} of {len(steps)} frames differ"
+    return (f"step {wrong[0]}: the digest is {now}, and the baseline's {then}; "
+            f"{len(wrong)} of {len(steps)} frames differ")
 
 
 def _verdicts(path):
@@ -138,7 +142,8 @@ def _verdicts(path):
 
 def _other_verdicts(baseline, found):
     laws = [law for law in {**baseline, **found} if baseline.get(law) != found.get(law)]
-    return "\n".join(f"{law}: {found.get(law, 'not judged')}, and the baseline has {baseline.get(law, 'no such law')}" for law in laws)
+    return "\n".join(f"{law}: {found.get(law, 'not judged')}, and the baseline has {baseline.get(law, 'no such law')}"
+                     for law in laws)
 
 
 KINDS = {"digests": (_digests, _other_digests), "verdicts": (_verdicts, _other_verdicts)}

@@ -59,8 +59,12 @@ def run(scene: Any, engines: Any, *, out: str | os.PathLike[str] = "out", frames
 
 
 def time(scene: Any, engines: Any, *, out: str | os.PathLike[str] | None = None, frames: int | None = None,
-         settings: Mapping[str, Any] | None = None, repetitions: int = 5, more: Sequence[Any] = ()) -> list[dict[str, Any]]:
-    """Times each engine with recording off; a list of samples, as samples.json has them. Traces in the same folder prove them."""
+         settings: Mapping[str, Any] | None = None, repetitions: int = 5,
+         more: Sequence[Any] = ()) -> list[dict[str, Any]]:
+    """Times each engine with recording off; a list of samples, as samples.json has them.
+
+    Traces and verdicts in the same folder are their proof.
+    """
     with tempfile.TemporaryDirectory() as scratch:
         file = Path(out) if out is not None else Path(scratch) / "samples.json"
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -69,7 +73,8 @@ def time(scene: Any, engines: Any, *, out: str | os.PathLike[str] | None = None,
         return json.loads(file.read_text(encoding="utf-8"))["rows"]
 
 
-def report(folders: Any, *, html: Any = None, markdown: Any = None, junit: Any = None, title: str | None = None) -> Answer:
+def report(folders: Any, *, html: Any = None, markdown: Any = None, junit: Any = None,
+           title: str | None = None) -> Answer:
     """Makes the page, the comment or the JUnit file of these folders of runs."""
     many = folders if isinstance(folders, (list, tuple)) else [folders]
     named = {"--html": html, "--markdown": markdown, "--junit": junit, "--title": title}

@@ -52,7 +52,8 @@ def _toml(value):
 class SceneBuilder:
     """Builds a scene. Every keyword is a key of scene files, so the same scene in TOML has the same digest.
 
-        box = broadside.SceneBuilder(name="brick", frames=240, dt_s=1 / 240, motion="rigid", gravity_m_s2=[0, -9.81, 0])
+        box = broadside.SceneBuilder(name="brick", frames=240, dt_s=1 / 240, motion="rigid",
+                                     gravity_m_s2=[0, -9.81, 0])
         box.domain(min_m=[-4, 0, -4], max_m=[4, 8, 4])
         box.mesh("brick", shape="box", sides_m=[0.2, 0.4, 0.6])
         box.body(mesh="brick", position_m=[0, 1, 0], mass_kg=2.0)

@@ -1,4 +1,4 @@
-"""Traces: what an engine did, frame by frame. Names, shapes and units of the columns are those of core/trace/SCHEMA.md."""
+"""Traces: what an engine did, frame by frame. Columns have the names, shapes and units of core/trace/SCHEMA.md."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Column:
 
 
 class Frame:
-    """One recorded step. frame["body/position"] is a read-only view [bodies, 3]; frame["point/impulse"] is [rows, 3]."""
+    """One recorded step. frame["body/position"] is a read-only view [bodies, 3], frame["point/gap"] one [rows]."""
 
     def __init__(self, trace, index):
         self._trace, self.index, self._parts = trace, index, {}
@@ -87,7 +87,8 @@ class Trace:
         self._columns = {facts["path"]: Column(self, facts) for facts in self._file.columns()}
 
     def __repr__(self):
-        return f"<trace {self.path}: {self.label} on {self.scene.name}, {len(self)} frames of {self.scene.body_count} bodies>"
+        return (f"<trace {self.path}: {self.label} on {self.scene.name}, "
+                f"{len(self)} frames of {self.scene.body_count} bodies>")
 
     def __len__(self) -> int:
         return len(self._file)

@@ -59,7 +59,7 @@ class TraceWriter:
 
     def append(self, step: int | None = None, *, pairs_demanded: int | None = None, pairs_raw: int | None = None,
                **groups: Any) -> int:
-        """Appends a frame and returns its step: `every` more than the last one unless it is given; 1 is after the first.
+        """Appends a frame and returns its step: `every` more than the last one unless it is given; 1 = after the first.
 
         body:      position [n, 3] m, orientation [n, 4] w x y z, velocity [n, 3] m/s, angular_velocity [n, 3] rad/s.
                    Of bodies that only translate, orientation and angular_velocity may be left out.

@@ -81,8 +81,8 @@ void add_scenes(py::module_& module) {
   py::class_<HeldScene>(
       module, "Scene",
       "A scene: immutable. Arrays are read-only views of its n bodies: position [n, 3] m, orientation [n, 4] w x y z, "
-      "velocity [n, 3] m/s, angular_velocity [n, 3] rad/s, inverse_mass [n] 1/kg (0 = static), mesh_of_body [n]. Two scenes "
-      "of one digest are the same scene.")
+      "velocity [n, 3] m/s, angular_velocity [n, 3] rad/s, inverse_mass [n] 1/kg (0 = static), mesh_of_body [n]. Two "
+      "scenes of one digest are the same scene.")
       .def_property_readonly("name", [](const HeldScene& s) { return s.scene->name; })
       .def_property_readonly("description", [](const HeldScene& s) { return s.scene->description; })
       .def_property_readonly("motion", [](const HeldScene& s) { return std::string(motion_word(s.scene->motion)); })

@@ -10,7 +10,8 @@ DT_S, FRAMES, GRAVITY_M_S2 = 1 / 64, 30, 8.0  # powers of two: h, g h and their 
 
 def falling_scene():
     """Two bricks far from every face, one of them static."""
-    made = broadside.SceneBuilder(name="falling", frames=FRAMES, dt_s=DT_S, motion="rigid", gravity_m_s2=[0.0, -GRAVITY_M_S2, 0.0])
+    made = broadside.SceneBuilder(name="falling", frames=FRAMES, dt_s=DT_S, motion="rigid",
+                                  gravity_m_s2=[0.0, -GRAVITY_M_S2, 0.0])
     made.domain(min_m=[-100.0, -100.0, -100.0], max_m=[100.0, 100.0, 100.0])
     made.mesh("brick", shape="box", sides_m=[0.5, 1.0, 2.0])
     made.body(mesh="brick", position_m=[0.0, 50.0, 0.0], velocity_m_s=[1.0, 0.0, 0.0], mass_kg=2.0)

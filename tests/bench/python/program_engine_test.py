@@ -13,7 +13,8 @@ class Ballistic:
     gravity_scale = 1.0
 
     def begin(self, scene):
-        self.state = {name: getattr(scene, name).copy() for name in ("position", "orientation", "velocity", "angular_velocity")}
+        names = ("position", "orientation", "velocity", "angular_velocity")
+        self.state = {name: getattr(scene, name).copy() for name in names}
         self.pull = self.gravity_scale * scene.gravity[None, :] * ~scene.is_static.astype(bool)[:, None]
 
     def step(self, dt):
@@ -77,8 +78,8 @@ def test_it_is_timed(tmp_path):
 def test_a_broad_phase_finds_the_pairs_of_others():
     from broadside.program_engine import command_of
 
-    answer = broadside.program.call("pairs", "boxes:uniform:300", "--engine", command_of(AllPairs), "--engine", "octree-cpu",
-                                    "--digest")
+    answer = broadside.program.call("pairs", "boxes:uniform:300", "--engine", command_of(AllPairs),
+                                    "--engine", "octree-cpu", "--digest")
     digests = [line.split()[0] for line in answer.text.splitlines()]
     assert len(digests) == 2 and digests[0] == digests[1]
 

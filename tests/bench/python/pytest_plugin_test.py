@@ -39,9 +39,10 @@ class Project:
 
     def run(self, *arguments, gravity=8.0):
         """Outcome by test name, and what was printed."""
-        (self.folder / "test_pile.py").write_text(TESTS.format(folder=str(Path(__file__).parent), gravity=gravity), encoding="utf-8")
-        done = subprocess.run([sys.executable, "-B", "-m", "pytest", "-p", "no:cacheprovider", "-rA", *arguments], cwd=self.folder,
-                              capture_output=True, text=True, check=False)
+        text = TESTS.format(folder=str(Path(__file__).parent), gravity=gravity)
+        (self.folder / "test_pile.py").write_text(text, encoding="utf-8")
+        command = [sys.executable, "-B", "-m", "pytest", "-p", "no:cacheprovider", "-rA", *arguments]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
         words = ("PASSED", "FAILED", "ERROR")
         said = [line.split()[:2] for line in done.stdout.splitlines() if line.startswith(words)]
         return {name.rpartition("::")[2]: word for word, name in said}, done.stdout

@@ -1,4 +1,6 @@
-"""Runs test files of the Python package in a virtual environment that has its wheel: run_in_environment.py WHEELS ENVIRONMENT FILE...
+"""Runs test files of the Python package in a virtual environment that has its wheel.
+
+    run_in_environment.py WHEELS ENVIRONMENT FILE...
 
 The environment is made of the one wheel in the folder WHEELS, and again when that is another one. Exits 77, with the
 reason, where pytest or NumPy are not installed.
@@ -18,8 +20,9 @@ SKIPPED = 77
 def make(wheel, environment):
     """A new environment without the caller's variables: what works in it needs nothing of this tree."""
     bare = {"PATH": "/usr/bin:/bin", "HOME": str(environment.parent), "LC_ALL": "C.UTF-8"}
+    pip = [environment / "bin/pip", "--disable-pip-version-check"]
     for command in ([sys.executable, "-m", "venv", "--clear", "--system-site-packages", environment],
-                    [environment / "bin/pip", "install", "--no-index", "--no-deps", "--disable-pip-version-check", wheel]):
+                    [*pip, "install", "--no-index", "--no-deps", wheel]):
         subprocess.run(command, env=bare, check=True, stdout=subprocess.DEVNULL)
 
 
@@ -34,7 +37,7 @@ def main():
         sys.exit(f"{wheels} has {len(found)} wheels; build the target python_wheel first")
     environment.parent.mkdir(parents=True, exist_ok=True)
     made = environment.with_suffix(".made")
-    with open(environment.with_suffix(".lock"), "w", encoding="ascii") as lock:  # tests of one build may run side by side
+    with open(environment.with_suffix(".lock"), "w", encoding="ascii") as lock:  # tests may run side by side
         fcntl.flock(lock, fcntl.LOCK_EX)
         digest = hashlib.sha256(found[0].read_bytes()).hexdigest()
         if not made.is_file() or made.read_text(encoding="ascii") != digest:

@@ -29,7 +29,8 @@ def test_a_builder_says_what_a_scene_file_of_this_tree_says():
     made = broadside.SceneBuilder(name="errata:E2", frames=120, seed=0)
     made.domain(min_m=[-4.0] * 3, max_m=[4.0] * 3)
     made.mesh("cube", shape="box", sides_m=[1.0] * 3, segments=[8] * 3)
-    for x, y, z, v in ((0.9, 1, 1, 0.5), (2.0, 1, 1, -0.5), (-1.15, -1, -1, 0.5), (0, -1, -1, -0.5), (2.52, -3, -3, 0.25), (3.48, -3, -3, -0.25)):
+    for x, y, z, v in ((0.9, 1, 1, 0.5), (2.0, 1, 1, -0.5), (-1.15, -1, -1, 0.5), (0, -1, -1, -0.5),
+                       (2.52, -3, -3, 0.25), (3.48, -3, -3, -0.25)):
         made.body(position_m=[x, y, z], velocity_m_s=[v, 0, 0])
     file = next(path for path in SCENES.glob("*.toml") if 'name = "errata:E2"' in path.read_text(encoding="utf-8"))
     assert made.build().digest == broadside.scene(file).digest == broadside.scene("errata:E2").digest
@@ -72,6 +73,7 @@ def test_errors_name_the_line_of_the_text():
 
 def test_texts_with_quotes_and_lines_survive():
     named = broadside.SceneBuilder(name='a "quoted" \\ name', description="two\nlines\t\x7f\u00e9")
-    named.domain(min_m=[-9, -9, -9], max_m=[9, 9, 9]).mesh("cube", shape="box", sides_m=[1, 1, 1]).body(position_m=[0, 0, 0])
+    named.domain(min_m=[-9, -9, -9], max_m=[9, 9, 9])
+    named.mesh("cube", shape="box", sides_m=[1, 1, 1]).body(position_m=[0, 0, 0])
     scene = named.build()
     assert (scene.name, scene.description) == ('a "quoted" \\ name', "two\nlines\t\x7f\u00e9")

@@ -1,4 +1,4 @@
-"""Traces as NumPy, pandas and xarray see them. Expected numbers are those of free fall, or what h5py reads of the file."""
+"""Traces as NumPy, pandas and xarray see them. Expected numbers: those of free fall, or what h5py reads."""
 
 import numpy as np
 import pytest
@@ -112,7 +112,8 @@ def test_dataset(falling, stack):
 def test_errors_are_those_of_the_command_line(stack, tmp_path):
     with pytest.raises(broadside.BadInput, match=r"nix\.h5: there is no such file; check the path"):
         broadside.Trace("nix.h5")
-    with pytest.raises(broadside.BadInput, match=r"plain-rigid\.h5: there is no column 'body/positon'; did you mean 'body/position'\?"):
+    says = r"plain-rigid\.h5: there is no column 'body/positon'; did you mean 'body/position'\?"
+    with pytest.raises(broadside.BadInput, match=says):
         stack["body/positon"]
     with pytest.raises(broadside.BadInput, match="it has no contact/depth"):
         stack["contact/depth"]

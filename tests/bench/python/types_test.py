@@ -1,4 +1,4 @@
-"""What the stubs and annotations say is what is there."""
+"""What native.pyi and the annotations say is what is there."""
 
 import ast
 import inspect
@@ -8,7 +8,7 @@ import broadside
 from broadside import native
 
 
-def stub():
+def declared():
     """Name -> names of its members, of native.pyi; a function has none."""
     tree = ast.parse((Path(broadside.__file__).parent / "native.pyi").read_text(encoding="utf-8"))
     found = {}
@@ -20,10 +20,10 @@ def stub():
     return found
 
 
-def test_the_stub_names_what_the_module_has_and_nothing_else():
+def test_the_types_file_names_what_the_module_has_and_nothing_else():
     theirs = {name for name in vars(native) if not name.startswith("_")}
-    assert set(stub()) == theirs
-    for name, members in stub().items():
+    assert set(declared()) == theirs
+    for name, members in declared().items():
         has = getattr(native, name)
         if inspect.isclass(has):
             own = {member for member in vars(has) if not member.startswith("_") or member == "__len__"}

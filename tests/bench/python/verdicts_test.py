@@ -81,7 +81,8 @@ def test_html_for_notebooks(too_heavy):
 def test_files(too_heavy, tmp_path):
     verdicts = broadside.check(too_heavy)
     verdicts.junit(tmp_path / "junit.xml")
-    failures = [case for case in xml.parse(tmp_path / "junit.xml").iter("testcase") if case.find("failure") is not None]
+    cases = xml.parse(tmp_path / "junit.xml").iter("testcase")
+    failures = [case for case in cases if case.find("failure") is not None]
     assert len(failures) == len(verdicts.failed)
     verdicts.page(tmp_path / "page.html", title="Too heavy")
     assert "Too heavy" in (tmp_path / "page.html").read_text(encoding="utf-8")
