@@ -31,6 +31,7 @@ ROOMS = {
     "contest": {"cell", "document", "process", "record", "campaign"},
     "fetched": {"process"},
     "benchmarks": {"record"},
+    "python": {"cell", "process", "record"},
     "cli": {"cell", "process", "record", "mutants", "timing", "agree", "converge", "forensics", "shrink", "bisect", "campaign", "document",
             "paper", "contest", "fetched"},
 }
@@ -53,6 +54,7 @@ POSIX = {"fcntl.h", "signal.h", "sys/file.h", "sys/resource.h", "sys/stat.h", "s
 JSON_NAME = {"nlohmann/json_fwd.hpp"}
 WRAPPERS = {"core/trace/hdf5_handle.hpp": {"hdf5.h"}, "reference/bullet_vectors.hpp": {"LinearMath/btTransform.h"},
             "core/exact/integer_cubic.hpp": {"gmpxx.h"}, "core/exact/integer_motion.hpp": {"gmpxx.h"},
+            "bench/python/native/arrays.hpp": {"pybind11/numpy.h"},
             "core/mesh/gltf_nodes.hpp": JSON_NAME, "bench/cell/json_number.hpp": JSON_NAME}
 CUDA = re.compile(r"^(cuda|cub|thrust|device_launch)\w*[./]")  # gpu/ is the folder of this vendor
 GENERATED = {"broadside_version.hpp"}  # written at build time from the version and the commit

@@ -32,7 +32,7 @@ class Launcher(unittest.TestCase):
         self.tree, self.programs, self.played = scratch / "tree", scratch / "programs", scratch / "played"
         for folder in (self.tree / "cmake", self.programs, self.played):
             folder.mkdir(parents=True)
-        for name in ("broadside", "CMakePresets.json", "cmake/packages.txt"):
+        for name in ("broadside", "CMakePresets.json", "cmake/packages.txt", "cmake/packages_python.txt"):
             shutil.copy(ROOT / name, self.tree / name)
         for name, body in MACHINE.items():
             script = self.programs / name
@@ -68,6 +68,17 @@ class Launcher(unittest.TestCase):
         second = self.call("list", "engines")
         self.assertEqual((0, "ran list engines\n", ""), (second.returncode, second.stdout, second.stderr))
         self.assertEqual([], self.called("apt-get") + self.called("cmake --fresh"))
+
+    def test_python_alone_installs_what_only_it_needs_and_builds_its_wheel(self):
+        (self.played / "missing").write_text("pybind11-dev\n", encoding="utf-8")
+        self.assertEqual(0, self.call("list", "engines").returncode)
+        self.assertEqual([], self.called("apt-get"), "other calls do without")
+        answer = self.call("python")
+        self.assertIn("installing 1 packages of", answer.stderr)
+        self.assertIn("pybind11-dev", answer.stderr)
+        self.assertIn("--target python_wheel", " ".join(self.called("cmake --build")))
+        self.assertEqual(4, answer.returncode, "the cmake of this test makes no wheel")
+        self.assertIn("the build made no wheel", answer.stderr)
 
     def test_only_the_tests_and_build_itself_build_more_than_the_program(self):
         for arguments, target in ((("demo",), "broadside"), (("list", "engines"), "broadside"), (("test",), "all"), (("build",), "all")):

@@ -1,4 +1,4 @@
-"""cmake/packages.txt names a package for everything that CMake is told to find."""
+"""cmake/packages.txt, or cmake/packages_python.txt, names a package for everything that CMake is told to find."""
 
 import re
 
@@ -7,12 +7,14 @@ MODULE = re.compile(r"^\s*pkg_check_modules\(\s*\w+\s+(?:REQUIRED\s+|IMPORTED_TA
 # Threads comes with the compiler. CUDA comes from its vendor, and the build does without it.
 WITHOUT_PACKAGE = {"Threads", "CUDAToolkit"}
 TABLE = "cmake/packages.txt"
+TABLES = (TABLE, "cmake/packages_python.txt")  # the second: what only the Python package needs
 COLUMNS = ("debian-12", "ubuntu-24.04", "for")
 
 
 def violations(tree):
-    rows = [(number, text.split()) for number, text in tree.lines(TABLE) if text.strip() and not text.startswith("#")]
-    found = [f"{TABLE}:{number}: a row has the columns {', '.join(COLUMNS)}" for number, row in rows if len(row) < len(COLUMNS)]
+    rows = [(f"{table}:{number}", text.split()) for table in TABLES if table in tree.paths
+            for number, text in tree.lines(table) if text.strip() and not text.startswith("#")]
+    found = [f"{place}: a row has the columns {', '.join(COLUMNS)}" for place, row in rows if len(row) < len(COLUMNS)]
     provided = {row[2] for _, row in rows if len(row) >= len(COLUMNS)}
     for name in tree.paths:
         # Examples are projects of their own, built against an installed tree.

@@ -104,6 +104,8 @@ class PlantedViolation(unittest.TestCase):
     def test_names_and_places(self):
         self.one(tree_rules, {"core/helpers.cpp": ""}, "says nothing")
         self.one(tree_rules, {"core/BodyState.cpp": ""}, "snake_case")
+        self.one(tree_rules, {"bench/python/_trace.py": ""}, "snake_case")
+        self.assertEqual([], self.found(tree_rules, {"bench/python/broadside/__init__.py": ""}))
         self.one(tree_rules, {"extra/a.txt": ""}, "top-level")
         self.one(tree_rules, {"datasets/bunny.ply": ""}, "a mesh")
         self.one(tree_rules, {"core/a.hpp": "int a;\n"}, "#pragma once")
@@ -126,6 +128,9 @@ class PlantedViolation(unittest.TestCase):
         self.one(packages, {"core/CMakeLists.txt": "find_package(Y)\n"}, "Y is searched for")
         self.one(packages, {"cmake/y.cmake": "  pkg_check_modules(y REQUIRED IMPORTED_TARGET liby)\n"}, "liby is searched for")
         self.one(packages, {"cmake/packages.txt": CLEAN["cmake/packages.txt"] + "libz-dev\n"}, "a row has the columns")
+        python = "liby-dev liby-dev Y\n"
+        self.one(packages, {"cmake/packages_python.txt": python + "libz-dev\n"}, "packages_python.txt:2: a row has the columns")
+        self.assertEqual([], self.found(packages, {"cmake/packages_python.txt": python, "core/CMakeLists.txt": "find_package(Y)\n"}))
 
     def test_readme_command_that_exits_otherwise(self):
         page = ("```sh\n./broadside untested\n```\n\n<!-- tested -->\n```sh\n./broadside first >seen\n"

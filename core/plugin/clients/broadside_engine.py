@@ -28,7 +28,7 @@ class Layout:
     """Names, types and lengths of a row: "position:3d" is three doubles, "a:I" one u32."""
 
     def __init__(self, text):
-        self.fields = []
+        self.text, self.fields = text, []
         for field in text.split():
             name, kind = field.split(":")
             self.fields.append((name, int(kind[:-1] or 0)))
@@ -176,14 +176,15 @@ def answer(engine, call, r):
     return b""
 
 
-def serve(engine):
+def serve(engine, answer_to=answer):
+    """Answers until the input ends. answer_to: what makes the payload of an answer, where rows are packed otherwise."""
     given, sent = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # standard output carries the protocol alone
     sys.stdout = sys.stderr
     while len(head := given.read(4)) == 4:
         message = given.read(struct.unpack("<I", head)[0])
         try:
-            status, payload = 0, answer(engine, struct.unpack_from("<I", message)[0], Reader(message[4:]))
+            status, payload = 0, answer_to(engine, struct.unpack_from("<I", message)[0], Reader(message[4:]))
         except Exception as error:  # whatever an engine raises is its answer
             status, payload = 1, _text(f"{type(error).__name__}: {error}"[:1000])
         sent.write(struct.pack("<II", len(payload) + 4, status) + payload)

@@ -1,0 +1,43 @@
+"""Arrays that others hand in: NumPy's, and those of any library that speaks DLPack or NumPy's array interface.
+
+Nothing is copied where type, order and place fit. An array on a GPU is not fetched in silence: a copy through the host
+is a cost that its owner should see, so it is an error that says how to make one.
+"""
+
+import numpy as np
+
+from .errors import BadInput
+
+HOST = (1, 3)  # DLPack's kDLCPU and kDLCUDAHost: memory that the CPU reads
+
+
+def host_array(value, what):
+    """A NumPy array over value's memory where it is on the host. `what` names it in errors."""
+    if hasattr(value, "__cuda_array_interface__"):
+        raise BadInput(f"{what}: it is on a GPU, and this engine reads the host's memory; "
+                       "copy it yourself, such as cupy.asnumpy(x) or x.cpu()")
+    if isinstance(value, np.ndarray) or not hasattr(value, "__dlpack__"):
+        return np.asarray(value)
+    kind, _ = value.__dlpack_device__()
+    if kind not in HOST:
+        raise BadInput(f"{what}: it is on a device of DLPack's kind {kind}, and this engine reads the host's memory; "
+                       "copy it to the host yourself")
+    return np.from_dlpack(value)
+
+
+def fitted(value, dtype, what):
+    """The same numbers as `dtype`, packed; value itself where it is so. Whole numbers must fit."""
+    array, dtype = host_array(value, what), np.dtype(dtype)
+    if array.dtype == dtype:
+        return np.ascontiguousarray(array)
+    if array.size == 0:
+        return np.zeros(array.shape, dtype)
+    if dtype.kind in "iu":
+        if array.dtype.kind not in "iub":
+            raise BadInput(f"{what}: it is of type {array.dtype}; give whole numbers, {dtype}")
+        low, high = np.iinfo(dtype).min, np.iinfo(dtype).max
+        if int(array.min()) < low or int(array.max()) > high:
+            raise BadInput(f"{what}: it holds {array.min()} to {array.max()}; give numbers from {low} to {high}")
+    elif array.dtype.kind not in "fiub":
+        raise BadInput(f"{what}: it is of type {array.dtype}; give numbers, {dtype}")
+    return np.ascontiguousarray(array, dtype)

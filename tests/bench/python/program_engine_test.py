@@ -1,0 +1,100 @@
+"""@broadside.engine: a Python class is recorded, judged, timed and raced as every other engine is."""
+
+import numpy as np
+import pytest
+
+import broadside
+
+
+@broadside.engine(declared={"motion": "rigid", "integrator": "semi-implicit Euler", "contacts": "none"})
+class Ballistic:
+    """Bodies that fly and never meet."""
+
+    gravity_scale = 1.0
+
+    def begin(self, scene):
+        names = ("position", "orientation", "velocity", "angular_velocity")
+        self.state = {name: getattr(scene, name).copy() for name in names}
+        self.pull = self.gravity_scale * scene.gravity[None, :] * ~scene.is_static.astype(bool)[:, None]
+
+    def step(self, dt):
+        self.state["velocity"] += dt * self.pull
+        self.state["position"] += dt * self.state["velocity"]
+
+    def read_states(self):
+        return self.state
+
+
+@broadside.engine(id="heavy", declared={"motion": "rigid"})
+class Heavy(Ballistic):
+    """The same with a quarter more gravity."""
+
+    gravity_scale = 1.25
+
+
+@broadside.engine
+class AllPairs:
+    """Every pair by the definition."""
+
+    def find_pairs(self, boxes, is_static):
+        low, high = boxes[:, :3], boxes[:, 3:]
+        hit = ((low[:, None] <= high[None]) & (low[None] <= high[:, None])).all(axis=2)
+        hit &= ~(is_static[:, None] & is_static[None])
+        return np.argwhere(np.triu(hit, 1))
+
+
+@broadside.engine
+class Failing(Ballistic):
+    """Fails in its third step."""
+
+    def step(self, dt):
+        self.steps = getattr(self, "steps", 0) + 1
+        if self.steps == 3:
+            raise ArithmeticError("it blew up")
+
+
+def falling():
+    from conftest import falling_scene
+
+    return falling_scene()
+
+
+def test_it_is_run_and_judged(tmp_path):
+    sound, heavy = broadside.run(falling(), [Ballistic, Heavy], out=tmp_path)
+    assert (sound.engine, heavy.engine) == ("ballistic", "heavy")
+    verdicts = broadside.check(sound)
+    assert verdicts.ok and verdicts["ballistic"].outcome == "pass", verdicts.lines
+    assert broadside.check(heavy)["ballistic"].outcome == "fail"
+
+
+def test_it_is_timed(tmp_path):
+    broadside.run(falling(), Ballistic, out=tmp_path)
+    samples = broadside.time(tmp_path / "scene.toml", Ballistic, out=tmp_path / "samples.json", repetitions=1)
+    assert len(samples) == 1 and all(sample["stamp"]["engine"] == "ballistic" for sample in samples)
+    answer = broadside.report(tmp_path, html=tmp_path / "page.html")
+    assert answer.exit_code in (0, 3) and (tmp_path / "page.html").stat().st_size > 1000
+
+
+def test_a_broad_phase_finds_the_pairs_of_others():
+    from broadside.program_engine import command_of
+
+    answer = broadside.program.call("pairs", "boxes:uniform:300", "--engine", command_of(AllPairs),
+                                    "--engine", "octree-cpu", "--digest")
+    digests = [line.split()[0] for line in answer.text.splitlines()]
+    assert len(digests) == 2 and digests[0] == digests[1]
+
+
+def test_an_exception_is_a_cell_with_its_text(tmp_path):
+    with pytest.raises(broadside.Missing, match="ArithmeticError: it blew up"):
+        broadside.run(falling(), Failing, out=tmp_path)
+
+
+def test_what_is_no_engine():
+    class Plain:
+        pass
+
+    with pytest.raises(broadside.BadInput, match="put @broadside.engine before the class"):
+        broadside.run("two-body:apart", Plain)
+    made = broadside.engine(type("Made", (), {"__module__": "nowhere"}))
+    with pytest.raises(broadside.BadInput, match="its class is in no file"):
+        broadside.run("two-body:apart", made)
