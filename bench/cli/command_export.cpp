@@ -34,7 +34,7 @@ std::string stem_of(const std::string& name) {
 
 bool is_box_stream(const std::string& spec) {
   for (const datasets::BoxStreamRow& row : datasets::box_stream_table())
-    if (spec.starts_with(row.pattern.substr(0, row.pattern.size() - 1))) return true;
+    if (spec.starts_with(row.prefix())) return true;
   return false;
 }
 

@@ -12,7 +12,11 @@
 #include "datasets/box_streams/broadmark_boxes.hpp"
 #include "datasets/box_streams/check_boxes.hpp"
 #include "datasets/box_streams/degenerate_boxes.hpp"
+#include "datasets/box_streams/mesh_boxes.hpp"
 #include "datasets/box_streams/raw_boxes.hpp"
+#include "datasets/box_streams/sheet_boxes.hpp"
+#include "datasets/box_streams/thin_boxes.hpp"
+#include "datasets/box_streams/uneven_boxes.hpp"
 #include "datasets/generators/scene_options.hpp"
 
 namespace broadside::datasets {
@@ -33,7 +37,6 @@ BoxStream one_frame(std::vector<core::Box> boxes) {
 }
 
 struct BoxSet {
-  std::string_view prefix;
   BoxStreamRow row;
   BoxStream (*make)(std::uint32_t n, std::uint64_t seed);
   std::uint32_t most = kMaxBoxes;
@@ -60,72 +63,75 @@ using enum BroadmarkObjects;
 // All pairs of identical boxes overlap: 450 million of them, 3.6 GB.
 constexpr std::uint32_t kMostIdentical = 30'000;
 
-constexpr std::array<BoxSet, 22> kBoxSets{{
-    {"boxes:uniform:",
-     {"boxes:uniform:N", "boxes:uniform:100000", "boxes of similar size spread evenly, about 8 overlaps each"},
+constexpr std::array<BoxSet, 28> kBoxSets{{
+    {{"boxes:uniform:N", "boxes:uniform:100000", "boxes of similar size spread evenly, about 8 overlaps each"},
      still<uniform_boxes>},
-    {"boxes:heaps:",
-     {"boxes:heaps:N", "boxes:heaps:100000", "16 cone-shaped heaps far apart, and 1 % strays over a wide ground"},
+    {{"boxes:heaps:N", "boxes:heaps:100000", "16 cone-shaped heaps far apart, and 1 % strays over a wide ground"},
      still<heap_boxes>},
-    {"boxes:mixed:",
-     {"boxes:mixed:N", "boxes:mixed:100000", "sizes from 1 to 1000: a few giants overlap thousands"},
+    {{"boxes:mixed:N", "boxes:mixed:100000", "sizes from 1 to 1000: a few giants overlap thousands"},
      still<mixed_boxes>},
-    {"boxes:moving:",
-     {"boxes:moving:N", "boxes:moving:100000", "uniform, each box moves 1 % of its size a frame, 100 frames"},
+    {{"boxes:moving:N", "boxes:moving:100000", "uniform, each box moves 1 % of its size a frame, 100 frames"},
      [](std::uint32_t n, std::uint64_t seed) { return moving_boxes(n, seed, kMovingFrames, 0.0); }},
-    {"boxes:teleporting:",
-     {"boxes:teleporting:N", "boxes:teleporting:100000", "moving, and a tenth of the boxes jump elsewhere each frame"},
+    {{"boxes:teleporting:N", "boxes:teleporting:100000", "moving, and a tenth of the boxes jump elsewhere each frame"},
      [](std::uint32_t n, std::uint64_t seed) { return moving_boxes(n, seed, kMovingFrames, 0.1); }},
-    {"boxes:identical:",
-     {"boxes:identical:N", "boxes:identical:1000", "one box N times: every pair overlaps", false},
+    {{"boxes:identical:N", "boxes:identical:1000", "one box N times: every pair overlaps", false},
      still<identical_boxes>,
      kMostIdentical},
-    {"boxes:touching:",
-     {"boxes:touching:N", "boxes:touching:1000", "unit cubes on a lattice that touch and never overlap by more", false},
+    {{"boxes:touching:N", "boxes:touching:1000", "unit cubes on a lattice that touch and never overlap by more", false},
      still<touching_boxes>},
-    {"boxes:line:", {"boxes:line:N", "boxes:line:1000", "centers on one line"}, still<line_boxes>},
-    {"boxes:plane:", {"boxes:plane:N", "boxes:plane:1000", "centers in one plane"}, still<plane_boxes>},
-    {"boxes:flat:",
-     {"boxes:flat:N", "boxes:flat:1000", "points, segments and squares without volume, many of them at one place"},
+    {{"boxes:line:N", "boxes:line:1000", "centers on one line"}, still<line_boxes>},
+    {{"boxes:plane:N", "boxes:plane:1000", "centers in one plane"}, still<plane_boxes>},
+    {{"boxes:flat:N", "boxes:flat:1000", "points, segments and squares without volume, many of them at one place"},
      still<flat_boxes>},
-    {"boxes:far:",
-     {"boxes:far:N", "boxes:far:1000", "uniform, 1e6 from the origin, where a float's step is 1/16"},
-     still<far_boxes>},
-    {"boxes:tiny:", {"boxes:tiny:N", "boxes:tiny:1000", "uniform, a millionth of the size"}, still<tiny_boxes>},
-    {"boxes:subnormal:",
-     {"boxes:subnormal:N", "boxes:subnormal:1000", "uniform, so small that every coordinate is a subnormal float"},
+    {{"boxes:far:N", "boxes:far:1000", "uniform, 1e6 from the origin, where a float's step is 1/16"}, still<far_boxes>},
+    {{"boxes:tiny:N", "boxes:tiny:1000", "uniform, a millionth of the size"}, still<tiny_boxes>},
+    {{"boxes:subnormal:N", "boxes:subnormal:1000", "uniform, so small that every coordinate is a subnormal float"},
      still<subnormal_boxes>},
-    {"broadmark-brownian:cubes:",
-     {"broadmark-brownian:cubes:N", "broadmark-brownian:cubes:10000",
+    {{"boxes:slivers:N", "boxes:slivers:100000", "a thousand times longer than thick, about 8 overlaps each"},
+     still<sliver_boxes>},
+    {{"boxes:needles:N", "boxes:needles:100000", "100 m long and 0.1 mm thick in a cube of 100 m: hardly any overlap"},
+     still<needle_boxes>},
+    {{"boxes:spiral:N", "boxes:spiral:100000", "along a spiral, ever smaller towards its center"}, still<spiral_boxes>},
+    {{"boxes:cantor:N", "boxes:cantor:100000", "centers in a Cantor set on each axis"}, still<cantor_boxes>},
+    {{"boxes:exponents:N", "boxes:exponents:30000", "places and sizes over all exponents of a float"},
+     still<exponent_boxes>},
+    {{"boxes:sheet:N", "boxes:sheet:150000", "triangles of a wrinkled cloth that folds, 100 frames", false},
+     [](std::uint32_t n, std::uint64_t) { return sheet_boxes(n, kMovingFrames); }},
+    {{"broadmark-brownian:cubes:N", "broadmark-brownian:cubes:10000",
       "Broadmark: no gravity, 1 % get a new velocity a frame; tumbling cubes, 300 frames"},
      broadmark<kBrownian, kCubes>},
-    {"broadmark-brownian:spheres:",
-     {"broadmark-brownian:spheres:N", "broadmark-brownian:spheres:10000", "the same with spheres of diameter 1"},
+    {{"broadmark-brownian:spheres:N", "broadmark-brownian:spheres:10000", "the same with spheres of diameter 1"},
      broadmark<kBrownian, kSpheres>},
-    {"broadmark-brownian:assorted:",
-     {"broadmark-brownian:assorted:N", "broadmark-brownian:assorted:10000", "the same with sides from 0.1 to 1.9"},
+    {{"broadmark-brownian:assorted:N", "broadmark-brownian:assorted:10000", "the same with sides from 0.1 to 1.9"},
      broadmark<kBrownian, kAssorted>},
-    {"broadmark-freefall:cubes:",
-     {"broadmark-freefall:cubes:N", "broadmark-freefall:cubes:10000",
+    {{"broadmark-freefall:cubes:N", "broadmark-freefall:cubes:10000",
       "Broadmark: tumbling cubes fall, pile up and lie still, 300 frames"},
      broadmark<kFreefall, kCubes>},
-    {"broadmark-freefall:spheres:",
-     {"broadmark-freefall:spheres:N", "broadmark-freefall:spheres:10000", "the same with spheres of diameter 1"},
+    {{"broadmark-freefall:spheres:N", "broadmark-freefall:spheres:10000", "the same with spheres of diameter 1"},
      broadmark<kFreefall, kSpheres>},
-    {"broadmark-freefall:assorted:",
-     {"broadmark-freefall:assorted:N", "broadmark-freefall:assorted:10000", "the same with sides from 0.1 to 1.9"},
+    {{"broadmark-freefall:assorted:N", "broadmark-freefall:assorted:10000", "the same with sides from 0.1 to 1.9"},
      broadmark<kFreefall, kAssorted>},
-    {"broadmark-gravity:cubes:",
-     {"broadmark-gravity:cubes:N", "broadmark-gravity:cubes:10000",
+    {{"broadmark-gravity:cubes:N", "broadmark-gravity:cubes:10000",
       "Broadmark: fourfold gravity that turns 1.9 degrees a frame; tumbling cubes, 300 frames"},
      broadmark<kGravity, kCubes>},
-    {"broadmark-gravity:spheres:",
-     {"broadmark-gravity:spheres:N", "broadmark-gravity:spheres:10000", "the same with spheres of diameter 1"},
+    {{"broadmark-gravity:spheres:N", "broadmark-gravity:spheres:10000", "the same with spheres of diameter 1"},
      broadmark<kGravity, kSpheres>},
-    {"broadmark-gravity:assorted:",
-     {"broadmark-gravity:assorted:N", "broadmark-gravity:assorted:10000", "the same with sides from 0.1 to 1.9"},
+    {{"broadmark-gravity:assorted:N", "broadmark-gravity:assorted:10000", "the same with sides from 0.1 to 1.9"},
      broadmark<kGravity, kAssorted>},
 }};
+
+constexpr BoxStreamRow kMeshes{"boxes:mesh:NAME[:copies]", "boxes:mesh:bunny:20",
+                               "triangles of a mesh of the catalogue; of several copies: turned, in a heap", true,
+                               false};
+
+Result<BoxStream> from_mesh(const std::string& spec, std::uint64_t seed) {
+  Result<std::vector<core::Box>> boxes = mesh_boxes_of(spec.substr(kMeshes.prefix().size()), seed, kMaxBoxes);
+  if (!boxes) return boxes.error();
+  BoxStream stream = one_frame(std::move(boxes).value());
+  stream.name = spec;
+  stream.what = std::string(kMeshes.what);
+  return stream;
+}
 
 Result<BoxStream> from_raw_file(const std::string& path) {
   Result<std::vector<core::Box>> boxes = read_raw_boxes(path);
@@ -177,14 +183,16 @@ bool names_a_file(const std::string& spec) {
 std::vector<BoxStreamRow> box_stream_table() {
   std::vector<BoxStreamRow> table;
   for (const BoxSet& set : kBoxSets) table.push_back(set.row);
+  table.push_back(kMeshes);
   return table;
 }
 
 Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::uint64_t> seed) {
   if (names_a_file(spec)) return from_file(spec);
+  if (spec.starts_with(kMeshes.prefix())) return from_mesh(spec, seed.value_or(kDefaultSeed));
   for (const BoxSet& set : kBoxSets) {
-    if (!spec.starts_with(set.prefix)) continue;
-    const std::string_view digits = std::string_view(spec).substr(set.prefix.size());
+    if (!spec.starts_with(set.row.prefix())) continue;
+    const std::string_view digits = std::string_view(spec).substr(set.row.prefix().size());
     std::uint32_t n = 0;
     const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
     if (failed != std::errc() || end != digits.data() + digits.size() || n > set.most)
@@ -196,7 +204,7 @@ Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::ui
     return stream;
   }
   std::vector<std::string_view> known;
-  for (const BoxSet& set : kBoxSets) known.push_back(set.row.example);
+  for (const BoxStreamRow& row : box_stream_table()) known.push_back(row.example);
   return Error{"no such boxes", "boxes '" + spec + "'",
                core::advise_name(spec, known) + "; or give a box file that ends in .boxes, .bin or .h5"};
 }

@@ -29,7 +29,11 @@ struct BoxStreamRow {
   std::string_view pattern;  // "boxes:uniform:N"
   std::string_view example;
   std::string_view what;
-  bool is_seeded = true;  // another seed gives other boxes
+  bool is_seeded = true;   // another seed gives other boxes
+  bool is_counted = true;  // what follows the prefix is the number of boxes
+
+  // "boxes:uniform:"
+  [[nodiscard]] std::string_view prefix() const { return pattern.substr(0, pattern.rfind(':', pattern.find('[')) + 1); }
 };
 
 std::vector<BoxStreamRow> box_stream_table();

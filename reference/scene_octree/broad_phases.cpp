@@ -8,8 +8,8 @@
 
 #include "reference/scene_octree/box_check.hpp"
 #include "reference/scene_octree/octree_record.hpp"
+#include "reference/scene_octree/pass_trees.hpp"
 #include "reference/scene_octree/scene_octree.hpp"
-#include "reference/scene_octree/size_tree.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -131,7 +131,7 @@ class TreeBroadPhase final : public core::BroadPhase {
 
  private:
   Arena arena_;
-  SizeTree tree_;
+  PassTrees tree_;
   std::vector<std::uint8_t> is_static_;
 };
 

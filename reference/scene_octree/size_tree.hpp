@@ -30,6 +30,8 @@ class SizeTree {
   void read_back(std::vector<core::Pair>& out);
 
   [[nodiscard]] std::uint64_t found() const { return found_.count(); }
+  // The pairs of the last find where the workers left them, in no fixed order.
+  [[nodiscard]] std::span<const std::span<const core::Pair>> found_blocks() { return found_.gather(); }
   // Work of all finds since reset_counts(): sums of integers, so the same for any number of threads.
   [[nodiscard]] std::uint64_t nodes_visited() const { return nodes_visited_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t packs_tested() const { return packs_tested_.load(std::memory_order_relaxed); }

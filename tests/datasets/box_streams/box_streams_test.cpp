@@ -199,7 +199,8 @@ TEST(TeleportingBoxes, ATenthJumpsEachFrame) {
 
 TEST(BoxStreams, AreSeededAndTakeAnyCount) {
   for (const auto& row : datasets::box_stream_table()) {
-    const std::string prefix(row.pattern.substr(0, row.pattern.size() - 1));
+    if (!row.is_counted) continue;
+    const std::string prefix(row.prefix());
     for (const int n : {0, 1, 2, 99, 100, 101, 1700}) {
       const auto boxes = boxes_of(prefix + std::to_string(n));
       EXPECT_EQ(boxes.size(), static_cast<std::size_t>(n)) << row.pattern;

@@ -1,0 +1,99 @@
+// Passes of a broad phase over sets that one octree of cubic cells is bad at: boxes that are long and thin, and worlds
+// whose places lie many powers of two apart.
+//
+// A pass searches a part of the boxes in coordinates that were sent through a map, one for each axis. Any map that
+// never falls keeps every overlap: from a.min <= b.max follows f(a.min) <= f(b.max), whatever f rounds to. So the pairs
+// of the mapped boxes hold all pairs of the given ones, each is then tested on the boxes as given, and exactness
+// depends on no formula here. What the map is for: in its coordinates boxes of the pass are about as long on each axis,
+// so a cubic cell holds few, and scales that differ by powers of two lie side by side.
+//
+// Boxes are in groups by the axes that they are long on. There is a pass for each two groups; a pair of one group is
+// found in several, and kept in the one that owns the group.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/box.hpp"
+
+namespace broadside::core {
+
+// The map of one axis; it never falls.
+struct AxisMap {
+  bool is_logarithmic = false;
+  std::int32_t zero_bits = 0;  // of a logarithmic map: magnitudes whose bits are below these are one with 0
+  float scale = 1.0F;          // a power of two
+
+  // Finite for a finite coordinate. Logarithmic: the bits of a float, read as an integer, grow with its magnitude, by
+  // 2^23 a power of two.
+  [[nodiscard]] float operator()(float v) const {
+    // Far above every place that a plan makes (2^31), and far below what a sum of two could not hold.
+    constexpr float kMost = 0x1p120F;
+    if (!is_logarithmic) {
+      const float w = v * scale;
+      return w < -kMost ? -kMost : w > kMost ? kMost : w;
+    }
+    const auto bits = std::bit_cast<std::uint32_t>(v);
+    const std::int32_t above = static_cast<std::int32_t>(bits & 0x7FFFFFFFU) - zero_bits;
+    const std::int32_t magnitude = above > 0 ? above : 0;
+    return static_cast<float>((bits >> 31U) != 0 ? -magnitude : magnitude) * scale;
+  }
+};
+
+struct PassMap {
+  AxisMap axis[3];
+
+  [[nodiscard]] Box operator()(const Box& b) const {
+    return {{axis[0](b.min.x), axis[1](b.min.y), axis[2](b.min.z)},
+            {axis[0](b.max.x), axis[1](b.max.y), axis[2](b.max.z)}};
+  }
+};
+
+inline constexpr std::uint32_t kMostGroups = 4;
+
+struct BoxPass {
+  std::uint32_t members = 1;  // bit g: group g takes part
+  std::uint32_t owned = 1;    // bit g: pairs within group g are kept here
+  PassMap map;
+
+  [[nodiscard]] bool has(std::uint32_t group) const { return (members >> group & 1U) != 0; }
+  [[nodiscard]] bool keeps(std::uint32_t group_a, std::uint32_t group_b) const {
+    return group_a != group_b || (owned >> group_a & 1U) != 0;
+  }
+};
+
+// Axes on which a box is at least a sixteenth as long as on its longest, a bit each.
+inline constexpr float kThin = 0x1p-4F;
+inline std::uint32_t long_axes(const Box& b) {
+  const float x = b.max.x - b.min.x;
+  const float y = b.max.y - b.min.y;
+  const float z = b.max.z - b.min.z;
+  const float xy = x < y ? y : x;
+  const float least = kThin * (xy < z ? z : xy);
+  return (x >= least ? 1U : 0U) | (y >= least ? 2U : 0U) | (z >= least ? 4U : 0U);
+}
+
+struct PassPlan {
+  std::vector<BoxPass> passes;  // empty: one search of the boxes as they are is best
+  PassMap shapes;               // in whose coordinates a box's long axes are those of its group
+  std::uint8_t group_of[8] = {};
+  // Expected tests of pairs, by the model of box_passes.cpp.
+  double plain_tests = 0.0;
+  double pass_tests = 0.0;
+
+  [[nodiscard]] bool is_plain() const { return passes.empty(); }
+  [[nodiscard]] bool is_logarithmic() const { return shapes.axis[0].is_logarithmic; }
+  [[nodiscard]] std::uint32_t group(const Box& b) const { return group_of[long_axes(shapes(b))]; }
+};
+
+// Of fewer boxes a search takes some tens of microseconds, whatever they are.
+inline constexpr std::uint32_t kLeastBoxesForPasses = 4096;
+
+// From a sample of the boxes, a fixed one: the same boxes give the same plan. `largest_m`: the largest magnitude of a
+// coordinate, where it is known; else 0.
+PassPlan plan_passes(std::span<const Box> boxes, float largest_m = 0.0F,
+                     std::uint32_t least_boxes = kLeastBoxesForPasses);
+
+}  // namespace broadside::core

@@ -1,0 +1,63 @@
+// The fast exact broad phase on whatever boxes there are: one SizeTree over the boxes as they are, or where
+// core/method/box_passes.hpp finds that to be bad, one for each pass.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/math/box.hpp"
+#include "core/method/box_passes.hpp"
+#include "core/pair.hpp"
+#include "reference/scene_octree/pair_blocks.hpp"
+#include "reference/scene_octree/pair_order.hpp"
+#include "reference/scene_octree/size_tree.hpp"
+
+namespace broadside::reference {
+
+// Keeps its memory between calls. Works in the caller's oneTBB arena.
+class PassTrees {
+ public:
+  explicit PassTrees(std::uint32_t least_boxes = core::kLeastBoxesForPasses) : least_boxes_(least_boxes) {}
+
+  // False, with nothing built, when a box is not finite or inside out. is_static has one entry per box.
+  [[nodiscard]] bool build(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static);
+  // Every overlapping pair that is not of two static bodies, once, in no fixed order.
+  void find();
+  // The pairs of the last find, in canonical order.
+  void read_back(std::vector<core::Pair>& out);
+
+  [[nodiscard]] const core::PassPlan& plan() const { return plan_; }
+  // Sums over all finds since reset_counts(), the same for any number of threads.
+  [[nodiscard]] std::uint64_t nodes_visited() const;
+  [[nodiscard]] std::uint64_t packs_tested() const;
+  void reset_counts();
+
+ private:
+  // The boxes of one pass in its coordinates, and the tree over them.
+  struct Pass {
+    std::vector<core::Box> mapped;
+    std::vector<std::uint8_t> is_static;
+    std::vector<std::uint32_t> ids;
+    SizeTree tree;
+  };
+
+  void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static);
+  void gather(const core::BoxPass& plan, Pass& pass) const;
+  // What a tree found, without the pairs that only its coordinates have, or that another pass keeps.
+  void settle(const core::BoxPass& plan, Pass& pass);
+
+  std::uint32_t least_boxes_;
+  core::PassPlan plan_;
+  std::vector<std::unique_ptr<Pass>> passes_;
+  SizeTree plain_;
+  // Of all boxes, where there are passes.
+  std::vector<core::Box> boxes_;
+  std::vector<std::uint8_t> is_static_;
+  std::vector<std::uint8_t> group_;
+  PairBlocks settled_;
+  PairOrder order_;
+};
+
+}  // namespace broadside::reference
