@@ -8,6 +8,10 @@ set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 install(TARGETS broadside RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 # The program and the libraries that it needs, in one folder, for a machine without these libraries.
 install(PROGRAMS gpu/bundle RENAME broadside-bundle DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+# The gate of a repository with an engine, for any forge (.github/actions/gate/README.md).
+install(PROGRAMS .github/actions/gate/gate RENAME broadside-gate DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(FILES .github/actions/gate/annotate.py DESTINATION ${CMAKE_INSTALL_DATADIR}/broadside COMPONENT program)
+install(FILES .github/actions/gate/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME gate.md COMPONENT program)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 
@@ -44,8 +48,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME broadside)
 # The Debian packages that the program depends on are read from the program itself.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# Engines fetched from npm run under Node.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "nodejs, npm")
+# Engines fetched from npm run under Node; broadside-gate calls git and python3.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "nodejs, npm, git, python3")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME broadside-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "broadside (= ${PROJECT_VERSION})")

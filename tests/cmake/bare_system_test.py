@@ -2,7 +2,8 @@
 
 A bare Debian 12 is made with mmdebstrap, from the archive that this machine has, and kept in WORK for the next time. In copies of it the
 demonstration must run, judge and write its page: from the two Debian packages, with an engine built against the second; from
-`cmake --install`; from the portable archive, as a user without rights; and from the wheel, where the build tree makes one.
+`cmake --install`; from the portable archive, as a user without rights; and from the wheel, where the build tree makes one. The gate's
+page is walked through with the packages as well.
 
 Needs root (for chroot), mmdebstrap, and a machine whose programs Debian 12 can run, which is one with Debian 12; otherwise exit code 77.
 """
@@ -26,6 +27,19 @@ mkdir -p {at} && cd {at}
 {broadside} demo --frames 60 --out demo
 test -s demo/report.html && test -s demo/junit.xml && test -s demo/octree-cpu.h5 && test -d demo/turning
 {broadside} check demo/octree-cpu.h5 >/dev/null
+"""
+# The page of the gate, with git remotes that are folders: a push to main, then a change whose sweep ends too early.
+GATE = """
+cd /srv && git config --global user.name t && git config --global user.email t@t
+git init -q --bare -b main remote.git && git clone -q remote.git user 2>&1 && cd user && git checkout -q -B main
+cp /usr/share/broadside/examples/sweep.c . && printf 'out/\\n*.so\\n' >.gitignore
+printf 'name = "gate"\\nscenes = ["randommove:cube:40"]\\nengines = ["./libsweep.so"]\\nframes = 20\\nagainst = "all-pairs"\\nstand_in = true\\n' >c.toml
+make_engine() { cc -shared -fPIC -o libsweep.so sweep.c; }
+git add -A && git commit -q -m 'An engine' && git push -q origin main && make_engine
+broadside-gate c.toml --base main --keep
+git checkout -q -b faster && sed -i 's/min\\[0\\] > s->boxes/min[0] + 0.3f > s->boxes/' sweep.c && git commit -q -a -m Faster && make_engine
+code=0; broadside-gate c.toml --base main >said || code=$?
+test $code -eq 1 && grep -q '^::error file=c.toml,line=2,title=candidate-set' said && test -s out/gate/report.html
 """
 # On a system that starts services, apt-get would start them in the chroot as well: none is wanted.
 INSTALL = "export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get -qq install -y --no-install-recommends "
@@ -97,6 +111,8 @@ def from_debian_packages(work, bare, packages, build):
         system.run(INSTALL + "gcc libc6-dev")
         system.run("cd /srv && cc -shared -fPIC -o libsweep.so /usr/share/broadside/examples/sweep.c && "
                    "broadside pairs boxes:mixed:500 --engine octree-cpu --engine ./libsweep.so")
+        system.run(INSTALL + "git python3")
+        system.run(GATE)
         from_wheel(system, packages)
         # What the packages need stays; the program itself comes from an installed tree now.
         system.run("dpkg --purge broadside-dev broadside")
