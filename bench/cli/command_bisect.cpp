@@ -140,7 +140,7 @@ void add_bisect(CLI::App& program, core::Exit& exit) {
       "The command leaves cells.json and verdicts.json in {out} (run --out {out}, check --json {out}/verdicts.json);\n"
       "for --on time samples.json too. Where it exits 125, 126 or 127 the build is skipped. Exit codes: 0 no change;\n"
       "1 the first change was found; 2 bad input; 3 it cannot be told, because builds do not compile or GOOD differs\n"
-      "from itself. Example, with commits of a library that is an engine:\n"
+      "from itself. A command that may hang: 'timeout 600 ...'. Example, with commits of a library that is an engine:\n"
       "  broadside bisect v1.2 main --build 'make libmine.so' --command 'broadside run two-body:glancing\n"
       "    --engine {build}/libmine.so --out {out} && broadside check {out}/*.h5 --json {out}/verdicts.json'");
   command->callback([a, &exit] { exit = find(*a); });

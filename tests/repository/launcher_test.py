@@ -98,6 +98,15 @@ class Launcher(unittest.TestCase):
         self.assertIn("a stand-in takes its place: ran fetch bunny", answer.stderr)
         self.assertEqual("", self.call("demo", BROADSIDE_MESH_DIR="meshes").stderr, "given meshes are not fetched")
 
+    def test_package_makes_packages_of_the_program_that_was_built(self):
+        script = self.tree / "cmake/package"
+        script.write_text('#!/bin/bash\n[[ -x $1/bench/broadside ]] && echo "packs $1 into $2"\n', encoding="utf-8")
+        script.chmod(0o755)
+        build = f"{self.tree}/build/release"
+        self.assertEqual(f"packs {build} into {self.tree}/out/packages\n", self.call("package").stdout)
+        self.assertEqual(f"packs {build} into there\n", self.call("package", "there").stdout)
+        self.assertIn(f"cmake --build {build} --target broadside", self.called("cmake --build")[0], "not the tests")
+
     def test_what_another_package_provides_is_not_installed(self):
         query = self.programs / "dpkg-query"
         query.write_text('#!/bin/bash\nfor p in "${@:4}"; do case $p in npm) ;; '

@@ -170,8 +170,22 @@ def main(program, work):
         assert code == 0 and "::error" not in text, text
         history = sh(f"'{program}' history out/gate/history.sqlite", user).stdout
         assert "3 runs" in history, history
+        which_commit_was_it(user, program)
         bad_input(user, program)
     print("pushes and pull requests, each as the action says")
+
+
+def which_commit_was_it(user, program):
+    """The page's last question: an engine in C, four commits, of which the third ends the sweep too early."""
+    command = (f"'{program}' run randommove:cube:40 --engine {{build}}/libsweep.so --engine all-pairs --frames 20 --out {{out}} && "
+               f"'{program}' check {{out}}/example-sweep.h5 --against {{out}}/all-pairs.h5 --json {{out}}/verdicts.json")
+    subjects = sh("git log --format=%s -4", user).stdout.split("\n")
+    assert subjects[:4] == ["A note", "Faster", "Faster", "A note"], subjects
+    answer = sh(f"'{program}' bisect HEAD~4 HEAD --build 'make -s' --on verdict --json --command \"{command}\"", user, check=False)
+    assert answer.returncode == 1, answer.stdout
+    found = json.loads(answer.stdout[answer.stdout.index("{"):])["answers"][0]
+    assert found["first_changed"]["identity"] == sh("git rev-parse HEAD~2", user).stdout.strip(), found
+    assert found["differences"][0]["subject"] == "candidate-set against all-pairs", found
 
 
 def bad_input(user, program):
