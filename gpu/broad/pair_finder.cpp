@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/broad/pack_view.hpp"
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/runtime/device_buffer.hpp"
 #include "gpu/runtime/host_side.hpp"
@@ -17,6 +18,16 @@ using core::Box;
 
 // Some eight overlaps a box in the densest scenes of the campaign; a frame that finds more is found again.
 constexpr std::uint64_t kPairsPerBox = 8;
+
+core::Error bad_box(std::size_t place) {
+  return {"a box has min > max, or is NaN or infinite", "box " + std::to_string(place),
+          "give finite boxes with min <= max"};
+}
+
+core::Error another_count(std::size_t given, std::size_t loaded) {
+  return {"update was given " + std::to_string(given) + " boxes after a load of " + std::to_string(loaded),
+          "broad phase on the GPU", "load again when the number of boxes changes"};
+}
 
 }  // namespace
 
@@ -34,6 +45,11 @@ struct PairFinder::Impl {
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
   DeviceBuffer<PackedBox> boxes;
+  DeviceBuffer<std::uint8_t> flags;   // is_static, where boxes come from the device
+  DeviceBuffer<BoxMeasure> measures;  // that of no box, which each packing begins with, and that of the last boxes
+  Mapped<BoxMeasure, 1> measured;
+  bool has_flags = false;  // and the measure of no box
+  StreamMark written;
   BroadBuffers broad;
   WorkCounter work;
   DeviceBuffer<core::Pair> pairs;
@@ -44,6 +60,8 @@ struct PairFinder::Impl {
   core::Status reserve();
   core::Status pack_boxes(std::span<const Box> given);
   core::Status upload();
+  core::Status reserve_packing();
+  core::Status pack_on_device(const core::DeviceBoxes& given);
 };
 
 PairFinder::PairFinder(const PairFinderOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -98,9 +116,7 @@ core::Status PairFinder::Impl::pack_boxes(std::span<const Box> given) {
   for (std::size_t i = 0; i < given.size(); ++i) {
     const Box& box = given[i];
     for (int k = 0; k < 3; ++k) {
-      if (!(std::isfinite(box.min[k]) && std::isfinite(box.max[k]) && box.min[k] <= box.max[k]))
-        return core::Error{"a box has min > max, or is NaN or infinite", "box " + std::to_string(i),
-                           "give finite boxes with min <= max"};
+      if (!(std::isfinite(box.min[k]) && std::isfinite(box.max[k]) && box.min[k] <= box.max[k])) return bad_box(i);
       facts.largest_side_m = std::max(facts.largest_side_m, box.max[k] - box.min[k]);
       facts.coordinate_range_m = std::max({facts.coordinate_range_m, std::abs(box.min[k]), std::abs(box.max[k])});
     }
@@ -123,6 +139,7 @@ core::Status PairFinder::Impl::upload() {
 core::Status PairFinder::load(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
   Impl& d = *impl_;
   d.is_static.assign(is_static.begin(), is_static.end());
+  d.has_flags = false;
   BROADSIDE_TRY(d.pack_boxes(boxes));
   BROADSIDE_TRY(d.reserve());
   d.launches = d.bytes_to_device = 0;
@@ -131,15 +148,87 @@ core::Status PairFinder::load(std::span<const Box> boxes, std::span<const std::u
 
 core::Status PairFinder::update(std::span<const Box> boxes) {
   Impl& d = *impl_;
-  if (boxes.size() != d.is_static.size())
-    return core::Error{"update was given " + std::to_string(boxes.size()) + " boxes after a load of " +
-                           std::to_string(d.is_static.size()),
-                       "broad phase on the GPU", "load again when the number of boxes changes"};
+  if (boxes.size() != d.is_static.size()) return another_count(boxes.size(), d.is_static.size());
   const Start before = d.start();
   BROADSIDE_TRY(d.pack_boxes(boxes));
   if (d.start() != before) BROADSIDE_TRY(d.reserve());
   d.broad.refit(d.facts);
   return d.upload();
+}
+
+// Copies of the host go their own way: they are waited for before the stream's work begins.
+core::Status PairFinder::Impl::reserve_packing() {
+  const BoxMeasure of_none[2];
+  BROADSIDE_TRY(flags.upload(is_static, "flags of static boxes"));
+  BROADSIDE_TRY(measures.upload(of_none, "measures of boxes"));
+  BROADSIDE_TRY(measured.allocate());
+  BROADSIDE_TRY(wait_for_device("copying flags of static boxes"));
+  has_flags = true;
+  return core::Done{};
+}
+
+// As pack_boxes and upload, of boxes that the host never sees.
+core::Status PairFinder::Impl::pack_on_device(const core::DeviceBoxes& given) {
+  if (options.broad == Broad::kHash)
+    return core::Error{"it takes boxes from the host alone", "spatial hash on the GPU",
+                       "take octree-gpu, or copy the boxes to the host"};
+  if (!has_flags) BROADSIDE_TRY(reserve_packing());
+  if (given.count != 0 && given.is_behind_stream) {
+    BROADSIDE_TRY(written.set(static_cast<StreamHandle>(given.stream)));
+    BROADSIDE_TRY(written.hold_back(stream.get()));
+  }
+  BoxMeasure* const measure = measures.data() + 1;
+  BROADSIDE_TRY(copy_on_device(measure, measures.data(), sizeof *measure, stream.get()));
+  PackView pack;
+  pack.count = static_cast<std::uint32_t>(given.count);
+  pack.given = given.data;
+  pack.is_static = flags.data();
+  pack.packed = boxes.data();
+  pack.measure = measure;
+  BROADSIDE_TRY(launch_pack(pack, stream.get()));
+  BROADSIDE_TRY(start_copy_to_host(&measured[0], measure, sizeof *measure, stream.get()));
+  BROADSIDE_TRY(stream.wait("packing boxes"));
+  facts = {};
+  facts.count = pack.count;
+  if (given.count == 0) return core::Done{};
+  const BoxMeasure& m = measured[0];
+  if (m.first_bad < given.count) return bad_box(m.first_bad);
+  facts.largest_side_m = from_ordered_bits(m.largest_side);
+  facts.coordinate_range_m = from_ordered_bits(m.coordinate_range);
+  for (int k = 0; k < 3; ++k) {
+    facts.domain.min[k] = from_ordered_bits(m.low[k]);
+    facts.domain.max[k] = from_ordered_bits(m.high[k]);
+  }
+  facts.low_corner = facts.domain.min;
+  return core::Done{};
+}
+
+core::Status PairFinder::load_on_device(const core::DeviceBoxes& boxes, std::span<const std::uint8_t> is_static) {
+  Impl& d = *impl_;
+  d.is_static.assign(is_static.begin(), is_static.end());
+  d.has_flags = false;
+  BROADSIDE_TRY(d.stream.create());
+  BROADSIDE_TRY(d.boxes.reserve(boxes.count, "boxes"));
+  BROADSIDE_TRY(d.pack_on_device(boxes));
+  BROADSIDE_TRY(d.reserve());
+  d.launches = d.bytes_to_device = 0;
+  return core::Done{};
+}
+
+core::Status PairFinder::update_on_device(const core::DeviceBoxes& boxes) {
+  Impl& d = *impl_;
+  if (boxes.count != d.is_static.size()) return another_count(boxes.count, d.is_static.size());
+  const Start before = d.start();
+  BROADSIDE_TRY(d.pack_on_device(boxes));
+  if (d.start() != before) BROADSIDE_TRY(d.reserve());
+  d.broad.refit(d.facts);
+  return core::Done{};
+}
+
+core::Result<core::DevicePairs> PairFinder::pairs_on_device() const {
+  auto device = current_device();
+  if (!device.ok()) return device.error();
+  return core::DevicePairs{impl_->pairs.data(), impl_->counts.pairs, device.value()};
 }
 
 core::Status PairFinder::find() {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/engine/broad_phase.hpp"
+#include "core/engine/device_boxes.hpp"
 #include "core/engine/work_counting.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad/broad_buffers.hpp"
@@ -31,7 +32,7 @@ struct FindTime {
 
 // update() copies the boxes to the device and is charged for it; find() leaves the pairs on the device, in no order;
 // read_back() copies and sorts them. Boxes that are not finite, or have min > max, are refused.
-class PairFinder final : public core::BroadPhase, public core::CountsWork {
+class PairFinder final : public core::BroadPhase, public core::TakesDeviceBoxes, public core::CountsWork {
  public:
   explicit PairFinder(const PairFinderOptions& options);
   ~PairFinder() override;
@@ -39,6 +40,10 @@ class PairFinder final : public core::BroadPhase, public core::CountsWork {
   [[nodiscard]] core::BroadPhaseTraits traits() const override;
   core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override;
   core::Status update(std::span<const core::Box> boxes) override;
+  // The spatial hash takes boxes from the host alone: it counts their cells before it makes room.
+  core::Status load_on_device(const core::DeviceBoxes& boxes, std::span<const std::uint8_t> is_static) override;
+  core::Status update_on_device(const core::DeviceBoxes& boxes) override;
+  [[nodiscard]] core::Result<core::DevicePairs> pairs_on_device() const override;
   core::Status find() override;
   core::Result<core::PairSet> read_back() override;
   // Launches, bytes that load and update copied to the device, and bytes of device memory; where it was asked to count

@@ -54,7 +54,7 @@ POSIX = {"fcntl.h", "signal.h", "sys/file.h", "sys/resource.h", "sys/stat.h", "s
 JSON_NAME = {"nlohmann/json_fwd.hpp"}
 WRAPPERS = {"core/trace/hdf5_handle.hpp": {"hdf5.h"}, "reference/bullet_vectors.hpp": {"LinearMath/btTransform.h"},
             "core/exact/integer_cubic.hpp": {"gmpxx.h"}, "core/exact/integer_motion.hpp": {"gmpxx.h"},
-            "bench/python/native/arrays.hpp": {"pybind11/numpy.h"},
+            "bench/python/native/arrays.hpp": {"pybind11/numpy.h"}, "bench/python/native/dlpack.hpp": {"pybind11/pybind11.h"},
             "core/mesh/gltf_nodes.hpp": JSON_NAME, "bench/cell/json_number.hpp": JSON_NAME}
 CUDA = re.compile(r"^(cuda|cub|thrust|device_launch)\w*[./]")  # gpu/ is the folder of this vendor
 GENERATED = {"broadside_version.hpp"}  # written at build time from the version and the commit

@@ -9,6 +9,7 @@ Units are SI, the frame is the world's, quaternions are w x y z. Arrays of a tra
 wrong is an exception with the line that the command line prints: BadInput, LawBroken, Missing or Internal.
 """
 
+from .device import DeviceRows
 from .engines import BroadPhase, Dynamics, engines, find_pairs
 from .errors import BadInput, Error, Internal, LawBroken, Missing
 from .program_engine import engine
@@ -19,7 +20,7 @@ from .verdicts import Verdict, Verdicts, check, laws
 from .writer import TraceWriter
 
 __all__ = [
-    "Answer", "BadInput", "BroadPhase", "Column", "Dynamics", "Error", "Frame", "Internal", "LawBroken", "Missing",
-    "Scene", "SceneBuilder", "Trace", "TraceWriter", "Verdict", "Verdicts", "check", "compare", "contest", "engine",
-    "engines", "find_pairs", "laws", "report", "run", "scene", "scenes", "time",
+    "Answer", "BadInput", "BroadPhase", "Column", "DeviceRows", "Dynamics", "Error", "Frame", "Internal",
+    "LawBroken", "Missing", "Scene", "SceneBuilder", "Trace", "TraceWriter", "Verdict", "Verdicts", "check",
+    "compare", "contest", "engine", "engines", "find_pairs", "laws", "report", "run", "scene", "scenes", "time",
 ]

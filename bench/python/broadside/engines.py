@@ -9,6 +9,7 @@ import numpy as np
 
 from . import native
 from .arrays import fitted, host_array
+from .device import CUDA, DeviceBoxes, DeviceRows, is_on_gpu
 from .errors import BadInput
 from .scenes import Scene, scene as make_scene
 
@@ -31,23 +32,34 @@ class BroadPhase:
         self.is_exact, self.margin_m = self._held.is_exact, self._held.margin_m
         self.demanded = self.raw = 0  # of the last call: pairs that there were, pairs before the filter
 
-    def find_pairs(self, boxes: Any, is_static: Any = None) -> np.ndarray:
+    def find_pairs(self, boxes: Any, is_static: Any = None) -> np.ndarray | DeviceRows:
         """Pairs [rows, 2] of uint32, sorted, i < j: closed boxes that overlap, touching included; no two static ones.
 
         boxes: [n, 6] float32, min x y z, max x y z, in m; of NumPy or of any library that speaks DLPack on the host.
         Packed float32 is read where it lies. is_static: [n], true for boxes that never move. A later call of as many
         boxes is a move of the same bodies, which engines that keep their tree are fast at.
+
+        Boxes on a GPU (CuPy's, torch's, JAX's) are taken where they lie by octree-gpu, and the pairs stay there, in no
+        order: DeviceRows. device.py says what is waited for.
         """
+        if is_on_gpu(boxes):
+            return self._find_on_device(DeviceBoxes(boxes), is_static)
         given = host_array(boxes, "boxes")
         if given.dtype != np.float32:
             raise BadInput(f"boxes: they are {given.dtype}, and rounding could lose a pair; "
                            "give float32, rounded outward")
-        flags = None if is_static is None else fitted(host_array(is_static, "is_static"), np.uint8, "is_static")
+        flags = None if is_static is None else fitted(is_static, np.uint8, "is_static")
         pairs, self.demanded, self.raw = self._held.find_pairs(np.ascontiguousarray(given), flags)
         return pairs
 
+    def _find_on_device(self, boxes: DeviceBoxes, is_static: Any) -> DeviceRows:
+        flags = None if is_static is None else fitted(is_static, np.uint8, "is_static")
+        address, rows, device = self._held.find_pairs_on_device(boxes.address, boxes.count, boxes.stream, flags)
+        self.demanded = self.raw = rows
+        return DeviceRows(address, (rows, 2), CUDA, device, self._held)
 
-def find_pairs(boxes: Any, is_static: Any = None, engine: str = "octree-cpu") -> np.ndarray:
+
+def find_pairs(boxes: Any, is_static: Any = None, engine: str = "octree-cpu") -> np.ndarray | DeviceRows:
     """The pairs of boxes that overlap, once; BroadPhase keeps the engine for many calls."""
     return BroadPhase(engine).find_pairs(boxes, is_static)
 

@@ -26,6 +26,7 @@ PYBIND11_MODULE(native, module) {
   own::add_traces(module);
   own::add_writer(module);
   own::add_judgement(module);
+  own::add_broad_phases(module);
   own::add_engines(module);
   module.def("build_line", &broadside::bench::build_line, "Version, commit, compiler and flags of this build.");
   module.def("machine_line", &broadside::bench::machine_line, "CPU, memory, system, and the GPU or \"no device\".");

@@ -11,6 +11,7 @@ void add_scenes(pybind11::module_& module);
 void add_traces(pybind11::module_& module);
 void add_writer(pybind11::module_& module);
 void add_judgement(pybind11::module_& module);
+void add_broad_phases(pybind11::module_& module);
 void add_engines(pybind11::module_& module);
 
 }  // namespace broadside::bench::python

@@ -89,8 +89,10 @@ def test_pairs_and_states_are_given_without_a_copy():
 
 
 def test_what_is_on_a_device_is_not_fetched_in_silence():
-    with pytest.raises(broadside.BadInput, match="it is on a GPU"):
+    with pytest.raises(broadside.BadInput, match="octree-cpu: the boxes are on a GPU, and it reads the host's memory"):
         broadside.find_pairs(OnDevice())
+    with pytest.raises(broadside.BadInput, match="is_static: it is on a GPU"):
+        broadside.find_pairs(boxes_of(1), is_static=OnDevice())
 
 
 def test_dynamics_step_by_step():

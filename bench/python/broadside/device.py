@@ -1,0 +1,79 @@
+"""Arrays on a GPU: boxes that are taken where they lie, and pairs that stay where they were found.
+
+Streams. Boxes are read after everything that their stream was asked for before the call: the stream that
+__cuda_array_interface__ names; the legacy default stream where it is of version 2, which names none; no stream where it
+names None, and then the boxes must be complete. By DLPack their owner is asked for boxes that are complete on the
+legacy default stream. Pairs are complete when the call returns, and any stream may read them. They are the engine's memory:
+its next call writes there again, so work that reads them must have ended by then.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import native
+from .errors import BadInput
+
+HOST, CUDA, CUDA_HOST = 1, 2, 3  # DLPack's kinds of memory
+LEGACY_STREAM = 1
+
+
+def is_on_gpu(value: Any) -> bool:
+    """Whether this is an array whose numbers the CPU cannot read."""
+    if hasattr(value, "__cuda_array_interface__"):
+        return True
+    return hasattr(value, "__dlpack_device__") and value.__dlpack_device__()[0] not in (HOST, CUDA_HOST)
+
+
+class DeviceBoxes:
+    """Boxes [n, 6] float32 on a GPU: address, count, and the stream that they come after. Keeps them alive."""
+
+    def __init__(self, value: Any):
+        if hasattr(value, "__cuda_array_interface__"):
+            facts = value.__cuda_array_interface__
+            shape, kind, strides = tuple(facts["shape"]), facts["typestr"], facts.get("strides")
+            self.address = facts["data"][0]
+            self.stream = facts.get("stream") if facts["version"] >= 3 else LEGACY_STREAM
+            self._owner = value
+            if strides is not None and tuple(strides) != (24, 4) and shape[:1] != (0,):
+                raise BadInput(f"boxes: their strides are {tuple(strides)} bytes; "
+                               "pack them, such as cupy.ascontiguousarray(x)")
+        else:
+            self._owner = native.TakenArray(value.__dlpack__(stream=LEGACY_STREAM), "boxes")
+            if self._owner.memory != CUDA:
+                raise BadInput(f"boxes: they are on a device of DLPack's kind {self._owner.memory}; give CUDA's memory")
+            shape, kind = tuple(self._owner.shape), self._owner.type
+            self.address, self.stream = self._owner.address, LEGACY_STREAM
+        if kind != "<f4":
+            raise BadInput(f"boxes: they are {kind}, and rounding could lose a pair; give float32, rounded outward")
+        if len(shape) != 2 or shape[1] != 6:
+            raise BadInput(f"boxes of shape {shape}; give [n, 6]: min x y z, max x y z")
+        self.count = shape[0]
+
+
+class DeviceRows:
+    """Rows [n, width] of uint32 in an engine's memory, for other libraries: cupy.asarray(rows), torch.from_dlpack(rows).
+
+    Nothing is copied. Valid until the engine's next call; keeps the engine alive.
+    """
+
+    dtype = "uint32"
+
+    def __init__(self, address: int, shape: tuple[int, int], memory: int, device: int, owner: Any):
+        self.shape, self._address, self._place, self._owner = shape, address, (memory, device), owner
+        if memory == CUDA:  # of the host's memory there is none
+            self.__cuda_array_interface__ = {"shape": shape, "typestr": "<u4", "data": (address, True), "version": 3,
+                                             "strides": None, "stream": None}
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __repr__(self) -> str:
+        return f"<rows {self.shape} of uint32 at {self._address:#x}, DLPack device {self._place}>"
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        return self._place
+
+    def __dlpack__(self, *, stream: Any = None, **newer: Any) -> Any:
+        """A capsule; the rows are complete on every stream, so none is waited for."""
+        return native.given_rows(self._address, *self.shape, *self._place, self)

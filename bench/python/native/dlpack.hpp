@@ -1,0 +1,39 @@
+// Arrays handed over by DLPack: capsules taken and given. The layout is that of DLPack 0.x, which every library speaks.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace broadside::bench::python {
+
+// DLPack's numbers for kinds of memory.
+constexpr int kHostMemory = 1;
+constexpr int kCudaMemory = 2;
+
+// An array that another library owns; valid while this lives. By rows, without gaps.
+class TakenArray {
+ public:
+  // Error: no capsule, one that was taken before, or an array with gaps. `what` names it.
+  TakenArray(const pybind11::capsule& capsule, const std::string& what);
+  TakenArray(const TakenArray&) = delete;
+  TakenArray& operator=(const TakenArray&) = delete;
+  ~TakenArray();
+
+  [[nodiscard]] const void* data() const;
+  [[nodiscard]] int memory() const;  // kHostMemory, kCudaMemory or another of DLPack's numbers
+  [[nodiscard]] int device() const;
+  [[nodiscard]] std::vector<std::int64_t> shape() const;
+  [[nodiscard]] std::string type() const;  // "<f4" as NumPy writes it
+
+ private:
+  void* managed_ = nullptr;
+};
+
+// Rows of whole numbers of 32 bits for another library to take once; owner lives as long as it holds them.
+pybind11::capsule given_rows(std::uint64_t address, std::int64_t rows, std::int64_t width, int memory, int device,
+                             const pybind11::object& owner);
+
+}  // namespace broadside::bench::python

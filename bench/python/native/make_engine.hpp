@@ -1,0 +1,17 @@
+// Engines of the table for this process, with the rules of who may be called in it.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/engine/engine.hpp"
+
+namespace broadside::bench::python {
+
+using GivenSettings = std::map<std::string, std::string>;
+
+// Raises for plug-ins, for engines that cannot run here, and for engines that may abort unless the caller says that it
+// knows.
+core::Engine make_engine(const std::string& id, const GivenSettings& settings, bool may_abort);
+
+}  // namespace broadside::bench::python

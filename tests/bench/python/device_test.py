@@ -1,0 +1,196 @@
+"""Arrays by address: DLPack's capsules on the host, and boxes and pairs on a GPU where there is one.
+
+Without CuPy, torch or JAX a GPU's memory is had from CUDA's driver itself, so that a machine with a GPU is enough.
+"""
+
+import ctypes
+import gc
+import importlib.util
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import broadside
+from broadside import native
+from broadside.device import CUDA, HOST, LEGACY_STREAM, DeviceBoxes, DeviceRows
+
+from engines_test import boxes_of, overlapping
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+# --- on the host: the same code, with memory that NumPy can read ------------------------------------------------------
+
+def test_a_capsule_is_read_where_it_lies():
+    boxes = boxes_of(5)
+    taken = native.TakenArray(boxes.__dlpack__(), "boxes")
+    assert (taken.address, taken.shape, taken.type, taken.memory) == (address(boxes), [5, 6], "<f4", HOST)
+
+
+def test_a_capsule_keeps_its_array_alive_and_lets_it_go():
+    boxes = boxes_of(5)
+    before = sys.getrefcount(boxes)
+    taken = native.TakenArray(boxes.__dlpack__(), "boxes")
+    assert sys.getrefcount(boxes) == before + 1
+    del taken
+    assert sys.getrefcount(boxes) == before
+
+
+def test_a_capsule_is_taken_once():
+    capsule = boxes_of(5).__dlpack__()
+    native.TakenArray(capsule, "boxes")
+    with pytest.raises(broadside.BadInput, match="boxes: it is no capsule of DLPack, or was taken before"):
+        native.TakenArray(capsule, "boxes")
+
+
+def test_a_capsule_with_gaps_is_refused():
+    with pytest.raises(broadside.BadInput, match="boxes: its rows have gaps"):
+        native.TakenArray(boxes_of(5)[::2].__dlpack__(), "boxes")
+    assert native.TakenArray(boxes_of(5)[:1].__dlpack__(), "boxes").shape == [1, 6]
+
+
+def test_rows_are_given_without_a_copy_and_keep_their_owner():
+    pairs = np.array([[0, 1], [2, 3]], np.uint32)
+    before = sys.getrefcount(pairs)
+    rows = DeviceRows(address(pairs), pairs.shape, HOST, 0, pairs)
+    seen = np.from_dlpack(rows)
+    assert (address(seen), seen.tolist(), seen.dtype) == (address(pairs), pairs.tolist(), np.uint32)
+    del rows
+    gc.collect()
+    assert sys.getrefcount(pairs) == before + 1, "the array that was made of it still needs it"
+    del seen
+    gc.collect()
+    assert sys.getrefcount(pairs) == before
+
+
+def test_a_capsule_that_nobody_takes_is_let_go():
+    pairs = np.zeros((1, 2), np.uint32)
+    before = sys.getrefcount(pairs)
+    for _ in range(3):
+        native.given_rows(address(pairs), 1, 2, HOST, 0, pairs)
+    gc.collect()
+    assert sys.getrefcount(pairs) == before
+
+
+class Interface:
+    """What a library says of an array on a GPU."""
+
+    def __init__(self, **facts):
+        usual = {"shape": (7, 6), "typestr": "<f4", "data": (4096, False), "version": 3}
+        self.__cuda_array_interface__ = {**usual, **facts}
+
+
+def test_what_boxes_on_a_gpu_say_of_themselves():
+    assert DeviceBoxes(Interface()).stream is None
+    assert DeviceBoxes(Interface(stream=2)).stream == 2
+    assert DeviceBoxes(Interface(version=2)).stream == LEGACY_STREAM, "version 2 names no stream"
+    assert (DeviceBoxes(Interface(strides=(24, 4))).count, DeviceBoxes(Interface()).address) == (7, 4096)
+    for facts, says in (({"typestr": "<f8"}, "they are <f8"), ({"shape": (7, 3)}, r"boxes of shape \(7, 3\)"),
+                        ({"shape": (42,)}, r"boxes of shape \(42,\)"), ({"strides": (48, 4)}, "pack them")):
+        with pytest.raises(broadside.BadInput, match=says):
+            DeviceBoxes(Interface(**facts))
+
+
+def test_a_call_by_dlpack_is_short():
+    """Printed, not judged: no test measures time against a limit."""
+    pairs = np.zeros((1000, 2), np.uint32)
+    rows, count = DeviceRows(address(pairs), pairs.shape, HOST, 0, pairs), 2000
+    start = time.perf_counter()
+    for _ in range(count):
+        np.from_dlpack(rows)
+    print(f"from_dlpack: {1e6 * (time.perf_counter() - start) / count:.2f} us a call")
+
+
+# --- on a GPU ---------------------------------------------------------------------------------------------------------
+
+HAS_GPU = not next(row for row in broadside.engines() if row["id"] == "octree-gpu")["absent"]
+on_gpu = pytest.mark.skipif(not HAS_GPU, reason="no device, or the package was built without CUDA")
+
+
+class DriverMemory:
+    """Bytes of the GPU, by CUDA's driver, in the context that CUDA's runtime uses too."""
+
+    def __init__(self, array):
+        self.cuda = ctypes.CDLL("libcuda.so.1")
+        context, self.address = ctypes.c_void_p(), ctypes.c_uint64()
+        self.call("cuInit", 0)
+        self.call("cuDevicePrimaryCtxRetain", ctypes.byref(context), 0)
+        self.call("cuCtxSetCurrent", context)
+        self.call("cuMemAlloc_v2", ctypes.byref(self.address), ctypes.c_size_t(max(array.nbytes, 1)))
+        self.write(array)
+        self.__cuda_array_interface__ = {"shape": array.shape, "typestr": array.dtype.str, "version": 2,
+                                         "data": (self.address.value, False)}
+
+    def call(self, name, *arguments):
+        assert getattr(self.cuda, name)(*arguments) == 0, name
+
+    def write(self, array):
+        self.call("cuMemcpyHtoD_v2", self.address, ctypes.c_void_p(address(array)), ctypes.c_size_t(array.nbytes))
+
+    def read(self, where, shape):
+        rows = np.empty(shape, np.uint32)
+        to, size = ctypes.c_void_p(address(rows)), ctypes.c_size_t(rows.nbytes)
+        self.call("cuMemcpyDtoH_v2", to, ctypes.c_uint64(where), size)
+        return rows
+
+
+def in_order(pairs):
+    return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+
+
+@on_gpu
+@pytest.mark.parametrize("count", [100, 3000, 60000])
+def test_boxes_and_pairs_stay_on_the_gpu(count):
+    scale = np.float32(1.0 if count < 10000 else 0.2)
+    broad, host = broadside.BroadPhase("octree-gpu"), broadside.BroadPhase("octree-cpu")
+    memory = None
+    for seed in (1, 2, 3):
+        boxes = boxes_of(count, seed)
+        boxes[:, 3:] = boxes[:, :3] + scale * (boxes[:, 3:] - boxes[:, :3])
+        memory = memory or DriverMemory(boxes)
+        memory.write(boxes)
+        rows = broad.find_pairs(memory)
+        there = memory.read(rows.__cuda_array_interface__["data"][0], rows.shape)
+        assert np.array_equal(in_order(there), host.find_pairs(boxes)) and len(there) > 0
+    assert np.array_equal(broad.find_pairs(boxes), host.find_pairs(boxes)), "boxes of the host, by the same engine"
+
+
+@on_gpu
+def test_bad_boxes_on_the_gpu_are_refused_by_number():
+    boxes = boxes_of(100)
+    boxes[61, 1] = np.nan
+    with pytest.raises(broadside.BadInput, match="box 61: a box has min > max, or is NaN or infinite"):
+        broadside.BroadPhase("octree-gpu").find_pairs(DriverMemory(boxes))
+
+
+@on_gpu
+@pytest.mark.parametrize("library", ["cupy", "torch", "jax"])
+def test_other_libraries_see_the_same_addresses(library):
+    if importlib.util.find_spec(library) is None:
+        pytest.skip(f"{library} is not installed")
+    boxes, broad = boxes_of(3000), broadside.BroadPhase("octree-gpu")
+    if library == "cupy":
+        import cupy
+        given, taken = cupy.asarray(boxes), cupy.asarray
+        place, host = (lambda a: a.data.ptr), cupy.asnumpy
+    elif library == "torch":
+        import torch
+        given, taken = torch.from_numpy(boxes).cuda(), (lambda rows: torch.from_dlpack(rows).view(torch.int32))
+        place, host = (lambda a: a.data_ptr()), (lambda a: a.cpu().numpy().astype(np.uint32))
+    else:
+        import jax
+        given, taken = jax.device_put(boxes), jax.dlpack.from_dlpack
+        place, host = (lambda a: a.unsafe_buffer_pointer()), np.asarray
+    assert DeviceBoxes(given).address == place(given)
+    rows = broad.find_pairs(given)
+    seen = taken(rows)
+    assert place(seen) == rows.__cuda_array_interface__["data"][0]
+    assert np.array_equal(in_order(host(seen)), overlapping(boxes))
+    start = time.perf_counter()
+    for _ in range(1000):
+        taken(rows)
+    print(f"{library}: {1e3 * (time.perf_counter() - start):.2f} us a call; DLPack kind {CUDA}")
