@@ -33,11 +33,14 @@ class EnergyGrowth final : public Validator {
     double total = 0.0;
     double first = 0.0;
     double all = 0.0;
+    double worked = 0.0;
     for (std::uint32_t i = 0; i < n; ++i) {
       if (!m.facts[i].is_dynamic || m.facts[i].has_spring) continue;
       const std::uint32_t set = m.bodies[i].set;
       const double e0 = energy(m, i, m.bodies[i].before);
-      const double e1 = energy(m, i, m.bodies[i].after) - work(m, i);
+      const double done = work(m, i);
+      const double e1 = energy(m, i, m.bodies[i].after) - done;
+      worked += done;
       const double slack = allowance(m, i, std::abs(e0) + std::abs(e1));
       change_[set] += e1 - e0;
       allowed_[set] += slack;
@@ -46,7 +49,11 @@ class EnergyGrowth final : public Validator {
       total += e1;
       all += slack;
     }
-    if (header_.declaration.is_compliant()) return judge_stored(m, first, total, all);
+    if (header_.declaration.is_compliant()) {
+      judge_stored(m, first - worked_, total - worked_, all);
+      worked_ += worked;
+      return;
+    }
     for (std::uint32_t set = 0; set < n; ++set)
       if (members_[set] > 0)
         tally_.check(change_[set], {allowed_[set], "J", kOrigin}, Where::body(m.step, set, "energy"), [&] {
@@ -116,7 +123,8 @@ class EnergyGrowth final : public Validator {
            m.rounding_of(4) * weight * position + kSubnormal;
   }
 
-  // A compliant contact stores energy and gives it back: no more than there ever was.
+  // A compliant contact stores energy and gives it back: no more than there ever was. Both without the work that the
+  // scene's wrenches did so far.
   void judge_stored(const Motion& m, double before, double after, double allowed) {
     if (!has_most_) most_ = before;
     has_most_ = true;
@@ -139,6 +147,7 @@ class EnergyGrowth final : public Validator {
   bool has_most_ = false;
   double most_ = 0.0;
   double slack_ = 0.0;
+  double worked_ = 0.0;  // by wrenches in the steps before, J
   std::vector<double> depth_;
   std::vector<double> change_;
   std::vector<double> allowed_;

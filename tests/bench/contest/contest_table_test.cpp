@@ -131,8 +131,8 @@ TEST(ContestTable, StacksHeapsAndEnergyAreOnThePage) {
   t.scenes[0].energy["other"] = {{0.0, 1.0, 2.0}, {0.0, 0.5, 0.5}};
   t.scenes[0].energy["third"] = {{0.0, 1.0, 2.0}, {0.0, 0.5, 1.0}};
   const std::string page = html_text(contest_document(t, "x"));
-  for (const char* text : {"moves, 1 m; 2 mm deep", "2 ms a step; 2 mm deep", "mine leaves the picture at 2 s with 50 J",
-                           "energy gained since the start, J"})
+  for (const char* text : {"moves, 1 m; 2 mm deep", "2 ms a step; 2 mm deep",
+                           "mine leaves the picture at 2 s with 50 J", "energy gained since the start, J"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
