@@ -16,6 +16,7 @@ class EnergyGrowth final : public Validator {
         scene_(header_.scene),
         correction_(header_.declaration.text("correction")),
         rate_(header_.declaration.number("correction_rate")),
+        accuracy_(header_.declaration.number("accuracy")),
         accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")) {
     for (const core::Body& b : scene_.bodies)
       bounce_ = std::max({bounce_, static_cast<double>(b.material.restitution),
@@ -117,9 +118,9 @@ class EnergyGrowth final : public Validator {
     }
     const double position = length(b.after.x) + length(b.before.x);
     const double spin = std::max(length(b.before.w), length(b.after.w));
-    return sum +
-           m.rounding_of(8 + 2 * accumulations_) *
-               (magnitude + f.mass_kg * speed * speed + f.largest_moment * spin * spin) +
+    const double scale = magnitude + f.mass_kg * speed * speed + f.largest_moment * spin * spin;
+    // Error control lets each velocity and place be off by its accuracy, relative, and energy goes by their squares.
+    return sum + 2.0 * accuracy_ * scale + m.rounding_of(8 + 2 * accumulations_) * scale +
            m.rounding_of(4) * weight * position + kSubnormal;
   }
 
@@ -135,13 +136,15 @@ class EnergyGrowth final : public Validator {
   }
 
   static constexpr std::string_view kOrigin =
-      "1/2 m g^2 h^2 a body; m g h v where it was thrown up; what a declared correction lifts; and rounding";
+      "1/2 m g^2 h^2 a body; m g h v where it was thrown up; what a declared correction lifts; twice the declared "
+      "accuracy; and rounding";
   static constexpr std::string_view kStored =
       "compliant contacts: the largest energy before, and the sum of the steps' limits";
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   std::string_view correction_;
   double rate_;
+  double accuracy_;
   double accumulations_;
   double bounce_ = 0.0;  // largest restitution
   bool has_most_ = false;

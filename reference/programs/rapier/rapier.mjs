@@ -5,7 +5,7 @@
 // braked), so a report would not be the whole impulse: contacts are declared as geometry.
 import RAPIER from "@dimforge/rapier3d-deterministic-compat";
 import { FIRST_FACE, serve } from "../../../core/plugin/clients/broadside_engine.mjs";
-import { add, facesOf, frictionOf, pointOf, principal, refuse, scaled, turned, wrenchesOf } from "../rigid_bodies.mjs";
+import { add, dot, facesOf, frictionOf, pointOf, principal, refuse, scaled, sub, turned, wrenchesOf } from "../rigid_bodies.mjs";
 
 await RAPIER.init();
 const xyz = ([x, y, z]) => ({ x, y, z });
@@ -84,7 +84,8 @@ function step(h) {
   return (performance.now() - start) / 1000;
 }
 
-// Manifolds are those of the step's start, in the axes of their shapes there. Their normal points from the first shape.
+// Points are kept in the axes of their shapes, and not found anew in every step: where they lie at the step's start says how
+// far apart they are, and contactDist does not. A manifold's normal points from the first shape.
 function readPoints() {
   const points = [];
   const place = (handle, p) => add(detected.get(handle).x, turned(detected.get(handle).q, list(p)));
@@ -93,10 +94,10 @@ function readPoints() {
       if (ids.get(one.handle) > ids.get(two.handle)) return;  // each pair comes from both
       world.contactPair(one, two, (m, isFlipped) => {
         const [first, second] = isFlipped ? [two, one] : [one, two];
-        const normal = scaled(-1, turned(detected.get(first.handle).q, list(m.localNormal1())));
+        const n = turned(detected.get(first.handle).q, list(m.localNormal1()));
         for (let k = 0; k < m.numContacts(); ++k) {
           const p = place(first.handle, m.localContactPoint1(k)), q = place(second.handle, m.localContactPoint2(k));
-          points.push(pointOf(ids.get(first.handle), ids.get(second.handle), { point: scaled(0.5, add(p, q)), normal, gap: m.contactDist(k) }));
+          points.push(pointOf(ids.get(first.handle), ids.get(second.handle), { point: scaled(0.5, add(p, q)), normal: scaled(-1, n), gap: dot(sub(q, p), n) }));
         }
       });
     });
