@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "bench/contest/known_causes.hpp"
 #include "bench/contest/tunings.hpp"
 
 namespace broadside::bench::contest {
@@ -76,16 +77,23 @@ void add_verdicts(Document& document, const ContestTable& table) {
 
 void add_broken_laws(Document& document, const ContestTable& table) {
   Notes broken;
+  std::size_t known = 0;
   for (const SceneTable& scene : table.scenes)
     for (const Entrant& e : table.entrants)
       if (const Entry* entry = own_entry(scene, e.engine))
-        for (const core::Verdict& v : entry->broken)
-          broken.items.push_back(scene.scene + ", " + e.engine + ", " + v.validator + ": " + v.explanation);
+        for (const core::Verdict& v : entry->broken) {
+          const std::string_view cause = known_cause(e.engine, v.validator, scene.scene);
+          known += cause.empty() ? 0 : 1;
+          broken.items.push_back(fmt::format("{}, {}, {}: {}: {}", scene.scene, e.engine, v.validator,
+                                             cause.empty() ? "not yet looked into" : cause, v.explanation));
+        }
   if (broken.items.empty()) return;
   document.blocks.emplace_back(Heading{"What was broken", "broken"});
-  document.blocks.emplace_back(
-      Paragraph{"A broken law is a defect of the engine, a wrong declaration or setting of ours, or an error of the "
-                "law. Which of the three it is has not yet been looked into unless reference/README.md says so."});
+  document.blocks.emplace_back(Paragraph{
+      fmt::format("A broken law is a defect of the engine, what it declares to be, a wrong setting of ours, or "
+                  "an error of the law. Of these {} were looked into, and have their cause in a few words; "
+                  "reference/README.md tells more. The other {} are not yet looked into.",
+                  known, broken.items.size() - known)});
   document.blocks.emplace_back(std::move(broken));
 }
 

@@ -22,6 +22,14 @@ double largest(const EnergyCurve& curve) {
   return most;
 }
 
+// As they ship where there are many: more lines than colors and shapes would be a carpet.
+bool is_shown(const ContestTable& table, const std::string& label) {
+  constexpr std::size_t kMostLines = 12;
+  const auto rows = tunings();
+  return table.entrants.size() <= kMostLines ||
+         std::any_of(rows.begin(), rows.end(), [&](const Tuning& t) { return t.as_shipped == label; });
+}
+
 // What most engines need: twice the middle one of their largest changes. One that explodes would make lines of all
 // others.
 double range_j(const std::map<std::string, EnergyCurve>& curves) {
@@ -60,7 +68,7 @@ void add_energy_over_time(Document& document, const ContestTable& table) {
     std::string words;
     for (const Entrant& e : table.entrants) {
       const auto of = scene.energy.find(e.engine);
-      if (of == scene.energy.end()) continue;
+      if (of == scene.energy.end() || !is_shown(table, e.engine)) continue;
       Curve curve = curve_of(of->second, e.engine, range, left);
       curve.is_hollow = is_recommended(e.engine);
       words += fmt::format("{}: {:.3g} J at the end. ", e.engine, of->second.gained_j.back());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/contest/contest_document.hpp"
+#include "bench/contest/known_causes.hpp"
 #include "bench/contest/tunings.hpp"
 
 namespace broadside::bench::contest {
@@ -134,6 +135,22 @@ TEST(ContestTable, StacksHeapsAndEnergyAreOnThePage) {
   for (const char* text : {"moves, 1 m; 2 mm deep", "2 ms a step; 2 mm deep",
                            "mine leaves the picture at 2 s with 50 J", "energy gained since the start, J"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
+// A broken law has its cause beside it where somebody looked, and says so where nobody did.
+TEST(ContestTable, WhatIsBrokenHasItsCauseOrIsNotYetLookedInto) {
+  core::RunRows all = rows();
+  for (auto& cell : all.cells) cell.stamp.engine = "mujoco-world";
+  for (auto& judged : all.verdicts) judged.stamp.engine = "mujoco-world";
+  const auto page = [](const core::RunRows& r, const std::string& engine) {
+    return html_text(contest_document(contest_table(r, {{engine, ""}}, {{"rigid:a", 1.0 / 60}}), "x"));
+  };
+  EXPECT_NE(page(all, "mujoco-world").find("rest: what sticks creeps"), std::string::npos);
+  EXPECT_NE(page(rows(), "mine").find("rest: not yet looked into"), std::string::npos);
+  EXPECT_NE(page(rows(), "mine").find("Of these 0 were looked into"), std::string::npos);
+  EXPECT_TRUE(known_cause("ode-world", "penetration", "rigid:billiards:cradle").empty());
+  EXPECT_FALSE(known_cause("ode-world[solver=dantzig]", "penetration", "rigid:billiards:cradle").empty());
+  EXPECT_TRUE(known_cause("plain-rigid", "momentum", "rigid:bounce").empty());
 }
 
 // Each engine has a row as it ships, and each second row is an entrant.
