@@ -28,6 +28,16 @@ bool has(const core::TraceHeader& header, core::Group group) {
   return (header.groups & core::bit(group)) != 0;
 }
 
+bool has_impulses(const core::TraceHeader& header) {
+  return has(header, core::Group::kPoints) && header.declaration.text("contacts") != "geometry";
+}
+
+std::string lacking_impulses(const core::TraceHeader& header) {
+  std::string text = lacking(header, core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints));
+  if (text.empty() && !has_impulses(header)) text = "the engine declares points without impulses (contacts = geometry)";
+  return text;
+}
+
 std::string lacking(const core::TraceHeader& header, std::uint32_t groups) {
   static constexpr std::array<std::pair<core::Group, std::string_view>, 10> kWords{{
       {core::Group::kBodies, "end-of-frame states"},

@@ -15,6 +15,12 @@ std::string lacking(const core::TraceHeader& header, std::uint32_t groups);
 
 bool has(const core::TraceHeader& header, core::Group group);
 
+// Whether points of contact are recorded with what acted there, and not as places alone.
+bool has_impulses(const core::TraceHeader& header);
+
+// Why impulses of points cannot be judged; empty when they can.
+std::string lacking_impulses(const core::TraceHeader& header);
+
 // Value of one key in the stamp's canonical settings "a=1,b=2"; empty when it is not there.
 std::string_view setting(const core::Stamp& stamp, std::string_view key);
 

@@ -34,6 +34,7 @@ std::string command_of(const ContestArguments& a) {
   std::string text = "broadside contest";
   for (const std::string& engine : a.request.engines) text += " --engine '" + engine + "'";
   for (const std::string& scene : a.request.scenes) text += " --scene '" + scene + "'";
+  if (a.request.has_largest_heaps) text += " --heaps";
   return text + fmt::format(" --repetitions {} --out {}", a.request.repetitions, a.out);
 }
 
@@ -109,7 +110,10 @@ core::Exit run_contest(const ContestArguments& a) {
   if (!rows) return complain(rows.error());
   auto steps = own_steps(a.request);
   if (!steps) return complain(steps.error());
-  const contest::ContestTable table = contest::contest_table(rows.value(), entrants.value(), steps.value());
+  contest::ContestTable table = contest::contest_table(rows.value(), entrants.value(), steps.value());
+  auto with_energy = contest::scenes_with_energy(a.request);
+  if (!with_energy) return complain(with_energy.error());
+  if (core::Status s = contest::read_energy(table, folder, with_energy.value()); !s) return complain(s.error());
   const Document document = contest::contest_document(table, command_of(a));
   if (core::Status s = write_document(document, folder, "contest"); !s) return complain(s.error());
   fmt::print("{}\n\nReport: {}\n", document.lead, (folder / "contest.html").string());
@@ -141,6 +145,7 @@ void add_contest(CLI::App& program, core::Exit& exit) {
   command->add_option("--time-limit", a->request.time_limit_s, "Seconds of each part of a cell")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
+  command->add_flag("--heaps", a->request.has_largest_heaps, "A heap of 10,000 boxes too: an hour more on two cores");
   command->add_flag("--only-report", a->only_reports, "Run nothing: make the page of the cells that are there");
   command->add_option("--out", a->out, "Folder for cells and page; a second call goes on in it")->capture_default_str();
   command->footer(

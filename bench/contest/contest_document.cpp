@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
+#include <string_view>
+
+#include "bench/contest/known_causes.hpp"
+#include "bench/contest/tunings.hpp"
 
 namespace broadside::bench::contest {
 namespace {
@@ -31,25 +36,24 @@ Count count_of(const ContestTable& table) {
   return count;
 }
 
-const Entry* own_entry(const SceneTable& scene, const std::string& engine) {
-  const auto of = scene.entries.find(engine);
-  if (of == scene.entries.end()) return nullptr;
-  const auto own = of->second.find("");
-  return own == of->second.end() ? nullptr : &own->second;
-}
-
 Tone tone_of(const Entry* entry) {
   if (entry == nullptr || entry->state != core::CellState::kRecorded || entry->coverage.applied() == 0)
     return Tone::kAbsent;
   return entry->broken.empty() ? Tone::kGood : Tone::kBad;
 }
 
+}  // namespace
+
 std::vector<std::string> columns_of(const ContestTable& table, std::vector<std::string> first) {
   for (const Entrant& e : table.entrants) first.push_back(e.engine);
   return first;
 }
 
-}  // namespace
+std::string file_name_of(const std::string& what, std::string scene) {
+  std::replace_if(
+      scene.begin(), scene.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  return what + "_" + scene;
+}
 
 void add_verdicts(Document& document, const ContestTable& table) {
   document.blocks.emplace_back(Heading{"Who is right", "verdicts"});
@@ -73,16 +77,23 @@ void add_verdicts(Document& document, const ContestTable& table) {
 
 void add_broken_laws(Document& document, const ContestTable& table) {
   Notes broken;
+  std::size_t known = 0;
   for (const SceneTable& scene : table.scenes)
     for (const Entrant& e : table.entrants)
       if (const Entry* entry = own_entry(scene, e.engine))
-        for (const core::Verdict& v : entry->broken)
-          broken.items.push_back(scene.scene + ", " + e.engine + ", " + v.validator + ": " + v.explanation);
+        for (const core::Verdict& v : entry->broken) {
+          const std::string_view cause = known_cause(e.engine, v.validator, scene.scene);
+          known += cause.empty() ? 0 : 1;
+          broken.items.push_back(fmt::format("{}, {}, {}: {}: {}", scene.scene, e.engine, v.validator,
+                                             cause.empty() ? "not yet looked into" : cause, v.explanation));
+        }
   if (broken.items.empty()) return;
   document.blocks.emplace_back(Heading{"What was broken", "broken"});
-  document.blocks.emplace_back(
-      Paragraph{"A broken law is a defect of the engine, a wrong declaration or setting of ours, or an error of the "
-                "law. Which of the three it is has not yet been looked into unless reference/README.md says so."});
+  document.blocks.emplace_back(Paragraph{
+      fmt::format("A broken law is a defect of the engine, what it declares to be, a wrong setting of ours, or "
+                  "an error of the law. Of these {} were looked into, and have their cause in a few words; "
+                  "reference/README.md tells more. The other {} are not yet looked into.",
+                  known, broken.items.size() - known)});
   document.blocks.emplace_back(std::move(broken));
 }
 
@@ -114,9 +125,27 @@ void add_stability(Document& document, const ContestTable& table) {
   document.blocks.emplace_back(std::move(stands));
 }
 
+namespace {
+
+// Over the scenes on which an engine ran with several numbers of threads.
+std::string threads_text(const ContestTable& table, const Entrant& e) {
+  std::size_t scenes = 0;
+  std::size_t alike = 0;
+  for (const SceneTable& scene : table.scenes)
+    if (const auto of = scene.thread_digests.find(e.engine); of != scene.thread_digests.end()) {
+      ++scenes;
+      alike += of->second.size() == 1 ? 1 : 0;
+    }
+  return scenes == 0 ? "one thread alone" : fmt::format("alike on {} of {} scenes", alike, scenes);
+}
+
+}  // namespace
+
 void add_determinism(Document& document, const ContestTable& table) {
-  Table repeats{
-      "repeats", "The timed run against the recorded one", {"engine", "cells", "same digest", "other digest"}, {}};
+  Table repeats{"repeats",
+                "The timed run against the recorded one, and runs of one and two threads",
+                {"engine", "cells", "same digest", "other digest", "one and two threads"},
+                {}};
   for (const Entrant& e : table.entrants) {
     std::size_t cells = 0;
     std::size_t same = 0;
@@ -127,15 +156,39 @@ void add_determinism(Document& document, const ContestTable& table) {
           same += entry.was_timed && entry.repeats ? 1 : 0;
         }
     if (cells > 0)
-      repeats.rows.push_back(
-          {{e.engine}, {std::to_string(cells)}, {std::to_string(same)}, {std::to_string(cells - same)}});
+      repeats.rows.push_back({{e.engine},
+                              {std::to_string(cells)},
+                              {std::to_string(same)},
+                              {std::to_string(cells - same)},
+                              {threads_text(table, e)}});
   }
   if (repeats.rows.empty()) return;
   document.blocks.emplace_back(Heading{"The same bits twice", "repeats"});
-  document.blocks.emplace_back(
-      Paragraph{"Recording and timing are two runs of the same work on this machine. An engine that is deterministic "
-                "ends both in the same digest."});
+  document.blocks.emplace_back(Paragraph{
+      "Recording and timing are two runs of the same work on this machine. An engine that is deterministic "
+      "ends both in the same digest. Where an engine has a number of threads, runs of one and of two must end alike "
+      "too; the others run on one thread here."});
   document.blocks.emplace_back(std::move(repeats));
+}
+
+void add_tunings(Document& document, const ContestTable& table) {
+  Table rows{"tunings", "Two rows an engine", {"as its library ships", "as recommended", "what is", "source"}, {}};
+  const auto is_here = [&](std::string_view label) {
+    return std::any_of(table.entrants.begin(), table.entrants.end(),
+                       [label](const Entrant& e) { return e.engine == label; });
+  };
+  for (const Tuning& t : tunings())
+    if (is_here(t.as_shipped) || is_here(t.recommended))
+      rows.rows.push_back({{std::string(t.as_shipped)},
+                           {t.recommended.empty() ? "the same" : std::string(t.recommended)},
+                           {std::string(t.what)},
+                           {std::string(t.source)}});
+  if (rows.rows.empty()) return;
+  document.blocks.emplace_back(Heading{"Tunings", "tunings"});
+  document.blocks.emplace_back(
+      Paragraph{"What an engine's own manual recommends beside what it ships, the same for all scenes. Where a manual "
+                "says \"more\" and no number, the number is ours."});
+  document.blocks.emplace_back(std::move(rows));
 }
 
 void add_declarations(Document& document, const ContestTable& table) {
@@ -177,9 +230,13 @@ Document contest_document(const ContestTable& table, const std::string& command)
     if (!e.absent.empty()) document.lead += fmt::format(" {} is absent ({}).", e.engine, e.absent);
   add_verdicts(document, table);
   add_error_against_cost(document, table);
+  add_energy_over_time(document, table);
   add_stability(document, table);
+  add_stacks(document, table);
+  add_heaps(document, table);
   add_determinism(document, table);
   add_broken_laws(document, table);
+  add_tunings(document, table);
   add_declarations(document, table);
   document.blocks.emplace_back(Heading{"How to repeat", "repeat"});
   document.blocks.emplace_back(Paragraph{command});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/contest/contest_table.hpp"
 #include "bench/document/document.hpp"
@@ -15,8 +16,17 @@ Document contest_document(const ContestTable& table, const std::string& command)
 void add_verdicts(Document& document, const ContestTable& table);
 void add_broken_laws(Document& document, const ContestTable& table);
 void add_error_against_cost(Document& document, const ContestTable& table);
+void add_energy_over_time(Document& document, const ContestTable& table);
 void add_stability(Document& document, const ContestTable& table);
+void add_stacks(Document& document, const ContestTable& table);
+void add_heaps(Document& document, const ContestTable& table);
 void add_determinism(Document& document, const ContestTable& table);
+void add_tunings(Document& document, const ContestTable& table);
 void add_declarations(Document& document, const ContestTable& table);
+
+// `first`, then a column an entrant.
+std::vector<std::string> columns_of(const ContestTable& table, std::vector<std::string> first);
+// "energy_rigid_bounce": letters and digits alone.
+std::string file_name_of(const std::string& what, std::string scene);
 
 }  // namespace broadside::bench::contest

@@ -9,6 +9,7 @@
 
 #include "bench/cell/cell_spec.hpp"
 #include "bench/cell/scene_arguments.hpp"
+#include "bench/contest/tunings.hpp"
 #include "bench/engines.hpp"
 #include "core/nearest_name.hpp"
 #include "datasets/scenes.hpp"
@@ -16,28 +17,42 @@
 namespace broadside::bench::contest {
 namespace {
 
-// A setting where a library's default leaves something out that others have, or offers another method.
-constexpr std::array<std::string_view, 16> kEntrants{"plain-rigid",
+// As it ships and as its manual recommends (tunings.cpp), and a setting where a default leaves something out that
+// others have, or offers another method.
+constexpr std::array<std::string_view, 25> kEntrants{"plain-rigid",
                                                      "bullet-world",
+                                                     "bullet-world[iterations=50]",
                                                      "ode-world",
+                                                     "ode-world[tuning=recommended]",
                                                      "ode-world[solver=dantzig]",
                                                      "dart-world",
                                                      "mujoco-world",
+                                                     "mujoco-world[tuning=recommended]",
                                                      "mujoco-world[integrator=rk4]",
+                                                     "simbody-world[accuracy_digits=3,slip_speed_um_s=10000]",
                                                      "simbody-world",
                                                      "jolt",
+                                                     "jolt[tuning=1]",
                                                      "jolt[gyroscopic=1]",
                                                      "rapier",
+                                                     "rapier[iterations=16]",
                                                      "mujoco3",
+                                                     "mujoco3[tuning=1]",
                                                      "mujoco3[integrator=2]",
                                                      "cannon",
+                                                     "cannon[iterations=50]",
                                                      "physx",
+                                                     "physx[tuning=1]",
                                                      "physx[gyroscopic=1]"};
 
 // Families whose scenes have answers, and scenes that engines are compared on without one.
 constexpr std::string_view kFamily = "rigid:";
 constexpr std::array<std::string_view, 2> kHeaps{"freefall:cube:100[rigid=1,frames=240]",
                                                  "freefall:cube:1000[rigid=1,frames=240]"};
+constexpr std::string_view kLargestHeap = "freefall:cube:10000[rigid=1,frames=120]";
+
+// On which engines run with one and with two threads, where they have a number of threads.
+constexpr std::array<std::string_view, 2> kOfThreads{"rigid:stack:5", kHeaps[0]};
 
 // Of the default scenes those that run at every step: each kind of motion once, so that the whole contest takes an
 // hour.
@@ -46,9 +61,10 @@ constexpr std::array<std::string_view, 9> kAtEveryStep{
     "rigid:sphere:slip-to-roll", "rigid:bounce",  "rigid:stack:5",       "rigid:stack:1000-on-1",
     "rigid:card-tent:stands"};
 
-std::vector<double> steps_of(const ContestRequest& request, std::string_view scene) {
+std::vector<double> steps_of(const ContestRequest& request, std::string_view scene, std::string_view engine) {
   const bool is_at_every = std::find(kAtEveryStep.begin(), kAtEveryStep.end(), scene) != kAtEveryStep.end();
-  return request.scenes.empty() && !is_at_every ? std::vector<double>{1.0} : request.step_factors;
+  return request.scenes.empty() && (!is_at_every || is_recommended(engine)) ? std::vector<double>{1.0}
+                                                                            : request.step_factors;
 }
 
 bool begins_with_one_of(std::string_view name, const std::vector<std::string>& beginnings) {
@@ -63,6 +79,12 @@ std::string step_text(double dt_s) {
                                              : fmt::format("{}", static_cast<float>(dt_s));
 }
 
+// "a[b=1]" with 2 threads: "a[b=1,threads=2]".
+std::string with_threads(const std::string& engine, const std::string& threads) {
+  if (engine.ends_with(']')) return engine.substr(0, engine.size() - 1) + ",threads=" + threads + "]";
+  return engine + "[threads=" + threads + "]";
+}
+
 core::Status complete(Entrant& entrant) {
   const std::string id = entrant.engine.substr(0, entrant.engine.find('['));
   auto row = find_engine(id);
@@ -71,6 +93,9 @@ core::Status complete(Entrant& entrant) {
     return core::Error{"it offers no dynamics, and a contest compares motion", id, "broadside list engines"};
   entrant.absent = why_absent(*row.value());
   if (!entrant.absent.empty()) return core::Done{};
+  const auto settings_of_it = row.value()->settings;
+  entrant.has_threads = std::any_of(settings_of_it.begin(), settings_of_it.end(),
+                                    [](const core::SettingRow& s) { return s.key == "threads"; });
   auto spec = parse_cell_spec(entrant.engine);
   if (!spec) return spec.error();
   auto settings = core::Settings::parse(spec.value().row->id, spec.value().row->settings, spec.value().settings);
@@ -93,9 +118,9 @@ std::vector<std::string> default_scenes() {
 
 core::Result<std::vector<Entrant>> entrants_of(const ContestRequest& request) {
   std::vector<Entrant> entrants;
-  for (const std::string& engine : request.engines) entrants.push_back({engine, ""});
+  for (const std::string& engine : request.engines) entrants.push_back({engine, "", false});
   if (entrants.empty())
-    for (const std::string_view engine : kEntrants) entrants.push_back({std::string(engine), ""});
+    for (const std::string_view engine : kEntrants) entrants.push_back({std::string(engine), "", false});
   for (Entrant& entrant : entrants)
     if (core::Status s = complete(entrant); !s) return s.error();
   return entrants;
@@ -103,7 +128,11 @@ core::Result<std::vector<Entrant>> entrants_of(const ContestRequest& request) {
 
 core::Result<std::vector<std::string>> scenes_of(const ContestRequest& request) {
   const std::vector<std::string> known = default_scenes();
-  if (request.scenes.empty()) return known;
+  if (request.scenes.empty()) {
+    std::vector<std::string> all = known;
+    if (request.has_largest_heaps) all.emplace_back(kLargestHeap);
+    return all;
+  }
   std::vector<std::string> names;
   for (std::string wanted : request.scenes) {
     const bool is_beginning = wanted.ends_with(':') || wanted.ends_with('*');
@@ -118,6 +147,13 @@ core::Result<std::vector<std::string>> scenes_of(const ContestRequest& request) 
     if (names.size() == before)
       return core::Error{"no scene with an answer begins with '" + wanted + "'", "--scenes", "broadside list scenes"};
   }
+  return names;
+}
+
+core::Result<std::vector<std::string>> scenes_with_energy(const ContestRequest& request) {
+  if (!request.scenes.empty()) return scenes_of(request);
+  std::vector<std::string> names(kAtEveryStep.begin(), kAtEveryStep.end());
+  names.emplace_back(kHeaps[0]);
   return names;
 }
 
@@ -137,7 +173,16 @@ core::Result<campaign::CampaignFile> contest_campaign(const ContestRequest& requ
     if (!scene) return scene.error();
     for (const Entrant& entrant : entrants.value()) {
       if (!entrant.absent.empty()) continue;
-      for (const double factor : steps_of(request, name)) {
+      if (entrant.has_threads && std::find(kOfThreads.begin(), kOfThreads.end(), name) != kOfThreads.end())
+        for (const char* threads : {"1", "2"}) {
+          campaign::CellWork work;
+          work.scene = name;
+          work.engine = with_threads(entrant.engine, threads);
+          work.repetitions = 0;
+          work.time_limit_s = request.time_limit_s;
+          campaign.cells.push_back(std::move(work));
+        }
+      for (const double factor : steps_of(request, name, entrant.engine)) {
         campaign::CellWork work;
         work.scene = scene_at(name, static_cast<double>(scene.value().dt_s), factor);
         work.engine = entrant.engine;

@@ -17,20 +17,25 @@ struct ContestRequest {
   // Of the scene's own step, rising. The scene's own, 1, is the one that the matrix of verdicts shows. Scenes that are
   // not named run at their own, but for one of each kind.
   std::vector<double> step_factors{0.25, 0.5, 1.0, 2.0};
-  std::uint32_t repetitions = 1;  // timed runs of a cell; 0 = none
-  double time_limit_s = 120.0;    // of each part of a cell
+  std::uint32_t repetitions = 1;   // timed runs of a cell; 0 = none
+  double time_limit_s = 120.0;     // of each part of a cell
+  bool has_largest_heaps = false;  // 10,000 boxes too; without scenes of your own
 };
 
 // An engine that was asked for, and why it cannot run here.
 struct Entrant {
-  std::string engine;  // "jolt[gyroscopic=1]"
-  std::string absent;  // empty = it is here
+  std::string engine;        // "jolt[gyroscopic=1]"
+  std::string absent;        // empty = it is here
+  bool has_threads = false;  // a number of threads is one of its settings
 };
 
 // Engines of dynamics whose bodies turn, with the settings that matter, in the order of the page's columns.
 std::vector<std::string_view> default_entrants();
 // Those with answers (rigid:*), and heaps.
 std::vector<std::string> default_scenes();
+
+// Whose energy is shown over time: those that run at every step, or those that were asked for.
+core::Result<std::vector<std::string>> scenes_with_energy(const ContestRequest& request);
 
 core::Result<std::vector<Entrant>> entrants_of(const ContestRequest& request);
 core::Result<std::vector<std::string>> scenes_of(const ContestRequest& request);

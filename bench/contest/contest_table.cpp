@@ -11,6 +11,7 @@
 namespace broadside::bench::contest {
 namespace {
 
+constexpr auto kRecorded = core::CellState::kRecorded;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 SceneTable& table_of(ContestTable& table, const std::string& scene) {
@@ -46,8 +47,11 @@ void add_verdicts(Entry& entry, const core::CellVerdicts& judged) {
     }
     if (v.validator == "rest" && applied) {
       entry.has_rest = true;
+      entry.rest = v.measured;
+      entry.rest_unit = v.unit;
       entry.stands = v.outcome == core::Outcome::kPass;
     }
+    if (v.validator == "penetration" && applied) entry.deepest_m = v.measured;
   }
 }
 
@@ -55,6 +59,20 @@ const core::CellVerdicts* verdicts_of(const core::RunRows& rows, const core::Cel
   for (const core::CellVerdicts& v : rows.verdicts)
     if (!cell.trace_file.empty() && v.trace_file == cell.trace_file) return &v;
   return nullptr;
+}
+
+// "id[a=1,threads=2]" without the number of threads, and whether it had one.
+std::pair<std::string, bool> without_threads(std::string label) {
+  constexpr std::string_view kKey = "threads=";
+  const auto at = label.find(kKey);
+  if (at == std::string::npos || at == 0 || (label[at - 1] != '[' && label[at - 1] != ',')) return {label, false};
+  const auto end = label.find_first_of(",]", at);
+  const bool is_first = label[at - 1] == '[';
+  const bool is_last = end == std::string::npos || label[end] == ']';
+  if (is_first && is_last) return {label.substr(0, at - 1), true};
+  if (is_last) return {label.substr(0, at - 1) + "]", true};
+  label.erase(at, end + 1 - at);
+  return {label, true};
 }
 
 bool is_of(const core::Sample& sample, const core::Cell& cell) {
@@ -81,7 +99,15 @@ ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>
     Entry entry;
     entry.state = cell.state;
     entry.reason = cell.reason;
-    entry.error = entry.cost = kNone;
+    entry.error = entry.cost = entry.rest = entry.deepest_m = kNone;
+    entry.trace_file = cell.trace_file;
+    if (!cell.digests.empty()) entry.last_digest = cell.digests.rbegin()->second;
+    const bool is_entrant =
+        std::any_of(entrants.begin(), entrants.end(), [&](const Entrant& e) { return e.engine == label; });
+    if (const auto [alone, has_threads] = without_threads(label); has_threads && !is_entrant) {
+      if (entry.state == kRecorded) place.thread_digests[alone].insert(entry.last_digest);
+      continue;
+    }
     const auto own = steps_s.find(scene);
     entry.dt_s = split_step(cell.stamp.scene_name).second.value_or(own == steps_s.end() ? kNone : own->second);
     if (const core::CellVerdicts* judged = verdicts_of(rows, cell)) {
@@ -101,6 +127,33 @@ ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>
     place.entries[label][step] = std::move(entry);
   }
   return table;
+}
+
+core::Status read_energy(ContestTable& table, const std::filesystem::path& folder,
+                         const std::vector<std::string>& scenes) {
+  // More than a curve of a page's width can show.
+  constexpr std::size_t kMostFrames = 240;
+  for (SceneTable& scene : table.scenes) {
+    if (std::find(scenes.begin(), scenes.end(), scene.scene) == scenes.end()) continue;
+    for (const Entrant& e : table.entrants) {
+      const Entry* entry = own_entry(scene, e.engine);
+      if (entry == nullptr || entry->trace_file.empty()) continue;
+      const std::filesystem::path file = folder / entry->trace_file;
+      std::error_code failed;
+      if (!std::filesystem::exists(file, failed)) continue;
+      auto curve = energy_curve(file, kMostFrames);
+      if (!curve) return curve.error();
+      scene.energy[e.engine] = std::move(curve).value();
+    }
+  }
+  return core::Done{};
+}
+
+const Entry* own_entry(const SceneTable& scene, const std::string& engine) {
+  const auto of = scene.entries.find(engine);
+  if (of == scene.entries.end()) return nullptr;
+  const auto own = of->second.find("");
+  return own == of->second.end() ? nullptr : &own->second;
 }
 
 std::string entry_text(const Entry& entry) {

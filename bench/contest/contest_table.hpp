@@ -1,11 +1,14 @@
 // Rows of a contest's cells as one table: scenes x engines x steps.
 #pragma once
 
+#include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "bench/contest/contest_request.hpp"
+#include "bench/contest/energy_curve.hpp"
 #include "core/coverage.hpp"
 #include "core/rows.hpp"
 
@@ -20,6 +23,11 @@ struct Entry {
   bool is_motion_proven = false;
   bool stands = false;  // rest applied and holds
   bool has_rest = false;
+  double rest = 0.0;  // what rest measured; NaN where it did not apply
+  std::string rest_unit;
+  double deepest_m = 0.0;  // what penetration measured; NaN likewise
+  std::string trace_file;
+  std::uint64_t last_digest = 0;  // of the last recorded frame
   // Against the scene's closed answer; NaN where it has none or the law did not apply.
   double error = 0.0;
   std::string error_unit;
@@ -33,6 +41,9 @@ struct SceneTable {
   std::string scene;               // without a step
   std::vector<std::string> steps;  // what stands after '@', in the order of the cells; "" = the scene's own
   std::map<std::string, std::map<std::string, Entry>> entries;  // by engine's label, by step
+  std::map<std::string, EnergyCurve> energy;                    // by label, at the scene's own step
+  // Of engines with a number of threads: the label without it, and the digests that its numbers ended in.
+  std::map<std::string, std::set<std::uint64_t>> thread_digests;
 };
 
 struct ContestTable {
@@ -48,6 +59,13 @@ std::pair<std::string, std::string> name_and_step(const std::string& scene_name)
 // steps: of each scene's own step, s, by the scene's name.
 ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>& entrants,
                            const std::map<std::string, double>& steps_s);
+
+// Reads the traces of these scenes at their own steps, in this folder. A trace that is gone is left out.
+core::Status read_energy(ContestTable& table, const std::filesystem::path& folder,
+                         const std::vector<std::string>& scenes);
+
+// Null where this engine was not asked for the scene at its own step.
+const Entry* own_entry(const SceneTable& scene, const std::string& engine);
 
 // "9 broken: friction-cone, energy-growth" or "holds, 11 of 14"; the word of an absent cell.
 std::string entry_text(const Entry& entry);

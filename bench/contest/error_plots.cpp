@@ -40,12 +40,6 @@ Curve curve_of(const ContestTable& table, const std::string& label, const std::m
   return curve;
 }
 
-std::string file_name(std::string scene) {
-  std::replace_if(
-      scene.begin(), scene.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-  return "error_" + scene;
-}
-
 }  // namespace
 
 void add_error_against_cost(Document& document, const ContestTable& table) {
@@ -69,7 +63,8 @@ void add_error_against_cost(Document& document, const ContestTable& table) {
     plot.text = {scene.scene, words, "cost, seconds of computing a simulated second", "largest error, " + unit};
     plot.x_scale = plot.y_scale = Scale::kLog;
     plot.y_from_zero = false;
-    figures.emplace_back(Figure{file_name(scene.scene), svg(plot, Placement::kFile), svg(plot, Placement::kInline),
+    figures.emplace_back(Figure{file_name_of("error", scene.scene), svg(plot, Placement::kFile),
+                                svg(plot, Placement::kInline),
                                 scene.scene + ": further down is more exact, further left is cheaper."});
   }
   if (figures.empty()) return;

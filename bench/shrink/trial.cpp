@@ -89,16 +89,21 @@ core::Result<Answer> ask_child(const Question& question, const core::Scene& scen
     return core::Error{"no folder for temporary files", std::filesystem::temp_directory_path().string(),
                        "set TMPDIR to a folder that can be written"};
   if (core::Status s = write_scene_trace(scene, scratch.path() / "scene.h5"); !s) return s.error();
-  const CellSpec octree{find_engine("octree-cpu").value(), {}};
-  auto driver = record_one(scene, octree, scratch.path(), {});
-  if (!driver) return driver.error();
-  auto file = record_one(scene, question.engine, scratch.path(), driver.value());
+  const auto simulates = [](const CellSpec& spec) { return offers(*spec.row, "dynamics"); };
+  // Engines that do not simulate are fed. Others need no driver, which may not have what the scene asks for.
+  std::filesystem::path driver;
+  if (!simulates(question.engine) || (question.against && !simulates(*question.against))) {
+    auto recorded = record_one(scene, {find_engine("octree-cpu").value(), {}}, scratch.path(), {});
+    if (!recorded) return recorded.error();
+    driver = std::move(recorded).value();
+  }
+  auto file = record_one(scene, question.engine, scratch.path(), driver);
   if (!file) return file.error();
   auto subject = core::TraceReader::open(file.value());
   if (!subject) return subject.error();
   std::optional<core::TraceReader> baseline;
   if (question.against) {
-    auto other = record_one(scene, *question.against, scratch.path(), driver.value());
+    auto other = record_one(scene, *question.against, scratch.path(), driver);
     if (!other) return other.error();
     auto opened = core::TraceReader::open(other.value());
     if (!opened) return opened.error();
@@ -109,8 +114,7 @@ core::Result<Answer> ask_child(const Question& question, const core::Scene& scen
   if (!verdict) return verdict.error();
 
   Answer answer{std::move(verdict).value(), scene.bodies};
-  const bool simulates = offers(*question.engine.row, "dynamics");
-  auto states = core::TraceReader::open(simulates ? file.value() : driver.value());
+  auto states = core::TraceReader::open(simulates(question.engine) ? file.value() : driver);
   if (!states) return states.error();
   if (states.value().frame_count() == 0) return answer;
   auto last = states.value().read(states.value().frame_count() - 1, core::bit(core::Group::kBodies));

@@ -52,7 +52,7 @@ std::string advice_for(const DeclarationKey& row, const std::string& text) {
 }  // namespace
 
 std::span<const DeclarationKey> declaration_keys() {
-  static const std::array<DeclarationKey, 16> kRows{{
+  static const std::array<DeclarationKey, 17> kRows{{
       {"method", kWord, "none", {"none", kMethodName}, "whether the laws of METHOD hold for it"},
       {"twin_of", kText, "", {}, "the engine whose results it repeats bit by bit: determinism"},
       {"motion", kWord, "rigid", {"translate", "rigid"}, "whether bodies may turn"},
@@ -64,8 +64,8 @@ std::span<const DeclarationKey> declaration_keys() {
       {"contacts",
        kWord,
        "none",
-       {"none", "applications", "totals"},
-       "each application of the response, or one row a point and step"},
+       {"none", "applications", "totals", "geometry"},
+       "each application of the response; one row a point and step; or such rows without impulses"},
       {"integrator", kText, "", {}, "its name, for people"},
       {"order", kCount, "1", {}, "order of convergence in the step: closed-form"},
       {"substeps", kCount, "1", {}, "substeps of a step"},
@@ -84,6 +84,7 @@ std::span<const DeclarationKey> declaration_keys() {
        {"none", "velocity", "position"},
        "how depth is corrected: through velocities, through positions alone, or not: energy"},
       {"correction_rate", kNumber, "1", {}, "share of the depth that a step corrects, 0 to 1: energy"},
+      {"accuracy", kNumber, "0", {}, "relative error that a step's error control allows: energy"},
       {"precision",
        kWord,
        "f64",

@@ -20,7 +20,6 @@
 
 #include "core/method/frame_digest.hpp"
 #include "core/scene/refuse_springs.hpp"
-#include "core/scene/refuse_wrenches.hpp"
 #include "reference/bullet_vectors.hpp"
 #include "reference/bullet_world/contact_readout.hpp"
 #include "reference/rigid_world/principal_axes.hpp"
@@ -110,12 +109,15 @@ class BulletWorld final : public core::Dynamics {
 
   Status load(const core::Scene& scene) override {
     if (Status s = core::refuse_springs(scene); !s) return s;
-    if (Status s = core::refuse_wrenches(scene); !s) return s;
     return vendor_call("bullet-world: load", [&]() -> Status {
       scene_ = &scene;
       step_ = 0;
       rotates_ = bullet_world_rotates(scene, options_);
       starts_.clear();
+      wrenches_.clear();
+      if (!scene.wrenches.empty())
+        for (std::uint32_t i = 0; i < scene.body_count(); ++i)
+          wrenches_.push_back(scene.bodies[i].inverse_mass > 0.0F ? wrench_on(scene, i) : BodyWrench{});
       if (scene.motion == core::Motion::kRigid) {
         auto starts = rigid_starts(scene);
         if (!starts) return starts.error();
@@ -146,6 +148,7 @@ class BulletWorld final : public core::Dynamics {
       for (std::uint32_t i = 0; i < turned_before_.size(); ++i) turned_before_[i] = orientation(i);
       {
         const SceneRules rules(options_.uses_scene_rules);
+        apply_wrenches();
         // No substeps: one step of exactly dt.
         world_->dynamics.stepSimulation(dt_s, 0);
       }
@@ -245,6 +248,17 @@ class BulletWorld final : public core::Dynamics {
     world_->bodies.push_back(std::move(body));
   }
 
+  // Bullet forgets forces at the end of a step.
+  void apply_wrenches() {
+    for (std::uint32_t i = 0; i < wrenches_.size(); ++i) {
+      if (wrenches_[i].is_none()) continue;
+      const core::Quat at = orientation(i);
+      const plain::Quaternion q = plain::normalized({at.w, at.x, at.y, at.z});
+      world_->bodies[i]->applyCentralForce(bullet(wrenches_[i].force(q)));
+      world_->bodies[i]->applyTorque(bullet(wrenches_[i].torque(q)));
+    }
+  }
+
   void read_states(std::vector<core::Kinematics>& states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
       const btRigidBody& body = *world_->bodies[i];
@@ -296,6 +310,7 @@ class BulletWorld final : public core::Dynamics {
   bool rotates_ = false;
   std::unique_ptr<World> world_;
   std::vector<RigidStart> starts_;           // of scenes whose bodies turn
+  std::vector<BodyWrench> wrenches_;         // by body; none where the scene has none
   std::vector<btTransform> body_from_mesh_;  // pose of the mesh in the body's principal axes
   std::vector<core::Quat> turned_before_;
   std::vector<core::Kinematics> before_;

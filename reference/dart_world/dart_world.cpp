@@ -97,6 +97,7 @@ class DartWorld final : public core::Dynamics {
     return vendor_call("dart-world: step", [&]() -> Status {
       record_.begin_step();
       world_->setTimeStep(dt_s);
+      apply_wrenches();
       world_->step();
       read_states();
       read_points(dt_s);
@@ -208,6 +209,16 @@ class DartWorld final : public core::Dynamics {
     add_shape(weld(skeleton, at), std::make_shared<dyn::BoxShape>(sides), Isometry3d::Identity(), scene_->face_material,
               core::kFirstFace + face);
     world_->addSkeleton(skeleton);
+  }
+
+  // A step of DART forgets them. A node's origin is its center of mass.
+  void apply_wrenches() {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const BodyWrench& w = record_.bodies()[i].wrench;
+      if (w.is_none()) continue;
+      nodes_[i]->addExtForce(eigen(w.force(record_.states()[i].q)));
+      nodes_[i]->addExtTorque(eigen(w.torque(record_.states()[i].q)), false);
+    }
   }
 
   void read_states() {

@@ -93,6 +93,7 @@ class MujocoWorld final : public core::Dynamics {
     return vendor_call("mujoco-world: step", [&]() -> Status {
       record_.begin_step();
       model_->opt.timestep = dt_s;
+      apply_wrenches();
       mj_step(model_.get(), data_.get());
       if (Status s = no_warning("mujoco-world: step"); !s) return s;
       read_states();
@@ -125,6 +126,19 @@ class MujocoWorld final : public core::Dynamics {
       if (!record_.turns()) continue;
       const Vec w = plain::transposed(plain::matrix(s.q)) * s.w;  // of a free joint in body axes
       speed[3] = w.x, speed[4] = w.y, speed[5] = w.z;
+    }
+  }
+
+  // xfrc_applied acts at the center of mass, in the axes of the world.
+  void apply_wrenches() {
+    for (std::size_t i = 0; i < record_.bodies().size(); ++i) {
+      const BodyWrench& w = record_.bodies()[i].wrench;
+      if (w.is_none()) continue;
+      const Vec force = w.force(record_.states()[i].q);
+      const Vec torque = w.torque(record_.states()[i].q);
+      mjtNum* applied = data_->xfrc_applied + 6 * (i + 1);
+      applied[0] = force.x, applied[1] = force.y, applied[2] = force.z;
+      applied[3] = torque.x, applied[4] = torque.y, applied[5] = torque.z;
     }
   }
 

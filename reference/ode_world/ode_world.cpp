@@ -106,6 +106,7 @@ class OdeWorld final : public core::Dynamics {
       enter_ode();
       record_.begin_step();
       collide();
+      apply_wrenches();
       forget_lcp_errors();
       // QuickStep reorders constraints by a random number whose seed is the whole process's.
       dRandSetSeed(seed_);
@@ -180,6 +181,18 @@ class OdeWorld final : public core::Dynamics {
     const double offset = is_upper ? -d.max[static_cast<int>(axis)] : d.min[static_cast<int>(axis)];
     // Outside of the space: a plane's box is infinite, so every body would be its neighbor.
     world_->faces[face] = dCreatePlane(nullptr, n[0], n[1], n[2], offset);
+  }
+
+  // ODE forgets forces at the end of a step.
+  void apply_wrenches() {
+    for (std::size_t i = 0; i < world_->bodies.size(); ++i) {
+      const BodyWrench& w = record_.bodies()[i].wrench;
+      if (w.is_none()) continue;
+      const Vec force = w.force(record_.states()[i].q);
+      const Vec torque = w.torque(record_.states()[i].q);
+      dBodyAddForce(world_->bodies[i], force.x, force.y, force.z);
+      dBodyAddTorque(world_->bodies[i], torque.x, torque.y, torque.z);
+    }
   }
 
   void collide() {

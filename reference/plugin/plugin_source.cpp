@@ -70,11 +70,13 @@ std::string_view declared(const broadside_engine2& e, std::string_view key) {
 // Laws choose by the declaration what they read, so it must say what is there.
 std::string fault_of_contacts(const broadside_engine2& e) {
   const std::string_view contacts = declared(e, "contacts");
-  if (e.read_points != nullptr && contacts != "totals")
-    return "it has read_points and does not declare contacts = totals";
+  const bool declares_points = contacts == "totals" || contacts == "geometry";
+  if (e.read_points != nullptr && !declares_points)
+    return "it has read_points and does not declare contacts = totals, or geometry where it knows no impulses";
   if (e.read_contacts != nullptr && contacts != "applications")
     return "it has read_contacts and does not declare contacts = applications";
-  if (contacts == "totals" && e.read_points == nullptr) return "it declares contacts = totals and has no read_points";
+  if (declares_points && e.read_points == nullptr)
+    return "it declares contacts = " + std::string(contacts) + " and has no read_points";
   if (contacts == "applications" && e.read_contacts == nullptr)
     return "it declares contacts = applications and has no read_contacts";
   return {};

@@ -62,6 +62,13 @@ export function principal([xx, yy, zz, xy, xz, yz]) {
   return { moments: [a[0][0], a[1][1], a[2][2]], axes: q };
 }
 
+// A row of contact for `readPoints`, turned so that a is the lower body: the normal points from b to a, the impulse (N s) acts
+// on a. Libraries that do not tell impulses leave it out, and declare contacts = geometry.
+export function pointOf(a, b, { point, normal, gap, impulse = [0, 0, 0] }) {
+  const isTurned = a > b, sign = isTurned ? -1 : 1;
+  return { a: isTurned ? b : a, b: isTurned ? a : b, point, normal: scaled(sign, normal), gap, impulse: scaled(sign, impulse), feature: 0, reserved: 0 };
+}
+
 // One coefficient for libraries that know no other: that of sliding.
 export const frictionOf = (body) => body.mu_kinetic;
 export const wrenchesOf = (scene, body, q) => {

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "core/scene/refuse_springs.hpp"
-#include "core/scene/refuse_wrenches.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -28,6 +27,7 @@ core::Result<RigidStart> start_of(const core::Scene& scene, std::uint32_t index)
     return core::Error{"the scene's bodies translate, and this one has an angular velocity",
                        scene.name + ": body " + std::to_string(index), "give the scene motion = \"rigid\"",
                        core::Exit::kMissing};
+  if (!b.is_static) b.wrench = wrench_on(scene, index);
   if (b.is_static || scene.motion == core::Motion::kTranslate) return b;
   const auto mass = core::mass_properties_of(scene, index);
   if (!mass) return mass.error();
@@ -43,7 +43,6 @@ core::Result<RigidStart> start_of(const core::Scene& scene, std::uint32_t index)
 
 core::Result<std::vector<RigidStart>> rigid_starts(const core::Scene& scene) {
   if (core::Status s = core::refuse_springs(scene); !s) return s.error();
-  if (core::Status s = core::refuse_wrenches(scene); !s) return s.error();
   std::vector<RigidStart> starts;
   starts.reserve(scene.bodies.size());
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {

@@ -7,6 +7,7 @@
 #include "core/result.hpp"
 #include "core/scene/scene.hpp"
 #include "reference/plain_rigid/linear.hpp"
+#include "reference/rigid_world/body_wrench.hpp"
 
 namespace broadside::reference {
 
@@ -25,6 +26,7 @@ struct RigidStart {
   plain::Mat inertia;         // about the center of mass, mesh axes, kg m^2; of bodies that turn
   core::Material material;
   RigidState state;
+  BodyWrench wrench;  // none of a static body
 };
 
 // Every body, or why there is none: springs; a mesh without inertia in a scene whose bodies turn; an angular velocity

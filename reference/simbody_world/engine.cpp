@@ -76,7 +76,6 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = simbody_build();
   engine.settings = settings;
-  // No order in the step: the accuracy is what its integrator is asked for.
   engine.declaration = core::Declaration::of({{"method", "none"},
                                               {"motion", "rigid"},
                                               {"detection_at", "end"},
@@ -84,6 +83,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
                                               {"integrator", "Runge-Kutta-Merson, error-controlled"},
                                               {"friction", "regularized"},
                                               {"contact_model", "compliant"},
+                                              // What its integrator is asked for, in place of an order in the step.
+                                              {"accuracy", number(options.accuracy)},
                                               {"precision", "f64"}});
   engine.dynamics = make_simbody_world(options);
   engine.equivalence = [options](const core::Scene& scene) { return card_of(scene, options); };

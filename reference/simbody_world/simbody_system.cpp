@@ -32,6 +32,35 @@ SimTK::Inertia inertia(const plain::Mat& m) {
   return {m.row[0].x, m.row[1].y, m.row[2].z, m.row[0].y, m.row[0].z, m.row[1].z};
 }
 
+// What the scene's wrenches do to one body at every stage of the integrator, so that a force in the body's axes turns
+// with it.
+class Wrench : public SimTK::Force::Custom::Implementation {
+ public:
+  Wrench(SimTK::MobilizedBody body, const SimbodyBody& given) : body_(std::move(body)), given_(given) {}
+
+  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& forces, SimTK::Vector_<Vec3>&,
+                 SimTK::Vector&) const override {
+    const Rotation& r = body_.getBodyRotation(state);
+    const Vec3 torque = simbody(given_.torque_world) + r * simbody(given_.torque_body);
+    const Vec3 force = simbody(given_.force_world) + r * simbody(given_.force_body);
+    forces[body_.getMobilizedBodyIndex()] += SimTK::SpatialVec(torque, force);
+  }
+
+  // Asked for by Simbody where somebody asks it for energies, which nobody does.
+  SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0.0; }
+
+ private:
+  SimTK::MobilizedBody body_;
+  SimbodyBody given_;
+};
+
+bool has_wrench(const SimbodyBody& b) {
+  const plain::Vec all[] = {b.force_world, b.force_body, b.torque_world, b.torque_body};
+  for (const plain::Vec v : all)
+    if (v.x != 0.0 || v.y != 0.0 || v.z != 0.0) return true;
+  return false;
+}
+
 }  // namespace
 
 // Members in the order in which Simbody's objects need each other.
@@ -80,6 +109,9 @@ SimbodySystem::SimbodySystem(const SimbodySetup& setup) : world_(std::make_uniqu
   SimTK::Force::UniformGravity(w.forces, w.matter, simbody(setup.gravity_m_s2));
   for (const SimbodySetup::Face& face : setup.faces) w.add(face, material(setup.stiffness_pa, setup.face_surface));
   for (const SimbodyBody& b : setup.bodies) w.add(b, material(setup.stiffness_pa, b.surface), setup.turns);
+  for (std::size_t i = 0; i < setup.bodies.size(); ++i)
+    if (!setup.bodies[i].is_static && has_wrench(setup.bodies[i]))
+      SimTK::Force::Custom(w.forces, new Wrench(w.bodies[i], setup.bodies[i]));  // Simbody owns it
 
   SimTK::State state = w.system.realizeTopology();
   for (std::size_t i = 0; i < setup.bodies.size(); ++i) {

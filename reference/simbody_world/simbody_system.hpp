@@ -33,6 +33,11 @@ struct SimbodyBody {
   double radius_m = 0.0;  // of a ball; 0: a brick
   plain::Vec half_extents;
   SimbodySurface surface;
+  // Constant in the world, and in the body's axes, at the center of mass: N, N m.
+  plain::Vec force_world;
+  plain::Vec force_body;
+  plain::Vec torque_world;
+  plain::Vec torque_body;
 };
 
 struct SimbodySetup {

@@ -39,6 +39,10 @@ core::Result<SimbodyBody> body_of(const RigidStart& start, const core::Scene& sc
   b.radius_m = solid.radius_m;
   b.half_extents = {solid.half_extents.x, solid.half_extents.y, solid.half_extents.z};
   b.surface = surface_of(start.material);
+  b.force_world = start.wrench.force_world;
+  b.force_body = start.wrench.force_body;
+  b.torque_world = start.wrench.torque_world;
+  b.torque_body = start.wrench.torque_body;
   return b;
 }
 

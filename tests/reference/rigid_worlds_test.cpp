@@ -154,6 +154,24 @@ TEST_P(RigidWorlds, FreeFallGainsGravity) {
   EXPECT_EQ(frames.back().time_s, 0.5);
 }
 
+// v = (g + F / m) t and w = T t / I of a ball, with a force and a torque in the world and others in the body's axes,
+// which do not turn from where they were: the spin is about the torques' own axis.
+TEST_P(RigidWorlds, AWrenchPushesAndTurns) {
+  core::Mesh ball = datasets::sphere_mesh(0.5, 8).value();
+  core::Scene scene = world(std::make_shared<const core::Mesh>(std::move(ball)), 1.0F / 64.0F);
+  scene.bodies[0].position = {0, 50, 0};
+  scene.bodies[0].inverse_mass = 0.5F;
+  scene.wrenches = {{0, core::WrenchAxes::kWorld, {0, 6, 0}, {0, 0.125F, 0}},
+                    {0, core::WrenchAxes::kBody, {0, 2, 0}, {0, 0.25F, 0}}};
+  const auto frames = run(scene, 32);
+  ASSERT_EQ(frames.size(), 32U);
+  const double near = 50 * GetParam().rounding;
+  EXPECT_NEAR(velocity(frames.back(), 0).y, (-8.0 + 8.0 / 2) * 0.5, near);
+  const double moment = 0.4 * 2.0 * 0.25;  // 2/5 m r^2
+  EXPECT_NEAR(spin(frames.back(), 0).y, 0.375 / moment * 0.5, near);
+  EXPECT_NEAR(spin(frames.back(), 0).x, 0.0, near);
+}
+
 // Euler's equations of the free brick of RIGID 6, by small Runge-Kutta steps of this test's own: w in body axes.
 WideVec3 exact_spin(double seconds) {
   // 10 kg of 0.1 x 0.4 x 0.9 m.

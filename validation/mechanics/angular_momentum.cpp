@@ -88,8 +88,7 @@ class AngularMomentum final : public Validator {
 };
 
 std::string why_not(const Subject& subject) {
-  constexpr std::uint32_t kRead = core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints);
-  if (std::string text = lacking(subject.header, kRead); !text.empty()) return text;
+  if (std::string text = lacking_impulses(subject.header); !text.empty()) return text;
   return subject.header.scene.motion == core::Motion::kTranslate ? "the scene's bodies translate only" : "";
 }
 

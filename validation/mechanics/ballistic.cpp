@@ -8,6 +8,10 @@
 namespace broadside::validation {
 namespace {
 
+// Roundings of a recorded velocity: one of the record, one of the step's sum, and the 5 of a turn (3 products, 2 sums)
+// in engines that hold velocities in the body's axes.
+constexpr double kOfAVelocity = 7.0;
+
 class Ballistic final : public Validator {
  public:
   explicit Ballistic(const Subject& subject)
@@ -38,7 +42,7 @@ class Ballistic final : public Validator {
     const bool is_clipped = is_method_ && std::abs(v0 + pull) >= v_max_;
     // An engine may hold velocities in the body's axes: then each component is rounded as the whole.
     const double off_v = substeps_ * (m.rounding_of(6) * m.h * length(b.acceleration) +
-                                      m.rounding_of(2) * (length(b.before.v) + length(b.after.v))) +
+                                      m.rounding_of(kOfAVelocity) * (length(b.before.v) + length(b.after.v))) +
                          kSubnormal + m.h * b.acceleration_slack;
     const auto worked = [&] {
       return "dv = " + number_text(v1 - v0) + " m/s, g h + F h / m = " + number_text(pull) +

@@ -158,9 +158,7 @@ ValidatorRow friction_cone_row() {
           "friction reversed; mu halved; contacts that pull",
           kRead,
           0,
-          [](const Subject& subject) {
-            return lacking(subject.header, core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints));
-          },
+          [](const Subject& subject) { return lacking_impulses(subject.header); },
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<FrictionCone>(subject); },
           false,
           true};

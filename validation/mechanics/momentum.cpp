@@ -25,7 +25,7 @@ class Momentum final : public Validator {
  public:
   explicit Momentum(const Subject& subject)
       : header_(subject.header),
-        has_points_(has(header_, core::Group::kPoints)),
+        has_points_(has_impulses(header_)),
         accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")) {}
 
   void look(const Evidence& evidence) override {

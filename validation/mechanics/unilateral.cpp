@@ -86,9 +86,7 @@ ValidatorRow unilateral_row() {
           "contacts at a distance",
           kRead,
           0,
-          [](const Subject& subject) {
-            return lacking(subject.header, core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints));
-          },
+          [](const Subject& subject) { return lacking_impulses(subject.header); },
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Unilateral>(subject); },
           false,
           true};

@@ -3,12 +3,12 @@
 // What is set: no damping, since scenes have none (the library's default is 0.01); a contact material for each pair of
 // materials, with the geometric mean of frictions and the larger restitution; friction on (the library's default). The
 // library rotates inertia by its diagonal alone: bodies are given in principal axes. It has no gyroscopic
-// torque. Contacts are declared as none: its friction is one bound of mu m g for a pair, not a share of each point's impulse.
+// torque. Its friction is bounded by mu m g of a pair, not by a share of each point's impulse.
 import * as CANNON from "cannon-es";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { serve } from "../../../core/plugin/clients/broadside_engine.mjs";
-import { centerOf, facesOf, frictionOf, originOf, principal, refuse, scaled, times, turned, unit, wrenchesOf } from "../rigid_bodies.mjs";
+import { FIRST_FACE, serve } from "../../../core/plugin/clients/broadside_engine.mjs";
+import { add, centerOf, dot, facesOf, frictionOf, originOf, pointOf, principal, refuse, scaled, sub, times, turned, unit, wrenchesOf } from "../rigid_bodies.mjs";
 
 const version = JSON.parse(readFileSync(createRequire(import.meta.url).resolve("cannon-es/package.json"))).version;
 const SHAPES = { box: "moving", sphere: "moving", convex: "moving" };
@@ -19,6 +19,7 @@ const conjugate = ([w, x, y, z]) => [w, -x, -y, -z];
 
 let iterations = 10;
 let scene, world, bodies, axes;
+let ids = new Map(), seconds = 0;  // of bodies and faces, by the library's number; the last step's length
 
 function shapeOf(shape, mesh) {
   if (shape.kind === "box") return new CANNON.Box(vec3(shape.half_extents));
@@ -49,7 +50,7 @@ function begin(given) {
   world.broadphase = new CANNON.SAPBroadphase(world);
   world.solver.iterations = iterations;
   const { of, join } = materials();
-  axes = [];
+  axes = [], ids = new Map();
   bodies = scene.bodies.map((b, index) => {
     const p = b.is_static ? { moments: [1, 1, 1], axes: [1, 0, 0, 0] } : principal(b.inertia);
     axes[index] = p.axes;
@@ -67,13 +68,15 @@ function begin(given) {
       body.updateInertiaWorld(true);
     }
     world.addBody(body);
+    ids.set(body.id, index);
     return body;
   });
-  for (const { normal, point, axis } of facesOf(scene)) {
+  for (const { face, normal, point, axis } of facesOf(scene)) {
     const body = new CANNON.Body({ mass: 0, position: vec3(point), shape: new CANNON.Plane(), material: of(scene.face_mu_kinetic, scene.face_restitution) });
     body.quaternion.setFromVectors(vec3([0, 0, 1]), vec3(normal));
     if (axis === 2 && normal[2] < 0) body.quaternion.setFromAxisAngle(vec3([1, 0, 0]), Math.PI);
     world.addBody(body);
+    ids.set(body.id, FIRST_FACE + face);
   }
   join();
 }
@@ -85,17 +88,32 @@ function step(h) {
     const { force, torque } = wrenchesOf(scene, k, orientationOf(k));
     bodies[k].force.copy(vec3(force)), bodies[k].torque.copy(vec3(torque));
   }
+  seconds = h;
   const start = performance.now();
   world.step(h);
   return (performance.now() - start) / 1000;
 }
 
+// The equations of the last step: multipliers are forces on the second body, along the normal and along two tangents. They
+// belong to where the step began.
+function readPoints() {
+  const key = (e) => [e.bi.id, e.bj.id, ...list(e.ri), ...list(e.rj)].join(" ");
+  const center = (body) => list(body.type === CANNON.Body.STATIC ? body.position : body.previousPosition);
+  const friction = new Map();
+  for (const e of world.frictionEquations) friction.set(key(e), add(friction.get(key(e)) ?? [0, 0, 0], scaled(seconds * e.multiplier, list(e.t))));
+  return world.contacts.map((e) => {
+    const n = list(e.ni), p = add(center(e.bi), list(e.ri)), q = add(center(e.bj), list(e.rj));
+    const onSecond = add(scaled(seconds * e.multiplier, n), friction.get(key(e)) ?? [0, 0, 0]);
+    return pointOf(ids.get(e.bi.id), ids.get(e.bj.id), { point: scaled(0.5, add(p, q)), normal: scaled(-1, n), gap: dot(sub(q, p), n), impulse: scaled(-1, onSecond) });
+  });
+}
+
 serve({
   id: "cannon", build: `cannon-es ${version}, double, node ${process.versions.node}`, what: "cannon-es as a program under Node",
   settings: [{ key: "iterations", default: 10, what: "iterations of the Gauss-Seidel solver" }],
-  declared: { motion: "rigid", detection_at: "start", contacts: "none", integrator: "semi-implicit Euler", iterations: 10, friction: "pyramid",
+  declared: { motion: "rigid", detection_at: "start", contacts: "totals", integrator: "semi-implicit Euler", iterations: 10, friction: "pyramid",
     contact_model: "compliant", contact_time_s: "0.05", correction: "velocity", precision: "f64" },
-  stepSeconds: true, create: ([i]) => { iterations = i; }, begin, step,
+  stepSeconds: true, create: ([i]) => { iterations = i; }, begin, step, readPoints,
   readStates: () => bodies.map((body, k) => ({ position: originOf(scene.bodies[k], list(body.position), orientationOf(k)), orientation: orientationOf(k),
     velocity: list(body.velocity), angular_velocity: list(body.angularVelocity) })),
 });

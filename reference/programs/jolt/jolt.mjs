@@ -3,13 +3,13 @@
 // What is set: no damping, since scenes have none (the library's default is 0.05/s); speeds without the default caps of
 // 500 m/s and 47 rad/s; convex radius 0, so that corners are as the scene draws them; no sleeping. The rest is the
 // library's default, the gyroscopic torque (off) too, which is a setting. Jolt combines friction by the geometric mean and
-// restitution by the maximum, as scenes do. Contacts are declared as none: listeners are told of points before they are
-// solved, and never of impulses.
+// restitution by the maximum, as scenes do. Listeners are told of points before they are solved, and never of impulses, so
+// contacts are declared as geometry. Telling them is inside the step's time.
 import initJolt from "jolt-physics";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { serve } from "../../../core/plugin/clients/broadside_engine.mjs";
-import { facesOf, frictionOf, refuse, sub, wrenchesOf } from "../rigid_bodies.mjs";
+import { FIRST_FACE, serve } from "../../../core/plugin/clients/broadside_engine.mjs";
+import { add, dot, facesOf, frictionOf, pointOf, refuse, scaled, sub, wrenchesOf } from "../rigid_bodies.mjs";
 
 const Jolt = await initJolt();
 const version = JSON.parse(readFileSync(createRequire(import.meta.url).resolve("jolt-physics/package.json"))).version;
@@ -23,8 +23,26 @@ const rvec3 = ([x, y, z]) => new Jolt.RVec3(x, y, z);
 const quat = ([w, x, y, z]) => new Jolt.Quat(x, y, z, w);
 const list = (v) => [v.GetX(), v.GetY(), v.GetZ()];
 
-let hasGyroscopic = false;
+let hasGyroscopic = false, isTuned = false;
 let scene, jolt, bodies, bodyInterface;
+let points = [], ids = new Map();  // of bodies and faces, by Jolt's number
+
+const numberOf = (body) => body.GetID().GetIndexAndSequenceNumber();
+
+// A manifold's normal points from body 1 to body 2.
+function note(body1, body2, manifold) {
+  const [one, two] = [body1, body2].map((pointer) => ids.get(numberOf(Jolt.wrapPointer(pointer, Jolt.Body))));
+  const m = Jolt.wrapPointer(manifold, Jolt.ContactManifold), n = list(m.mWorldSpaceNormal);
+  for (let k = 0; k < m.mRelativeContactPointsOn1.size(); ++k) {
+    const p = list(m.GetWorldSpaceContactPointOn1(k)), q = list(m.GetWorldSpaceContactPointOn2(k));
+    points.push(pointOf(one, two, { point: scaled(0.5, add(p, q)), normal: scaled(-1, n), gap: dot(sub(q, p), n) }));
+  }
+}
+
+const listener = new Jolt.ContactListenerJS();
+listener.OnContactValidate = () => Jolt.ValidateResult_AcceptAllContactsForThisBodyPair;
+listener.OnContactAdded = listener.OnContactPersisted = note;
+listener.OnContactRemoved = () => {};
 
 function made(settings) {
   const result = settings.Create();
@@ -117,13 +135,17 @@ function begin(given) {
   const system = jolt.GetPhysicsSystem();
   system.SetGravity(vec3(scene.gravity));
   bodyInterface = system.GetBodyInterface();
-  bodies = scene.bodies.map(bodyOf);
+  system.SetContactListener(listener);
+  points = [], bodies = scene.bodies.map(bodyOf);
+  ids = new Map(bodies.map((body, k) => [numberOf(body), k]));
   const extent = Math.max(...sub(scene.domain_max, scene.domain_min)) * 2 + 1;
-  for (const { normal, point } of facesOf(scene)) {
+  for (const { face, normal, point } of facesOf(scene)) {
     const plane = new Jolt.Plane(vec3(normal), 0);
     const settings = new Jolt.BodyCreationSettings(made(new Jolt.PlaneShapeSettings(plane, null, extent)), rvec3(point), quat([1, 0, 0, 0]), Jolt.EMotionType_Static, STATIC);
     settings.mFriction = scene.face_mu_kinetic, settings.mRestitution = scene.face_restitution;
-    bodyInterface.AddBody(bodyInterface.CreateBody(settings).GetID(), Jolt.EActivation_DontActivate);
+    const wall = bodyInterface.CreateBody(settings);
+    ids.set(numberOf(wall), FIRST_FACE + face);
+    bodyInterface.AddBody(wall.GetID(), Jolt.EActivation_DontActivate);
   }
   system.OptimizeBroadPhase();
 }
@@ -135,16 +157,20 @@ function step(h) {
     const { force, torque } = wrenchesOf(scene, k, orientationOf(bodies[k]));
     bodies[k].AddForce(vec3(force)), bodies[k].AddTorque(vec3(torque));
   }
+  points = [];
+  // A step of 1/60 s as a float is a little longer than 1/60.
+  const collisionSteps = isTuned ? Math.max(1, Math.ceil(60 * h - 1e-6)) : 1;
   const start = performance.now();
-  jolt.Step(h, 1);
+  jolt.Step(h, collisionSteps);
   return (performance.now() - start) / 1000;
 }
 
 serve({
   id: "jolt", build: `jolt-physics ${version}, float, WebAssembly, node ${process.versions.node}`, what: "Jolt Physics as a program under Node",
-  settings: [{ key: "gyroscopic", default: 0, what: "1 = with the gyroscopic torque, which the library leaves out by default" }],
-  declared: { motion: "rigid", detection_at: "start", contacts: "none", integrator: "semi-implicit Euler", iterations: 10, friction: "cone",
+  settings: [{ key: "tuning", default: 0, what: "1 = a collision step for each 1/60 s of a step, as its manual recommends" },
+    { key: "gyroscopic", default: 0, what: "1 = with the gyroscopic torque, which the library leaves out by default" }],
+  declared: { motion: "rigid", detection_at: "start", contacts: "geometry", integrator: "semi-implicit Euler", iterations: 10, friction: "cone",
     contact_model: "rigid", contact_margin_m: "0.02", correction: "position", correction_rate: "0.2", precision: "f32" },
-  stepSeconds: true, create: ([gyroscopic]) => { hasGyroscopic = gyroscopic === 1; }, begin, step,
+  stepSeconds: true, create: ([tuning, gyroscopic]) => { isTuned = tuning === 1, hasGyroscopic = gyroscopic === 1; }, begin, step, readPoints: () => points,
   readStates: () => bodies.map((body) => ({ position: list(body.GetPosition()), orientation: orientationOf(body), velocity: list(body.GetLinearVelocity()), angular_velocity: list(body.GetAngularVelocity()) })),
 });

@@ -1,6 +1,6 @@
 // MuJoCo 3 under Node: `mujoco3` in the list of engines.
 //
-// What is set: the step, gravity, no air, and the integrator, which is a setting; the rest is the library's default, the
+// What is set: the step, gravity, no air, the integrator and the tuning, which are settings; the rest is the default, the
 // contact's time constant of 0.02 s and damping ratio of 1 too. A contact takes the larger friction of its two geoms, so the
 // scenes of several frictions are refused. It has no coefficient of restitution.
 import loadMujoco from "@mujoco/mujoco";
@@ -14,7 +14,7 @@ const SHAPES = { box: "moving", sphere: "moving", capsule: "moving", cylinder: "
 const AXIS = [[Math.SQRT1_2, 0, Math.SQRT1_2, 0], [Math.SQRT1_2, -Math.SQRT1_2, 0, 0], [1, 0, 0, 0]];
 const text = (v) => v.map((x) => x.toPrecision(17)).join(" ");
 
-let integrator = 0;
+let integrator = 0, isTuned = false;
 let scene, model, data, moving;
 
 function geomOf(b, k) {
@@ -44,7 +44,7 @@ function xml() {
   const meshes = scene.shapes.flatMap((shape, k) => ["convex", "mesh"].includes(shape.kind)
     ? [`<mesh name="m${k}" vertex="${text(scene.meshes[k].vertices)}" face="${scene.meshes[k].triangles.join(" ")}"/>`] : []);
   return `<mujoco><compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0"/>
-    <option timestep="${text([scene.dt])}" gravity="${text(scene.gravity)}" density="0" viscosity="0" integrator="${INTEGRATORS[integrator]}" cone="elliptic"/>
+    <option timestep="${text([scene.dt])}" gravity="${text(scene.gravity)}" density="0" viscosity="0" integrator="${INTEGRATORS[integrator]}"${isTuned ? ' cone="elliptic" impratio="10"' : ""}>${isTuned ? '<flag multiccd="enable"/>' : ""}</option>
     <size memory="512M"/><asset>${meshes.join("")}</asset>
     <worldbody>${facesOf(scene).map(faceOf).join("")}${scene.bodies.map(bodyOf).join("")}</worldbody></mujoco>`;
 }
@@ -101,9 +101,10 @@ function step(h) {
 
 serve({
   id: "mujoco3", build: `MuJoCo ${mujoco.mj_versionString?.() ?? "3"}, double, WebAssembly, node ${process.versions.node}`, what: "MuJoCo 3 as a program under Node",
-  settings: [{ key: "integrator", default: 0, what: "0 = Euler, 1 = implicit, 2 = RK4" }],
+  settings: [{ key: "tuning", default: 0, what: "1 = elliptic cones, impratio 10 and multiccd, as its manual recommends" },
+    { key: "integrator", default: 0, what: "0 = Euler, 1 = implicit, 2 = RK4" }],
   declared: { motion: "rigid", detection_at: "start", contacts: "none", integrator: "semi-implicit Euler, implicit or Runge-Kutta 4, as set", iterations: 100,
     friction: "regularized", contact_model: "compliant", contact_time_s: "0.02", correction: "none", precision: "f64" },
-  stepSeconds: true, create: ([i]) => { if (!(i < 3)) throw new Error("integrator is 0, 1 or 2"); integrator = i; }, begin, step,
+  stepSeconds: true, create: ([tuning, i]) => { if (!(i < 3)) throw new Error("integrator is 0, 1 or 2"); isTuned = tuning === 1, integrator = i; }, begin, step,
   readStates: () => scene.bodies.map(stateOf),
 });

@@ -2,11 +2,12 @@
 //
 // What is set: no damping, no caps of speed, no sleep, and bounces above the scene's threshold; the rest is the library's
 // default, the gyroscopic torque (off) too, which is a setting. Materials combine by multiplying square roots of
-// frictions (the geometric mean) and by the larger restitution. Contacts are declared as none.
+// frictions (the geometric mean) and by the larger restitution. Reports of contact hold impulses along normals alone, not
+// those of friction, so contacts are declared as geometry. Reporting is inside the step's time.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { serve } from "../../../core/plugin/clients/broadside_engine.mjs";
-import { facesOf, frictionOf, principal, refuse, wrenchesOf } from "../rigid_bodies.mjs";
+import { FIRST_FACE, serve } from "../../../core/plugin/clients/broadside_engine.mjs";
+import { facesOf, frictionOf, pointOf, principal, refuse, wrenchesOf } from "../rigid_bodies.mjs";
 
 const require = createRequire(import.meta.url);
 const packageFile = require.resolve("physx-js-webidl/package.json");
@@ -37,8 +38,28 @@ const cooking = new P.PxCookingParams(scale);
 // PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, which the binding's enumeration lacks.
 const GYROSCOPIC = 1 << 10;
 
-let hasGyroscopic = false;
+let hasGyroscopic = false, isTuned = false;
 let scene, world, bodies;
+let points = [], ids = new Map();  // of bodies and faces, by address
+
+// Pairs report their points while they touch: the third word of filter data is what pairs raise beside contact.
+const REPORTS = P.PxPairFlagEnum.eNOTIFY_TOUCH_FOUND | P.PxPairFlagEnum.eNOTIFY_TOUCH_PERSISTS | P.PxPairFlagEnum.eNOTIFY_CONTACT_POINTS;
+const MOST_POINTS = 256;
+const found = new P.PxArray_PxContactPairPoint(MOST_POINTS);
+const reports = new P.PxSimulationEventCallbackImpl();
+reports.onConstraintBreak = reports.onWake = reports.onSleep = reports.onTrigger = () => {};
+reports.onContact = (header, pairs, count) => {
+  const actors = P.wrapPointer(header, P.PxContactPairHeader);
+  const [one, two] = [0, 1].map((k) => ids.get(P.getPointer(actors.get_actors(k))));
+  for (let k = 0; k < count; ++k) {
+    const pair = P.NativeArrayHelpers.prototype.getContactPairAt(P.wrapPointer(pairs, P.PxContactPair), k);
+    const n = pair.extractContacts(found.begin(), MOST_POINTS);
+    for (let i = 0; i < n; ++i) {
+      const p = found.get(i);
+      points.push(pointOf(one, two, { point: list(p.position), normal: list(p.normal), gap: p.separation }));
+    }
+  }
+};
 
 function materialOf(friction, restitution) {
   const material = physics.createMaterial(Math.sqrt(friction), Math.sqrt(friction), restitution);
@@ -76,7 +97,7 @@ function geometryOf(shape, mesh) {
 
 function shapeInto(actor, geometry, material, at, q) {
   const shape = physics.createShape(geometry, material, true, new P.PxShapeFlags(P.PxShapeFlagEnum.eSIMULATION_SHAPE));
-  shape.setSimulationFilterData(new P.PxFilterData(1, 1, 0, 0));
+  shape.setSimulationFilterData(new P.PxFilterData(1, 1, REPORTS, 0));
   shape.setLocalPose(pose(at, q));
   actor.attachShape(shape);
 }
@@ -106,14 +127,18 @@ function begin(given) {
   desc.cpuDispatcher = P.DefaultCpuDispatcherCreate(0);
   desc.filterShader = P.DefaultFilterShader();
   desc.bounceThresholdVelocity = Math.max(scene.v_threshold, 1e-6);
+  desc.simulationEventCallback = reports;
+  if (isTuned) desc.solverType = P.PxSolverTypeEnum.eTGS;
   world = physics.createScene(desc);
-  bodies = scene.bodies.map(bodyOf);
+  points = [], bodies = scene.bodies.map(bodyOf);
+  ids = new Map(bodies.map((body, k) => [P.getPointer(body), k]));
   const material = materialOf(scene.face_mu_kinetic, scene.face_restitution);
-  for (const { normal, point } of facesOf(scene)) {
+  for (const { face, normal, point } of facesOf(scene)) {
     // Planes look along their own x.
     const q = normal[0] > 0 ? [1, 0, 0, 0] : normal[0] < 0 ? [0, 0, 0, 1] : normal[1] !== 0 ? [Math.SQRT1_2, 0, 0, normal[1] * Math.SQRT1_2] : [Math.SQRT1_2, 0, -normal[2] * Math.SQRT1_2, 0];
     const wall = physics.createRigidStatic(pose(point, q));
     shapeInto(wall, new P.PxPlaneGeometry(), material, [0, 0, 0], [1, 0, 0, 0]);
+    ids.set(P.getPointer(wall), FIRST_FACE + face);
     world.addActor(wall);
   }
 }
@@ -125,6 +150,7 @@ function step(h) {
     const { force, torque } = wrenchesOf(scene, k, orientationOf(bodies[k]));
     bodies[k].addForce(vec3(force), P.PxForceModeEnum.eFORCE, true), bodies[k].addTorque(vec3(torque), P.PxForceModeEnum.eFORCE, true);
   }
+  points = [];
   const start = performance.now();
   world.simulate(h);
   world.fetchResults(true);
@@ -139,9 +165,10 @@ function stateOf(body, k) {
 
 serve({
   id: "physx", build: `PhysX 5.6.1 (physx-js-webidl ${version}), float, WebAssembly, node ${node}`, what: "PhysX 5 as a program under Node",
-  settings: [{ key: "gyroscopic", default: 0, what: "1 = with the gyroscopic torque, which the library leaves out by default" }],
-  declared: { motion: "rigid", detection_at: "start", contacts: "none", integrator: "semi-implicit Euler", iterations: 4, friction: "pyramid",
+  settings: [{ key: "tuning", default: 0, what: "1 = the solver eTGS, which its manual calls better with large mass ratios" },
+    { key: "gyroscopic", default: 0, what: "1 = with the gyroscopic torque, which the library leaves out by default" }],
+  declared: { motion: "rigid", detection_at: "start", contacts: "geometry", integrator: "semi-implicit Euler", iterations: 4, friction: "pyramid",
     contact_model: "rigid", contact_margin_m: "0.02", correction: "position", precision: "f32" },
-  stepSeconds: true, create: ([gyroscopic]) => { hasGyroscopic = gyroscopic === 1; }, begin, step,
+  stepSeconds: true, create: ([tuning, gyroscopic]) => { isTuned = tuning === 1, hasGyroscopic = gyroscopic === 1; }, begin, step, readPoints: () => points,
   readStates: () => bodies.map(stateOf),
 });

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "bench/contest/contest_document.hpp"
+#include "bench/contest/known_causes.hpp"
+#include "bench/contest/tunings.hpp"
 
 namespace broadside::bench::contest {
 namespace {
@@ -97,6 +99,72 @@ TEST(ContestTable, ThePageHasEveryPart) {
   for (const char* text : {"absent: not installed", "breaks rest; 2 of 3", "rest explained", "0.008333", "not declared",
                            "Mine 1.0, double", "Error against cost", "broadside contest"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
+// A run with two threads is compared with that of one, and is no column of its own.
+TEST(ContestTable, RunsOfOneAndTwoThreadsAreCompared) {
+  const auto with = [](std::uint64_t of_one, std::uint64_t of_two) {
+    core::RunRows all = rows();
+    for (const auto& [threads, digest] : {std::pair("1", of_one), std::pair("2", of_two)}) {
+      core::Cell cell;
+      cell.stamp = stamp("rigid:a", 1);
+      cell.stamp.settings_short = std::string("threads=") + threads;
+      cell.state = core::CellState::kRecorded;
+      cell.digests = {{60, digest}};
+      all.cells.push_back(cell);
+    }
+    const ContestTable t = contest_table(all, {{"mine", ""}}, {{"rigid:a", 1.0 / 60}});
+    EXPECT_EQ(t.scenes[0].entries.size(), 1U);
+    return html_text(contest_document(t, "x"));
+  };
+  EXPECT_NE(with(7, 7).find("alike on 1 of 1 scenes"), std::string::npos);
+  EXPECT_NE(with(7, 8).find("alike on 0 of 1 scenes"), std::string::npos);
+  EXPECT_NE(html_text(contest_document(table(), "x")).find("one thread alone"), std::string::npos);
+}
+
+// Depth, creep and cost stand in tables of their own; energy is a picture.
+TEST(ContestTable, StacksHeapsAndEnergyAreOnThePage) {
+  core::RunRows all = rows();
+  all.verdicts[0].verdicts.push_back(verdict("penetration", Outcome::kPass, 0.002));
+  for (auto& cell : all.cells) cell.stamp.scene_name = "freefall:cube:100" + cell.stamp.scene_name.substr(7);
+  ContestTable t = contest_table(all, {{"mine", ""}}, {{"freefall:cube:100", 1.0 / 60}});
+  t.scenes[0].energy["mine"] = {{0.0, 1.0, 2.0}, {0.0, 0.5, 50.0}};
+  t.scenes[0].energy["other"] = {{0.0, 1.0, 2.0}, {0.0, 0.5, 0.5}};
+  t.scenes[0].energy["third"] = {{0.0, 1.0, 2.0}, {0.0, 0.5, 1.0}};
+  const std::string page = html_text(contest_document(t, "x"));
+  for (const char* text : {"moves, 1 m; 2 mm deep", "2 ms a step; 2 mm deep",
+                           "mine leaves the picture at 2 s with 50 J", "energy gained since the start, J"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
+// A broken law has its cause beside it where somebody looked, and says so where nobody did.
+TEST(ContestTable, WhatIsBrokenHasItsCauseOrIsNotYetLookedInto) {
+  core::RunRows all = rows();
+  for (auto& cell : all.cells) cell.stamp.engine = "mujoco-world";
+  for (auto& judged : all.verdicts) judged.stamp.engine = "mujoco-world";
+  const auto page = [](const core::RunRows& r, const std::string& engine) {
+    return html_text(contest_document(contest_table(r, {{engine, ""}}, {{"rigid:a", 1.0 / 60}}), "x"));
+  };
+  EXPECT_NE(page(all, "mujoco-world").find("rest: what sticks creeps"), std::string::npos);
+  EXPECT_NE(page(rows(), "mine").find("rest: not yet looked into"), std::string::npos);
+  EXPECT_NE(page(rows(), "mine").find("Of these 0 were looked into"), std::string::npos);
+  EXPECT_TRUE(known_cause("ode-world", "penetration", "rigid:billiards:cradle").empty());
+  EXPECT_FALSE(known_cause("ode-world[solver=dantzig]", "penetration", "rigid:billiards:cradle").empty());
+  EXPECT_TRUE(known_cause("plain-rigid", "momentum", "rigid:bounce").empty());
+}
+
+// Each engine has a row as it ships, and each second row is an entrant.
+TEST(ContestTable, EveryTuningIsAnEntrant) {
+  const auto entrants = default_entrants();
+  for (const Tuning& t : tunings()) {
+    EXPECT_NE(std::find(entrants.begin(), entrants.end(), t.as_shipped), entrants.end()) << t.as_shipped;
+    if (!t.recommended.empty()) {
+      EXPECT_NE(std::find(entrants.begin(), entrants.end(), t.recommended), entrants.end()) << t.recommended;
+      EXPECT_TRUE(is_recommended(t.recommended));
+    }
+    EXPECT_FALSE(t.source.empty());
+  }
+  EXPECT_FALSE(is_recommended("ode-world"));
 }
 
 TEST(ContestTable, NothingRunIsAPageToo) {

@@ -54,6 +54,17 @@ TEST(Momentum, WithoutPointsIsThatOfBodiesThatMeet) {
   expect_limit("momentum", 8 * kU * 2, met, {"sum m dv = ", "over 2 bodies"});
 }
 
+// An engine that tells where bodies touch and not how hard: nothing is held against impulses of zero.
+TEST(Momentum, ReadsNoImpulsesWherePointsAreGeometry) {
+  Specimen r = on_floor({}, {0, 0, 0}, {});
+  EXPECT_EQ(law("momentum", r).outcome, core::Outcome::kFail) << told(law("momentum", r));
+  r.header.declaration = core::Declaration::of({{"contacts", "geometry"}});
+  EXPECT_EQ(law("momentum", r).outcome, core::Outcome::kNotApplicable) << told(law("momentum", r));
+  for (const char* name : {"angular-momentum", "friction-cone", "unilateral"})
+    expect_nothing_met(name, r, "points without impulses");
+  EXPECT_EQ(law("contact-truth", r).outcome, core::Outcome::kPass) << told(law("contact-truth", r));
+}
+
 TEST(Momentum, MeetsNothingWhereNothingMoves) {
   expect_nothing_met("momentum", only_static(), "no step of a body");
 }

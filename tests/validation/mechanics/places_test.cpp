@@ -181,6 +181,47 @@ TEST(EnergyGrowth, AllowsADeclaredCorrectionItsLift) {
   EXPECT_EQ(lifted("none").outcome, core::Outcome::kFail) << told(lifted("none"));
 }
 
+// 1 m/s, 1/2 J, and 0.03 J more: with an accuracy of 1 % speeds may be off by that, and energy by 2 % of what there is.
+TEST(EnergyGrowth, AllowsTheAccuracyOfErrorControl) {
+  const auto sped_up = [](const std::string& accuracy) {
+    Specimen r = one_step(1);
+    r.header.declaration = core::Declaration::of({{"accuracy", accuracy}, {"precision", "f32"}});
+    r.header.scene.bodies[0].velocity = {1, 0, 0};
+    end_step(r, [](core::WideStates& s) { s.velocity[0].x = std::sqrt(1.06); });
+    return law("energy-growth", r);
+  };
+  EXPECT_EQ(sped_up("0.01").outcome, core::Outcome::kPass) << told(sped_up("0.01"));
+  EXPECT_EQ(sped_up("0.001").outcome, core::Outcome::kFail) << told(sped_up("0.001"));
+}
+
+// 64 N on 1 kg: in steps of 1/64 s the speed rises by 1 m/s each, or by `gain` times that. Contacts are declared to be
+// springs, which may give back what they stored, and nothing more.
+Specimen pushed_for_twelve_steps(double gain) {
+  Specimen r = one_step(1);
+  r.header.declaration = core::Declaration::of({{"contact_model", "compliant"}, {"precision", "f32"}});
+  r.header.scene.gravity_m_s2 = {};
+  r.header.scene.wrenches = {{0, core::WrenchAxes::kWorld, {64, 0, 0}, {}}};
+  double x = 0.0;
+  for (int k = 1; k <= 12; ++k) {
+    x += gain * k * kStep;
+    core::FrameRecord& frame = end_step(r, [&](core::WideStates& s) {
+      s.velocity[0].x = gain * k;
+      s.position[0].x = x;
+    });
+    frame.step = static_cast<std::uint64_t>(k);
+    frame.time_s = k * kStep;
+  }
+  return r;
+}
+
+// Work of all steps before counts, not that of the last alone: a scene with a wrench failed from its second step on.
+TEST(EnergyGrowth, OfCompliantContactsLeavesOutTheWorkOfWrenches) {
+  const core::Verdict right = law("energy-growth", pushed_for_twelve_steps(1.0));
+  EXPECT_EQ(right.outcome, core::Outcome::kPass) << told(right);
+  const core::Verdict twice = law("energy-growth", pushed_for_twelve_steps(2.0));
+  EXPECT_EQ(twice.outcome, core::Outcome::kFail) << told(twice);
+}
+
 TEST(EnergyGrowth, MeetsNothingWhereNothingMoves) {
   expect_nothing_met("energy-growth", only_static(), "no step of a moving body");
 }

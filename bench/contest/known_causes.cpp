@@ -1,0 +1,113 @@
+#include "bench/contest/known_causes.hpp"
+
+#include <array>
+
+namespace broadside::bench::contest {
+namespace {
+
+struct Row {
+  std::string_view engine;  // how labels begin; empty = any
+  std::string_view law;
+  std::string_view scene;  // how names begin; empty = any
+  std::string_view cause;
+};
+
+constexpr std::string_view kDiscrete =
+    "detection at steps alone, as the library ships: what is fast passes between two";
+constexpr std::string_view kNoGyroscopic = "the gyroscopic torque is left out, as the library ships";
+constexpr std::string_view kBulletPoints = "a box gets one more point against a plane each step, so it tips first";
+constexpr std::string_view kBulletEarly =
+    "contacts push before bodies touch, and what is left of the speed has no restitution";
+constexpr std::string_view kBulletRebound = "the correction of depth is added to the rebound (findings/head_on.toml)";
+constexpr std::string_view kPyramid = "friction is a pyramid along two directions of the world, as declared";
+constexpr std::string_view kExpMap = "rotations below 0.001 rad are a series cut short (findings/dart_small_turn.toml)";
+constexpr std::string_view kFclMeshes =
+    "FCL on meshes: polyhedra for balls, horizontal normals and far points between boxes";
+constexpr std::string_view kNoRestitution = "contacts are springs without a coefficient of restitution, as declared";
+constexpr std::string_view kCreep = "what sticks creeps: friction is regularized, as declared";
+constexpr std::string_view kSinks = "a spring must be pressed in before it carries, and its friction with it";
+constexpr std::string_view kMujocoBoxes =
+    "boxes: half the depth, and points far away (findings/mujoco_half_depth.toml, mujoco_far_point.toml)";
+constexpr std::string_view kMujocoNewton = "Newton's iteration stops before accelerations and forces balance";
+constexpr std::string_view kCannonFriction =
+    "an impulse of friction is bounded by a force, 1 / h times too much (findings/cannon_friction.toml)";
+constexpr std::string_view kRapierThree =
+    "three balls end with more energy than two brought (findings/three_balls.toml)";
+constexpr std::string_view kDantzigRow = "no impulses in a row of balls (findings/cradle.toml)";
+constexpr std::string_view kLastSweep = "the solver bounds friction by normal impulses that it changes afterwards";
+
+constexpr std::array kRows{
+    Row{"", "penetration", "rigid:two-spheres:fast", kDiscrete},
+    Row{"", "closed-form", "rigid:two-spheres:fast", kDiscrete},
+    Row{"", "penetration", "rigid:needle-through-plate", kDiscrete},
+    Row{"", "passage", "rigid:needle-through-plate", kDiscrete},
+    Row{"", "closed-form", "rigid:needle-through-plate", kDiscrete},
+    Row{"bullet-world", "closed-form", "rigid:bounce", kBulletEarly},
+    Row{"bullet-world", "closed-form", "rigid:sphere:oblique", kBulletEarly},
+    Row{"bullet-world", "closed-form", "rigid:rod:end-impact", kBulletEarly},
+    Row{"bullet-world", "energy-growth", "rigid:billiards:", kBulletRebound},
+    Row{"bullet-world", "closed-form", "rigid:billiards:", kBulletRebound},
+    Row{"bullet-world", "closed-form", "rigid:slide:", kBulletPoints},
+    Row{"bullet-world", "rest", "rigid:tip:", kBulletPoints},
+    Row{"bullet-world", "friction-cone", "", "friction stays as it was in sweeps where the normal impulse is zero"},
+    Row{"bullet-world", "angular-momentum", "", "each body has a point of its own, and the two slide apart"},
+    Row{"ode-world[solver=dantzig", "penetration", "rigid:billiards:cradle", kDantzigRow},
+    Row{"ode-world", "friction-cone", "", kLastSweep},
+    Row{"ode-world", "closed-form", "rigid:slide:", kPyramid},
+    Row{"ode-world", "contact-truth", "rigid:incline:", "box against box gives a point far away for single steps"},
+    Row{"dart-world", "friction-cone", "", kLastSweep},
+    Row{"dart-world", "closed-form", "rigid:slide:", kPyramid},
+    Row{"dart-world", "ballistic", "", kExpMap},
+    Row{"dart-world", "turning", "", kExpMap},
+    Row{"dart-world", "momentum", "", kExpMap},
+    Row{"dart-world", "energy-growth", "", kExpMap},
+    Row{"dart-world", "contact-truth", "", kFclMeshes},
+    Row{"dart-world", "closed-form", "rigid:sphere:", kFclMeshes},
+    Row{"dart-world", "closed-form", "rigid:billiards:", kFclMeshes},
+    Row{"dart-world", "rest", "rigid:stack:", kFclMeshes},
+    Row{"dart-world", "rest", "rigid:overhang:", kFclMeshes},
+    Row{"dart-world", "penetration", "rigid:overhang:", kFclMeshes},
+    Row{"mujoco", "closed-form", "rigid:bounce", kNoRestitution},
+    Row{"mujoco", "closed-form", "rigid:billiards:", kNoRestitution},
+    Row{"mujoco", "closed-form", "rigid:rod:", kNoRestitution},
+    Row{"mujoco", "closed-form", "rigid:sphere:oblique", kNoRestitution},
+    Row{"mujoco", "closed-form", "rigid:sphere:slip-to-roll", kSinks},
+    // Along the pyramid's own directions it is not the cause.
+    Row{"mujoco", "closed-form", "rigid:slide:heading-0", {}},
+    Row{"mujoco", "closed-form", "rigid:slide:heading-4", {}},
+    Row{"mujoco", "closed-form", "rigid:slide:heading-8", {}},
+    Row{"mujoco", "closed-form", "rigid:slide:heading-12", {}},
+    Row{"mujoco", "closed-form", "rigid:slide:", "pyramids inside the cone, as the library ships"},
+    Row{"mujoco", "rest", "", kCreep},
+    Row{"mujoco-world", "contact-truth", "", kMujocoBoxes},
+    Row{"mujoco-world", "momentum", "", kMujocoNewton},
+    Row{"mujoco-world", "angular-momentum", "", kMujocoNewton},
+    Row{"simbody-world", "closed-form", "rigid:bounce", "a dissipation stands for restitution, to first order"},
+    Row{"simbody-world", "closed-form", "rigid:billiards:", "springs: the exchange takes a few steps"},
+    Row{"simbody-world", "closed-form", "rigid:sphere:slip-to-roll", kSinks},
+    Row{"simbody-world", "rest", "rigid:tip:", "springs tilt a tall box by more than the scene's 1 %"},
+    Row{"jolt", "penetration", "rigid:disk:euler", "bodies may sink 0.02 m (mPenetrationSlop): half of this coin"},
+    Row{"jolt", "gyroscopic", "", kNoGyroscopic},
+    Row{"jolt", "closed-form", "rigid:torque-free:", kNoGyroscopic},
+    Row{"physx", "gyroscopic", "", kNoGyroscopic},
+    Row{"physx", "closed-form", "rigid:torque-free:", kNoGyroscopic},
+    Row{"cannon", "gyroscopic", "", kNoGyroscopic},
+    Row{"cannon", "closed-form", "rigid:torque-free:", kNoGyroscopic},
+    Row{"cannon", "friction-cone", "", kCannonFriction},
+    Row{"cannon", "closed-form", "rigid:slide:", kCannonFriction},
+    Row{"cannon", "closed-form", "rigid:incline:slide", kCannonFriction},
+    Row{"cannon", "closed-form", "rigid:sphere:", kCannonFriction},
+    Row{"cannon", "closed-form", "rigid:bounce", "contacts are springs that are damped, as declared"},
+    Row{"rapier", "energy-growth", "rigid:billiards:three", kRapierThree},
+    Row{"rapier", "closed-form", "rigid:billiards:three", kRapierThree},
+};
+
+}  // namespace
+
+std::string_view known_cause(std::string_view engine, std::string_view law, std::string_view scene) {
+  for (const Row& row : kRows)
+    if (engine.starts_with(row.engine) && law == row.law && scene.starts_with(row.scene)) return row.cause;
+  return {};
+}
+
+}  // namespace broadside::bench::contest
