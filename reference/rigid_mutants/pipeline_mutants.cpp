@@ -252,7 +252,7 @@ std::span<const RigidMutant> table() {
             [](StagedPipeline& p, float h) {
               respond_with_materials(p, h, [](core::Material& m) { m.mu_static = m.mu_kinetic = 0.0F; });
             }}},
-      {"twin: friction-doubled",
+      {"twin: friction-fourfold",
        "coefficients of friction are four times as large",
        "friction-cone",
        "rigid-slide",

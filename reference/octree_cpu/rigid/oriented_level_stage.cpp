@@ -49,6 +49,7 @@ void OrientedLevelStage::confirm_all(const RigidBodies& bodies, core::Levels lev
     for (std::uint32_t j = i + 1; j < n; ++j) {
       if (bodies.is_static[i] != 0 && bodies.is_static[j] != 0) continue;
       ++tried;
+      if (!core::overlaps(bodies.boxes[i], bodies.boxes[j])) continue;
       if (meets(bodies, levels, {i, j}, tests)) row.push_back({i, j});
     }
     pairs_tested_.fetch_add(tried, std::memory_order_relaxed);

@@ -18,7 +18,8 @@ class OrientedLevelStage {
   void confirm(const RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
                std::vector<core::Pair>& confirmed);
 
-  // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair.
+  // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair, and neither are
+  // two whose boxes of the whole step do not meet.
   void confirm_all(const RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
 
   // Since reset_counts(). Sums of integers, so no thread order shows in them.

@@ -97,7 +97,9 @@ TEST(RigidPipeline, RepeatsARunAfterAnotherLoad) {
       ASSERT_TRUE(engine.read_back(frame, core::RecordLevel::kDigest).ok());
       found.push_back(frame.digest);
     }
-    if (again) EXPECT_EQ(found, first);
+    if (again) {
+      EXPECT_EQ(found, first);
+    }
     first = found;
   }
 }
