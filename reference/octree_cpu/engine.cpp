@@ -1,5 +1,6 @@
 #include <oneapi/tbb/version.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -15,8 +16,8 @@
 namespace broadside::reference {
 namespace {
 
-const std::array<core::SettingRow, 6>& settings_table() {
-  static const std::array<core::SettingRow, 6> kTable{{
+const std::array<core::SettingRow, 9>& settings_table() {
+  static const std::array<core::SettingRow, 9> kTable{{
       {"broad",
        "tree",
        {"tree", "octree", "brute"},
@@ -30,9 +31,21 @@ const std::array<core::SettingRow, 6>& settings_table() {
         "printed-E8"},
        "a printed, wrong form of the paper to run instead"},
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
+      {"contact",
+       "conjugate",
+       {"conjugate", "soft-step"},
+       "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"},
+      {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"},
+      {"thresholds",
+       "scaled",
+       {"scaled", "fixed"},
+       "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
+       "v_threshold_m_s"},
   }};
   return kTable;
 }
+
+constexpr unsigned long kMostSubsteps = 1024;  // more are below the rounding of a step
 
 // What the published method has and bodies that turn have not.
 core::Status why_not_rigid(const core::Settings& settings) {
@@ -71,8 +84,15 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   RigidPipelineOptions turning;
   turning.make_broad_phase = options.make_broad_phase;
   turning.levels = options.levels;
-  const ContactSolverOptions contact;
-  turning.make_solver = [contact](const core::Scene&) { return make_contact_solver(contact); };
+  ContactSolverOptions contact;
+  if (settings.text("contact") == "soft-step") contact.kind = SolverKind::kSoftStep;
+  contact.substeps = static_cast<std::uint32_t>(std::min(settings.number("substeps"), kMostSubsteps));
+  turning.make_solver = [contact, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
+    ContactSolverOptions of_scene = contact;
+    if (is_fixed) of_scene.fixed_slop_m = scene.parameters.delta_m;
+    if (is_fixed) of_scene.fixed_bounce_from_m_s = scene.parameters.v_threshold_m_s;
+    return make_contact_solver(of_scene);
+  };
   turning.declaration = rigid_declaration(contact);
   turning.threads = threads;
 

@@ -5,23 +5,16 @@
 #include "reference/vendor_build.hpp"
 
 namespace broadside::reference {
-namespace {
-
-// A substep adds to velocities for a contact in its start from the last impulse, the solve, the relaxation and the
-// rebound.
-constexpr int kApplicationsOfSubstep = 4;
-
-}  // namespace
-
 core::Declaration rigid_declaration(const ContactSolverOptions& solver) {
+  const ContactSolverFacts facts = facts_of(solver);
   return core::Declaration::of(
       {{"motion", "rigid"},
        {"detection_at", "start"},
        {"contacts", "totals"},
        {"integrator", "semi-implicit Euler; Runge-Kutta 4 for orientation, angular momentum constant"},
        {"order", "1"},
-       {"substeps", std::to_string(solver.substeps)},
-       {"iterations", std::to_string(kApplicationsOfSubstep)},
+       {"substeps", std::to_string(facts.substeps)},
+       {"iterations", std::to_string(facts.applications)},
        {"friction", "cone"},
        {"contact_model", "rigid"},
        {"correction", "position"},
