@@ -134,8 +134,6 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     const float speed = dot(c.normal, relative_velocity(m, p));
-    // The step may end here: relaxing stops no point before it comes.
-    if (gap > 0.0F && !pushes && !(p.normal_impulse > 0.0F)) continue;
     float change;
     if (gap > 0.0F) {
       change = -p.normal_mass * (speed + gap * step.per_dt_s);  // it may close within the substep, no more
