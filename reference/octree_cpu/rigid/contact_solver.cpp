@@ -20,11 +20,10 @@ SoftSolverOptions soft_options(const ContactSolverOptions& options) {
 
 }  // namespace
 
-// Uneven masses take twice the substeps. A sweep and the direction after it, the start from the substep before, the
-// relaxation and the bounce each add to velocities.
-ContactSolverFacts facts_of(const ContactSolverOptions& options) {
+MostOfStep most_of_step(const ContactSolverOptions& options) {
   const SoftSolverOptions soft = soft_options(options);
-  return {2 * soft.substeps, 2 * soft.sweeps + 3};
+  // The start from the last impulse, sweeps with a step along the direction between two, relaxation and rebound.
+  return {2 * soft.substeps, 1 + (2 * soft.sweeps - 1) + 1 + 1};
 }
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options) {

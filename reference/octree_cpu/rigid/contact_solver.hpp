@@ -63,12 +63,12 @@ struct ContactSolverOptions {
   float fixed_bounce_from_m_s = 0.0F;
 };
 
-// What a declaration says of it.
-struct ContactSolverFacts {
-  std::uint32_t substeps = 1;      // of a step, at most
-  std::uint32_t applications = 1;  // how often a substep adds to a velocity for one contact, at most
+// What a step does at most: its substeps, and how often one of them adds to a velocity for one contact.
+struct MostOfStep {
+  std::uint32_t substeps = 0;
+  std::uint32_t applications = 0;
 };
-ContactSolverFacts facts_of(const ContactSolverOptions& options);
+MostOfStep most_of_step(const ContactSolverOptions& options);
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options);
 
