@@ -99,6 +99,7 @@ void SoftSolver::advance(std::span<core::RigidState> states, std::span<const cor
       core::soft_step(step.dt_s / static_cast<float>(substeps), options_.omega_dt, options_.damping);
   constexpr float kSettleShare = 0.05F;
   const float gravity = core::length(step.gravity_m_s2);
+  numbers.gravity_m_s2 = gravity;
   numbers.settle_m_s = kSettleShare * gravity * numbers.dt_s;
   numbers.bounce_from_m_s =
       options_.fixed_bounce_from_m_s > 0.0F ? options_.fixed_bounce_from_m_s : 2.0F * step.dt_s * gravity;

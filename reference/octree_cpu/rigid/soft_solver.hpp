@@ -24,7 +24,7 @@ struct SoftSolverOptions {
   float done = 0x1p-10F;
   float omega_dt = 6.0F;
   float damping = 1.0F;
-  PatchLimits limits{0x1p-12F, 0.0F};
+  PatchLimits limits{0x1p-16F, 0.0F};
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
 };
 

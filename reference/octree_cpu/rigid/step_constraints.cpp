@@ -31,7 +31,6 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
                             const RigidStep& step, float substep_s, const PatchLimits& limits) {
   // Without gravity nothing says how fast is fast but the step.
   constexpr float kPushShare = 1.0F / 64.0F;
-  const float gravity = core::length(step.gravity_m_s2);
   substep_s_ = substep_s;
   bodies_.resize(states.size() + 1);
   bodies_.back() = {};
@@ -52,7 +51,7 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
     c.b = b;
     const float reach = core::reach_of(c, bodies_[c.a], bodies_[c.b]);
     c.slop_m = limits.fixed_slop_m > 0.0F ? limits.fixed_slop_m : limits.slop_share * reach;
-    c.fastest_push_m_s = gravity > 0.0F ? sqrtf(gravity * reach) : kPushShare * reach / step.dt_s;
+    c.fastest_push_m_s = kPushShare * reach / step.dt_s;
     recall(patch, c);
     if (surface.restitution > 0.0F) bouncing.store(true, std::memory_order_relaxed);
   });
