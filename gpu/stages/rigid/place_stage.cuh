@@ -1,0 +1,46 @@
+// Boxes of turned bodies, grown by how far each can come within the step. RIGID 8.2 and 8.7.
+#pragma once
+
+#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/grid/device.cuh"
+#include "gpu/stages/grid/team.cuh"
+
+namespace broadside::gpu {
+
+// As a word, a float from 0 on is ordered like the float; one below 0, or none, is above all of them.
+__device__ inline std::uint32_t as_ordered(float v) {
+  return __float_as_uint(v);
+}
+
+__device__ inline core::RigidWrench wrench_of(const RigidFrameView& f, std::uint32_t body) {
+  return f.wrench == nullptr ? core::RigidWrench{} : f.wrench[body];
+}
+
+// A thread a body; a launch of its own, without a barrier.
+__device__ inline void run_place(const RigidFrameView& f) {
+  const GridPlaces grid;
+  if (grid.rank() == 0) {
+    f.counts->arrived = 0;
+    f.outcome->begin_ns = now_ns();
+  }
+  std::uint32_t side = 0;
+  std::uint32_t coordinate = 0;
+  for (std::uint64_t k = grid.rank(); k < f.body_count; k += grid.size()) {
+    const auto i = static_cast<std::uint32_t>(k);
+    const core::RigidState s = f.before[i];
+    const core::RigidMass mass = f.mass[i];
+    const RigidShapeView& shape = f.shapes[f.shape_of_body[i]];
+    const float reach_m = core::motion_reach_m(s, mass, shape.balls, f.gravity_m_s2, wrench_of(f, i), f.dt_s);
+    const core::Box box = core::grown_by(core::turned_box(shape.contact, shape.vertices, s.x, s.q), reach_m);
+    f.reach_m[i] = reach_m;
+    f.boxes[i] = pack(box, i, mass.inverse_mass > 0.0F ? 0U : 1U);
+    for (int axis = 0; axis < 3; ++axis) {
+      side = max(side, as_ordered(box.max[axis] - box.min[axis]));
+      coordinate = max(coordinate, max(as_ordered(fabsf(box.min[axis])), as_ordered(fabsf(box.max[axis]))));
+    }
+  }
+  if (side != 0) atomicMax(&f.counts->largest_side, side);
+  if (coordinate != 0) atomicMax(&f.counts->largest_coordinate, coordinate);
+}
+
+}  // namespace broadside::gpu
