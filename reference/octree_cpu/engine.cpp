@@ -7,8 +7,10 @@
 
 #include "core/variant.hpp"
 #include "reference/engines.hpp"
-#include "reference/octree_cpu/pipeline.hpp"
+#include "reference/octree_cpu/pipeline_by_motion.hpp"
+#include "reference/octree_cpu/rigid/rigid_declaration.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
+#include "reference/worker_count.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -30,6 +32,16 @@ const std::array<core::SettingRow, 6>& settings_table() {
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
   }};
   return kTable;
+}
+
+// What the published method has and bodies that turn have not.
+core::Status why_not_rigid(const core::Settings& settings) {
+  for (const auto& [key, sound] :
+       {std::pair("variant", "sound"), std::pair("solver", "colored"), std::pair("vertex_stage", "on")})
+    if (settings.text(key) != sound)
+      return core::Error{std::string("unsupported: ") + key + " = " + settings.text(key) + " for bodies that turn",
+                         "octree-cpu", "leave it out, or take a scene whose bodies translate", core::Exit::kMissing};
+  return core::Done{};
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {
@@ -56,6 +68,14 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
   options.threads = threads;
 
+  RigidPipelineOptions turning;
+  turning.make_broad_phase = options.make_broad_phase;
+  turning.levels = options.levels;
+  const ContactSolverOptions contact;
+  turning.make_solver = [contact](const core::Scene&) { return make_contact_solver(contact); };
+  turning.declaration = rigid_declaration(contact);
+  turning.threads = threads;
+
   core::Engine engine;
   engine.id = "octree-cpu";
   engine.build =
@@ -63,7 +83,9 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.settings = settings;
   engine.broad_phase = std::move(alone);
   engine.declaration = core::method_declaration();
-  engine.dynamics = std::make_unique<Pipeline>(std::move(options));
+  engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning), why_not_rigid(settings));
+  engine.equivalence = [contact, build = engine.build, workers = worker_count(settings.number("threads"))](
+                           const core::Scene& scene) { return rigid_card(scene, contact, build, workers); };
   return engine;
 }
 

@@ -115,6 +115,8 @@ BROADSIDE_HD void solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, 
     PatchPoint& p = c.points[point_of_sweeps(k, c.count)];
     const float gap = gap_now(c, p, a, b);
     const float speed = dot(c.normal, relative_velocity(m, p));
+    // The step may end here: relaxing stops no point before it comes.
+    if (gap > 0.0F && !pushes && !(p.normal_impulse > 0.0F)) continue;
     float change;
     if (gap > 0.0F) {
       change = -p.normal_mass * (speed + gap * step.per_dt_s);  // it may close within the substep, no more

@@ -89,7 +89,8 @@ TEST(RigidIntegrate, AFreeBrickKeepsItsAttitudeWithinATenthOfADegreeAndALittle) 
 }
 
 TEST(RigidIntegrate, IsOfFourthOrderInTheStep) {
-  // A second, each step in one part: the errors are far above rounding, and h/2 divides them by 2^4, less what rounding leaves of that.
+  // A second, each step in one part: the errors are far above rounding, and h/2 divides them by 2^4, less what rounding
+  // leaves of that.
   const double coarse = worst_deg(0.025, 40, 1);
   const double fine = worst_deg(0.0125, 80, 1);
   EXPECT_GT(coarse / fine, 12.0);

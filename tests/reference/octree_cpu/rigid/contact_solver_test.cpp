@@ -225,7 +225,7 @@ TEST_P(ContactSolvers, SameBitsOnAnyNumberOfThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigid, ContactSolvers, testing::ValuesIn(kSolverKinds),
-                         [](const auto& info) { return std::string(solver_name(info.param)); });
+                         [](const auto& row) { return std::string(solver_name(row.param)); });
 
 }  // namespace
 }  // namespace broadside::reference

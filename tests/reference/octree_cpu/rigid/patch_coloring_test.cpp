@@ -35,8 +35,9 @@ void expect_proper(const PatchColoring& coloring, const std::vector<core::Contac
     std::set<std::uint32_t> seen;
     for (std::uint32_t k = coloring.color_begin()[c]; k < coloring.color_begin()[c + 1]; ++k)
       for (const std::uint32_t body : {patches[coloring.order()[k]].a, patches[coloring.order()[k]].b})
-        if (!core::is_face(body) && masses[body].inverse_mass > 0.0F)
+        if (!core::is_face(body) && masses[body].inverse_mass > 0.0F) {
           EXPECT_TRUE(seen.insert(body).second) << "color " << c << " body " << body;
+        }
   }
 }
 
