@@ -74,7 +74,11 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
   const std::size_t n = states.size();
   BROADSIDE_TRY(before_.upload(states, "bodies"));
   BROADSIDE_TRY(after_.upload(states, "bodies"));
+  BROADSIDE_TRY(free_end_.reserve(n, "bodies"));
   BROADSIDE_TRY(reach_m_.reserve(n, "bodies"));
+  BROADSIDE_TRY(fall_m_.reserve(n, "bodies"));
+  BROADSIDE_TRY(pushed_m_.reserve(n, "bodies"));
+  BROADSIDE_TRY(shape_boxes_.reserve(n, "bodies"));
   BROADSIDE_TRY(boxes_.reserve(n, "bodies"));
   BROADSIDE_TRY(coloring_.reserve(n, "bodies"));
   BROADSIDE_TRY(bodies_.reserve(n + 1, "bodies"));
@@ -115,7 +119,11 @@ void RigidBuffers::advance() {
 void RigidBuffers::fill(RigidFrameView& view) const {
   view.before = before_.data();
   view.after = after_.data();
+  view.free_end = free_end_.data();
   view.reach_m = reach_m_.data();
+  view.fall_m = fall_m_.data();
+  view.pushed_m = pushed_m_.data();
+  view.shape_boxes = shape_boxes_.data();
   view.boxes = boxes_.data();
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.patches = {patches_.data(), patch_room()};
@@ -137,10 +145,11 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 }
 
 std::uint64_t RigidBuffers::bytes() const {
-  return before_.bytes() + after_.bytes() + reach_m_.bytes() + boxes_.bytes() + confirmed_.bytes() + patches_.bytes() +
-         ranks_.bytes() + coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() +
-         patch_at_.bytes() + constraints_.bytes() + bodies_.bytes() + impulses_.bytes() + old_memory_.bytes() +
-         memory_.bytes() + counts_.bytes() + barrier_.bytes();
+  return before_.bytes() + after_.bytes() + free_end_.bytes() + reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() +
+         shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + patches_.bytes() + ranks_.bytes() +
+         coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
+         constraints_.bytes() + bodies_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() +
+         counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

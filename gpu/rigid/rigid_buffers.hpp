@@ -49,7 +49,11 @@ class RigidBuffers {
 
   DeviceBuffer<core::RigidState> before_;
   DeviceBuffer<core::RigidState> after_;
+  DeviceBuffer<core::ContactPose> free_end_;
   DeviceBuffer<float> reach_m_;
+  DeviceBuffer<float> fall_m_;
+  DeviceBuffer<std::uint32_t> pushed_m_;
+  DeviceBuffer<core::Box> shape_boxes_;
   DeviceBuffer<PackedBox> boxes_;
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<core::ContactPatch> patches_;

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
@@ -161,7 +163,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 void RigidPipeline::Impl::fill() {
   buffers.fill(view);
   view.dt_s = dt_s;
-  view.soft = core::soft_step_of(options.solver, *scene, dt_s);
+  view.soft = core::soft_step_of(options.solver, scene->gravity_m_s2, dt_s);
   view.pairs = pairs.data();
   view.pair_capacity = pairs.capacity();
   view.broad_counters = broad_counters.data();

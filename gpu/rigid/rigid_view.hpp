@@ -126,7 +126,12 @@ struct RigidFrameView {
 
   const core::RigidState* before = nullptr;  // at the start of the step, which is the pose of detection
   core::RigidState* after = nullptr;
+  // Of detection, as core::RigidBodies has them.
+  core::ContactPose* free_end = nullptr;
   float* reach_m = nullptr;
+  float* fall_m = nullptr;
+  std::uint32_t* pushed_m = nullptr;  // as a word: the reach of the neighbor that reaches farthest
+  core::Box* shape_boxes = nullptr;
   PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
 
   const core::Pair* pairs = nullptr;

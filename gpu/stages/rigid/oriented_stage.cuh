@@ -39,7 +39,10 @@ __device__ void confirm_pairs(const Team& team, const RigidFrameView& f) {
     if (is_pair && !f.has_broad) is_pair = pair_of_all(f, k, pair);
     const bool meets = is_pair && levels_meet(f, pair);
     const std::uint64_t place = warp_append_one(meets, &f.counts->confirmed);
-    if (meets && place < f.confirmed.capacity) f.confirmed.items[place] = pair;
+    if (!meets || place >= f.confirmed.capacity) continue;
+    f.confirmed.items[place] = pair;
+    atomicMax(&f.pushed_m[pair.i], __float_as_uint(f.reach_m[pair.j]));
+    atomicMax(&f.pushed_m[pair.j], __float_as_uint(f.reach_m[pair.i]));
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include "core/contact.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/motion_reach.hpp"
+#include "core/method/rigid/passing_by.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/oriented_stage.cuh"
@@ -25,22 +27,35 @@ __device__ inline void add_patches(const RigidFrameView& f, std::uint32_t a, std
   if (is_moved(f, b)) atomicAdd(&f.memory.count[b], static_cast<std::uint32_t>(count));
 }
 
-__device__ inline void touch_bodies(const RigidFrameView& f, core::Pair pair) {
-  core::Manifold found[core::kPatchesOfPair];
-  const int count = core::make_manifolds(f.shapes[f.shape_of_body[pair.i]].contact, pose_of(f, pair.i),
-                                         f.shapes[f.shape_of_body[pair.j]].contact, pose_of(f, pair.j),
-                                         f.reach_m[pair.i] + f.reach_m[pair.j], found);
-  add_patches(f, pair.i, pair.j, found, count);
+__device__ inline core::ContactPath path_of(const RigidFrameView& f, std::uint32_t body) {
+  return {pose_of(f, body), f.free_end[body]};
 }
 
+__device__ inline void touch_bodies(const RigidFrameView& f, core::Pair pair) {
+  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
+  const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
+  const core::ContactPath path_a = path_of(f, pair.i);
+  const core::ContactPath path_b = path_of(f, pair.j);
+  const float reach_m = f.reach_m[pair.i] + f.reach_m[pair.j];
+  const float near_m = f.fall_m[pair.i] + f.fall_m[pair.j];
+  core::Manifold found[core::kPatchesOfPair];
+  const int count = core::make_manifolds(a, path_a.start, b, path_b.start, reach_m, found);
+  int kept = 0;
+  for (int k = 0; k < count; ++k)
+    if (!core::passes_by(found[k], a, path_a, b, path_b, reach_m, near_m)) found[kept++] = found[k];
+  add_patches(f, pair.i, pair.j, found, kept);
+}
+
+// A body at rest may be driven into a face as fast as its fastest neighbor comes.
 __device__ inline void touch_faces(const RigidFrameView& f, std::uint32_t body) {
   if (!is_moved(f, body)) return;
-  const core::Box box = unpack(f.boxes[body]);
+  const core::Box box = f.shape_boxes[body];
+  const float reach_m = __uint_as_float(f.pushed_m[body]) + f.reach_m[body];
   for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-    if (!core::may_reach_face(box, f.domain, face)) continue;
+    if (!core::may_reach_face(box, reach_m, f.domain, face)) continue;
     core::Manifold found[core::kPatchesOfPair];
     const int count = core::make_manifolds(f.shapes[f.shape_of_body[body]].contact, pose_of(f, body),
-                                           f.face_shapes[face], f.face_poses[face], f.reach_m[body], found);
+                                           f.face_shapes[face], f.face_poses[face], reach_m, found);
     add_patches(f, body, core::kFirstFace + face, found, count);
   }
 }

@@ -1,6 +1,8 @@
-// Boxes of turned bodies, grown by how far each can come within the step. RIGID 8.2 and 8.7.
+// Boxes of turned bodies, swept over what each can fill within the step. RIGID 8.2 and 8.7.
 #pragma once
 
+#include "core/method/rigid/motion_reach.hpp"
+#include "core/method/rigid/passing_by.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/grid/team.cuh"
@@ -30,9 +32,15 @@ __device__ inline void run_place(const RigidFrameView& f) {
     const core::RigidState s = f.before[i];
     const core::RigidMass mass = f.mass[i];
     const RigidShapeView& shape = f.shapes[f.shape_of_body[i]];
-    const float reach_m = core::motion_reach_m(s, mass, shape.balls, f.gravity_m_s2, wrench_of(f, i), f.dt_s);
-    const core::Box box = core::grown_by(core::turned_box(shape.contact, shape.vertices, s.x, s.q), reach_m);
-    f.reach_m[i] = reach_m;
+    const core::RigidWrench wrench = wrench_of(f, i);
+    const core::FreeMotion motion = core::free_motion(s, mass, shape.balls, f.gravity_m_s2, wrench, f.dt_s);
+    const core::Box shape_box = core::turned_box(shape.contact, shape.vertices, s.x, s.q);
+    const core::Box box = core::swept_box(shape_box, motion);
+    f.free_end[i] = core::free_end(s, mass, f.gravity_m_s2, wrench, f.dt_s);
+    f.reach_m[i] = motion.reach_m();
+    f.fall_m[i] = core::length(motion.fall);
+    f.pushed_m[i] = 0;
+    f.shape_boxes[i] = shape_box;
     f.boxes[i] = pack(box, i, mass.inverse_mass > 0.0F ? 0U : 1U);
     for (int axis = 0; axis < 3; ++axis) {
       side = max(side, as_ordered(box.max[axis] - box.min[axis]));
