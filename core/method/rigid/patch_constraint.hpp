@@ -43,7 +43,9 @@ struct PatchConstraint {
   Vec3 normal;  // unit, from B to A
   Vec3 tangent_1;
   Vec3 tangent_2;
-  Material surface;  // of both, combined
+  Material surface;               // of both, combined
+  float slop_m = 0.0F;            // the depth at which the patch rests
+  float fastest_push_m_s = 0.0F;  // at which an overlap is pushed apart
   int count = 0;
   PatchPoint points[kManifoldPoints];
 };
@@ -62,6 +64,20 @@ BROADSIDE_HD Vec3 unit_across(Vec3 n) {
 // d1 . M d2 of the point's mobility: how fast it moves along d2 for an impulse of 1 N s along d1, by body.
 BROADSIDE_HD float mobility(const SolverBody& body, Vec3 arm, Vec3 d1, Vec3 d2) {
   return body.inverse_mass * dot(d1, d2) + dot(cross(arm, d1), body.inverse_inertia * cross(arm, d2));
+}
+
+// How far the patch reaches from the centers of mass: of its smaller moved body, m. What is small is measured in it.
+BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
+  float of_a = 0.0F;
+  float of_b = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    const PatchPoint& p = c.points[k];
+    of_a = dot(p.arm_a, p.arm_a) > of_a ? dot(p.arm_a, p.arm_a) : of_a;
+    of_b = dot(p.arm_b, p.arm_b) > of_b ? dot(p.arm_b, p.arm_b) : of_b;
+  }
+  if (!is_moved(a)) return sqrtf(of_b);
+  if (!is_moved(b)) return sqrtf(of_a);
+  return sqrtf(of_a < of_b ? of_a : of_b);
 }
 
 // center_b_from_a: from A's center of mass to B's, at the start of the step; of no matter where B is a face or static.
@@ -133,6 +149,18 @@ BROADSIDE_HD void store(const PatchMotion& m, SolverBody& a, SolverBody& b) {
     b.v = m.v_b;
     b.angular_momentum = b.angular_momentum + m.gain_b;
   }
+}
+
+// The gap now: that of the start, and how far the bodies moved along the normal since.
+BROADSIDE_HD float gap_now(const PatchConstraint& c, const PatchPoint& p, const SolverBody& a, const SolverBody& b) {
+  const Vec3 moved_a = a.moved + cross(a.turned, p.arm_a);
+  const Vec3 moved_b = b.moved + cross(b.turned, p.arm_b);
+  return p.gap_m + dot(c.normal, moved_a - moved_b);
+}
+
+// N s on A, of the whole step.
+BROADSIDE_HD Vec3 total_impulse(const PatchConstraint& c, const PatchPoint& p) {
+  return (p.normal_total * c.normal + p.tangent_total_1 * c.tangent_1) + p.tangent_total_2 * c.tangent_2;
 }
 
 }  // namespace broadside::core

@@ -103,17 +103,16 @@ BROADSIDE_HD void polytope_manifold(const PolytopeA& a, const PolytopeB& b, cons
   const bool is_shown = has_witness || polytope_detail::least_gap(area) <= axis.gap_m + 2.0F * rounding_m;
   if (!is_shown) {
     const NearestDirection near = nearest_direction(a, b);
-    const float distance = sqrtf(near.features.squared_m2);
     has_witness = true;
-    witness = {0.5F * (near.features.on_a + near.features.on_b), axis.gap_m,
-               feature_key(near.features.name_a, near.features.name_b)};
+    witness.gap_m = axis.gap_m;
+    witness.feature = feature_key(near.features.name_a, near.features.name_b);
     // An overlap, or a touch whose direction would be rounding alone: the axis stays.
     if (axis.gap_m > 0.0F && near.gap_m > axis.gap_m) {
       out.normal = near.normal;
-      witness.gap_m = distance;
-      witness.point = middle_of(near.features.on_a, near.features.on_b, near.normal, distance, ball_a_m > ball_b_m);
+      witness.gap_m = sqrtf(near.features.squared_m2);
       area.count = 0;
     }
+    witness.point = middle_of(near.features.on_a, near.features.on_b, out.normal, witness.gap_m, ball_a_m > ball_b_m);
   }
   if (has_witness && area.count < kRoom && !(polytope_detail::least_gap(area) <= witness.gap_m + rounding_m))
     area.points[area.count++] = witness;

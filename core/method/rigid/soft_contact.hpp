@@ -1,10 +1,12 @@
 // Contact by small substeps, soft constraints and relaxation: RIGID 8.5, after Catto, Solver2D (2024), his "soft step",
 // and Macklin et al., Small Steps in Physics Simulation (2019).
 //
-// A substep: velocities get gravity and the impulses of the substep before; one sweep pushes overlaps apart; bodies
-// move; one sweep takes back the velocity that only pushed them apart; what came fast bounces. Departures: friction is
-// Coulomb's cone, solved as a vector after the normal impulses that bound it; a bounce happens in its substep and not
-// at the end of the step; arms and gaps are those of the start, followed to first order.
+// A substep: velocities get gravity and the impulses of the substep before; sweeps hold the bodies at the slop, softly;
+// bodies move; one sweep takes back the velocity that only pushed them apart; what came fast bounces.
+//
+// Departures: friction is Coulomb's cone, solved as a vector after the normal impulses that bound it. A bounce happens
+// in its substep and not at the end of the step. Arms and gaps are those of the start, followed to first order. A
+// resting gap is a slop below 0, where the law is linear: at 0 it is not, and a stack never comes to rest on that kink.
 #pragma once
 
 #include <cmath>
@@ -16,26 +18,19 @@
 
 namespace broadside::core {
 
-// Sweeps over the normal impulses of one patch while its bodies are at hand, forward and backward in turns: its points
-// share both bodies, and one sweep alone would leave a turn toward the last of them.
-inline constexpr int kSweepsOfPatch = 2;
-// Of a bounce: what is left after these is below a thousandth of it, for the four corners of a cube.
-inline constexpr int kSweepsOfBounce = 8;
-
 // Numbers of one substep, the same for all contacts.
 struct SoftStep {
   float dt_s = 0.0F;  // of the substep
   float per_dt_s = 0.0F;
-  // An overlap's share that a substep takes away, per second; and how much of the impulse is kept soft.
+  // What of a gap's difference from the slop a substep takes away, per second; and how much of the impulse is soft.
   float push_rate_per_s = 0.0F;
   float mass_scale = 1.0F;
   float impulse_scale = 0.0F;
-  float fastest_push_m_s = 0.0F;
-  float slop_m = 0.0F;
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
 };
 
-// Natural frequency and damping of the soft constraint in units of the substep: omega h and zeta.
+// A spring and damper under each contact, taken implicitly: frequency and damping in units of the substep, omega h and
+// zeta. At rest it yields by (impulse / mass) / (h omega^2).
 BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
   SoftStep s;
   s.dt_s = dt_s;
@@ -49,23 +44,51 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
   return s;
 }
 
-// The gap now: that of the start, and how far the bodies moved along the normal since.
-BROADSIDE_HD float gap_now(const PatchConstraint& c, const PatchPoint& p, const SolverBody& a, const SolverBody& b) {
-  const Vec3 moved_a = a.moved + cross(a.turned, p.arm_a);
-  const Vec3 moved_b = b.moved + cross(b.turned, p.arm_b);
-  return p.gap_m + dot(c.normal, moved_a - moved_b);
+// Before anything else of a substep: how fast the points come.
+BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
+  const PatchMotion m = motion_of(a, b);
+  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
 }
 
-// The k-th point of sweeps that go forward and backward in turns.
-BROADSIDE_HD constexpr int point_of_sweeps(int k, int count) {
-  const int at = k % count;
-  return (k / count) % 2 == 0 ? at : count - 1 - at;
+// The largest speed of a point relative to the other body, m/s.
+BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
+  const PatchMotion m = motion_of(a, b);
+  float squared = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    const Vec3 v = relative_velocity(m, c.points[k]);
+    squared = dot(v, v) > squared ? dot(v, v) : squared;
+  }
+  return sqrtf(squared);
+}
+
+// The impulses of the substep before.
+BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
+  PatchMotion m = motion_of(a, b);
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    p.slides = false;
+    push(m, a, b, p,
+         (p.normal_impulse * c.normal + p.tangent_impulse_1 * c.tangent_1) + p.tangent_impulse_2 * c.tangent_2);
+  }
+  store(m, a, b);
+}
+
+// Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
+BROADSIDE_HD float add_normal_impulse(const PatchConstraint& c, PatchPoint& p, PatchMotion& m, const SolverBody& a,
+                                      const SolverBody& b, float change) {
+  const float sum = p.normal_impulse + change;
+  const float next = sum > 0.0F ? sum : 0.0F;
+  const float done = next - p.normal_impulse;
+  p.normal_impulse = next;
+  push(m, a, b, p, done * c.normal);
+  return (done < 0.0F ? -done : done) / p.normal_mass;
 }
 
 // Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
-// the slip. With one mass for both directions of a sliding point its friction turns until it opposes the slip.
-BROADSIDE_HD void solve_friction(const PatchConstraint& c, PatchPoint& p, PatchMotion& m, const SolverBody& a,
-                                 const SolverBody& b) {
+// the slip. With one mass for both directions of a sliding point its friction turns until it opposes the slip. Returns
+// how fast it changed the point, m/s.
+BROADSIDE_HD float solve_friction(const PatchConstraint& c, PatchPoint& p, PatchMotion& m, const SolverBody& a,
+                                  const SolverBody& b) {
   const Vec3 v = relative_velocity(m, p);
   const float v1 = dot(v, c.tangent_1);
   const float v2 = dot(v, c.tangent_2);
@@ -88,31 +111,24 @@ BROADSIDE_HD void solve_friction(const PatchConstraint& c, PatchPoint& p, PatchM
   p.tangent_impulse_1 = want_1;
   p.tangent_impulse_2 = want_2;
   push(m, a, b, p, change_1 * c.tangent_1 + change_2 * c.tangent_2);
+  return sqrtf(change_1 * change_1 + change_2 * change_2) / p.slide_mass;
 }
 
-// Before anything else of a substep: how fast the points come.
-BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-  const PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
+BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const SolverBody& a, const SolverBody& b) {
+  float largest = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    const float size = solve_friction(c, c.points[k], m, a, b);
+    largest = size > largest ? size : largest;
+  }
+  return largest;
 }
 
-// The impulses of the substep before.
-BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
+// One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
+BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
+  float largest = 0.0F;
   for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
-    p.slides = false;
-    push(m, a, b, p,
-         (p.normal_impulse * c.normal + p.tangent_impulse_1 * c.tangent_1) + p.tangent_impulse_2 * c.tangent_2);
-  }
-  store(m, a, b);
-}
-
-// One sweep over a patch. pushes: overlaps are pushed apart; else they are only kept from growing.
-BROADSIDE_HD void solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step, bool pushes) {
-  PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < kSweepsOfPatch * c.count; ++k) {
-    PatchPoint& p = c.points[point_of_sweeps(k, c.count)];
     const float gap = gap_now(c, p, a, b);
     const float speed = dot(c.normal, relative_velocity(m, p));
     // The step may end here: relaxing stops no point before it comes.
@@ -120,21 +136,31 @@ BROADSIDE_HD void solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, 
     float change;
     if (gap > 0.0F) {
       change = -p.normal_mass * (speed + gap * step.per_dt_s);  // it may close within the substep, no more
-    } else if (pushes) {
-      const float over = gap + step.slop_m;
-      const float wish = over < 0.0F ? over * step.push_rate_per_s : 0.0F;
-      const float bias = wish < -step.fastest_push_m_s ? -step.fastest_push_m_s : wish;
-      change = -p.normal_mass * step.mass_scale * (speed + bias) - step.impulse_scale * p.normal_impulse;
     } else {
-      change = -p.normal_mass * speed;
+      const float wish = (gap + c.slop_m) * step.push_rate_per_s;
+      const float toward = wish < -c.fastest_push_m_s ? -c.fastest_push_m_s : wish;
+      change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
     }
-    const float sum = p.normal_impulse + change;
-    const float next = sum > 0.0F ? sum : 0.0F;
-    change = next - p.normal_impulse;
-    p.normal_impulse = next;
-    push(m, a, b, p, change * c.normal);
+    const float size = add_normal_impulse(c, p, m, a, b, change);
+    largest = size > largest ? size : largest;
   }
-  for (int k = 0; k < c.count; ++k) solve_friction(c, c.points[k], m, a, b);
+  const float size = solve_frictions(c, m, a, b);
+  store(m, a, b);
+  return size > largest ? size : largest;
+}
+
+// One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
+// is the next substep's.
+BROADSIDE_HD void relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+  PatchMotion m = motion_of(a, b);
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    const float gap = gap_now(c, p, a, b);
+    if (gap > 0.0F && !(p.normal_impulse > 0.0F)) continue;
+    const float speed = dot(c.normal, relative_velocity(m, p)) + (gap > 0.0F ? gap * step.per_dt_s : 0.0F);
+    add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
+  }
+  solve_frictions(c, m, a, b);
   store(m, a, b);
 }
 
@@ -143,27 +169,36 @@ BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const S
   return c.surface.restitution > 0.0F && p.approach_m_s > step.bounce_from_m_s && p.normal_impulse > 0.0F;
 }
 
-BROADSIDE_HD bool bounces(const PatchConstraint& c, const SoftStep& step) {
-  bool any = false;
-  for (int k = 0; k < c.count; ++k) any = any || bounces(c, c.points[k], step);
-  return any;
+// The fastest approach of the patch's points that bounce, m/s; 0 = none does.
+BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step) {
+  float fastest = 0.0F;
+  for (int k = 0; k < c.count; ++k)
+    if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
+  return fastest;
 }
 
-// One sweep over a patch: points that came fast leave with the share of that speed that restitution gives back.
-BROADSIDE_HD void bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+// Sweeps over a patch's points while its bodies are at hand, forward and backward in turns: they share both bodies, and
+// one sweep would leave a spin toward the last of them. What is left after these is below a thousandth, for the four
+// corners of a cube.
+inline constexpr int kSweepsOfBounce = 8;
+
+// Points that came fast leave with the share of that speed that restitution gives back. Returns the largest change of a
+// point's speed along the normal, m/s.
+BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
+  float largest = 0.0F;
   for (int k = 0; k < kSweepsOfBounce * c.count; ++k) {
-    PatchPoint& p = c.points[point_of_sweeps(k, c.count)];
+    const int at = k % c.count;
+    PatchPoint& p = c.points[(k / c.count) % 2 == 0 ? at : c.count - 1 - at];
     if (!bounces(c, p, step)) continue;
     const float speed = dot(c.normal, relative_velocity(m, p));
-    const float sum = p.normal_impulse + p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
-    const float next = sum > 0.0F ? sum : 0.0F;
-    const float change = next - p.normal_impulse;
-    p.normal_impulse = next;
-    push(m, a, b, p, change * c.normal);
+    const float change = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
+    const float size = add_normal_impulse(c, p, m, a, b, change);
+    largest = size > largest ? size : largest;
   }
-  for (int k = 0; k < c.count; ++k) solve_friction(c, c.points[k], m, a, b);
+  solve_frictions(c, m, a, b);
   store(m, a, b);
+  return largest;
 }
 
 // Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
@@ -175,11 +210,6 @@ BROADSIDE_HD void add_to_totals(PatchConstraint& c, const SoftStep& step) {
     p.tangent_total_2 = p.tangent_total_2 + p.tangent_impulse_2;
     if (bounces(c, p, step)) p.normal_impulse = p.tangent_impulse_1 = p.tangent_impulse_2 = 0.0F;
   }
-}
-
-// N s on A, of the whole step.
-BROADSIDE_HD Vec3 total_impulse(const PatchConstraint& c, const PatchPoint& p) {
-  return (p.normal_total * c.normal + p.tangent_total_1 * c.tangent_1) + p.tangent_total_2 * c.tangent_2;
 }
 
 }  // namespace broadside::core

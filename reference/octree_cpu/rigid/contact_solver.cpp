@@ -4,13 +4,15 @@
 
 namespace broadside::reference {
 
-std::string_view solver_name(SolverKind) {
-  return "soft";
+std::string_view solver_name(SolverKind kind) {
+  return kind == SolverKind::kSoftStep ? "soft-step" : "conjugate";
 }
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options) {
-  SoftSolverOptions soft;
-  soft.substeps = options.substeps;
+  SoftSolverOptions soft = options.kind == SolverKind::kSoftStep ? soft_step_options() : SoftSolverOptions{};
+  if (options.substeps > 0) soft.substeps = options.substeps;
+  soft.limits.fixed_slop_m = options.fixed_slop_m;
+  soft.fixed_bounce_from_m_s = options.fixed_bounce_from_m_s;
   return std::make_unique<SoftSolver>(soft);
 }
 

@@ -41,19 +41,26 @@ class ContactSolver {
   // Of the last step, by patch.
   [[nodiscard]] virtual std::span<const PatchImpulses> impulses() const = 0;
 
+  // Sweeps over all patches so far, for who measures.
+  [[nodiscard]] virtual std::uint64_t sweeps_done() const = 0;
+
   // Forgets the steps before: the next one begins without impulses.
   virtual void forget() = 0;
 };
 
-enum class SolverKind { kSoft };
+// Substeps with soft contacts: along conjugate directions until they are solved, or one sweep each (Catto's soft step).
+enum class SolverKind { kConjugate, kSoftStep };
 
-inline constexpr SolverKind kSolverKinds[] = {SolverKind::kSoft};
+inline constexpr SolverKind kSolverKinds[] = {SolverKind::kConjugate, SolverKind::kSoftStep};
 
 std::string_view solver_name(SolverKind kind);
 
 struct ContactSolverOptions {
-  SolverKind kind = SolverKind::kSoft;
-  std::uint32_t substeps = 8;
+  SolverKind kind = SolverKind::kConjugate;
+  std::uint32_t substeps = 0;  // 0 = the kind's own
+  // Thresholds of a scene in place of those that scale with bodies, gravity and step; 0 = they scale.
+  float fixed_slop_m = 0.0F;
+  float fixed_bounce_from_m_s = 0.0F;
 };
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options);

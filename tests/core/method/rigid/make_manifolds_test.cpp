@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/exact/convex_hull.hpp"
 #include "tests/core/method/rigid/manifold_cases.hpp"
 
 namespace broadside::core {
@@ -24,6 +25,31 @@ Subject any_capsule(Draw& draw) {
   return capsule(draw.between(0.1F, 0.5F), draw.between(0.1F, 1.0F), draw.below(3));
 }
 
+Mesh scaled(Mesh mesh, float by) {
+  for (Vec3& v : mesh.vertices) v = by * v;
+  return mesh;
+}
+
+// An octahedron, a prism with quadrangles, or the hull of random points.
+Mesh any_convex_mesh(Draw& draw) {
+  Mesh mesh;
+  const int which = draw.below(3);
+  if (which == 0) {
+    mesh.vertices = {{0.7F, 0, 0}, {-0.7F, 0, 0}, {0, 0.7F, 0}, {0, -0.7F, 0}, {0, 0, 0.7F}, {0, 0, -0.7F}};
+  } else if (which == 1) {
+    for (const float z : {-0.5F, 0.5F})
+      for (const Vec3 v :
+           {Vec3{0.5F, 0, 0}, Vec3{0, 0.5F, 0}, Vec3{-0.5F, 0, 0}, Vec3{-0.3F, -0.5F, 0}, Vec3{0.3F, -0.5F, 0}})
+        mesh.vertices.push_back({v.x, v.y, z});
+  } else {
+    for (int k = 0; k < 14; ++k) mesh.vertices.push_back(0.8F * normalized(draw.in_cube(1.0F)));
+  }
+  return *exact::convex_hull(mesh.vertices);
+}
+Subject any_hull(Draw& draw) {
+  return hull(scaled(any_convex_mesh(draw), draw.between(0.5F, 1.5F)));
+}
+
 struct Family {
   const char* name;
   Make a;
@@ -37,7 +63,11 @@ std::vector<Family> families() {
           {"sphere-capsule", any_sphere, any_capsule},
           {"capsule-capsule", any_capsule, any_capsule},
           {"capsule-box", any_capsule, any_box},
-          {"box-box", any_box, any_box}};
+          {"box-box", any_box, any_box},
+          {"sphere-hull", any_sphere, any_hull},
+          {"capsule-hull", any_capsule, any_hull},
+          {"box-hull", any_box, any_hull},
+          {"hull-hull", any_hull, any_hull}};
 }
 
 // B is put so that the two are near: along a random direction, by bisection on the exact distance.
@@ -88,6 +118,12 @@ TEST(Manifolds, OfSpecialPositionsAgreeWithTheExactDistance) {
         const auto size = [&] { return 0.25F * static_cast<float>(1 + draw.below(4)); };
         if (s.shape.kind == ContactKind::kBox) s = box({size(), size(), size()});
         if (s.shape.kind == ContactKind::kSphere) s = sphere(size());
+        if (s.shape.kind == ContactKind::kHull) {
+          Mesh octahedron;
+          for (const float r : {-size(), size()})
+            for (int axis = 0; axis < 3; ++axis) octahedron.vertices.push_back(axis_vector(axis, r));
+          s = hull(*exact::convex_hull(octahedron.vertices));
+        }
         if (s.shape.kind == ContactKind::kCapsule) s = capsule(size(), size(), draw.below(3));
         const auto at = [&] { return 0.25F * static_cast<float>(draw.below(9) - 4); };
         s.pose = {{at(), at(), at()}, draw.quarter_turns()};
@@ -135,6 +171,11 @@ TEST(Manifolds, HoldForTinyAndHugeBodiesFarFromTheOrigin) {
       Subject b = family.b(draw);
       const auto scaled = [&](Subject s, float by) {
         if (s.shape.kind == ContactKind::kBox) return box(by * s.shape.half);
+        if (s.shape.kind == ContactKind::kHull) {
+          std::vector<Vec3> points(s.tables->vertices);
+          for (Vec3& v : points) v = by * v;
+          return hull(*exact::convex_hull(points));
+        }
         return ball_on_segment(s.shape.kind, by * s.shape.radius_m, by * s.shape.half_length_m, s.shape.axis);
       };
       const float sizes[] = {1e-3F, 1.0F, 1e3F};

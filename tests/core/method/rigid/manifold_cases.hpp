@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/exact/convex_core.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/scene/hull_faces.hpp"
 #include "core/scene/mesh.hpp"
 
 namespace broadside::core {
@@ -19,6 +22,7 @@ struct Subject {
   ContactShape shape;
   exact::ConvexCore truth;
   ContactPose pose;
+  std::shared_ptr<const HullTables> tables;  // of a hull: what the shape's view points into
 
   [[nodiscard]] exact::ConvexCore placed() const {
     return exact::placed(truth, exact::Placement{exact::to_point(pose.x), {pose.q.w, pose.q.x, pose.q.y, pose.q.z}});
@@ -68,6 +72,24 @@ inline Subject sphere(float radius) {
 }
 inline Subject capsule(float radius, float half_length, int axis) {
   return ball_on_segment(ContactKind::kCapsule, radius, half_length, axis);
+}
+
+// The mesh: closed and convex.
+inline Subject hull(const Mesh& mesh) {
+  Subject out;
+  const auto tables = std::make_shared<const HullTables>(hull_tables(mesh));
+  out.tables = tables;
+  out.shape.kind = ContactKind::kHull;
+  out.shape.hull = {tables->vertices.data(),
+                    tables->faces.data(),
+                    tables->corners.data(),
+                    tables->edges.data(),
+                    static_cast<std::uint32_t>(tables->vertices.size()),
+                    static_cast<std::uint32_t>(tables->faces.size()),
+                    static_cast<std::uint32_t>(tables->edges.size())};
+  for (const Vec3 v : tables->vertices) out.shape.size_m = std::max(out.shape.size_m, length(v));
+  out.truth = *exact::convex_core_of(mesh);
+  return out;
 }
 
 class Draw {
