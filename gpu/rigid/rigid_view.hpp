@@ -14,7 +14,7 @@
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
-#include "core/method/rigid/soft_contact.hpp"
+#include "core/method/rigid/soft_settings.hpp"
 #include "core/method/rigid/turned_box.hpp"
 #include "core/pair.hpp"
 #include "gpu/broad/broad_view.hpp"
@@ -90,10 +90,14 @@ struct RigidCounts {
   std::uint32_t largest_side = 0;
   std::uint32_t largest_coordinate = 0;
   std::uint32_t colors = 0;
-  std::uint32_t bounces = 0;  // patches with restitution
+  std::uint32_t bounces = 0;     // 1: a patch has restitution
+  std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
   std::uint32_t arrived = 0;        // of PartialGridTeam
   std::uint32_t uncolored[3] = {};  // in turns, a round each
+  // What all threads bring together, in turns (solve_sums.cuh).
+  std::uint32_t largest[4] = {};
+  unsigned long long sums[4] = {};
 };
 
 // What the host reads after a frame, in host memory that the device writes.
@@ -112,9 +116,10 @@ struct RigidFrameView {
   core::Vec3 gravity_m_s2;
   core::Box domain;
   core::Material face_material;
-  core::SoftStep soft;
-  std::uint32_t substeps = 0;
-  std::uint32_t relax_sweeps = 0;
+  core::SoftSettings solver;
+  // Of even masses, and of masses further apart than even_masses: their substeps.
+  core::SoftStep soft[2];
+  std::uint32_t substeps[2] = {};
 
   const RigidShapeView* shapes = nullptr;
   const std::uint32_t* shape_of_body = nullptr;

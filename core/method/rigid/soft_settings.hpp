@@ -1,30 +1,57 @@
 // What the soft solver may be set to, and the numbers of a step that follow.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
+#include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
+#include "core/method/rigid/patch_constraint.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 
 namespace broadside::core {
 
-struct SoftSettings {
-  std::uint32_t substeps = 8;
-  std::uint32_t relax_sweeps = 1;
-  float omega_dt = 1.2F;  // of the substep
-  float damping = 1.0F;
-  float slop_m = 0.0F;
-  float fastest_push_m_s = 3.0F;
-  float bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
+// What of a patch is small, or fast.
+struct PatchLimits {
+  float slop_share = 0.0F;    // of the patch's reach
+  float fixed_slop_m = 0.0F;  // in its place, where it is given
 };
 
-inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s) {
-  SoftStep step = soft_step(dt_s / static_cast<float>(settings.substeps), settings.omega_dt, settings.damping);
-  step.fastest_push_m_s = settings.fastest_push_m_s;
-  step.slop_m = settings.slop_m;
+struct SoftSettings {
+  // Of a step; twice as many where bodies that touch have masses further apart than even_masses.
+  std::uint32_t substeps = 4;
+  float even_masses = 64.0F;
+  // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
+  std::uint32_t sweeps = 12;
+  // A sweep is the last one that changes no point's speed by more than this share of the fastest.
+  float done = 0x1p-10F;
+  float omega_dt = 6.0F;
+  float damping = 1.0F;
+  PatchLimits limits{0x1p-12F, 0.0F};
+  float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
+};
+
+inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {
+  SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
   step.bounce_from_m_s =
-      settings.bounce_from_m_s > 0.0F ? settings.bounce_from_m_s : 2.0F * dt_s * length(gravity_m_s2);
+      settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * length(gravity_m_s2);
   return step;
+}
+
+// The larger of two masses that move over the smaller; 1 where one of them does not.
+BROADSIDE_HD constexpr float mass_ratio(float inverse_mass_a, float inverse_mass_b) {
+  if (!(inverse_mass_a > 0.0F) || !(inverse_mass_b > 0.0F)) return 1.0F;
+  return inverse_mass_a > inverse_mass_b ? inverse_mass_a / inverse_mass_b : inverse_mass_b / inverse_mass_a;
+}
+
+// gravity_m_s2: its size. dt_s: of the step.
+BROADSIDE_HD void set_limits(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const PatchLimits& limits,
+                             float gravity_m_s2, float dt_s) {
+  // Without gravity nothing says how fast is fast but the step.
+  constexpr float kPushShare = 1.0F / 64.0F;
+  const float reach = reach_of(c, a, b);
+  c.slop_m = limits.fixed_slop_m > 0.0F ? limits.fixed_slop_m : limits.slop_share * reach;
+  c.fastest_push_m_s = gravity_m_s2 > 0.0F ? sqrtf(gravity_m_s2 * reach) : kPushShare * reach / dt_s;
 }
 
 }  // namespace broadside::core

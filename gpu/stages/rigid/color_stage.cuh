@@ -31,6 +31,9 @@ __device__ void rank_patches(const Team& team, const RigidFrameView& f) {
     const std::uint32_t b = f.patches.items[k].b;
     const std::uint64_t priority = core::color_priority({a, b});
     const auto patch = static_cast<std::uint32_t>(k);
+    if (!core::is_face(b))
+      atomicMax(&f.counts->mass_ratio,
+                __float_as_uint(core::mass_ratio(f.mass[a].inverse_mass, f.mass[b].inverse_mass)));
     f.ranks[k] = {rank_among(f, a, patch, priority), rank_among(f, b, patch, priority), kUncolored, 0};
   }
 }

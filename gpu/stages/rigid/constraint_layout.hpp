@@ -17,7 +17,9 @@ enum ConstraintWord : std::uint32_t {
   kTangent1 = kNormal + 3,
   kTangent2 = kTangent1 + 3,
   kSurface = kTangent2 + 3,
-  kPoints = kSurface + 3,
+  kSlop = kSurface + 3,
+  kFastestPush,
+  kPoints,
 };
 enum PointWord : std::uint32_t {
   kArmA,
@@ -31,8 +33,10 @@ enum PointWord : std::uint32_t {
   kImpulses,  // normal, tangent 1 and 2, of the substep
   kSlides = kImpulses + 3,
   kApproach,
-  kTotals,  // as kImpulses
-  kPointWords = kTotals + 3,
+  kTotals,                // as kImpulses
+  kBefore = kTotals + 3,  // of core::PatchWay
+  kWay = kBefore + 3,
+  kPointWords = kWay + 3,
 };
 constexpr std::uint32_t kConstraintWords = kPoints + core::kManifoldPoints * kPointWords;
 constexpr std::uint32_t kTile = 32;

@@ -36,20 +36,28 @@ __device__ inline std::uint32_t remembered_at(const RigidFrameView& f, std::uint
   return found;
 }
 
-__device__ inline void recall(const RigidFrameView& f, const core::ContactPatch& patch, core::PatchConstraint& c) {
+__device__ inline void recall(const RigidFrameView& f, const core::SoftStep& soft, const core::ContactPatch& patch,
+                              core::PatchConstraint& c) {
   for (int k = 0; k < c.count; ++k) {
     const std::uint32_t at = remembered_at(f, patch.a, patch.b, patch.manifold.points[k].feature);
     if (at == kForgotten) continue;
     const PackedVec3 impulse = f.old_memory.impulse[at];
     core::PatchPoint& p = c.points[k];
-    p.normal_impulse = f.soft.dt_s * impulse.w;
-    p.tangent_impulse_1 = f.soft.dt_s * core::dot(impulse.v, c.tangent_1);
-    p.tangent_impulse_2 = f.soft.dt_s * core::dot(impulse.v, c.tangent_2);
+    p.normal_impulse = soft.dt_s * impulse.w;
+    p.tangent_impulse_1 = soft.dt_s * core::dot(impulse.v, c.tangent_1);
+    p.tangent_impulse_2 = soft.dt_s * core::dot(impulse.v, c.tangent_2);
   }
+}
+
+// The step's numbers: more substeps where masses that touch are far apart.
+__device__ inline int step_kind(const RigidFrameView& f) {
+  return __uint_as_float(f.counts->mass_ratio) > f.solver.even_masses ? 1 : 0;
 }
 
 template <typename Team>
 __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
+  const core::SoftStep soft = f.soft[step_kind(f)];
+  const float gravity_m_s2 = core::length(f.gravity_m_s2);
   for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
     if (f.patch_at[place] == kUncolored) continue;
     const core::ContactPatch patch = f.patches.items[f.patch_at[place]];
@@ -57,11 +65,13 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     const std::uint32_t b = is_face ? f.body_count : patch.b;
     const core::Material surface = core::combine(f.material[patch.a], is_face ? f.face_material : f.material[patch.b]);
     const core::Vec3 across = is_face ? core::Vec3{} : f.before[patch.b].x - f.before[patch.a].x;
-    core::PatchConstraint c = core::make_constraint(patch.manifold, load_moving(f.bodies[patch.a]),
-                                                    load_moving(f.bodies[b]), across, surface);
+    const core::SolverBody body_a = load_moving(f.bodies[patch.a]);
+    const core::SolverBody body_b = load_moving(f.bodies[b]);
+    core::PatchConstraint c = core::make_constraint(patch.manifold, body_a, body_b, across, surface);
     c.a = patch.a;
     c.b = b;
-    recall(f, patch, c);
+    core::set_limits(c, body_a, body_b, f.solver.limits, gravity_m_s2, f.dt_s);
+    recall(f, soft, patch, c);
     if (surface.restitution > 0.0F) atomicMax(&f.counts->bounces, 1U);
     store_constraint(TileSlot(f.constraints, place), c);
   }
@@ -76,7 +86,8 @@ __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
 // Impulses of the step for those who read it, those of the last substep for the next step.
 template <typename Team>
 __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
-  const float per_s = 1.0F / f.soft.dt_s;
+  const core::SoftStep soft = f.soft[step_kind(f)];
+  const float per_s = 1.0F / soft.dt_s;
   for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
     const std::uint32_t patch = f.patch_at[place];
     if (patch == kUncolored) continue;

@@ -1,6 +1,7 @@
 // Constraints of patches in memory, part by part.
 #pragma once
 
+#include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/rigid/constraint_layout.hpp"
@@ -55,6 +56,8 @@ __device__ inline void load_tangents(const TileSlot& slot, core::PatchConstraint
 
 __device__ inline void load_surface_and_masses(const TileSlot& slot, core::PatchConstraint& c) {
   c.surface = {slot.at(kSurface), slot.at(kSurface + 1), slot.at(kSurface + 2)};
+  c.slop_m = slot.at(kSlop);
+  c.fastest_push_m_s = slot.at(kFastestPush);
   for (int k = 0; k < c.count; ++k) {
     core::PatchPoint& p = c.points[k];
     p.gap_m = slot.at(k, kGap);
@@ -110,6 +113,27 @@ __device__ inline void store_totals(const TileSlot& slot, const core::PatchConst
   }
 }
 
+__device__ inline core::PatchWay load_way(const TileSlot& slot, int count) {
+  core::PatchWay way;
+  for (int k = 0; k < count; ++k) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      way.before[k][i] = slot.at(k, kBefore + i);
+      way.way[k][i] = slot.at(k, kWay + i);
+    }
+  }
+  return way;
+}
+
+__device__ inline void store_before(const TileSlot& slot, int count, const core::PatchWay& way) {
+  for (int k = 0; k < count; ++k)
+    for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kBefore + i) = way.before[k][i];
+}
+
+__device__ inline void store_direction(const TileSlot& slot, int count, const core::PatchWay& way) {
+  for (int k = 0; k < count; ++k)
+    for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kWay + i) = way.way[k][i];
+}
+
 // All of it, when it was made.
 __device__ inline void store_constraint(const TileSlot& slot, const core::PatchConstraint& c) {
   slot.at(kBodyA) = __uint_as_float(c.a);
@@ -119,6 +143,8 @@ __device__ inline void store_constraint(const TileSlot& slot, const core::PatchC
   slot.put(kTangent1, c.tangent_1);
   slot.put(kTangent2, c.tangent_2);
   slot.put(kSurface, {c.surface.mu_static, c.surface.mu_kinetic, c.surface.restitution});
+  slot.at(kSlop) = c.slop_m;
+  slot.at(kFastestPush) = c.fastest_push_m_s;
   for (int k = 0; k < c.count; ++k) {
     const core::PatchPoint& p = c.points[k];
     slot.put(k, kArmA, p.arm_a);

@@ -23,7 +23,9 @@ __device__ inline bool levels_meet(const RigidFrameView& f, core::Pair pair) {
 // Of all n^2 ordered pairs, where no broad phase came before: false for what is no pair.
 __device__ inline bool pair_of_all(const RigidFrameView& f, std::uint64_t k, core::Pair& pair) {
   pair = {static_cast<std::uint32_t>(k / f.body_count), static_cast<std::uint32_t>(k % f.body_count)};
-  return pair.i < pair.j && (f.mass[pair.i].inverse_mass > 0.0F || f.mass[pair.j].inverse_mass > 0.0F);
+  // Boxes of the whole step that do not meet are no pair.
+  return pair.i < pair.j && core::overlaps(unpack(f.boxes[pair.i]), unpack(f.boxes[pair.j])) &&
+         (f.mass[pair.i].inverse_mass > 0.0F || f.mass[pair.j].inverse_mass > 0.0F);
 }
 
 template <typename Team>
