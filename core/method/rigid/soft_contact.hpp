@@ -26,6 +26,9 @@ struct SoftStep {
   float push_rate_per_s = 0.0F;
   float mass_scale = 1.0F;
   float impulse_scale = 0.0F;
+  // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
+  // friction holds, from the first substep on.
+  float settle_m_s = 0.0F;
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
 };
 
@@ -131,14 +134,13 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     const float speed = dot(c.normal, relative_velocity(m, p));
-    // The step may end here: relaxing stops no point before it comes.
-    if (gap > 0.0F && !pushes && !(p.normal_impulse > 0.0F)) continue;
     float change;
     if (gap > 0.0F) {
       change = -p.normal_mass * (speed + gap * step.per_dt_s);  // it may close within the substep, no more
     } else {
       const float wish = (gap + c.slop_m) * step.push_rate_per_s;
-      const float toward = wish < -c.fastest_push_m_s ? -c.fastest_push_m_s : wish;
+      const float slow = wish > step.settle_m_s ? step.settle_m_s : wish;
+      const float toward = slow < -c.fastest_push_m_s ? -c.fastest_push_m_s : slow;
       change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
     }
     const float size = add_normal_impulse(c, p, m, a, b, change);

@@ -97,8 +97,11 @@ void SoftSolver::advance(std::span<core::RigidState> states, std::span<const cor
   const std::uint32_t substeps = is_uneven ? 2 * options_.substeps : options_.substeps;
   core::SoftStep numbers =
       core::soft_step(step.dt_s / static_cast<float>(substeps), options_.omega_dt, options_.damping);
-  numbers.bounce_from_m_s = options_.fixed_bounce_from_m_s > 0.0F ? options_.fixed_bounce_from_m_s
-                                                                  : 2.0F * step.dt_s * core::length(step.gravity_m_s2);
+  constexpr float kSettleShare = 0.05F;
+  const float gravity = core::length(step.gravity_m_s2);
+  numbers.settle_m_s = kSettleShare * gravity * numbers.dt_s;
+  numbers.bounce_from_m_s =
+      options_.fixed_bounce_from_m_s > 0.0F ? options_.fixed_bounce_from_m_s : 2.0F * step.dt_s * gravity;
   work_.begin(states, patches, step, numbers.dt_s, options_.limits);
   for (std::uint32_t k = 0; k < substeps; ++k) substep(step, numbers);
   work_.finish(states, patches);
