@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/contact.hpp"
+#include "core/math/order_free_sum.hpp"
 
 namespace broadside::reference {
 
@@ -43,9 +44,10 @@ void SoftSolver::follow_direction() {
   work_.each_patch([&](const PatchConstraint& c, const SolverBody&, const SolverBody&) {
     of_patches_[work_.index_of(c)] = core::squared_change(c, ways_[work_.index_of(c)]);
   });
-  double sum = 0.0;
-  for (const float part : of_patches_) sum += part;
-  const auto change = static_cast<float>(sum);
+  const core::OrderFreeSum sum(largest_of_patches());
+  std::uint64_t units = 0;
+  for (const float part : of_patches_) units += sum.units(part);
+  const float change = sum.value(units);
   const float share = last_change_ > 0.0F && change <= last_change_ ? change / last_change_ : 0.0F;
   last_change_ = change;
   work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
