@@ -18,7 +18,8 @@ struct PatchLimits {
 };
 
 struct SoftSettings {
-  // Of a step; twice as many where bodies that touch have masses further apart than even_masses.
+  // Of a step; twice as many where bodies that touch have masses further apart than even_masses: what a contact yields
+  // grows with the mass on it, and falls with the square of the substep.
   std::uint32_t substeps = 4;
   float even_masses = 64.0F;
   // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
@@ -31,10 +32,21 @@ struct SoftSettings {
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
 };
 
+// Catto's soft step, without conjugate directions.
+inline SoftSettings soft_step_settings() {
+  SoftSettings settings;
+  settings.substeps = 8;
+  settings.sweeps = 1;
+  settings.omega_dt = 1.2F;
+  return settings;
+}
+
 inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {
+  constexpr float kSettleShare = 0.05F;
+  const float gravity = length(gravity_m_s2);
   SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
-  step.bounce_from_m_s =
-      settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * length(gravity_m_s2);
+  step.settle_m_s = kSettleShare * gravity * step.dt_s;
+  step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
   return step;
 }
 

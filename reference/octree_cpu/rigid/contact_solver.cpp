@@ -9,7 +9,7 @@ std::string_view solver_name(SolverKind kind) {
 }
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options) {
-  SoftSolverOptions soft = options.kind == SolverKind::kSoftStep ? soft_step_options() : SoftSolverOptions{};
+  core::SoftSettings soft = options.kind == SolverKind::kSoftStep ? core::soft_step_settings() : core::SoftSettings{};
   if (options.substeps > 0) soft.substeps = options.substeps;
   soft.limits.fixed_slop_m = options.fixed_slop_m;
   soft.fixed_bounce_from_m_s = options.fixed_bounce_from_m_s;
