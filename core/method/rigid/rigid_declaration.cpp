@@ -4,14 +4,6 @@
 #include <string>
 
 namespace broadside::core {
-namespace {
-
-// A substep adds to velocities for a contact in its start from the last impulse, the solve, the relaxation and the
-// rebound.
-constexpr int kApplicationsOfSubstep = 4;
-
-}  // namespace
-
 Declaration rigid_declaration(const SoftSettings& solver, std::string_view twin_of) {
   std::map<std::string, std::string> given{
       {"motion", "rigid"},
@@ -19,8 +11,8 @@ Declaration rigid_declaration(const SoftSettings& solver, std::string_view twin_
       {"contacts", "totals"},
       {"integrator", "semi-implicit Euler; Runge-Kutta 4 for orientation, angular momentum constant"},
       {"order", "1"},
-      {"substeps", std::to_string(solver.substeps)},
-      {"iterations", std::to_string(kApplicationsOfSubstep)},
+      {"substeps", std::to_string(most_of_step(solver).substeps)},
+      {"iterations", std::to_string(most_of_step(solver).applications)},
       {"friction", "cone"},
       {"contact_model", "rigid"},
       {"correction", "position"},

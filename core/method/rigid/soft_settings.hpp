@@ -17,6 +17,7 @@ struct PatchLimits {
   float fixed_slop_m = 0.0F;  // in its place, where it is given
 };
 
+// core/method/rigid/SOLVERS.md has the measurements that the defaults were chosen by.
 struct SoftSettings {
   // Of a step; twice as many where bodies that touch have masses further apart than even_masses: what a contact yields
   // grows with the mass on it, and falls with the square of the substep.
@@ -28,7 +29,7 @@ struct SoftSettings {
   float done = 0x1p-10F;
   float omega_dt = 6.0F;
   float damping = 1.0F;
-  PatchLimits limits{0x1p-12F, 0.0F};
+  PatchLimits limits{0x1p-16F, 0.0F};
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
 };
 
@@ -39,6 +40,17 @@ inline SoftSettings soft_step_settings() {
   settings.sweeps = 1;
   settings.omega_dt = 1.2F;
   return settings;
+}
+
+// What a step does at most: its substeps, and how often a substep adds to the velocities of a contact's bodies.
+struct MostOfStep {
+  std::uint32_t substeps = 0;
+  std::uint32_t applications = 0;
+};
+
+inline MostOfStep most_of_step(const SoftSettings& settings) {
+  // The start from the last impulse, sweeps with a step along the direction between two, relaxation and rebound.
+  return {2 * settings.substeps, 1 + (2 * settings.sweeps - 1) + 1 + 1};
 }
 
 inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {

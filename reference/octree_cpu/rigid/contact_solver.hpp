@@ -12,6 +12,7 @@
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
+#include "core/method/rigid/soft_settings.hpp"
 
 namespace broadside::reference {
 
@@ -62,6 +63,8 @@ struct ContactSolverOptions {
   float fixed_slop_m = 0.0F;
   float fixed_bounce_from_m_s = 0.0F;
 };
+
+core::SoftSettings soft_settings(const ContactSolverOptions& options);
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options);
 

@@ -196,7 +196,7 @@ TEST_P(ContactSolvers, InclineIsDecidedWithinOnePercent) {
       continue;
     }
     // It moves by no more than the slop while it settles, and then stays: rounding of a place below 1 m.
-    EXPECT_LT(std::abs(rig.states[0].x.x), 0x1p-12 * 0.72);
+    EXPECT_LT(std::abs(rig.states[0].x.x), 0x1p-16 * 0.72 * 16.0);
     EXPECT_LT(core::length(rig.states[0].x - settled), 0x1p-20);
   }
 }
