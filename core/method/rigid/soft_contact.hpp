@@ -192,6 +192,11 @@ BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step
 // corners of a cube.
 inline constexpr int kSweepsOfBounce = 8;
 
+// Sweeps over all patches, at most: of three balls that meet at once two pairs share one, and what the second pair does
+// changes the first. One that changes no speed by more than this share of the fastest is the last.
+inline constexpr int kMostBounceSweeps = 32;
+inline constexpr float kBounceDone = 0x1p-10F;
+
 // Points that came fast leave with the share of that speed that restitution gives back. Returns the largest change of a
 // point's speed along the normal, m/s.
 BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
