@@ -57,7 +57,6 @@ __device__ inline int step_kind(const RigidFrameView& f) {
 template <typename Team>
 __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
-  const float gravity_m_s2 = core::length(f.gravity_m_s2);
   for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
     if (f.patch_at[place] == kUncolored) continue;
     const core::ContactPatch patch = f.patches.items[f.patch_at[place]];
