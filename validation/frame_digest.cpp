@@ -33,10 +33,14 @@ constexpr std::uint64_t kRoot2 = 0x6a09e667f3bcc909U;
 constexpr std::uint64_t kRoot3 = 0xbb67ae8584caa73bU;
 constexpr std::uint64_t kRoot5 = 0x3c6ef372fe94f82bU;
 
-// Words of the record's kind, as ASCII: "body", "pair", "cont".
+// Words of the record's kind, as ASCII: "body", "pair", "cont", "poin".
 constexpr std::uint64_t kBody = 0x626f6479U;
 constexpr std::uint64_t kPair = 0x70616972U;
 constexpr std::uint64_t kContact = 0x636f6e74U;
+constexpr std::uint64_t kPoint = 0x706f696eU;
+
+// What a trace says whose digests cover its points too.
+constexpr std::string_view kWithPoints = "bodies, pairs, contacts and points";
 
 // Floats are taken in four at a time, the last four filled up with zeros.
 std::uint64_t record_hash(std::uint64_t kind, std::uint64_t identity, std::initializer_list<float> numbers) {
@@ -79,6 +83,15 @@ std::uint64_t of_states(const core::FrameRecord& f) {
   return sum;
 }
 
+std::uint64_t of_states_and_points(const core::FrameRecord& f) {
+  std::uint64_t sum = of_states(f);
+  for (const core::ContactPoint& p : f.points)
+    sum += record_hash(kPoint, key(p.a, p.b),
+                       {p.point.x, p.point.y, p.point.z, p.gap_m, p.normal.x, p.normal.y, p.normal.z, 0, p.impulse.x,
+                        p.impulse.y, p.impulse.z, 0, std::bit_cast<float>(p.feature)});
+  return sum;
+}
+
 // Vigna's splitmix64: one step from z.
 std::uint64_t mix(std::uint64_t z) {
   z += 0x9e3779b97f4a7c15U;
@@ -103,19 +116,19 @@ std::uint64_t of_pairs(const core::FrameRecord& f) {
   return sum;
 }
 
-using Digest = std::uint64_t (*)(const core::FrameRecord&);
-
-// Computes this trace's digests from what it records; null when it records nothing to compute them from.
-Digest digest_of(const core::TraceHeader& header) {
-  if (has(header, core::Group::kBodies)) return of_states;
-  if (has(header, core::Group::kNarrow)) return of_separations;
-  return has(header, core::Group::kPairs) ? of_pairs : nullptr;
-}
-
 // What the provenance says about the digests; "" = they are those of SCHEMA.md.
 std::string told_kind(const core::TraceHeader& header) {
   const auto note = header.notes.find("digest");
   return note == header.notes.end() ? "" : note->second;
+}
+
+using Digest = std::uint64_t (*)(const core::FrameRecord&);
+
+// Computes this trace's digests from what it records; null when it records nothing to compute them from.
+Digest digest_of(const core::TraceHeader& header) {
+  if (has(header, core::Group::kBodies)) return told_kind(header) == kWithPoints ? of_states_and_points : of_states;
+  if (has(header, core::Group::kNarrow)) return of_separations;
+  return has(header, core::Group::kPairs) ? of_pairs : nullptr;
 }
 
 std::uint64_t none(const core::FrameRecord&) {
@@ -149,7 +162,7 @@ class FrameDigest final : public Validator {
 std::string why_not(const Subject& subject) {
   const std::string kind = told_kind(subject.header);
   if (kind == "none") return {};
-  if (!kind.empty()) return "the engine has a digest of its own (" + kind + ")";
+  if (!kind.empty() && kind != kWithPoints) return "the engine has a digest of its own (" + kind + ")";
   if (digest_of(subject.header) == nullptr) return "the trace records nothing that the digests are of";
   return {};
 }
@@ -157,14 +170,16 @@ std::string why_not(const Subject& subject) {
 }  // namespace
 
 ValidatorRow frame_digest_row() {
-  return {"frame-digest",
-          "the recorded digest of a frame is that of its recorded bodies, confirmed pairs and contacts",
-          "a digest of another frame; zeros for digests",
-          core::bit(core::Group::kBodies) | core::bit(core::Group::kConfirmed) | core::bit(core::Group::kContacts) |
-              core::bit(core::Group::kNarrow) | core::bit(core::Group::kPairs),
-          0,
-          why_not,
-          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<FrameDigest>(subject); }};
+  return {
+      "frame-digest",
+      "the recorded digest of a frame is that of its recorded bodies, confirmed pairs and contacts (and points, where "
+      "the trace says so)",
+      "a digest of another frame; zeros for digests",
+      core::bit(core::Group::kBodies) | core::bit(core::Group::kConfirmed) | core::bit(core::Group::kContacts) |
+          core::bit(core::Group::kNarrow) | core::bit(core::Group::kPairs) | core::bit(core::Group::kPoints),
+      0,
+      why_not,
+      [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<FrameDigest>(subject); }};
 }
 
 }  // namespace broadside::validation

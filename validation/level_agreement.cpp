@@ -149,6 +149,7 @@ class LevelAgreement final : public Validator {
 std::string why_not(const Subject& subject) {
   constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
   if (std::string text = lacking(subject.header, kBoth); !text.empty()) return text;
+  if (has(subject.header, core::Group::kDetectedOrientation)) return "its body octrees turn with the bodies";
   return last_level(subject.header.stamp) ? "" : "the settings name no body-octree levels";
 }
 

@@ -255,7 +255,8 @@ class ProximityBound final : public Validator {
 
 std::string why_not(const Subject& subject) {
   constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
-  return lacking(subject.header, kBoth);
+  if (std::string text = lacking(subject.header, kBoth); !text.empty()) return text;
+  return has(subject.header, core::Group::kDetectedOrientation) ? "its bodies turn, and touch by their surfaces" : "";
 }
 
 }  // namespace

@@ -27,9 +27,9 @@ struct Pace {
 };
 constexpr std::array kPaces{Pace{1.0F / 60.0F, 90}, Pace{1.0F / 240.0F, 150}, Pace{1.0F / 1000.0F, 250}};
 
-std::array<std::span<const RigidMutant>, 4> mutants() {
+std::array<std::span<const RigidMutant>, 5> mutants() {
   return {reference::flight_mutants(), reference::touch_mutants(), reference::impulse_mutants(),
-          reference::telling_mutants()};
+          reference::telling_mutants(), reference::pipeline_mutants()};
 }
 std::array<std::span<const RigidTampering>, 3> tamperings() {
   return {rigid_state_tamperings(), rigid_point_tamperings(), rigid_declaration_tamperings()};
@@ -44,8 +44,14 @@ core::Result<Specimen> record_sound(const core::Scene& scene) {
   return record_rigid_specimen(scene, engine);
 }
 
+core::Result<Specimen> record_sound_twin(const core::Scene& scene) {
+  reference::StagedPipeline engine({});
+  return record_turning_specimen(scene, engine);
+}
+
 core::Result<Specimen> record_mutant(const RigidMutant& mutant, const core::Scene& scene, std::uint64_t run) {
-  return record_rigid_specimen(scene, *reference::make_rigid_mutant(mutant, run));
+  const auto engine = reference::make_rigid_mutant(mutant, run);
+  return mutant.is_of_pipeline ? record_turning_specimen(scene, *engine) : record_rigid_specimen(scene, *engine);
 }
 
 // The laws that rejected it, with the words of the one that is meant for it.
@@ -105,19 +111,28 @@ std::set<std::string_view> scenes_of_mutations() {
   return names;
 }
 
-core::Status judge_sound(const core::Scene& scene, MutationScore& score) {
-  auto subject = record_sound(scene);
+using Record = core::Result<Specimen> (*)(const core::Scene&);
+
+core::Status judge_sound_run(Record record, const core::Scene& scene, MutationScore& score) {
+  auto subject = record(scene);
   if (!subject) return subject.error();
-  auto again = record_sound(scene);
+  auto again = record(scene);
   if (!again) return again.error();
   auto verdicts = judge_specimen(subject.value(), &again.value());
   if (!verdicts) return verdicts.error();
   ++score.sound_runs;
   for (const core::Verdict& v : verdicts.value()) {
     if (v.outcome == core::Outcome::kPass) ++score.verdicts_passed;
-    if (v.outcome == core::Outcome::kFail) score.false_alarms.push_back({scene.name, v.validator, v.explanation});
+    if (v.outcome == core::Outcome::kFail)
+      score.false_alarms.push_back(
+          {subject.value().header.stamp.engine + ": " + scene.name, v.validator, v.explanation});
   }
   return core::Done{};
+}
+
+core::Status judge_sound(const core::Scene& scene, MutationScore& score) {
+  if (core::Status s = judge_sound_run(record_sound, scene, score); !s) return s;
+  return judge_sound_run(record_sound_twin, scene, score);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The part of the mutation score that is about the laws of mechanics: plain-rigid, wrong engines made of it, and
-// spoiled recordings of it.
+// The part of the mutation score that is about the laws of mechanics: plain-rigid and octree-cpu, wrong engines made of
+// them, and spoiled recordings of plain-rigid.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ std::vector<std::string> rigid_mutation_names();
 core::Status run_rigid_mutations(const std::function<bool(const std::string& name)>& is_wanted,
                                  const std::function<void(MutationRow)>& finish);
 
-// plain-rigid on every scene of the mutants, and on random ones at three step sizes: what a law says against it is a
+// Both on every scene of the mutants, and on random ones at three step sizes: what a law says against it is a
 // false alarm.
 core::Status judge_sound_rigid(std::uint32_t random_scenes, MutationScore& score, const std::function<void()>& tick);
 

@@ -3,7 +3,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/method/rigid/point_digest.hpp"
 #include "core/scene/scene.hpp"
+#include "reference/octree_cpu/rigid/rigid_declaration.hpp"
 #include "reference/plain_rigid/engine.hpp"
 #include "validation/judge.hpp"
 
@@ -64,6 +66,12 @@ core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics&
 
 core::Result<Specimen> record_rigid_specimen(const core::Scene& scene, core::Dynamics& dynamics) {
   return record(scene, dynamics, {"plain-rigid", "", reference::plain::declaration({})});
+}
+
+core::Result<Specimen> record_turning_specimen(const core::Scene& scene, core::Dynamics& dynamics) {
+  auto specimen = record(scene, dynamics, {"octree-cpu", "", reference::rigid_declaration({})});
+  if (specimen) specimen.value().header.notes["digest"] = core::kDigestWithPoints;
+  return specimen;
 }
 
 core::Result<std::vector<core::Verdict>> judge_specimen(const Specimen& subject, const Specimen* baseline,

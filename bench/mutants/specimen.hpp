@@ -26,6 +26,8 @@ struct Specimen {
 core::Result<Specimen> record_specimen(const core::Scene& scene, core::Dynamics& dynamics, std::string_view settings);
 // The same, as plain-rigid declares itself.
 core::Result<Specimen> record_rigid_specimen(const core::Scene& scene, core::Dynamics& dynamics);
+// The same, as octree-cpu declares itself where bodies turn.
+core::Result<Specimen> record_turning_specimen(const core::Scene& scene, core::Dynamics& dynamics);
 
 // As judge() does with files. only: validators; empty = all.
 core::Result<std::vector<core::Verdict>> judge_specimen(const Specimen& subject, const Specimen* baseline,

@@ -13,6 +13,7 @@
 #include "bench/record/near_pairs.hpp"
 #include "bench/record/recording.hpp"
 #include "bench/record/resume.hpp"
+#include "core/engine/chosen_by_scene.hpp"
 #include "core/engine/work_counting.hpp"
 #include "core/scene/shapes.hpp"
 #include "core/trace/trace_reader.hpp"
@@ -25,7 +26,7 @@ using core::Group;
 core::TraceHeader header_for(const CellRequest& request, const core::Engine& engine) {
   core::TraceHeader header;
   header.stamp = stamp_of(*request.scene, engine);
-  header.declaration = engine.declaration;
+  header.declaration = core::declaration_of(engine, *request.scene);
   header.scene = *request.scene;
   header.level = request.level;
   header.every = request.selection.every;
@@ -95,7 +96,9 @@ core::Status copy_frames(const core::TraceReader& trace, Recording& recording) {
 core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engine& engine) {
   core::Dynamics& dynamics = *engine.dynamics;
   core::TraceHeader header = header_for(request, engine);
-  header.groups = request.level == core::RecordLevel::kFull ? dynamics.groups() : 0;
+  header.groups = request.level == core::RecordLevel::kFull ? core::groups_of(dynamics, *request.scene) : 0;
+  if (const std::string note = core::digest_note_of(dynamics, *request.scene); !note.empty())
+    header.notes["digest"] = note;
   std::optional<ResumePoint> point;
   if (request.resume) {
     auto found = find_resume_point(request, header);

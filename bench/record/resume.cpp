@@ -14,14 +14,17 @@
 namespace broadside::bench {
 namespace {
 
-// Engines whose whole state is the states of the bodies: a frame depends on the frame before and on nothing else.
-// Others keep state that no trace holds, such as contact caches and warm-starting impulses.
+// Engines whose whole state, where bodies translate, is the states of the bodies: a frame depends on the frame before
+// and on nothing else. Others keep state that no trace holds, such as contact caches and warm-starting impulses.
 constexpr std::array<std::string_view, 4> kStateIsInBodies{"octree-cpu", "octree-gpu", "hash-cpu", "hash-gpu"};
 
 constexpr const char* kStartAnew = "run without --resume to start at the beginning";
 
-core::Status check_engine(const core::Stamp& stamp) {
-  if (std::find(kStateIsInBodies.begin(), kStateIsInBodies.end(), stamp.engine) == kStateIsInBodies.end())
+core::Status check_engine(const core::TraceHeader& wanted) {
+  const core::Stamp& stamp = wanted.stamp;
+  // Engines of bodies that turn keep impulses to start from, and what orientations lost to rounding.
+  const bool turns = wanted.scene.motion == core::Motion::kRigid;
+  if (turns || std::find(kStateIsInBodies.begin(), kStateIsInBodies.end(), stamp.engine) == kStateIsInBodies.end())
     return core::Error{"this engine keeps more state than a trace holds, so it cannot go on from one", stamp.engine,
                        kStartAnew};
   if (stamp.settings.find("printed-E8") != std::string::npos)
@@ -113,7 +116,7 @@ core::Result<std::optional<ResumePoint>> find_resume_point(const CellRequest& re
     if (!farthest || trace.steps().back() > farthest->steps().back()) farthest = std::move(trace);
   }
   if (!farthest) return std::optional<ResumePoint>();
-  if (core::Status s = check_engine(wanted.stamp); !s) return s.error();
+  if (core::Status s = check_engine(wanted); !s) return s.error();
   if (core::Status s = check_header(farthest->header(), wanted, farthest->path().string()); !s) return s.error();
   const std::filesystem::path chosen = farthest->path();
   auto point = point_at(*std::move(farthest), request);

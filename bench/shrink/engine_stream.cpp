@@ -6,6 +6,7 @@
 #include "bench/cell/cell_request.hpp"
 #include "bench/engines.hpp"
 #include "bench/record/near_pairs.hpp"
+#include "core/engine/chosen_by_scene.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -49,10 +50,12 @@ core::Result<std::unique_ptr<EngineStream>> EngineStream::start(const core::Scen
 core::Status EngineStream::load() {
   header_.scene = scene_;
   header_.stamp = stamp_of(scene_, engine_);
-  header_.declaration = engine_.declaration;
+  header_.declaration = core::declaration_of(engine_, scene_);
   for (std::uint64_t step = 1; step <= scene_.frames; ++step) steps_.push_back(step);
   if (engine_.dynamics) {
-    header_.groups = engine_.dynamics->groups();
+    header_.groups = core::groups_of(*engine_.dynamics, scene_);
+    if (const std::string note = core::digest_note_of(*engine_.dynamics, scene_); !note.empty())
+      header_.notes["digest"] = note;
     return engine_.dynamics->load(scene_);
   }
   auto driver = start(scene_, {find_engine(kDriver).value(), {}});

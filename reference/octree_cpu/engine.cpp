@@ -1,5 +1,6 @@
 #include <oneapi/tbb/version.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -7,14 +8,16 @@
 
 #include "core/variant.hpp"
 #include "reference/engines.hpp"
-#include "reference/octree_cpu/pipeline.hpp"
+#include "reference/octree_cpu/pipeline_by_motion.hpp"
+#include "reference/octree_cpu/rigid/rigid_declaration.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
+#include "reference/worker_count.hpp"
 
 namespace broadside::reference {
 namespace {
 
-const std::array<core::SettingRow, 6>& settings_table() {
-  static const std::array<core::SettingRow, 6> kTable{{
+const std::array<core::SettingRow, 9>& settings_table() {
+  static const std::array<core::SettingRow, 9> kTable{{
       {"broad",
        "tree",
        {"tree", "octree", "brute"},
@@ -28,8 +31,30 @@ const std::array<core::SettingRow, 6>& settings_table() {
         "printed-E8"},
        "a printed, wrong form of the paper to run instead"},
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
+      {"contact",
+       "conjugate",
+       {"conjugate", "soft-step"},
+       "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"},
+      {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"},
+      {"thresholds",
+       "scaled",
+       {"scaled", "fixed"},
+       "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
+       "v_threshold_m_s"},
   }};
   return kTable;
+}
+
+constexpr unsigned long kMostSubsteps = 1024;  // more are below the rounding of a step
+
+// What the published method has and bodies that turn have not.
+core::Status why_not_rigid(const core::Settings& settings) {
+  for (const auto& [key, sound] :
+       {std::pair("variant", "sound"), std::pair("solver", "colored"), std::pair("vertex_stage", "on")})
+    if (settings.text(key) != sound)
+      return core::Error{std::string("unsupported: ") + key + " = " + settings.text(key) + " for bodies that turn",
+                         "octree-cpu", "leave it out, or take a scene whose bodies translate", core::Exit::kMissing};
+  return core::Done{};
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {
@@ -56,6 +81,21 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
   options.threads = threads;
 
+  RigidPipelineOptions turning;
+  turning.make_broad_phase = options.make_broad_phase;
+  turning.levels = options.levels;
+  ContactSolverOptions contact;
+  if (settings.text("contact") == "soft-step") contact.kind = SolverKind::kSoftStep;
+  contact.substeps = static_cast<std::uint32_t>(std::min(settings.number("substeps"), kMostSubsteps));
+  turning.make_solver = [contact, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
+    ContactSolverOptions of_scene = contact;
+    if (is_fixed) of_scene.fixed_slop_m = scene.parameters.delta_m;
+    if (is_fixed) of_scene.fixed_bounce_from_m_s = scene.parameters.v_threshold_m_s;
+    return make_contact_solver(of_scene);
+  };
+  turning.declaration = rigid_declaration(contact);
+  turning.threads = threads;
+
   core::Engine engine;
   engine.id = "octree-cpu";
   engine.build =
@@ -63,7 +103,9 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.settings = settings;
   engine.broad_phase = std::move(alone);
   engine.declaration = core::method_declaration();
-  engine.dynamics = std::make_unique<Pipeline>(std::move(options));
+  engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning), why_not_rigid(settings));
+  engine.equivalence = [contact, build = engine.build, workers = worker_count(settings.number("threads"))](
+                           const core::Scene& scene) { return rigid_card(scene, contact, build, workers); };
   return engine;
 }
 

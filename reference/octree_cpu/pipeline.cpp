@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <chrono>
 #include <string>
 #include <utility>
 
@@ -13,31 +12,11 @@
 #include "core/scene/refuse_wrenches.hpp"
 #include "core/scene/springs_of_bodies.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
+#include "reference/octree_cpu/stage_clock.hpp"
 #include "reference/octree_cpu/vertex_stage.hpp"
 #include "reference/scene_octree/octree_record.hpp"
 
 namespace broadside::reference {
-namespace {
-
-class StageClock {
- public:
-  explicit StageClock(std::array<core::StageTime, core::kStageCount>& times) : times_(times), last_(Clock::now()) {}
-  // Ends a stage: what passed since the end of the one before is its time.
-  void lap(core::Stage stage) {
-    const auto now = Clock::now();
-    times_[static_cast<std::size_t>(stage)] = {core::name_of(stage),
-                                               std::chrono::duration<double>(now - last_).count()};
-    last_ = now;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::array<core::StageTime, core::kStageCount>& times_;
-  Clock::time_point last_;
-};
-
-}  // namespace
-
 struct Pipeline::Threads {
   tbb::task_arena arena;
 };

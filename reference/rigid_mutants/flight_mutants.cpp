@@ -261,6 +261,7 @@ std::span<const RigidMutant> flight_mutants() {
 }
 
 std::unique_ptr<core::Dynamics> make_rigid_mutant(const RigidMutant& mutant, std::uint64_t run) {
+  if (mutant.is_of_pipeline) return std::make_unique<StagedPipeline>(mutant.turning, run);
   return std::make_unique<StagedWorld>(mutant.stages, run);
 }
 

@@ -1,4 +1,4 @@
-// Wrong engines of bodies that turn: plain-rigid with one stage replaced, and the law that must see it.
+// Wrong engines of bodies that turn: plain-rigid or octree-cpu with one stage replaced, and the law that must see it.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/engine/dynamics.hpp"
+#include "reference/rigid_mutants/staged_pipeline.hpp"
 #include "reference/rigid_mutants/staged_world.hpp"
 
 namespace broadside::reference {
@@ -17,6 +18,9 @@ struct RigidMutant {
   std::string_view scene;  // where it shows: bench/mutants/rigid_scenes
   RigidStages stages;
   bool differs_from_run_to_run = false;
+  // Of pipeline_mutants() instead: the twin's stages.
+  TurningStages turning = {};
+  bool is_of_pipeline = false;
 };
 
 // Four tables, by what is wrong.
@@ -24,6 +28,8 @@ std::span<const RigidMutant> flight_mutants();   // how bodies move and turn whi
 std::span<const RigidMutant> touch_mutants();    // where bodies touch, and what keeps them apart
 std::span<const RigidMutant> impulse_mutants();  // impulses and friction
 std::span<const RigidMutant> telling_mutants();  // right motion, told wrongly
+// A fifth, of octree-cpu where bodies turn: each of its stages is broken at least once.
+std::span<const RigidMutant> pipeline_mutants();
 
 std::unique_ptr<core::Dynamics> make_rigid_mutant(const RigidMutant& mutant, std::uint64_t run);
 

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdint>
 #include <numbers>
+#include <string>
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/subject_facts.hpp"
@@ -7,6 +9,9 @@
 
 namespace broadside::validation {
 namespace {
+
+// h |w|, rad: a method of order p errs by its power p, which no longer shrinks from here on.
+constexpr double kLargestTurn = 1.0;
 
 class Turning final : public Validator {
  public:
@@ -22,7 +27,13 @@ class Turning final : public Validator {
     }
   }
 
-  core::Verdict conclude() override { return tally_.conclude("no moving body touched nothing for a whole step"); }
+  core::Verdict conclude() override {
+    std::string note;
+    if (too_fast_ > 0)
+      note = "warning: in " + std::to_string(too_fast_) + " cases a body turned by more than 1 rad a step (at most " +
+             number_text(fastest_) + "), too far for any step to follow: use a smaller dt";
+    return tally_.conclude("no moving body touched nothing for a whole step", note);
+  }
 
  private:
   // Of an engine that declares that its bodies translate.
@@ -36,6 +47,10 @@ class Turning final : public Validator {
     const BodyState& s0 = m.bodies[i].before;
     const BodyState& s1 = m.bodies[i].after;
     const double turn = m.h * std::max(length(s0.w), length(s1.w));
+    if (turn > kLargestTurn) {
+      ++too_fast_;
+      fastest_ = std::max(fastest_, turn);
+    }
     const double change = m.h * length(s1.w - s0.w);
     // Quaternions: four rounded components each; and the operations that turn and normalize them.
     const double rounding = substeps_ * (m.rounding_of(24) + m.rounding_of(8) * turn);
@@ -59,6 +74,8 @@ class Turning final : public Validator {
       "h |w1 - w0| for the choice between w0 and w1, (h |w|)^3 / 12 for a normalized first-order turn, and rounding";
   double substeps_;
   bool turns_;
+  std::uint64_t too_fast_ = 0;
+  double fastest_ = 0.0;
   Tally tally_{"turning", "orientations of free flight", kOrigin};
 };
 

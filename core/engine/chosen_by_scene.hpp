@@ -1,0 +1,40 @@
+// What an engine offers beside Dynamics when the scene decides what it is: bodies that translate are one method, bodies
+// that turn another.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/engine/engine.hpp"
+#include "core/scene/scene.hpp"
+
+namespace broadside::core {
+
+// A class derived from Dynamics may also derive from this.
+class ChosenByScene {
+ public:
+  virtual ~ChosenByScene() = default;
+
+  [[nodiscard]] virtual Declaration declaration_for(const Scene& scene) const = 0;
+  // As Dynamics::groups, which is right for a scene after it was loaded.
+  [[nodiscard]] virtual std::uint32_t groups_for(const Scene& scene) const = 0;
+  // What its digests are of, for /provenance/notes@digest; empty = what SCHEMA.md says.
+  [[nodiscard]] virtual std::string digest_note_for(const Scene& scene) const = 0;
+};
+
+inline Declaration declaration_of(const Engine& engine, const Scene& scene) {
+  const auto* chosen = dynamic_cast<const ChosenByScene*>(engine.dynamics.get());
+  return chosen != nullptr ? chosen->declaration_for(scene) : engine.declaration;
+}
+
+inline std::uint32_t groups_of(const Dynamics& dynamics, const Scene& scene) {
+  const auto* chosen = dynamic_cast<const ChosenByScene*>(&dynamics);
+  return chosen != nullptr ? chosen->groups_for(scene) : dynamics.groups();
+}
+
+inline std::string digest_note_of(const Dynamics& dynamics, const Scene& scene) {
+  const auto* chosen = dynamic_cast<const ChosenByScene*>(&dynamics);
+  return chosen != nullptr ? chosen->digest_note_for(scene) : std::string();
+}
+
+}  // namespace broadside::core

@@ -1,0 +1,116 @@
+// A body's shape as contacts see it: a plain view without ownership, for host and device. RIGID 8.4.
+//
+// Boxes, spheres, capsules and cylinders are the true closed-form surfaces; hulls and meshes point into tables of their
+// own (core/scene/contact_shapes.hpp builds all of them from a scene).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/quat.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/cross.hpp"
+
+namespace broadside::core {
+
+// In this order shapes take the part of A: a family of pairs is written once, for the lower kind first.
+enum class ContactKind : std::uint32_t { kSphere, kCapsule, kBox, kCylinder, kHull, kMesh, kHalfSpace };
+
+// A face of a hull has at most so many corners; a face of more is stored as several faces in one plane.
+inline constexpr int kFaceCorners = 16;
+
+struct HullFace {
+  Vec3 normal;            // unit, outward, body axes
+  float offset_m = 0.0F;  // of the plane, from the mesh's origin along the normal
+  std::uint32_t first_corner = 0;
+  std::uint32_t corner_count = 0;  // anticlockwise seen from outside
+};
+
+struct HullEdge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint32_t left = 0;  // the two faces
+  std::uint32_t right = 0;
+};
+
+struct HullView {
+  const Vec3* vertices = nullptr;  // mesh coordinates, m; those on the hull
+  const HullFace* faces = nullptr;
+  const std::uint32_t* corners = nullptr;  // of faces: indices of vertices
+  const HullEdge* edges = nullptr;
+  std::uint32_t vertex_count = 0;
+  std::uint32_t face_count = 0;
+  std::uint32_t edge_count = 0;
+};
+
+// A node of the tree over a mesh's triangles: its children are `first` and `first + 1`, or its triangles are `first` to
+// `first + count - 1`.
+struct TriangleNode {
+  Vec3 min;
+  std::uint32_t first = 0;
+  Vec3 max;
+  std::uint32_t count = 0;  // of triangles; 0 = an inner node
+};
+
+struct MeshView {
+  const Vec3* vertices = nullptr;            // mesh coordinates, m
+  const std::uint32_t* triangles = nullptr;  // three corners each, in the order of the tree
+  // Unit, outward: of a triangle, and of a corner the mean of its triangles weighted by their angles there.
+  const Vec3* triangle_normals = nullptr;
+  const Vec3* vertex_normals = nullptr;
+  // Per triangle and side k (from corner k to corner k + 1): the triangle beyond it, or kNoTriangle.
+  const std::uint32_t* beyond = nullptr;
+  const TriangleNode* nodes = nullptr;
+  std::uint32_t vertex_count = 0;
+  std::uint32_t triangle_count = 0;
+  std::uint32_t node_count = 0;
+};
+
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFU;
+
+struct ContactShape {
+  ContactKind kind = ContactKind::kSphere;
+  int axis = 0;                // of a capsule or cylinder
+  Vec3 center;                 // of the shape (the mesh's origin), from the body's center of mass, body axes, m
+  Vec3 half;                   // of a box, m
+  float radius_m = 0.0F;       // of a sphere, capsule or cylinder
+  float half_length_m = 0.0F;  // of a capsule's segment, or of a cylinder
+  float size_m = 0.0F;         // no point of the surface is farther from `center`; 0 for a half-space
+  Vec3 normal;                 // of a half-space: unit, out of the solid, body axes; its plane goes through `center`
+  HullView hull;
+  MeshView mesh;
+};
+
+// Where the body's center of mass is, and how the body is turned.
+struct ContactPose {
+  Vec3 x;
+  Quat q;
+};
+
+// A shape in axes of the world, measured from the center of mass of body A. Positions are subtracted before anything
+// else, so bodies a kilometer from the origin have the contacts of bodies at the origin.
+struct PlacedShape {
+  const ContactShape* shape = nullptr;
+  Vec3 center;
+  TurnedAxes axes;
+};
+
+BROADSIDE_HD PlacedShape placed_shape(const ContactShape& shape, const ContactPose& pose, Vec3 origin) {
+  const TurnedAxes axes = turned_axes(pose.q);
+  return {&shape, (pose.x - origin) + turned(axes, shape.center), axes};
+}
+
+// How far rounding can move a gap: the unit roundoff times the lengths that went into it, times the number of roundings
+// in a row from coordinates to gaps. A corner takes three products and sums in each of two turns and two shifts; a
+// direction that is a normalized cross product takes ten; a plane's height five; the quaternion itself is a unit to
+// two.
+inline constexpr float kContactRoundings = 32.0F;
+
+BROADSIDE_HD float contact_rounding_m(const PlacedShape& a, const PlacedShape& b) {
+  const Vec3 d = b.center - a.center;
+  const float lengths = fabsf(d.x) + fabsf(d.y) + fabsf(d.z) + a.shape->size_m + b.shape->size_m;
+  return kContactRoundings * 0x1p-24F * lengths;
+}
+
+}  // namespace broadside::core

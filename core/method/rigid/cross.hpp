@@ -1,0 +1,46 @@
+// Cross product, unit vectors and the three axes of a turned body, in float32 with the order of operations fixed.
+#pragma once
+
+#include <cmath>
+
+#include "core/attributes.hpp"
+#include "core/math/quat.hpp"
+#include "core/math/vec3.hpp"
+
+namespace broadside::core {
+
+BROADSIDE_HD constexpr Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+BROADSIDE_HD constexpr Vec3 operator-(Vec3 a) {
+  return {-a.x, -a.y, -a.z};
+}
+
+// The vector divided by its length; x must not be so small that its square vanishes.
+BROADSIDE_HD Vec3 normalized(Vec3 a) {
+  return (1.0F / length(a)) * a;
+}
+
+// A body's axes in the world: the columns of its rotation.
+struct TurnedAxes {
+  Vec3 x{1.0F, 0.0F, 0.0F};
+  Vec3 y{0.0F, 1.0F, 0.0F};
+  Vec3 z{0.0F, 0.0F, 1.0F};
+
+  BROADSIDE_HD constexpr Vec3 operator[](int axis) const { return axis == 0 ? x : (axis == 1 ? y : z); }
+};
+
+BROADSIDE_HD constexpr TurnedAxes turned_axes(Quat q) {
+  return {rotate(q, {1.0F, 0.0F, 0.0F}), rotate(q, {0.0F, 1.0F, 0.0F}), rotate(q, {0.0F, 0.0F, 1.0F})};
+}
+
+// From body axes to the world, and back.
+BROADSIDE_HD constexpr Vec3 turned(const TurnedAxes& axes, Vec3 v) {
+  return v.x * axes.x + v.y * axes.y + v.z * axes.z;
+}
+BROADSIDE_HD constexpr Vec3 turned_back(const TurnedAxes& axes, Vec3 v) {
+  return {dot(axes.x, v), dot(axes.y, v), dot(axes.z, v)};
+}
+
+}  // namespace broadside::core

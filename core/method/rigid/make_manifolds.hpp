@@ -1,0 +1,75 @@
+// The contacts of two bodies: one entry for every pair of shapes. RIGID 8.4.
+//
+// What it promises: normals are units and point from B to A; a point's gap is at most reach_m; the deepest point of a
+// convex pair has the signed distance of the bodies to contact_rounding_m; the four points of a patch do not depend on
+// the order in which they were found; turned, moved, tiny or huge shapes give finite numbers. float32, + - * / and
+// square root alone, no allocation: the same bits on host and device.
+#pragma once
+
+#include "core/attributes.hpp"
+#include "core/method/rigid/capsule_manifold.hpp"
+#include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/contact_shape.hpp"
+#include "core/method/rigid/cylinder_manifold.hpp"
+#include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/plane_manifold.hpp"
+#include "core/method/rigid/polytope_axes.hpp"
+#include "core/method/rigid/polytope_manifold.hpp"
+#include "core/method/rigid/separating_axis.hpp"
+#include "core/method/rigid/sphere_manifold.hpp"
+
+namespace broadside::core {
+
+// A pair of convex shapes has one patch.
+inline constexpr int kPatchesOfPair = 1;
+
+namespace manifold_detail {
+
+// The lower kind is a.
+BROADSIDE_HD int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m, Manifold* out) {
+  out[0].count = 0;
+  const ContactKind kind = b.shape->kind;
+  if (kind == ContactKind::kHalfSpace) {
+    plane_manifold(a, b, reach_m, out[0]);
+  } else if (a.shape->kind == ContactKind::kSphere) {
+    sphere_manifold(a, b, rounding_m, reach_m, out[0]);
+  } else if (a.shape->kind == ContactKind::kCylinder) {
+    cylinder_manifold(a, b, rounding_m, reach_m, out[0]);
+  } else if (kind == ContactKind::kCylinder) {
+    cylinder_manifold(b, a, rounding_m, reach_m, out[0]);
+    turn_over(out[0]);
+  } else if (a.shape->kind == ContactKind::kCapsule) {
+    capsule_manifold(a, b, rounding_m, reach_m, out[0]);
+  } else if (a.shape->kind == ContactKind::kBox && kind == ContactKind::kBox) {
+    const SeparatingAxis axis = separating_axis_of_boxes(a, b, rounding_m, reach_m);
+    polytope_manifold(box_polytope(a), box_polytope(b), axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
+  } else if (a.shape->kind == ContactKind::kBox && kind == ContactKind::kHull) {
+    const BoxPolytope box = box_polytope(a);
+    const HullPolytope hull = hull_polytope(b);
+    const SeparatingAxis axis = separating_axis(box, hull, rounding_m, reach_m);
+    polytope_manifold(box, hull, axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
+  } else if (a.shape->kind == ContactKind::kHull && kind == ContactKind::kHull) {
+    const HullPolytope hull = hull_polytope(a);
+    const HullPolytope other = hull_polytope(b);
+    const SeparatingAxis axis = separating_axis(hull, other, rounding_m, reach_m);
+    polytope_manifold(hull, other, axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
+  }
+  return out[0].count > 0 ? 1 : 0;
+}
+
+}  // namespace manifold_detail
+
+// Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
+// apart by up to this much are given too, so that a solver may stop bodies before they touch.
+BROADSIDE_HD int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
+                                const ContactPose& pose_b, float reach_m, Manifold* out) {
+  const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
+  const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
+  const float rounding_m = contact_rounding_m(a, b);
+  if (shape_a.kind <= shape_b.kind) return manifold_detail::ordered(a, b, rounding_m, reach_m, out);
+  const int count = manifold_detail::ordered(b, a, rounding_m, reach_m, out);
+  for (int k = 0; k < count; ++k) turn_over(out[k]);
+  return count;
+}
+
+}  // namespace broadside::core

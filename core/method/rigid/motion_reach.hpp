@@ -1,0 +1,68 @@
+// Where a body can come within a step: contacts are found that far ahead, RIGID 8.7.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/box.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/rigid_integrate.hpp"
+#include "core/method/rigid/rigid_state.hpp"
+
+namespace broadside::core {
+
+// Two balls about the center of mass, m: the shape is inside the outer one and contains the inner one.
+struct ShapeBalls {
+  float outer_m = 0.0F;
+  float inner_m = 0.0F;
+};
+
+// What a body does within a step while it touches nothing, from what gravity and its wrench give.
+struct FreeMotion {
+  Vec3 drift;            // of the center by its velocity alone, m
+  Vec3 fall;             // what the gained velocity adds to it, at most, m
+  float swing_m = 0.0F;  // what turning adds: no point of the shape leaves the moved shape by more
+
+  // However the bodies are pushed: how far ahead contacts are looked for.
+  BROADSIDE_HD float reach_m() const { return (length(drift) + length(fall)) + swing_m; }
+};
+
+// Turned by whatever angle, the shape stays between its two balls, so a sphere adds nothing however fast it spins. What
+// an impulse of this step makes of the motion is seen in the next one.
+BROADSIDE_HD FreeMotion free_motion(const RigidState& s, const RigidMass& mass, ShapeBalls balls, Vec3 gravity_m_s2,
+                                    const RigidWrench& wrench, float dt_s) {
+  FreeMotion m;
+  if (!(mass.inverse_mass > 0.0F)) return m;
+  const Vec3 force = wrench.force_world_n + rotate(s.q, wrench.force_body_n);
+  m.drift = dt_s * s.v;
+  m.fall = (dt_s * dt_s) * (gravity_m_s2 + mass.inverse_mass * force);
+  m.swing_m = fminf(dt_s * length(angular_velocity(mass, s)) * balls.outer_m, balls.outer_m - balls.inner_m);
+  return m;
+}
+
+// The box of all that a shape with this box may fill within the step: where it is, drifts to and falls to. Grown by
+// more than the sums round.
+BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m) {
+  Box swept;
+  for (int k = 0; k < 3; ++k) {
+    const float drift = m.drift[k];
+    const float fallen = drift + m.fall[k];
+    const float low = fminf(fminf(drift, fallen), 0.0F);
+    const float high = fmaxf(fmaxf(drift, fallen), 0.0F);
+    const float pad = m.swing_m + 0x1p-22F * (fmaxf(fabsf(box.min[k]), fabsf(box.max[k])) + (high - low));
+    swept.min[k] = (box.min[k] + low) - pad;
+    swept.max[k] = (box.max[k] + high) + pad;
+  }
+  return swept;
+}
+
+// Whether a body of this box that may come so far reaches the face (0 to 5: -x +x -y +y -z +z) of the domain.
+BROADSIDE_HD bool may_reach_face(const Box& box, float reach_m, const Box& domain, std::uint32_t face) {
+  const int axis = static_cast<int>(face / 2);
+  const bool is_inside =
+      (face & 1U) != 0 ? box.max[axis] + reach_m < domain.max[axis] : box.min[axis] - reach_m > domain.min[axis];
+  return !is_inside;
+}
+
+}  // namespace broadside::core

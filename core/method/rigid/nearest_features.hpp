@@ -1,0 +1,254 @@
+// The nearest points of two polytopes that are apart, by their corners and edges.
+//
+// A corner over a face is found by separating axes. What is left are two edges, a corner and an edge, and two corners:
+// all of them are tried.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/cross.hpp"
+
+namespace broadside::core {
+
+template <typename Polytope>
+BROADSIDE_HD int lowest_corner(const Polytope& p, Vec3 direction) {
+  const Vec3 local = p.local(direction);
+  int lowest = 0;
+  float least = 3.402823e38F;
+  for (int k = 0; k < p.corner_count(); ++k) {
+    const float along = p.height(k, local);
+    if (!(along < least)) continue;
+    least = along;
+    lowest = k;
+  }
+  return lowest;
+}
+
+// The part of a body that may be within a distance of the other one: corners and edges up to a height above the body's
+// lowest corner along a direction, seen from the other body.
+struct Layer {
+  Vec3 direction;  // as local() gives it
+  float top = 3.402823e38F;
+};
+
+template <typename Polytope>
+BROADSIDE_HD bool reaches_into(const Polytope& p, const Layer& layer, int from, int to) {
+  return p.height(from, layer.direction) <= layer.top || p.height(to, layer.direction) <= layer.top;
+}
+
+// thickness_m: above the lowest corner along the unit direction.
+template <typename Polytope>
+BROADSIDE_HD Layer layer_of(const Polytope& p, Vec3 direction, float thickness_m) {
+  const Vec3 local = p.local(direction);
+  return {local, p.height(lowest_corner(p, direction), local) + thickness_m};
+}
+
+// How far A is above B along a unit direction.
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD float gap_along(const PolytopeA& a, const PolytopeB& b, Vec3 n) {
+  return a.least(n) + b.least(-n);
+}
+
+struct NearestFeatures {
+  float squared_m2 = 3.402823e38F;
+  Vec3 on_a;
+  Vec3 on_b;
+  std::uint32_t name_a = 0;
+  std::uint32_t name_b = 0;
+  // The edges on which the points lie, from end to end; zero at a corner.
+  Vec3 along_a;
+  Vec3 along_b;
+};
+
+// Where the point of the segment from p to q nearest to x is: 0 at p, 1 at q.
+BROADSIDE_HD float share_nearest(Vec3 x, Vec3 p, Vec3 q) {
+  const Vec3 along = q - p;
+  const float squared = dot(along, along);
+  const float share = squared > 0.0F ? dot(x - p, along) / squared : 0.0F;
+  return share <= 0.0F ? 0.0F : (share >= 1.0F ? 1.0F : share);
+}
+
+namespace nearest_detail {
+
+// Corners of `points` against edges of `edges`; a_has_corner says which of them is A.
+template <typename Points, typename Edges>
+BROADSIDE_HD void corners_against_edges(const Points& points, const Layer& near_points, const Edges& edges,
+                                        const Layer& near_edges, bool a_has_corner, NearestFeatures& best) {
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    int from = 0;
+    int to = 0;
+    edges.edge(e, from, to);
+    if (!reaches_into(edges, near_edges, from, to)) continue;
+    const Vec3 p = edges.corner(from);
+    const Vec3 q = edges.corner(to);
+    for (int c = 0; c < points.corner_count(); ++c) {
+      if (!reaches_into(points, near_points, c, c)) continue;
+      const Vec3 x = points.corner(c);
+      const float share = share_nearest(x, p, q);
+      const Vec3 y = share == 1.0F ? q : p + share * (q - p);
+      const float squared = dot(x - y, x - y);
+      if (!(squared < best.squared_m2)) continue;
+      best.squared_m2 = squared;
+      const std::uint32_t corner = corner_name(static_cast<std::uint32_t>(c));
+      const std::uint32_t other = share == 0.0F ? corner_name(static_cast<std::uint32_t>(from))
+                                  : share == 1.0F
+                                      ? corner_name(static_cast<std::uint32_t>(to))
+                                      : edge_name(static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
+      best.on_a = a_has_corner ? x : y;
+      best.on_b = a_has_corner ? y : x;
+      best.name_a = a_has_corner ? corner : other;
+      best.name_b = a_has_corner ? other : corner;
+      const Vec3 along = share > 0.0F && share < 1.0F ? q - p : Vec3{};
+      best.along_a = a_has_corner ? Vec3{} : along;
+      best.along_b = a_has_corner ? along : Vec3{};
+    }
+  }
+}
+
+}  // namespace nearest_detail
+
+// Nearest points of the lines of two edges, moved to the edges' ends where they lie beyond. Parallel edges have no
+// crossing: their nearest points include a corner.
+struct EdgeCrossing {
+  Vec3 on_a;
+  Vec3 on_b;
+  bool is_inside = false;  // of both edges
+};
+
+BROADSIDE_HD EdgeCrossing edge_crossing(Vec3 p0, Vec3 p1, Vec3 q0, Vec3 q1) {
+  const Vec3 u = p1 - p0;
+  const Vec3 v = q1 - q0;
+  const Vec3 w = p0 - q0;
+  const float uu = dot(u, u);
+  const float vv = dot(v, v);
+  const Vec3 n = cross(u, v);
+  const float squared = dot(n, n);
+  if (!(squared > 0.0F) || !(uu > 0.0F) || !(vv > 0.0F)) return {p0, q0, false};
+  // From w + s u - r v parallel to n.
+  const float s = dot(cross(v, w), n) / squared;
+  const float r = dot(cross(u, w), n) / squared;
+  const bool is_inside = s >= 0.0F && s <= 1.0F && r >= 0.0F && r <= 1.0F;
+  const float cs = s <= 0.0F ? 0.0F : (s >= 1.0F ? 1.0F : s);
+  const float cr = r <= 0.0F ? 0.0F : (r >= 1.0F ? 1.0F : r);
+  return {p0 + cs * u, q0 + cr * v, is_inside};
+}
+
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD NearestFeatures nearest_corner_and_edge(const PolytopeA& a, const Layer& near_a, const PolytopeB& b,
+                                                     const Layer& near_b) {
+  NearestFeatures best;
+  nearest_detail::corners_against_edges(a, near_a, b, near_b, true, best);
+  nearest_detail::corners_against_edges(b, near_b, a, near_a, false, best);
+  return best;
+}
+
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD NearestFeatures nearest_edges(const PolytopeA& a, const Layer& near_a, const PolytopeB& b,
+                                           const Layer& near_b) {
+  NearestFeatures best;
+  for (int i = 0; i < a.edge_count(); ++i) {
+    int a0 = 0;
+    int a1 = 0;
+    a.edge(i, a0, a1);
+    if (!reaches_into(a, near_a, a0, a1)) continue;
+    const Vec3 p0 = a.corner(a0);
+    const Vec3 p1 = a.corner(a1);
+    for (int j = 0; j < b.edge_count(); ++j) {
+      int b0 = 0;
+      int b1 = 0;
+      b.edge(j, b0, b1);
+      if (!reaches_into(b, near_b, b0, b1)) continue;
+      const Vec3 q0 = b.corner(b0);
+      const Vec3 q1 = b.corner(b1);
+      const EdgeCrossing crossing = edge_crossing(p0, p1, q0, q1);
+      if (!crossing.is_inside) continue;
+      const Vec3 between = crossing.on_a - crossing.on_b;
+      if (!(dot(between, between) < best.squared_m2)) continue;
+      best = {dot(between, between),
+              crossing.on_a,
+              crossing.on_b,
+              edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
+              edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)),
+              p1 - p0,
+              q1 - q0};
+    }
+  }
+  return best;
+}
+
+// The part of d across an edge. Where the edge is long, a difference of points is off by the rounding of where they are
+// along it, and the gap by that times its length.
+BROADSIDE_HD Vec3 without(Vec3 d, Vec3 along) {
+  const float squared = dot(along, along);
+  return squared > 0.0F ? d - (dot(d, along) / squared) * along : d;
+}
+
+// Across both edges, and across the longer one to the last digit; on the side of `between`.
+BROADSIDE_HD Vec3 across_edges(Vec3 u, Vec3 v, Vec3 between) {
+  const bool u_is_longer = dot(u, u) > dot(v, v);
+  Vec3 n = cross(u, v);
+  n = without(without(n, u_is_longer ? v : u), u_is_longer ? u : v);
+  const float squared = dot(n, n);
+  if (!(squared > 0.0F)) return {};
+  n = (1.0F / sqrtf(squared)) * n;
+  return dot(n, between) < 0.0F ? -n : n;
+}
+
+// Two polytopes that are apart, or nearly: their nearest points, and the direction in which they are farthest apart.
+struct NearestDirection {
+  float gap_m = -3.402823e38F;  // along the normal
+  Vec3 normal;                  // unit, from B to A
+  NearestFeatures features;
+};
+
+// Only features that may be nearer than reach_m, given a direction that parts the bodies by parted_m; where there are
+// none, the gap stays -infinity. Of two pairs of features that are equally near but for rounding, and of two ways to
+// compute the direction between them, the one along which the bodies are farther apart is the better one.
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m,
+                                                float reach_m) {
+  NearestDirection best;
+  const float thickness = reach_m - parted_m > 0.0F ? reach_m - parted_m : 0.0F;
+  const Layer near_a = layer_of(a, parting, thickness);
+  const Layer near_b = layer_of(b, -parting, thickness);
+  const auto attempt = [&](Vec3 direction) {
+    const float squared = dot(direction, direction);
+    if (!(squared > 0.0F)) return;
+    const Vec3 n = (1.0F / sqrtf(squared)) * direction;
+    const float gap = gap_along(a, b, n);
+    if (!(gap > best.gap_m)) return;
+    best.gap_m = gap;
+    best.normal = n;
+  };
+  const NearestFeatures corner = nearest_corner_and_edge(a, near_a, b, near_b);
+  const NearestFeatures edges = nearest_edges(a, near_a, b, near_b);
+  if (corner.squared_m2 > 3.0e38F && edges.squared_m2 > 3.0e38F) return best;
+  best.features = edges.squared_m2 < corner.squared_m2 ? edges : corner;
+  if (corner.squared_m2 < 3.0e38F) attempt(without(without(corner.on_a - corner.on_b, corner.along_a), corner.along_b));
+  if (edges.squared_m2 < 3.0e38F) attempt(across_edges(edges.along_a, edges.along_b, edges.on_a - edges.on_b));
+  // A corner may be nearest where a point of its edge is nearer by less than rounding. Then a far end of that edge
+  // stands out along the direction, by the first power of what the distance shows only in the second.
+  for (int round = 0; round < 2 && best.gap_m > 0.0F; ++round) {
+    const NearestFeatures& near = best.features;
+    const Vec3 n = best.normal;
+    const Vec3 u = a.corner(lowest_corner(a, n)) - near.on_a;
+    const Vec3 v = b.corner(lowest_corner(b, -n)) - near.on_b;
+    Vec3 d = near.on_a - near.on_b;
+    if (dot(n, u) < 0.0F) d = without(d, u);
+    if (dot(n, v) > 0.0F) d = without(d, v);
+    attempt(d);
+  }
+  return best;
+}
+
+// Halfway between the nearest points, on the line along the normal through one of them: through that of the smaller
+// body, because a large ball around the other is as near everywhere beside it.
+BROADSIDE_HD Vec3 middle_of(Vec3 on_a, Vec3 on_b, Vec3 normal, float gap_m, bool through_b) {
+  return through_b ? on_b + (0.5F * gap_m) * normal : on_a - (0.5F * gap_m) * normal;
+}
+
+}  // namespace broadside::core

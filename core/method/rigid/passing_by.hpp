@@ -1,0 +1,54 @@
+// Patches of bodies that will not meet: contacts are looked for as far ahead as bodies can come, in every direction,
+// and a body that flies past a corner must not be stopped by the plane through it.
+#pragma once
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/rigid_integrate.hpp"
+#include "core/method/rigid/rigid_state.hpp"
+
+namespace broadside::core {
+
+// Where a body is after the step if it touches nothing.
+BROADSIDE_HD ContactPose free_end(const RigidState& s, const RigidMass& mass, Vec3 gravity_m_s2,
+                                  const RigidWrench& wrench, float dt_s) {
+  const RigidState end = advance(accelerated(s, mass, gravity_m_s2, wrench, dt_s), mass, dt_s);
+  return {end.x, end.q};
+}
+
+BROADSIDE_HD float least_gap_m(const Manifold& m) {
+  float least = m.points[0].gap_m;
+  for (int k = 1; k < m.count; ++k) least = fminf(least, m.points[k].gap_m);
+  return least;
+}
+
+// Whether these two, apart at the start, are apart at these poses too and on the same side: what went through the other
+// body, or is too far away to tell, is not.
+BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
+                                 const ContactShape& shape_b, const ContactPose& b, float reach_m) {
+  Manifold end[kPatchesOfPair];
+  const int count = make_manifolds(shape_a, a, shape_b, b, reach_m, end);
+  for (int k = 0; k < count; ++k)
+    if (!(least_gap_m(end[k]) > 0.0F && dot(start.normal, end[k].normal) > 0.0F)) return false;
+  return count > 0;
+}
+
+struct ContactPath {
+  ContactPose start;
+  ContactPose end;  // if it touches nothing
+};
+
+// Whether a patch leads to no contact in this step: neither if both bodies move freely, nor if something holds one of
+// them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests.
+BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
+                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
+  if (!(least_gap_m(start) > near_m)) return false;
+  // Two bodies that go apart by all of their reach are still seen.
+  const float seen_m = 2.0F * reach_m;
+  return is_still_apart(start, shape_a, a.end, shape_b, b.end, seen_m) &&
+         is_still_apart(start, shape_a, a.end, shape_b, b.start, seen_m) &&
+         is_still_apart(start, shape_a, a.start, shape_b, b.end, seen_m);
+}
+
+}  // namespace broadside::core

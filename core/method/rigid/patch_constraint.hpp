@@ -1,0 +1,166 @@
+// One patch of contact as a solver keeps it through a step: at most four points of one normal, the impulses of the
+// current substep and their totals. RIGID 8.5.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/material.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/solver_body.hpp"
+
+namespace broadside::core {
+
+struct PatchPoint {
+  // From each center of mass to the point, at the start of the step. They stay through the step: an impulse's moment is
+  // then that of the recorded point, and both bodies together gain none.
+  Vec3 arm_a;
+  Vec3 arm_b;
+  float gap_m = 0.0F;        // at the start of the step
+  float normal_mass = 0.0F;  // kg: impulse along the normal per change of speed along it
+  // Of the tangent plane: the inverse of the mobility, symmetric 2 x 2, and that of its larger eigenvalue.
+  float stick_mass_11 = 0.0F;
+  float stick_mass_12 = 0.0F;
+  float stick_mass_22 = 0.0F;
+  float slide_mass = 0.0F;
+  // Of the current substep, N s on A.
+  float normal_impulse = 0.0F;
+  float tangent_impulse_1 = 0.0F;
+  float tangent_impulse_2 = 0.0F;
+  // Of all substeps that are over.
+  float normal_total = 0.0F;
+  float tangent_total_1 = 0.0F;
+  float tangent_total_2 = 0.0F;
+  float approach_m_s = 0.0F;  // at the start of the substep, positive where the bodies come nearer
+  bool slides = false;        // in this substep, from when static friction did not hold it
+};
+
+struct PatchConstraint {
+  std::uint32_t a = 0;  // indices of solver bodies
+  std::uint32_t b = 0;
+  Vec3 normal;  // unit, from B to A
+  Vec3 tangent_1;
+  Vec3 tangent_2;
+  Material surface;               // of both, combined
+  float slop_m = 0.0F;            // the depth at which the patch rests
+  float fastest_push_m_s = 0.0F;  // at which an overlap is pushed apart without gravity
+  int count = 0;
+  PatchPoint points[kManifoldPoints];
+};
+
+// A unit vector across the unit vector n: along the axis that n is farthest from, less its part along n.
+BROADSIDE_HD Vec3 unit_across(Vec3 n) {
+  const float x = n.x < 0.0F ? -n.x : n.x;
+  const float y = n.y < 0.0F ? -n.y : n.y;
+  const float z = n.z < 0.0F ? -n.z : n.z;
+  const Vec3 axis =
+      x <= y && x <= z ? Vec3{1.0F, 0.0F, 0.0F} : (y <= z ? Vec3{0.0F, 1.0F, 0.0F} : Vec3{0.0F, 0.0F, 1.0F});
+  const Vec3 t = axis - dot(axis, n) * n;
+  return (1.0F / length(t)) * t;
+}
+
+// d1 . M d2 of the point's mobility: how fast it moves along d2 for an impulse of 1 N s along d1, by body.
+BROADSIDE_HD float mobility(const SolverBody& body, Vec3 arm, Vec3 d1, Vec3 d2) {
+  return body.inverse_mass * dot(d1, d2) + dot(cross(arm, d1), body.inverse_inertia * cross(arm, d2));
+}
+
+// How far the patch reaches from the centers of mass: of its smaller moved body, m. What is small is measured in it.
+BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
+  float of_a = 0.0F;
+  float of_b = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    const PatchPoint& p = c.points[k];
+    of_a = dot(p.arm_a, p.arm_a) > of_a ? dot(p.arm_a, p.arm_a) : of_a;
+    of_b = dot(p.arm_b, p.arm_b) > of_b ? dot(p.arm_b, p.arm_b) : of_b;
+  }
+  if (!is_moved(a)) return sqrtf(of_b);
+  if (!is_moved(b)) return sqrtf(of_a);
+  return sqrtf(of_a < of_b ? of_a : of_b);
+}
+
+// center_b_from_a: from A's center of mass to B's, at the start of the step; of no matter where B is a face or static.
+BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const SolverBody& a, const SolverBody& b,
+                                             Vec3 center_b_from_a, const Material& surface) {
+  PatchConstraint c;
+  c.normal = manifold.normal;
+  c.tangent_1 = unit_across(c.normal);
+  c.tangent_2 = cross(c.normal, c.tangent_1);
+  c.surface = surface;
+  c.count = manifold.count;
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    p.arm_a = manifold.points[k].point;
+    p.arm_b = manifold.points[k].point - center_b_from_a;
+    p.gap_m = manifold.points[k].gap_m;
+    const auto entry = [&](Vec3 d1, Vec3 d2) { return mobility(a, p.arm_a, d1, d2) + mobility(b, p.arm_b, d1, d2); };
+    p.normal_mass = 1.0F / entry(c.normal, c.normal);
+    const float k11 = entry(c.tangent_1, c.tangent_1);
+    const float k22 = entry(c.tangent_2, c.tangent_2);
+    const float k12 = entry(c.tangent_1, c.tangent_2);
+    // The mobility is at least the inverse masses' sum in every direction, so its determinant is positive.
+    const float inverse = 1.0F / (k11 * k22 - k12 * k12);
+    p.stick_mass_11 = inverse * k22;
+    p.stick_mass_22 = inverse * k11;
+    p.stick_mass_12 = -inverse * k12;
+    const float half = 0.5F * (k11 - k22);
+    p.slide_mass = 1.0F / (0.5F * (k11 + k22) + sqrtf(half * half + k12 * k12));
+  }
+  return c;
+}
+
+// The two bodies of a patch while it is solved: velocities at hand, and what their angular momenta have gained.
+struct PatchMotion {
+  Vec3 v_a;
+  Vec3 w_a;
+  Vec3 gain_a;
+  Vec3 v_b;
+  Vec3 w_b;
+  Vec3 gain_b;
+};
+
+BROADSIDE_HD PatchMotion motion_of(const SolverBody& a, const SolverBody& b) {
+  return {a.v, angular_velocity(a), {}, b.v, angular_velocity(b), {}};
+}
+
+BROADSIDE_HD Vec3 relative_velocity(const PatchMotion& m, const PatchPoint& p) {
+  return (m.v_a + cross(m.w_a, p.arm_a)) - (m.v_b + cross(m.w_b, p.arm_b));
+}
+
+BROADSIDE_HD void push(PatchMotion& m, const SolverBody& a, const SolverBody& b, const PatchPoint& p, Vec3 impulse) {
+  const Vec3 moment_a = cross(p.arm_a, impulse);
+  m.v_a = m.v_a + a.inverse_mass * impulse;
+  m.w_a = m.w_a + a.inverse_inertia * moment_a;
+  m.gain_a = m.gain_a + moment_a;
+  const Vec3 moment_b = cross(p.arm_b, impulse);
+  m.v_b = m.v_b - b.inverse_mass * impulse;
+  m.w_b = m.w_b - b.inverse_inertia * moment_b;
+  m.gain_b = m.gain_b - moment_b;
+}
+
+// Static bodies are shared by patches of one color: they are not written.
+BROADSIDE_HD void store(const PatchMotion& m, SolverBody& a, SolverBody& b) {
+  if (is_moved(a)) {
+    a.v = m.v_a;
+    a.angular_momentum = a.angular_momentum + m.gain_a;
+  }
+  if (is_moved(b)) {
+    b.v = m.v_b;
+    b.angular_momentum = b.angular_momentum + m.gain_b;
+  }
+}
+
+// The gap now: that of the start, and how far the bodies moved along the normal since.
+BROADSIDE_HD float gap_now(const PatchConstraint& c, const PatchPoint& p, const SolverBody& a, const SolverBody& b) {
+  const Vec3 moved_a = a.moved + cross(a.turned, p.arm_a);
+  const Vec3 moved_b = b.moved + cross(b.turned, p.arm_b);
+  return p.gap_m + dot(c.normal, moved_a - moved_b);
+}
+
+// N s on A, of the whole step.
+BROADSIDE_HD Vec3 total_impulse(const PatchConstraint& c, const PatchPoint& p) {
+  return (p.normal_total * c.normal + p.tangent_total_1 * c.tangent_1) + p.tangent_total_2 * c.tangent_2;
+}
+
+}  // namespace broadside::core

@@ -1,0 +1,125 @@
+// The manifold of two polytopes, of which each point may carry a ball (a capsule is a segment with one), once the
+// direction in which they are farthest apart is known.
+#pragma once
+
+#include <cmath>
+
+#include "core/attributes.hpp"
+#include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/face_clipping.hpp"
+#include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/nearest_features.hpp"
+#include "core/method/rigid/separating_axis.hpp"
+
+namespace broadside::core {
+
+namespace polytope_detail {
+
+// Balls around the points: surfaces move towards each other, the middle by half the difference.
+BROADSIDE_HD ManifoldPoint with_balls(ManifoldPoint p, Vec3 normal, float ball_a_m, float ball_b_m) {
+  if (ball_a_m == 0.0F && ball_b_m == 0.0F) return p;
+  p.point = p.point + (0.5F * (ball_b_m - ball_a_m)) * normal;
+  p.gap_m = p.gap_m - (ball_a_m + ball_b_m);
+  return p;
+}
+
+template <int kRoom>
+BROADSIDE_HD float least_gap(const CommonArea<kRoom>& area) {
+  float least = 3.402823e38F;
+  for (int k = 0; k < area.count; ++k) least = fminf(least, area.points[k].gap_m);
+  return least;
+}
+
+template <typename PolytopeA, typename PolytopeB, int kRoom>
+BROADSIDE_HD void area_of(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis, float rounding_m,
+                          CommonArea<kRoom>& area) {
+  const int face_a = axis.kind == AxisKind::kFaceOfA ? axis.of_a : a.support_face(-axis.normal);
+  const int face_b = axis.kind == AxisKind::kFaceOfB ? axis.of_b : b.support_face(axis.normal);
+  area.count = 0;
+  if (axis.kind != AxisKind::kFaceOfB) common_area(a, face_a, b, face_b, axis.normal, true, rounding_m, area);
+  if (area.count == 0) common_area(b, face_b, a, face_a, axis.normal, false, rounding_m, area);
+}
+
+// The corner of the other body that is deepest along the axis, where it is over (or, overlapping, but for rounding
+// over) the reference's face. The incident face need not have it where a hull's faces are many.
+template <typename Reference, typename Incident>
+BROADSIDE_HD bool corner_over_face(const Reference& reference, const Incident& incident, const SeparatingAxis& axis,
+                                   int face, bool reference_is_a, float rounding_m, ManifoldPoint& out) {
+  const Vec3 outward = reference_is_a ? -axis.normal : axis.normal;
+  const int deepest = lowest_corner(incident, outward);
+  const Vec3 p = incident.corner(deepest);
+  const int sides = reference.face_corner_count(face);
+  for (int k = 0; k < sides && axis.gap_m > 0.0F; ++k) {
+    const Vec3 start = reference.corner(reference.face_corner(face, k));
+    const Vec3 end = reference.corner(reference.face_corner(face, k + 1 == sides ? 0 : k + 1));
+    const Vec3 side = cross(end - start, outward);
+    if (dot(side, p - start) > rounding_m * length(side)) return false;
+  }
+  const std::uint32_t plane = face_name(static_cast<std::uint32_t>(face));
+  const std::uint32_t corner = corner_name(static_cast<std::uint32_t>(deepest));
+  out = {p - (0.5F * axis.gap_m) * outward, axis.gap_m,
+         reference_is_a ? feature_key(plane, corner) : feature_key(corner, plane)};
+  return true;
+}
+
+}  // namespace polytope_detail
+
+// Points whose gap is at most reach_m, after the balls are counted. The distance of the deepest one is that of the
+// bodies: where two corners, or a corner and an edge, are nearest, the axis is wider than it and gives way to the
+// direction between them.
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD void polytope_manifold(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis, float ball_a_m,
+                                    float ball_b_m, float rounding_m, float reach_m, Manifold& out) {
+  const float balls_m = ball_a_m + ball_b_m;
+  out.count = 0;
+  if (axis.kind == AxisKind::kNone || !(axis.gap_m - balls_m <= reach_m)) return;
+  out.normal = axis.normal;
+  constexpr int kRoom = PolytopeA::kMostFaceCorners + PolytopeB::kMostFaceCorners + 1;
+  CommonArea<kRoom> area;
+  polytope_detail::area_of(a, b, axis, rounding_m, area);
+  ManifoldPoint witness;
+  bool has_witness = false;
+  if (axis.kind == AxisKind::kEdges) {
+    int a0 = 0;
+    int a1 = 0;
+    int b0 = 0;
+    int b1 = 0;
+    a.edge(axis.of_a, a0, a1);
+    b.edge(axis.of_b, b0, b1);
+    const EdgeCrossing crossing = edge_crossing(a.corner(a0), a.corner(a1), b.corner(b0), b.corner(b1));
+    // Overlapping edges cross but for rounding.
+    has_witness = crossing.is_inside || axis.gap_m <= 0.0F;
+    witness = {middle_of(crossing.on_a, crossing.on_b, axis.normal, axis.gap_m, ball_a_m > ball_b_m), axis.gap_m,
+               feature_key(edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
+                           edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)))};
+  }
+  if (polytope_detail::least_gap(area) > axis.gap_m + 2.0F * rounding_m) {
+    if (axis.kind == AxisKind::kFaceOfA)
+      has_witness = polytope_detail::corner_over_face(a, b, axis, axis.of_a, true, rounding_m, witness);
+    if (axis.kind == AxisKind::kFaceOfB)
+      has_witness = polytope_detail::corner_over_face(b, a, axis, axis.of_b, false, rounding_m, witness);
+  }
+  // A point as deep as the axis says: then its gap is the distance.
+  const bool is_shown = has_witness || polytope_detail::least_gap(area) <= axis.gap_m + 2.0F * rounding_m;
+  if (!is_shown) {
+    const NearestDirection near =
+        nearest_direction(a, b, axis.normal, axis.gap_m, reach_m + balls_m + 2.0F * rounding_m);
+    if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near
+    has_witness = true;
+    witness.gap_m = axis.gap_m;
+    witness.feature = feature_key(near.features.name_a, near.features.name_b);
+    // An overlap, or a touch whose direction would be rounding alone: the axis stays.
+    if (axis.gap_m > 0.0F && near.gap_m > axis.gap_m) {
+      out.normal = near.normal;
+      witness.gap_m = sqrtf(near.features.squared_m2);
+      area.count = 0;
+    }
+    witness.point = middle_of(near.features.on_a, near.features.on_b, out.normal, witness.gap_m, ball_a_m > ball_b_m);
+  }
+  if (has_witness && area.count < kRoom && !(polytope_detail::least_gap(area) <= witness.gap_m + rounding_m))
+    area.points[area.count++] = witness;
+  keep_four(out, area.count, reach_m,
+            [&](int k) { return polytope_detail::with_balls(area.points[k], out.normal, ball_a_m, ball_b_m); });
+}
+
+}  // namespace broadside::core

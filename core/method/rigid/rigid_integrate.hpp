@@ -1,0 +1,124 @@
+// How a turning body moves over one substep: RIGID 8.1. Angular momentum is the state, so it stays bit for bit while no
+// torque acts; the orientation follows from it by the classical Runge-Kutta method.
+#pragma once
+
+#include "core/attributes.hpp"
+#include "core/math/quat.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/rigid_state.hpp"
+
+namespace broadside::core {
+
+// What acts on a body in every step beside gravity: the sums of the scene's wrenches, constant in the world and
+// constant in the body's axes. Forces act at the center of mass.
+struct RigidWrench {
+  Vec3 force_world_n;
+  Vec3 force_body_n;
+  Vec3 torque_world_n_m;
+  Vec3 torque_body_n_m;
+
+  friend constexpr bool operator==(const RigidWrench&, const RigidWrench&) = default;
+};
+
+// A part of a step turns a body by at most this much, rad: the error of one part is then below (1/2)^5 / 120.
+inline constexpr float kLargestTurnOfPart = 1.0F;
+// A body that turns by more than so many parts a step is integrated no better, only slower: no law can tell how often
+// it went around.
+inline constexpr int kMostTurnParts = 64;
+
+// Gravity and wrenches. Body axes are those at the start. A static body is returned unchanged.
+BROADSIDE_HD RigidState accelerated(RigidState s, const RigidMass& mass, Vec3 gravity_m_s2, const RigidWrench& wrench,
+                                    float dt_s) {
+  if (!(mass.inverse_mass > 0.0F)) return s;
+  const Vec3 force = wrench.force_world_n + rotate(s.q, wrench.force_body_n);
+  const Vec3 torque = wrench.torque_world_n_m + rotate(s.q, wrench.torque_body_n_m);
+  s.v = s.v + dt_s * (gravity_m_s2 + mass.inverse_mass * force);
+  s.angular_momentum = s.angular_momentum + dt_s * torque;
+  return s;
+}
+
+// An upper bound of the angular speed that this angular momentum can have in any orientation, rad/s: the trace of the
+// inverse inertia is at least its largest eigenvalue, and at most three times it.
+BROADSIDE_HD float fastest_spin_rad_s(const RigidMass& mass, Vec3 angular_momentum) {
+  return ((mass.inverse_inertia.xx + mass.inverse_inertia.yy) + mass.inverse_inertia.zz) * length(angular_momentum);
+}
+
+BROADSIDE_HD constexpr Quat operator+(Quat a, Quat b) {
+  return {a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z};
+}
+BROADSIDE_HD constexpr Quat operator*(float s, Quat q) {
+  return {s * q.w, s * q.x, s * q.y, s * q.z};
+}
+BROADSIDE_HD constexpr float dot(Quat a, Quat b) {
+  return ((a.w * b.w + a.x * b.x) + a.y * b.y) + a.z * b.z;
+}
+
+// dq/dt = 1/2 w q, with w of the angular momentum in the orientation q.
+BROADSIDE_HD constexpr Quat orientation_rate(const RigidMass& mass, Vec3 angular_momentum, Quat q) {
+  const Vec3 h = 0.5F * turned_inverse_inertia(mass, q, angular_momentum);
+  return {-((h.x * q.x + h.y * q.y) + h.z * q.z), (h.x * q.w + h.y * q.z) - h.z * q.y,
+          (h.y * q.w + h.z * q.x) - h.x * q.z, (h.z * q.w + h.x * q.y) - h.y * q.x};
+}
+
+// An orientation and what it lost to rounding.
+struct RestedQuat {
+  Quat q;
+  Quat rest;
+};
+
+// a + b and what the sum rounds away, exactly (Knuth 1969, TwoSum: for any sizes of a and b).
+BROADSIDE_HD constexpr float sum_with_rest(float a, float b, float& rest) {
+  const float sum = a + b;
+  const float b_part = sum - a;
+  const float a_part = sum - b_part;
+  rest = (a - a_part) + (b - b_part);
+  return sum;
+}
+
+// The sum of q and dq, of length 1. The change is computed whole before it is added, and what the addition rounds away
+// is kept: so a step's error is that of the change, far below an ulp of q. Errors of the length alone turn nothing, so
+// 1 / sqrt(1 + e) to second order will do; e is the fifth order of the turn.
+BROADSIDE_HD constexpr RestedQuat moved_on_sphere(RestedQuat s, Quat dq) {
+  const float e = (dot(s.q, s.q) - 1.0F) + (2.0F * dot(s.q, dq) + dot(dq, dq));
+  const float shrink = e * (0.375F * e - 0.5F);
+  const Quat change = s.rest + (dq + shrink * (s.q + dq));
+  RestedQuat moved;
+  moved.q.w = sum_with_rest(s.q.w, change.w, moved.rest.w);
+  moved.q.x = sum_with_rest(s.q.x, change.x, moved.rest.x);
+  moved.q.y = sum_with_rest(s.q.y, change.y, moved.rest.y);
+  moved.q.z = sum_with_rest(s.q.z, change.z, moved.rest.z);
+  return moved;
+}
+
+BROADSIDE_HD constexpr RestedQuat turned_part(const RigidMass& mass, Vec3 angular_momentum, RestedQuat s, float dt_s) {
+  const Quat q = s.q;
+  const Quat k1 = orientation_rate(mass, angular_momentum, q);
+  const Quat k2 = orientation_rate(mass, angular_momentum, q + (0.5F * dt_s) * k1);
+  const Quat k3 = orientation_rate(mass, angular_momentum, q + (0.5F * dt_s) * k2);
+  const Quat k4 = orientation_rate(mass, angular_momentum, q + dt_s * k3);
+  return moved_on_sphere(s, (dt_s / 6.0F) * ((k1 + k4) + 2.0F * (k2 + k3)));
+}
+
+// The orientation after dt while no torque acts.
+BROADSIDE_HD RestedQuat turned(const RigidMass& mass, Vec3 angular_momentum, RestedQuat s, float dt_s) {
+  const float most = dt_s * fastest_spin_rad_s(mass, angular_momentum) * (1.0F / kLargestTurnOfPart);
+  if (!(most > 1.0F)) return turned_part(mass, angular_momentum, s, dt_s);
+  const bool is_resolved = most < static_cast<float>(kMostTurnParts);
+  const int parts = is_resolved ? static_cast<int>(most) + 1 : kMostTurnParts;
+  const float part_s = is_resolved ? dt_s / static_cast<float>(parts) : dt_s / most;
+  for (int k = 0; k < parts; ++k) s = turned_part(mass, angular_momentum, s, part_s);
+  return s;
+}
+
+// Moves and turns freely for dt: the position by the velocity, the orientation by the angular momentum, which both
+// stay. A static body is returned unchanged.
+BROADSIDE_HD RigidState advance(RigidState s, const RigidMass& mass, float dt_s) {
+  if (!(mass.inverse_mass > 0.0F)) return s;
+  s.x = s.x + dt_s * s.v;
+  const RestedQuat orientation = turned(mass, s.angular_momentum, {s.q, s.q_rest}, dt_s);
+  s.q = orientation.q;
+  s.q_rest = orientation.rest;
+  return s;
+}
+
+}  // namespace broadside::core

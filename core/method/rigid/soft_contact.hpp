@@ -1,0 +1,230 @@
+// Contact by small substeps, soft constraints and relaxation: RIGID 8.5, after Catto, Solver2D (2024), his "soft step",
+// and Macklin et al., Small Steps in Physics Simulation (2019).
+//
+// A substep: velocities get gravity and the impulses of the substep before; sweeps hold the bodies at the slop, softly;
+// bodies move; one sweep takes back the velocity that only pushed them apart; what came fast bounces.
+//
+// Departures: friction is Coulomb's cone, solved as a vector after the normal impulses that bound it. A bounce happens
+// in its substep and not at the end of the step. Arms and gaps are those of the start, followed to first order. A
+// resting gap is a slop below 0, where the law is linear: at 0 it is not, and a stack never comes to rest on that kink.
+#pragma once
+
+#include <cmath>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/solver_body.hpp"
+
+namespace broadside::core {
+
+// Numbers of one substep, the same for all contacts.
+struct SoftStep {
+  float dt_s = 0.0F;  // of the substep
+  float per_dt_s = 0.0F;
+  // What of a gap's difference from the slop a substep takes away, per second; and how much of the impulse is soft.
+  float push_rate_per_s = 0.0F;
+  float mass_scale = 1.0F;
+  float impulse_scale = 0.0F;
+  // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
+  // friction holds, from the first substep on.
+  float settle_m_s = 0.0F;
+  float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
+  float gravity_m_s2 = 0.0F;
+};
+
+// A spring and damper under each contact, taken implicitly: frequency and damping in units of the substep, omega h and
+// zeta. At rest it yields by (impulse / mass) / (h omega^2).
+BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
+  SoftStep s;
+  s.dt_s = dt_s;
+  s.per_dt_s = 1.0F / dt_s;
+  const float a1 = 2.0F * damping + omega_dt;
+  const float a2 = omega_dt * a1;
+  const float a3 = 1.0F / (1.0F + a2);
+  s.push_rate_per_s = omega_dt * s.per_dt_s / a1;
+  s.mass_scale = a2 * a3;
+  s.impulse_scale = a3;
+  return s;
+}
+
+// Before anything else of a substep: how fast the points come.
+BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
+  const PatchMotion m = motion_of(a, b);
+  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
+}
+
+// The largest speed of a point relative to the other body, m/s.
+BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
+  const PatchMotion m = motion_of(a, b);
+  float squared = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    const Vec3 v = relative_velocity(m, c.points[k]);
+    squared = dot(v, v) > squared ? dot(v, v) : squared;
+  }
+  return sqrtf(squared);
+}
+
+// The impulses of the substep before.
+BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
+  PatchMotion m = motion_of(a, b);
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    p.slides = false;
+    push(m, a, b, p,
+         (p.normal_impulse * c.normal + p.tangent_impulse_1 * c.tangent_1) + p.tangent_impulse_2 * c.tangent_2);
+  }
+  store(m, a, b);
+}
+
+// Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
+BROADSIDE_HD float add_normal_impulse(const PatchConstraint& c, PatchPoint& p, PatchMotion& m, const SolverBody& a,
+                                      const SolverBody& b, float change) {
+  const float sum = p.normal_impulse + change;
+  const float next = sum > 0.0F ? sum : 0.0F;
+  const float done = next - p.normal_impulse;
+  p.normal_impulse = next;
+  push(m, a, b, p, done * c.normal);
+  return (done < 0.0F ? -done : done) / p.normal_mass;
+}
+
+// Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
+// the slip. With one mass for both directions of a sliding point its friction turns until it opposes the slip. Returns
+// how fast it changed the point, m/s.
+BROADSIDE_HD float solve_friction(const PatchConstraint& c, PatchPoint& p, PatchMotion& m, const SolverBody& a,
+                                  const SolverBody& b) {
+  const Vec3 v = relative_velocity(m, p);
+  const float v1 = dot(v, c.tangent_1);
+  const float v2 = dot(v, c.tangent_2);
+  float want_1 = p.tangent_impulse_1 - (p.stick_mass_11 * v1 + p.stick_mass_12 * v2);
+  float want_2 = p.tangent_impulse_2 - (p.stick_mass_12 * v1 + p.stick_mass_22 * v2);
+  float most = (p.slides ? c.surface.mu_kinetic : c.surface.mu_static) * p.normal_impulse;
+  if (want_1 * want_1 + want_2 * want_2 > most * most) {
+    p.slides = true;
+    most = c.surface.mu_kinetic * p.normal_impulse;
+    want_1 = p.tangent_impulse_1 - p.slide_mass * v1;
+    want_2 = p.tangent_impulse_2 - p.slide_mass * v2;
+    const float size = sqrtf(want_1 * want_1 + want_2 * want_2);
+    if (size > most) {
+      want_1 = (most / size) * want_1;
+      want_2 = (most / size) * want_2;
+    }
+  }
+  const float change_1 = want_1 - p.tangent_impulse_1;
+  const float change_2 = want_2 - p.tangent_impulse_2;
+  p.tangent_impulse_1 = want_1;
+  p.tangent_impulse_2 = want_2;
+  push(m, a, b, p, change_1 * c.tangent_1 + change_2 * c.tangent_2);
+  return sqrtf(change_1 * change_1 + change_2 * change_2) / p.slide_mass;
+}
+
+BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const SolverBody& a, const SolverBody& b) {
+  float largest = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    const float size = solve_friction(c, c.points[k], m, a, b);
+    largest = size > largest ? size : largest;
+  }
+  return largest;
+}
+
+// An overlap is pushed apart no faster than half of what it would take to fall out of it: where something rides on what is
+// pushed, and keeps its speed, it keeps no more energy than that of a quarter of the lift.
+BROADSIDE_HD float fastest_push(const PatchConstraint& c, float depth_m, float gravity_m_s2) {
+  return gravity_m_s2 > 0.0F ? sqrtf(0.5F * gravity_m_s2 * depth_m) : c.fastest_push_m_s;
+}
+
+// One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
+BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+  PatchMotion m = motion_of(a, b);
+  float largest = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    const float gap = gap_now(c, p, a, b);
+    const float speed = dot(c.normal, relative_velocity(m, p));
+    float change;
+    if (gap > 0.0F) {
+      change = -p.normal_mass * (speed + gap * step.per_dt_s);  // it may close within the substep, no more
+    } else {
+      const float wish = (gap + c.slop_m) * step.push_rate_per_s;
+      const float slow = wish > step.settle_m_s ? step.settle_m_s : wish;
+      const float fast = fastest_push(c, -gap, step.gravity_m_s2);
+      const float toward = slow < -fast ? -fast : slow;
+      change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
+    }
+    const float size = add_normal_impulse(c, p, m, a, b, change);
+    largest = size > largest ? size : largest;
+  }
+  const float size = solve_frictions(c, m, a, b);
+  store(m, a, b);
+  return size > largest ? size : largest;
+}
+
+// One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
+// is the next substep's.
+BROADSIDE_HD void relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+  PatchMotion m = motion_of(a, b);
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    const float gap = gap_now(c, p, a, b);
+    if (gap > 0.0F && !(p.normal_impulse > 0.0F)) continue;
+    const float speed = dot(c.normal, relative_velocity(m, p)) + (gap > 0.0F ? gap * step.per_dt_s : 0.0F);
+    add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
+  }
+  solve_frictions(c, m, a, b);
+  store(m, a, b);
+}
+
+// Whether the point came fast enough to bounce, and was met in this substep.
+BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const SoftStep& step) {
+  return c.surface.restitution > 0.0F && p.approach_m_s > step.bounce_from_m_s && p.normal_impulse > 0.0F;
+}
+
+// The fastest approach of the patch's points that bounce, m/s; 0 = none does.
+BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step) {
+  float fastest = 0.0F;
+  for (int k = 0; k < c.count; ++k)
+    if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
+  return fastest;
+}
+
+// Sweeps over a patch's points while its bodies are at hand, forward and backward in turns: they share both bodies, and
+// one sweep would leave a spin toward the last of them. What is left after these is below a thousandth, for the four
+// corners of a cube.
+inline constexpr int kSweepsOfBounce = 8;
+
+// Sweeps over all patches, at most: of three balls that meet at once two pairs share one, and what the second pair does
+// changes the first. One that changes no speed by more than this share of the fastest is the last.
+inline constexpr int kMostBounceSweeps = 32;
+inline constexpr float kBounceDone = 0x1p-10F;
+
+// Points that came fast leave with the share of that speed that restitution gives back. Returns the largest change of a
+// point's speed along the normal, m/s.
+BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+  PatchMotion m = motion_of(a, b);
+  float largest = 0.0F;
+  for (int k = 0; k < kSweepsOfBounce * c.count; ++k) {
+    const int at = k % c.count;
+    PatchPoint& p = c.points[(k / c.count) % 2 == 0 ? at : c.count - 1 - at];
+    if (!bounces(c, p, step)) continue;
+    const float speed = dot(c.normal, relative_velocity(m, p));
+    const float change = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
+    const float size = add_normal_impulse(c, p, m, a, b, change);
+    largest = size > largest ? size : largest;
+  }
+  solve_frictions(c, m, a, b);
+  store(m, a, b);
+  return largest;
+}
+
+// Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
+BROADSIDE_HD void add_to_totals(PatchConstraint& c, const SoftStep& step) {
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    p.normal_total = p.normal_total + p.normal_impulse;
+    p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;
+    p.tangent_total_2 = p.tangent_total_2 + p.tangent_impulse_2;
+    if (bounces(c, p, step)) p.normal_impulse = p.tangent_impulse_1 = p.tangent_impulse_2 = 0.0F;
+  }
+}
+
+}  // namespace broadside::core

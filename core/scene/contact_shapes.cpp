@@ -1,0 +1,129 @@
+#include "core/scene/contact_shapes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/exact/convex_hull.hpp"
+#include "core/scene/hull_faces.hpp"
+#include "core/scene/primitive.hpp"
+
+namespace broadside::core {
+namespace {
+
+float farthest_m(std::span<const Vec3> points) {
+  double most = 0.0;
+  for (const Vec3 p : points) {
+    const double squared =
+        static_cast<double>(p.x) * p.x + static_cast<double>(p.y) * p.y + static_cast<double>(p.z) * p.z;
+    most = std::max(most, squared);
+  }
+  return std::nextafterf(static_cast<float>(std::sqrt(most)), std::numeric_limits<float>::infinity());
+}
+
+ContactShape of_primitive(const Primitive& p) {
+  ContactShape out;
+  constexpr std::array kKinds{ContactKind::kBox, ContactKind::kSphere, ContactKind::kCapsule, ContactKind::kCylinder};
+  out.kind = kKinds[static_cast<std::size_t>(p.kind)];
+  out.axis = p.axis;
+  out.half = p.half_extents;
+  out.radius_m = p.radius_m;
+  const bool is_long = p.kind == PrimitiveKind::kCapsule || p.kind == PrimitiveKind::kCylinder;
+  out.half_length_m = is_long ? p.half_length_m() : 0.0F;
+  const std::array corner{p.half_extents};
+  // A box and a cylinder reach their corners; the sum of both lengths is no less.
+  if (p.kind == PrimitiveKind::kBox) out.size_m = farthest_m(corner);
+  if (p.kind != PrimitiveKind::kBox) out.size_m = out.radius_m + out.half_length_m;
+  return out;
+}
+
+class Builder {
+ public:
+  Builder(const Scene& scene, std::span<const MassProperties> mass) : scene_(scene), mass_(mass) {}
+
+  Result<ContactShapes> build() {
+    std::map<std::pair<std::uint32_t, std::array<double, 3>>, std::uint32_t> known;
+    for (std::uint32_t i = 0; i < scene_.body_count(); ++i) {
+      const std::uint32_t mesh = scene_.bodies[i].mesh;
+      const auto [found, is_new] =
+          known.emplace(std::pair{mesh, mass_[i].center_of_mass_m}, static_cast<std::uint32_t>(out_.shapes.size()));
+      out_.shape_of_body.push_back(found->second);
+      if (!is_new) continue;
+      auto shape = shape_of(mesh);
+      if (!shape) return shape.error();
+      const auto& c = mass_[i].center_of_mass_m;
+      shape.value().center = {-static_cast<float>(c[0]), -static_cast<float>(c[1]), -static_cast<float>(c[2])};
+      out_.shapes.push_back(shape.value());
+      out_.mesh_of_shape.push_back(mesh);
+    }
+    point_into_tables();
+    return std::move(out_);
+  }
+
+ private:
+  // Where the hull of a mesh begins in the tables; the same mesh with another center of mass shares it.
+  struct HullPlace {
+    std::size_t vertex = 0;
+    std::size_t face = 0;
+    std::size_t corner = 0;
+    std::size_t edge = 0;
+    ContactShape shape;
+  };
+
+  Result<ContactShape> shape_of(std::uint32_t index) {
+    const Mesh& mesh = *scene_.meshes[index];
+    if (const auto primitive = primitive_of(mesh)) return of_primitive(*primitive);
+    if (const auto known = hulls_.find(index); known != hulls_.end()) return known->second.shape;
+    if (is_convex(mesh)) return add_hull(index, mesh);
+    auto solid = uniform_solid(mesh, 1.0);
+    if (solid && solid.value().solid == Solid::kHull)
+      if (const auto hull = exact::convex_hull(mesh.vertices)) return add_hull(index, *hull);
+    return Error{"a mesh that is not convex has no contacts yet", "mesh " + mesh.name,
+                 "use boxes, spheres, capsules, cylinders or convex meshes"};
+  }
+
+  ContactShape add_hull(std::uint32_t index, const Mesh& convex) {
+    const HullTables tables = hull_tables(convex);
+    HullPlace place{
+        out_.hull_vertices.size(), out_.hull_faces.size(), out_.hull_corners.size(), out_.hull_edges.size(), {}};
+    const auto append = [](auto& all, const auto& these) { all.insert(all.end(), these.begin(), these.end()); };
+    append(out_.hull_vertices, tables.vertices);
+    append(out_.hull_faces, tables.faces);
+    append(out_.hull_corners, tables.corners);
+    append(out_.hull_edges, tables.edges);
+    place.shape.kind = ContactKind::kHull;
+    place.shape.size_m = farthest_m(tables.vertices);
+    place.shape.hull.vertex_count = static_cast<std::uint32_t>(tables.vertices.size());
+    place.shape.hull.face_count = static_cast<std::uint32_t>(tables.faces.size());
+    place.shape.hull.edge_count = static_cast<std::uint32_t>(tables.edges.size());
+    hulls_.emplace(index, place);
+    return place.shape;
+  }
+
+  void point_into_tables() {
+    for (std::size_t k = 0; k < out_.shapes.size(); ++k) {
+      if (out_.shapes[k].kind != ContactKind::kHull) continue;
+      const HullPlace& place = hulls_.at(out_.mesh_of_shape[k]);
+      HullView& hull = out_.shapes[k].hull;
+      hull.vertices = out_.hull_vertices.data() + place.vertex;
+      hull.faces = out_.hull_faces.data() + place.face;
+      hull.corners = out_.hull_corners.data() + place.corner;
+      hull.edges = out_.hull_edges.data() + place.edge;
+    }
+  }
+
+  const Scene& scene_;
+  std::span<const MassProperties> mass_;
+  std::map<std::uint32_t, HullPlace> hulls_;
+  ContactShapes out_;
+};
+
+}  // namespace
+
+Result<ContactShapes> build_contact_shapes(const Scene& scene, std::span<const MassProperties> mass) {
+  return Builder(scene, mass).build();
+}
+
+}  // namespace broadside::core

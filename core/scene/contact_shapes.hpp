@@ -1,0 +1,40 @@
+// The shapes that contacts of turning bodies are made of, one for each mesh and center of mass of a scene.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/method/rigid/contact_shape.hpp"
+#include "core/result.hpp"
+#include "core/scene/mass_properties.hpp"
+#include "core/scene/scene.hpp"
+
+namespace broadside::core {
+
+// Owns what the views in `shapes` point to: each table holds those of all shapes, one after another, so it can be
+// copied to a device whole and the views moved by one offset. Moving the object keeps the views valid; copying is not
+// allowed.
+struct ContactShapes {
+  std::vector<ContactShape> shapes;
+  std::vector<std::uint32_t> mesh_of_shape;
+  std::vector<std::uint32_t> shape_of_body;
+
+  std::vector<Vec3> hull_vertices;
+  std::vector<HullFace> hull_faces;
+  std::vector<std::uint32_t> hull_corners;
+  std::vector<HullEdge> hull_edges;
+
+  ContactShapes() = default;
+  ContactShapes(ContactShapes&&) = default;
+  ContactShapes& operator=(ContactShapes&&) = default;
+  ContactShapes(const ContactShapes&) = delete;
+  ContactShapes& operator=(const ContactShapes&) = delete;
+  ~ContactShapes() = default;
+};
+
+// mass: one a body, as all_mass_properties gives it. What primitive_of knows is that closed-form shape, a convex mesh
+// is its own hull, and a mesh that is open or crosses itself has its hull as for its inertia (hull_notes says so).
+Result<ContactShapes> build_contact_shapes(const Scene& scene, std::span<const MassProperties> mass);
+
+}  // namespace broadside::core

@@ -1,0 +1,22 @@
+// The faces and edges of a convex polyhedron that is given by triangles: triangles of one plane are one face.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/method/rigid/contact_shape.hpp"
+#include "core/scene/mesh.hpp"
+
+namespace broadside::core {
+
+struct HullTables {
+  std::vector<Vec3> vertices;  // those on the hull's edges
+  std::vector<HullFace> faces;
+  std::vector<std::uint32_t> corners;
+  std::vector<HullEdge> edges;
+};
+
+// mesh: closed and convex, triangles outward. A face of more than kFaceCorners corners becomes several in one plane.
+HullTables hull_tables(const Mesh& mesh);
+
+}  // namespace broadside::core

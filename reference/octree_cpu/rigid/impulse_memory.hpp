@@ -1,0 +1,36 @@
+// The impulses of the last substep by bodies and feature: what the next step begins with (warm starting).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/manifold.hpp"
+
+namespace broadside::reference {
+
+struct RememberedPoint {
+  std::uint32_t feature = 0;
+  float normal_n = 0.0F;  // N: an impulse per length of its substep, so that the step may change
+  core::Vec3 friction_n;  // N on A, world axes
+};
+
+class ImpulseMemory {
+ public:
+  // The points of this pair; none when it did not touch.
+  [[nodiscard]] std::span<const RememberedPoint> of(std::uint32_t a, std::uint32_t b) const;
+  void forget();
+
+  // A new memory in place of the old: first the patches, sorted by (a, b); then their points, in any order.
+  void begin(std::span<const core::ContactPatch> patches);
+  void keep(std::uint32_t patch, int point, const RememberedPoint& remembered) {
+    points_[4 * static_cast<std::size_t>(patch) + static_cast<std::size_t>(point)] = remembered;
+  }
+
+ private:
+  std::vector<std::uint64_t> pairs_;     // of the patches, sorted
+  std::vector<RememberedPoint> points_;  // four a patch; feature 0 = none
+};
+
+}  // namespace broadside::reference

@@ -1,0 +1,37 @@
+// Which pairs of turned bodies have body-octree nodes that meet at the last level of the chosen setting: RIGID 8.3.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/method/levels.hpp"
+#include "core/pair.hpp"
+#include "core/scene/rigid_bodies.hpp"
+
+namespace broadside::reference {
+
+class OrientedLevelStage {
+ public:
+  // candidates: sorted pairs. confirmed: those of them that may come to touch within the step, sorted.
+  void confirm(const core::RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
+               std::vector<core::Pair>& confirmed);
+
+  // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair, and neither are
+  // two whose boxes of the whole step do not meet.
+  void confirm_all(const core::RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
+
+  // Since reset_counts(). Sums of integers, so no thread order shows in them.
+  [[nodiscard]] std::uint64_t pairs_tested() const { return pairs_tested_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t box_tests() const { return box_tests_.load(std::memory_order_relaxed); }
+  void reset_counts() { pairs_tested_ = box_tests_ = 0; }
+
+ private:
+  std::vector<std::uint8_t> keep_;
+  std::vector<std::vector<core::Pair>> rows_;
+  std::atomic<std::uint64_t> pairs_tested_{0};
+  std::atomic<std::uint64_t> box_tests_{0};
+};
+
+}  // namespace broadside::reference

@@ -1,0 +1,39 @@
+// Colors patches so that those of one color share no moved body.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/rigid_state.hpp"
+
+namespace broadside::reference {
+
+// In the order of core::color_priority each patch takes the lowest color that no earlier patch of its moved bodies has:
+// one fixed function of the list of patches, which waits for earlier neighbors alone (Jones and Plassmann, 1993).
+class PatchColoring {
+ public:
+  // Bodies of inverse mass 0 and faces conflict with nothing.
+  void color(std::span<const core::ContactPatch> patches, std::span<const core::RigidMass> masses);
+
+  // Indices of patches by color, by index within a color.
+  [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
+  // Patches of color c are order()[color_begin()[c] .. color_begin()[c + 1]).
+  [[nodiscard]] std::span<const std::uint32_t> color_begin() const { return begin_; }
+  [[nodiscard]] std::uint32_t color_count() const { return static_cast<std::uint32_t>(begin_.size()) - 1; }
+
+ private:
+  struct Ranked {
+    std::uint64_t priority;
+    std::uint32_t patch;
+  };
+  std::vector<Ranked> by_priority_;
+  std::vector<std::uint32_t> color_;
+  std::vector<std::uint32_t> begin_{0};
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint64_t> used_;  // per body: bit c, of color c below 64
+  std::vector<std::uint32_t> next_;  // per body: the least color from 64 on that is free
+};
+
+}  // namespace broadside::reference

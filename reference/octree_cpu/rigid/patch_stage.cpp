@@ -1,0 +1,100 @@
+#include "reference/octree_cpu/rigid/patch_stage.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+#include "core/method/rigid/make_manifolds.hpp"
+
+namespace broadside::reference {
+
+using core::ContactPatch;
+
+namespace {
+
+// Some tens of microseconds a task: handing one to a thread takes about ten.
+constexpr std::size_t kPairsOfBlock = 64;
+constexpr std::size_t kBodiesOfBlock = 256;
+
+// Calls make(k, block) for each k below count; afterwards `joined` has what all blocks were given, in order.
+template <typename Make>
+void fill_in_order(std::size_t count, std::size_t of_block, std::vector<std::vector<ContactPatch>>& blocks,
+                   std::vector<ContactPatch>& joined, const Make& make) {
+  const std::size_t block_count = (count + of_block - 1) / of_block;
+  if (blocks.size() < block_count) blocks.resize(block_count);
+  tbb::parallel_for(std::size_t{0}, block_count, [&](std::size_t n) {
+    blocks[n].clear();
+    for (std::size_t k = n * of_block; k < std::min(count, (n + 1) * of_block); ++k) make(k, blocks[n]);
+  });
+  joined.clear();
+  for (std::size_t n = 0; n < block_count; ++n) joined.insert(joined.end(), blocks[n].begin(), blocks[n].end());
+}
+
+bool is_before(const ContactPatch& p, const ContactPatch& q) {
+  return p.a != q.a ? p.a < q.a : p.b < q.b;
+}
+
+}  // namespace
+
+void PatchStage::load(const core::Scene& scene) {
+  domain_ = scene.domain;
+  for (int k = 0; k < core::kFaceCount; ++k) {
+    face_shapes_[static_cast<std::size_t>(k)] = core::domain_face_shape(k);
+    face_poses_[static_cast<std::size_t>(k)] = core::domain_face_pose(scene.domain, k);
+  }
+  of_pairs_.clear();
+  of_faces_.clear();
+  patches_made_ = 0;
+}
+
+void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
+  fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
+    const auto [i, j] = confirmed[k];
+    const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
+    const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
+    const float reach_m = bodies.reach_m[i] + bodies.reach_m[j];
+    const float near_m = bodies.fall_m[i] + bodies.fall_m[j];
+    core::Manifold found[core::kPatchesOfPair];
+    const int count = core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), reach_m, found);
+    for (int n = 0; n < count; ++n)
+      if (!core::passes_by(found[n], a, bodies.path(i), b, bodies.path(j), reach_m, near_m))
+        block.push_back({i, j, found[n]});
+  });
+}
+
+// A body that is at rest may be driven into a face within the step, as fast as its fastest neighbor comes. A face has
+// no end that a body could pass by, so looking too far costs nothing but time.
+void PatchStage::find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
+  pushed_reach_m_.assign(bodies.count(), 0.0F);
+  for (const auto [i, j] : confirmed) {
+    pushed_reach_m_[i] = std::max(pushed_reach_m_[i], bodies.reach_m[j]);
+    pushed_reach_m_[j] = std::max(pushed_reach_m_[j], bodies.reach_m[i]);
+  }
+  for (std::uint32_t i = 0; i < bodies.count(); ++i) pushed_reach_m_[i] += bodies.reach_m[i];
+}
+
+void PatchStage::touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
+                             std::vector<ContactPatch>& patches) {
+  find_pushed_reach(bodies, confirmed);
+  fill_in_order(bodies.count(), kBodiesOfBlock, face_blocks_, of_faces_, [&](std::size_t k, Block& block) {
+    const auto i = static_cast<std::uint32_t>(k);
+    if (bodies.is_static[i] != 0) return;
+    const core::Box& box = bodies.shape_boxes[i];
+    const float reach_m = pushed_reach_m_[i];
+    for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+      if (!core::may_reach_face(box, reach_m, domain_, face)) continue;
+      core::Manifold found[core::kPatchesOfPair];
+      const int count = core::make_manifolds(bodies.shapes[bodies.shape[i]].contact, bodies.pose(i), face_shapes_[face],
+                                             face_poses_[face], reach_m, found);
+      for (int n = 0; n < count; ++n) block.push_back({i, core::kFirstFace + face, found[n]});
+    }
+  });
+  patches.clear();
+  std::merge(of_pairs_.begin(), of_pairs_.end(), of_faces_.begin(), of_faces_.end(), std::back_inserter(patches),
+             is_before);
+  patches_made_ += patches.size();
+}
+
+}  // namespace broadside::reference

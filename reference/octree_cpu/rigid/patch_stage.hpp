@@ -1,0 +1,48 @@
+// The patches of contact of a step: of confirmed pairs of bodies and of bodies at faces of the domain. RIGID 8.4.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/contact.hpp"
+#include "core/math/box.hpp"
+#include "core/method/rigid/manifold.hpp"
+#include "core/pair.hpp"
+#include "core/scene/rigid_bodies.hpp"
+#include "core/scene/scene.hpp"
+
+namespace broadside::reference {
+
+class PatchStage {
+ public:
+  void load(const core::Scene& scene);
+  // confirmed: sorted pairs.
+  void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
+  // After touch_bodies. patches: of both stages, sorted by (a, b): of a body first those with bodies, then those with
+  // faces. Static bodies touch no face.
+  void touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
+                   std::vector<core::ContactPatch>& patches);
+  // Since load.
+  [[nodiscard]] std::uint64_t patches_made() const { return patches_made_; }
+
+ private:
+  using Block = std::vector<core::ContactPatch>;
+
+  void find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
+
+  core::Box domain_;
+  std::array<core::ContactShape, core::kFaceCount> face_shapes_;
+  std::array<core::ContactPose, core::kFaceCount> face_poses_;
+  // One for so many pairs or bodies in a row, each filled by one thread: joined in order they are sorted.
+  std::vector<Block> pair_blocks_;
+  std::vector<Block> face_blocks_;
+  std::vector<core::ContactPatch> of_pairs_;
+  std::vector<core::ContactPatch> of_faces_;
+  std::vector<float> pushed_reach_m_;  // by body
+  std::uint64_t patches_made_ = 0;
+};
+
+}  // namespace broadside::reference

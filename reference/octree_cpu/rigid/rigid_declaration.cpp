@@ -1,0 +1,42 @@
+#include "reference/octree_cpu/rigid/rigid_declaration.hpp"
+
+#include <string>
+#include <utility>
+
+#include "core/method/rigid/rigid_declaration.hpp"
+#include "reference/vendor_build.hpp"
+
+namespace broadside::reference {
+
+core::Declaration rigid_declaration(const ContactSolverOptions& solver) {
+  return core::rigid_declaration(soft_settings(solver));
+}
+
+core::EquivalenceCard rigid_card(const core::Scene& scene, const ContactSolverOptions& solver, std::string build,
+                                 int threads) {
+  if (scene.motion != core::Motion::kRigid) return {};
+  core::EquivalenceCard card = own_card(std::move(build), "float32 without contraction",
+                                        "as the compiler made it; octree joins use AVX2 where it is", threads);
+  card.push_back({"shape margin", "none", ""});
+  card.push_back({"contact margin", "none: a gap may close within the step, no more", ""});
+  card.push_back({"broad-phase margin", "how far bodies may come in the step", ""});
+  card.push_back({"friction rule", "geometric mean", ""});
+  card.push_back({"restitution rule", "the larger", ""});
+  const bool is_swept = solver.kind == SolverKind::kConjugate;
+  card.push_back({"contact solver",
+                  std::string("substeps with soft constraints and relaxation") +
+                      (is_swept ? ", along conjugate directions" : ", color by color"),
+                  "one application a contact"});
+  card.push_back({"solver iterations",
+                  is_swept ? "until little changes, in at most " +
+                                 std::to_string(core::most_of_step(soft_settings(solver)).substeps) + " substeps"
+                           : "one sweep in each of at most " +
+                                 std::to_string(core::most_of_step(soft_settings(solver)).substeps) + " substeps",
+                  "one pass"});
+  card.push_back({"rotation", "bodies turn, with the gyroscopic torque", ""});
+  card.push_back({"warm starting", "by the features that meet", ""});
+  card.push_back({"sleeping", "off", ""});
+  return card;
+}
+
+}  // namespace broadside::reference

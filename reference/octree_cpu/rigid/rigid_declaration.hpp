@@ -1,0 +1,19 @@
+// What the twin says of itself where bodies turn.
+#pragma once
+
+#include <string>
+
+#include "core/engine/declaration.hpp"
+#include "core/engine/equivalence.hpp"
+#include "core/scene/scene.hpp"
+#include "reference/octree_cpu/rigid/contact_solver.hpp"
+
+namespace broadside::reference {
+
+core::Declaration rigid_declaration(const ContactSolverOptions& solver);
+
+// Of a scene whose bodies turn; empty where they translate, which is what METHOD describes.
+core::EquivalenceCard rigid_card(const core::Scene& scene, const ContactSolverOptions& solver, std::string build,
+                                 int threads);
+
+}  // namespace broadside::reference

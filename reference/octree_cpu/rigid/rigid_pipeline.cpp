@@ -1,0 +1,197 @@
+#include "reference/octree_cpu/rigid/rigid_pipeline.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <utility>
+
+#include "core/method/frame_digest.hpp"
+#include "core/method/rigid/motion_reach.hpp"
+#include "core/method/rigid/point_digest.hpp"
+#include "core/method/rigid/told_point.hpp"
+#include "core/method/rigid/turned_box.hpp"
+#include "core/scene/refuse_springs.hpp"
+#include "reference/octree_cpu/parallel_sum.hpp"
+#include "reference/octree_cpu/stage_clock.hpp"
+
+namespace broadside::reference {
+
+struct RigidPipeline::Threads {
+  tbb::task_arena arena;
+};
+
+RigidPipeline::RigidPipeline(RigidPipelineOptions options)
+    : options_(std::move(options)),
+      threads_(new Threads{
+          tbb::task_arena(options_.threads > 0 ? options_.threads : static_cast<int>(tbb::task_arena::automatic))}) {}
+
+RigidPipeline::~RigidPipeline() = default;
+
+core::Status RigidPipeline::load(const core::Scene& scene) {
+  if (core::Status s = core::refuse_springs(scene); !s) return s;
+  auto bodies = core::make_rigid_bodies(scene);
+  if (!bodies) return bodies.error();
+  scene_ = &scene;
+  bodies_ = std::move(bodies).value();
+  solver_ = options_.make_solver(scene);
+  steps_ = 0;
+  candidates_ = {};
+  confirmed_.clear();
+  patches_.clear();
+  points_.clear();
+  level_stage_.reset_counts();
+  patch_stage_.load(scene);
+  if (!options_.make_broad_phase) return core::Done{};
+  broad_phase_ = options_.make_broad_phase(scene);
+  threads_->arena.execute([&] { place(scene.dt_s); });
+  return broad_phase_->load(bodies_.boxes, bodies_.is_static);
+}
+
+core::Status RigidPipeline::step(float dt_s) {
+  core::Status status = core::Done{};
+  threads_->arena.execute([&] { status = run_stages(dt_s); });
+  return status;
+}
+
+core::Status RigidPipeline::run_stages(float dt_s) {
+  StageClock clock(times_);
+  place(dt_s);
+  clock.lap(core::Stage::kIntegrate);
+  if (core::Status s = find_candidates(); !s) return s;
+  clock.lap(core::Stage::kBroad);
+  confirm();
+  clock.lap(core::Stage::kConfirm);
+  touch_bodies();
+  clock.lap(core::Stage::kVertices);
+  touch_faces();
+  clock.lap(core::Stage::kFaces);
+  respond(dt_s);
+  tell_points();
+  clock.lap(core::Stage::kResponse);
+  ++steps_;
+  dt_s_ = dt_s;
+  return core::Done{};
+}
+
+// The pose of detection, how far each body can come from there, and boxes that contain all of it.
+void RigidPipeline::place(float dt_s) {
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies_.count(), 256), [&](const auto& range) {
+    for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
+      const core::RigidState& s = bodies_.detected[i] = bodies_.state[i];
+      const core::RigidShape& shape = bodies_.shapes[bodies_.shape[i]];
+      const core::FreeMotion motion =
+          core::free_motion(s, bodies_.mass[i], shape.balls, scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
+      bodies_.free_end[i] = core::free_end(s, bodies_.mass[i], scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
+      bodies_.reach_m[i] = motion.reach_m();
+      bodies_.fall_m[i] = core::length(motion.fall);
+      bodies_.shape_boxes[i] = core::turned_box(shape.contact, shape.vertices(), s.x, s.q);
+      bodies_.boxes[i] = core::swept_box(bodies_.shape_boxes[i], motion);
+    }
+  });
+}
+
+core::Status RigidPipeline::find_candidates() {
+  if (!broad_phase_) return core::Done{};
+  if (core::Status s = broad_phase_->update(bodies_.boxes); !s) return s;
+  if (core::Status s = broad_phase_->find(); !s) return s;
+  auto found = broad_phase_->read_back();
+  if (!found) return found.error();
+  candidates_ = std::move(found).value();
+  return core::Done{};
+}
+
+void RigidPipeline::confirm() {
+  if (broad_phase_)
+    level_stage_.confirm(bodies_, options_.levels, candidates_.pairs, confirmed_);
+  else
+    level_stage_.confirm_all(bodies_, options_.levels, confirmed_);
+}
+
+void RigidPipeline::touch_bodies() {
+  patch_stage_.touch_bodies(bodies_, confirmed_);
+}
+
+void RigidPipeline::touch_faces() {
+  patch_stage_.touch_faces(bodies_, confirmed_, patches_);
+}
+
+void RigidPipeline::respond(float dt_s) {
+  const RigidStep step{bodies_.mass,          bodies_.material,     bodies_.wrench,
+                       scene_->face_material, scene_->gravity_m_s2, dt_s};
+  solver_->advance(bodies_.state, patches_, step);
+}
+
+// Of what touched or was pushed. Patches are sorted, so the points are.
+void RigidPipeline::tell_points() {
+  points_.clear();
+  const auto impulses = solver_->impulses();
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    const core::ContactPatch& patch = patches_[k];
+    for (int i = 0; i < patch.manifold.count; ++i) {
+      core::ContactPoint told;
+      if (core::told_point(patch, i, impulses[k][static_cast<std::size_t>(i)], bodies_.detected[patch.a].x, told))
+        points_.push_back(told);
+    }
+  }
+}
+
+std::uint32_t RigidPipeline::groups() const {
+  using core::Group;
+  const std::uint32_t always = bit(Group::kBodies) | bit(Group::kDetection) | bit(Group::kDetectedOrientation) |
+                               bit(Group::kConfirmed) | bit(Group::kPoints);
+  return options_.make_broad_phase ? always | bit(Group::kPairs) : always;
+}
+
+std::vector<core::Counter> RigidPipeline::counters() const {
+  std::vector<core::Counter> counters;
+  if (broad_phase_) counters = broad_phase_->counters();
+  counters.push_back({"level stage: pairs tested", level_stage_.pairs_tested()});
+  counters.push_back({"level stage: box tests", level_stage_.box_tests()});
+  counters.push_back({"contact patches", patch_stage_.patches_made()});
+  return counters;
+}
+
+std::uint64_t RigidPipeline::digest() const {
+  const auto body = [this](std::size_t i) {
+    const core::RigidState& s = bodies_.state[i];
+    const auto k = static_cast<std::uint32_t>(i);
+    return core::body_digest(k, bodies_.origin(k), s.q, s.v, bodies_.spin(k));
+  };
+  std::uint64_t sum = 0;
+  threads_->arena.execute([&] {
+    sum = parallel_sum_of(bodies_.count(), body) +
+          parallel_sum_of(confirmed_.size(), [this](std::size_t k) { return core::confirmed_digest(confirmed_[k]); }) +
+          parallel_sum_of(points_.size(), [this](std::size_t k) { return core::point_digest(points_[k]); });
+  });
+  return sum;
+}
+
+core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
+  frame = {};
+  frame.step = steps_;
+  frame.time_s = static_cast<double>(steps_) * static_cast<double>(dt_s_);
+  frame.digest = digest();
+  if (level != core::RecordLevel::kFull) return core::Done{};
+
+  for (std::uint32_t i = 0; i < bodies_.count(); ++i) {
+    const core::RigidState& s = bodies_.state[i];
+    frame.position.push_back(bodies_.origin(i));
+    frame.orientation.push_back(s.q);
+    frame.velocity.push_back(s.v);
+    frame.angular_velocity.push_back(bodies_.spin(i));
+    const core::RigidState& d = bodies_.detected[i];
+    frame.detected_position.push_back(core::mesh_origin(bodies_.mass[i], d));
+    frame.detected_velocity.push_back(d.v);
+    frame.detected_orientation.push_back(d.q);
+  }
+  frame.boxes = bodies_.boxes;
+  frame.pairs = candidates_.pairs;
+  frame.pairs_demanded = candidates_.demanded;
+  frame.pairs_raw = candidates_.raw;
+  frame.confirmed = confirmed_;
+  frame.points = points_;
+  record(frame);
+  return core::Done{};
+}
+
+}  // namespace broadside::reference

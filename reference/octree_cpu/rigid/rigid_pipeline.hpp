@@ -1,0 +1,90 @@
+// The CPU twin of bodies that turn: RIGID 8. Reads like reference/octree_cpu/pipeline.hpp; its formulas are those of
+// core/method/rigid/.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/contact_point.hpp"
+#include "core/engine/broad_phase.hpp"
+#include "core/engine/declaration.hpp"
+#include "core/engine/dynamics.hpp"
+#include "core/engine/stage.hpp"
+#include "core/method/levels.hpp"
+#include "core/pair.hpp"
+#include "core/scene/rigid_bodies.hpp"
+#include "reference/octree_cpu/rigid/contact_solver.hpp"
+#include "reference/octree_cpu/rigid/oriented_level_stage.hpp"
+#include "reference/octree_cpu/rigid/patch_stage.hpp"
+
+namespace broadside::reference {
+
+struct RigidPipelineOptions {
+  // Makes the broad phase over the scene's domain; empty = the level stage tests every pair.
+  std::function<std::unique_ptr<core::BroadPhase>(const core::Scene&)> make_broad_phase;
+  core::Levels levels = core::Levels::kC;
+  std::function<std::unique_ptr<ContactSolver>(const core::Scene&)> make_solver;
+  core::Declaration declaration;  // of these stages with this solver
+  int threads = 0;                // 0 = all
+};
+
+// A step detects at its start, as far ahead as bodies can come within it, and moves bodies last. Bit-identical for any
+// number of threads: every parallel loop writes to slots of its own, and what depends on an order is done in a fixed
+// one.
+class RigidPipeline : public core::Dynamics {
+ public:
+  explicit RigidPipeline(RigidPipelineOptions options);
+  ~RigidPipeline() override;
+
+  // Refuses springs, and shapes and masses that no body can have.
+  core::Status load(const core::Scene& scene) override;
+  core::Status step(float dt_s) override;
+  core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
+  [[nodiscard]] std::uint32_t groups() const override;
+  [[nodiscard]] std::span<const core::StageTime> stage_times() const override { return times_; }
+  [[nodiscard]] std::vector<core::Counter> counters() const override;
+  [[nodiscard]] const core::Declaration& declaration() const { return options_.declaration; }
+
+ protected:
+  // The stages, in order. A wrong engine replaces one.
+  virtual void place(float dt_s);
+  virtual core::Status find_candidates();
+  virtual void confirm();
+  virtual void touch_bodies();
+  virtual void touch_faces();
+  virtual void respond(float dt_s);
+  virtual void tell_points();
+  // The last word on what is recorded.
+  virtual void record(core::FrameRecord&) {}
+
+  const core::Scene* scene_ = nullptr;
+  core::RigidBodies bodies_;
+  PatchStage patch_stage_;
+  core::PairSet candidates_;
+  std::vector<core::Pair> confirmed_;
+  std::vector<core::ContactPatch> patches_;
+  std::vector<core::ContactPoint> points_;  // of the last step
+
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+
+ private:
+  core::Status run_stages(float dt_s);
+  [[nodiscard]] std::uint64_t digest() const;
+
+  struct Threads;  // oneTBB's arena: vendor headers stay in the source
+
+  RigidPipelineOptions options_;
+  std::unique_ptr<Threads> threads_;
+  std::unique_ptr<core::BroadPhase> broad_phase_;
+  OrientedLevelStage level_stage_;
+  std::unique_ptr<ContactSolver> solver_;
+  std::array<core::StageTime, core::kStageCount> times_{};
+  float dt_s_ = 0.0F;
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace broadside::reference

@@ -1,0 +1,91 @@
+#include "reference/octree_cpu/rigid/step_constraints.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+
+#include "core/contact.hpp"
+
+namespace broadside::reference {
+
+using core::PatchConstraint;
+using core::PatchPoint;
+
+// The impulses that these two bodies gave each other in the last substep of the step before.
+void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c) const {
+  const auto remembered = memory_.of(patch.a, patch.b);
+  for (int k = 0; k < c.count; ++k) {
+    PatchPoint& p = c.points[k];
+    const auto same = std::find_if(remembered.begin(), remembered.end(), [&](const RememberedPoint& r) {
+      return r.feature == patch.manifold.points[k].feature;
+    });
+    if (same == remembered.end()) continue;
+    p.normal_impulse = substep_s_ * same->normal_n;
+    p.tangent_impulse_1 = substep_s_ * core::dot(same->friction_n, c.tangent_1);
+    p.tangent_impulse_2 = substep_s_ * core::dot(same->friction_n, c.tangent_2);
+  }
+}
+
+void StepConstraints::begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
+                            const RigidStep& step, float substep_s, const core::PatchLimits& limits) {
+  substep_s_ = substep_s;
+  bodies_.resize(states.size() + 1);
+  bodies_.back() = {};
+  each_body([&](std::size_t i) { bodies_[i] = core::solver_body(states[i], step.masses[i]); });
+  coloring_.color(patches, step.masses);
+  constraints_.resize(patches.size());
+  std::atomic<bool> bouncing = false;
+  in_parallel(0, patches.size(), [&](std::size_t place) {
+    const core::ContactPatch& patch = patches[coloring_.order()[place]];
+    const bool is_face = core::is_face(patch.b);
+    const auto b = is_face ? static_cast<std::uint32_t>(states.size()) : patch.b;
+    const core::Material surface =
+        core::combine(step.materials[patch.a], is_face ? step.face_material : step.materials[patch.b]);
+    const core::Vec3 across = is_face ? core::Vec3{} : states[patch.b].x - states[patch.a].x;
+    PatchConstraint& c = constraints_[place];
+    c = core::make_constraint(patch.manifold, bodies_[patch.a], bodies_[b], across, surface);
+    c.a = patch.a;
+    c.b = b;
+    core::set_limits(c, bodies_[c.a], bodies_[c.b], limits, step.dt_s);
+    recall(patch, c);
+    if (surface.restitution > 0.0F) bouncing.store(true, std::memory_order_relaxed);
+  });
+  may_bounce_ = bouncing;
+}
+
+void StepConstraints::finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches) {
+  each_body([&](std::size_t i) { states[i] = core::state_after(bodies_[i], states[i]); });
+  memory_.begin(patches);
+  impulses_.resize(patches.size());
+  const float per_s = 1.0F / substep_s_;
+  in_parallel(0, constraints_.size(), [&](std::size_t place) {
+    const std::uint32_t patch = coloring_.order()[place];
+    const PatchConstraint& c = constraints_[place];
+    impulses_[patch] = {};
+    for (int k = 0; k < c.count; ++k) {
+      const PatchPoint& p = c.points[k];
+      impulses_[patch][static_cast<std::size_t>(k)] = core::total_impulse(c, p);
+      const core::Vec3 friction = p.tangent_impulse_1 * c.tangent_1 + p.tangent_impulse_2 * c.tangent_2;
+      memory_.keep(patch, k, {patches[patch].manifold.points[k].feature, per_s * p.normal_impulse, per_s * friction});
+    }
+  });
+}
+
+void StepConstraints::bounce(const core::SoftStep& numbers) {
+  if (!may_bounce_) return;
+  of_patches_.assign(constraints_.size(), 0.0F);
+  each_patch([&](const PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
+    of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
+  });
+  const auto largest = [&] {
+    return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
+  };
+  const float done = core::kBounceDone * largest();
+  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
+    each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
+      of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
+    });
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,78 @@
+// Bodies and patches of one step as a contact solver works on them, with the impulses that the step before left.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/soft_contact.hpp"
+#include "core/method/rigid/soft_settings.hpp"
+#include "core/method/rigid/solver_body.hpp"
+#include "reference/octree_cpu/rigid/contact_solver.hpp"
+#include "reference/octree_cpu/rigid/impulse_memory.hpp"
+#include "reference/octree_cpu/rigid/in_parallel.hpp"
+#include "reference/octree_cpu/rigid/patch_coloring.hpp"
+
+namespace broadside::reference {
+
+class StepConstraints {
+ public:
+  void begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
+             const RigidStep& step, float substep_s, const core::PatchLimits& limits);
+  // Writes the states, and keeps the impulses of the last substep and of the step.
+  void finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches);
+  void forget() { memory_.forget(); }
+
+  [[nodiscard]] std::span<core::SolverBody> bodies() { return bodies_; }
+  [[nodiscard]] std::span<core::PatchConstraint> patches() { return constraints_; }
+  [[nodiscard]] std::span<const PatchImpulses> impulses() const { return impulses_; }
+  // Whether a patch has restitution.
+  [[nodiscard]] bool may_bounce() const { return may_bounce_; }
+
+  // work(index) for every body but the one that stands for the faces.
+  template <typename Work>
+  void each_body(const Work& work) {
+    in_parallel(0, bodies_.size() - 1, work);
+  }
+  // work(patch, a, b) for every patch, in any order: it reads bodies alone.
+  template <typename Work>
+  void each_patch(const Work& work) {
+    in_parallel(0, constraints_.size(), [&](std::size_t k) {
+      core::PatchConstraint& c = constraints_[k];
+      work(c, bodies_[c.a], bodies_[c.b]);
+    });
+  }
+  // The same color by color: it may write its moved bodies.
+  template <typename Work>
+  void each_patch_by_color(const Work& work) {
+    const auto begin = coloring_.color_begin();
+    for (std::uint32_t color = 0; color < coloring_.color_count(); ++color)
+      in_parallel(begin[color], begin[color + 1], [&](std::size_t k) {
+        core::PatchConstraint& c = constraints_[k];
+        work(c, bodies_[c.a], bodies_[c.b]);
+      });
+  }
+  [[nodiscard]] std::size_t index_of(const core::PatchConstraint& c) const {
+    return static_cast<std::size_t>(&c - constraints_.data());
+  }
+
+  // Points that came fast leave with their share of that speed: sweeps until one changes no speed by more than
+  // 2^-10 of the fastest approach.
+  void bounce(const core::SoftStep& numbers);
+
+ private:
+  void recall(const core::ContactPatch& patch, core::PatchConstraint& c) const;
+
+  PatchColoring coloring_;
+  ImpulseMemory memory_;
+  std::vector<core::SolverBody> bodies_;            // the last one stands for every face: it never moves
+  std::vector<core::PatchConstraint> constraints_;  // in the order of the coloring
+  std::vector<PatchImpulses> impulses_;             // by patch as given
+  std::vector<float> of_patches_;                   // what a loop over patches found, for the largest of it
+  float substep_s_ = 0.0F;
+  bool may_bounce_ = false;
+};
+
+}  // namespace broadside::reference

@@ -1,0 +1,70 @@
+// octree-cpu where bodies turn, with its stages as a table of functions, of which a wrong engine replaces one.
+#pragma once
+
+#include <cstdint>
+
+#include "core/trace/frame.hpp"
+#include "reference/octree_cpu/rigid/rigid_pipeline.hpp"
+
+namespace broadside::reference {
+
+class StagedPipeline;
+
+// What is null is the pipeline's own stage.
+struct TurningStages {
+  void (*place)(StagedPipeline&, float dt_s) = nullptr;
+  core::Status (*find_candidates)(StagedPipeline&) = nullptr;
+  void (*confirm)(StagedPipeline&) = nullptr;
+  void (*touch_bodies)(StagedPipeline&) = nullptr;
+  void (*touch_faces)(StagedPipeline&) = nullptr;
+  void (*respond)(StagedPipeline&, float dt_s) = nullptr;
+  void (*tell_points)(StagedPipeline&) = nullptr;
+  // Changes what is recorded of the frame, and nothing else.
+  void (*tell)(StagedPipeline&, core::FrameRecord&) = nullptr;
+};
+
+// With default stages: octree-cpu of scenes whose bodies turn, bit for bit.
+class StagedPipeline final : public RigidPipeline {
+ public:
+  // run: 0, 1, ...: lets a mutant differ from run to run.
+  explicit StagedPipeline(const TurningStages& stages, std::uint64_t run = 0);
+
+  core::Status load(const core::Scene& scene) override;
+  [[nodiscard]] std::uint64_t run() const { return run_; }
+  [[nodiscard]] const core::Scene& scene() const { return *scene_; }
+  // From 1, of the step that is being made.
+  [[nodiscard]] std::uint64_t step_number() const { return steps() + 1; }
+
+  // Stages that a replaced one may call, and what they work on.
+  void sound_place(float dt_s) { RigidPipeline::place(dt_s); }
+  core::Status sound_find_candidates() { return RigidPipeline::find_candidates(); }
+  void sound_confirm() { RigidPipeline::confirm(); }
+  void sound_touch_bodies() { RigidPipeline::touch_bodies(); }
+  void sound_touch_faces() { RigidPipeline::touch_faces(); }
+  void sound_respond(float dt_s) { RigidPipeline::respond(dt_s); }
+  void sound_tell_points() { RigidPipeline::tell_points(); }
+  using RigidPipeline::bodies_;
+  using RigidPipeline::candidates_;
+  using RigidPipeline::confirmed_;
+  using RigidPipeline::patches_;
+  using RigidPipeline::points_;
+  // Of the frame that was told before, and of the step that was placed before: for stages that lag.
+  core::FrameRecord last_told;
+  std::vector<core::Box> last_boxes;
+
+ protected:
+  void place(float dt_s) override;
+  core::Status find_candidates() override;
+  void confirm() override;
+  void touch_bodies() override;
+  void touch_faces() override;
+  void respond(float dt_s) override;
+  void tell_points() override;
+  void record(core::FrameRecord& frame) override;
+
+ private:
+  TurningStages stages_;
+  std::uint64_t run_;
+};
+
+}  // namespace broadside::reference
