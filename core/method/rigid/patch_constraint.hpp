@@ -45,7 +45,7 @@ struct PatchConstraint {
   Vec3 tangent_2;
   Material surface;               // of both, combined
   float slop_m = 0.0F;            // the depth at which the patch rests
-  float fastest_push_m_s = 0.0F;  // at which an overlap is pushed apart
+  float fastest_push_m_s = 0.0F;  // at which an overlap is pushed apart without gravity
   int count = 0;
   PatchPoint points[kManifoldPoints];
 };

@@ -30,6 +30,7 @@ struct SoftStep {
   // friction holds, from the first substep on.
   float settle_m_s = 0.0F;
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
+  float gravity_m_s2 = 0.0F;
 };
 
 // A spring and damper under each contact, taken implicitly: frequency and damping in units of the substep, omega h and
@@ -126,6 +127,12 @@ BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const Sol
   return largest;
 }
 
+// An overlap is pushed apart no faster than half of what it would take to fall out of it: where something rides on what
+// is pushed, and keeps its speed, it keeps no more energy than that of a quarter of the lift.
+BROADSIDE_HD float fastest_push(const PatchConstraint& c, float depth_m, float gravity_m_s2) {
+  return gravity_m_s2 > 0.0F ? sqrtf(0.5F * gravity_m_s2 * depth_m) : c.fastest_push_m_s;
+}
+
 // One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
 BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
@@ -140,7 +147,8 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
     } else {
       const float wish = (gap + c.slop_m) * step.push_rate_per_s;
       const float slow = wish > step.settle_m_s ? step.settle_m_s : wish;
-      const float toward = slow < -c.fastest_push_m_s ? -c.fastest_push_m_s : slow;
+      const float fast = fastest_push(c, -gap, step.gravity_m_s2);
+      const float toward = slow < -fast ? -fast : slow;
       change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
     }
     const float size = add_normal_impulse(c, p, m, a, b, change);

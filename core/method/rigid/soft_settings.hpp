@@ -57,6 +57,7 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   constexpr float kSettleShare = 0.05F;
   const float gravity = length(gravity_m_s2);
   SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
+  step.gravity_m_s2 = gravity;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
   return step;
@@ -68,14 +69,14 @@ BROADSIDE_HD constexpr float mass_ratio(float inverse_mass_a, float inverse_mass
   return inverse_mass_a > inverse_mass_b ? inverse_mass_a / inverse_mass_b : inverse_mass_b / inverse_mass_a;
 }
 
-// gravity_m_s2: its size. dt_s: of the step.
+// dt_s: of the step.
 BROADSIDE_HD void set_limits(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const PatchLimits& limits,
-                             float gravity_m_s2, float dt_s) {
+                             float dt_s) {
   // Without gravity nothing says how fast is fast but the step.
   constexpr float kPushShare = 1.0F / 64.0F;
   const float reach = reach_of(c, a, b);
   c.slop_m = limits.fixed_slop_m > 0.0F ? limits.fixed_slop_m : limits.slop_share * reach;
-  c.fastest_push_m_s = gravity_m_s2 > 0.0F ? sqrtf(gravity_m_s2 * reach) : kPushShare * reach / dt_s;
+  c.fastest_push_m_s = kPushShare * reach / dt_s;
 }
 
 }  // namespace broadside::core

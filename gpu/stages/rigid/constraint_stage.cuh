@@ -57,7 +57,6 @@ __device__ inline int step_kind(const RigidFrameView& f) {
 template <typename Team>
 __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
-  const float gravity_m_s2 = core::length(f.gravity_m_s2);
   for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
     if (f.patch_at[place] == kUncolored) continue;
     const core::ContactPatch patch = f.patches.items[f.patch_at[place]];
@@ -70,7 +69,7 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     core::PatchConstraint c = core::make_constraint(patch.manifold, body_a, body_b, across, surface);
     c.a = patch.a;
     c.b = b;
-    core::set_limits(c, body_a, body_b, f.solver.limits, gravity_m_s2, f.dt_s);
+    core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
     recall(f, soft, patch, c);
     if (surface.restitution > 0.0F) atomicMax(&f.counts->bounces, 1U);
     store_constraint(TileSlot(f.constraints, place), c);

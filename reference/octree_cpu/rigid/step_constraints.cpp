@@ -29,7 +29,6 @@ void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c
 
 void StepConstraints::begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
                             const RigidStep& step, float substep_s, const core::PatchLimits& limits) {
-  const float gravity = core::length(step.gravity_m_s2);
   substep_s_ = substep_s;
   bodies_.resize(states.size() + 1);
   bodies_.back() = {};
@@ -48,7 +47,7 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
     c = core::make_constraint(patch.manifold, bodies_[patch.a], bodies_[b], across, surface);
     c.a = patch.a;
     c.b = b;
-    core::set_limits(c, bodies_[c.a], bodies_[c.b], limits, gravity, step.dt_s);
+    core::set_limits(c, bodies_[c.a], bodies_[c.b], limits, step.dt_s);
     recall(patch, c);
     if (surface.restitution > 0.0F) bouncing.store(true, std::memory_order_relaxed);
   });
