@@ -26,7 +26,8 @@ inline constexpr int kPatchesOfPair = 1;
 namespace manifold_detail {
 
 // The lower kind is a.
-BROADSIDE_HD int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m, Manifold* out) {
+BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                                Manifold* out) {
   out[0].count = 0;
   const ContactKind kind = b.shape->kind;
   if (kind == ContactKind::kHalfSpace) {
@@ -61,8 +62,9 @@ BROADSIDE_HD int ordered(const PlacedShape& a, const PlacedShape& b, float round
 
 // Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
 // apart by up to this much are given too, so that a solver may stop bodies before they touch.
-BROADSIDE_HD int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
-                                const ContactPose& pose_b, float reach_m, Manifold* out) {
+BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
+                                       const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,
+                                       Manifold* out) {
   const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
   const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
   const float rounding_m = contact_rounding_m(a, b);

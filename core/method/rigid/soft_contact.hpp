@@ -127,8 +127,8 @@ BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const Sol
   return largest;
 }
 
-// An overlap is pushed apart no faster than half of what it would take to fall out of it: where something rides on what is
-// pushed, and keeps its speed, it keeps no more energy than that of a quarter of the lift.
+// An overlap is pushed apart no faster than half of what it would take to fall out of it: where something rides on what
+// is pushed, and keeps its speed, it keeps no more energy than that of a quarter of the lift.
 BROADSIDE_HD float fastest_push(const PatchConstraint& c, float depth_m, float gravity_m_s2) {
   return gravity_m_s2 > 0.0F ? sqrtf(0.5F * gravity_m_s2 * depth_m) : c.fastest_push_m_s;
 }
