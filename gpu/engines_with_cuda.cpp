@@ -1,10 +1,14 @@
 #include <cuda_runtime_api.h>
 
+#include <memory>
 #include <string>
+#include <utility>
 
+#include "core/method/rigid/refuse_method_settings.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "gpu/engines_on_cuda.hpp"
 #include "gpu/frame/pipeline.hpp"
+#include "gpu/pipeline_by_motion.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -14,7 +18,7 @@ std::string version_text(int version) {
 }
 
 core::Result<core::Engine> engine_of(std::string_view id, std::string_view twin_of, const core::Settings& settings,
-                                     const PipelineOptions& options, const PairFinderOptions& alone) {
+                                     std::unique_ptr<core::Dynamics> dynamics, const PairFinderOptions& alone) {
   if (const std::string why = gpu_absent(); !why.empty())
     return core::Error{why, std::string(id), "run on a machine with an NVIDIA GPU", core::Exit::kMissing};
   core::Engine engine;
@@ -23,7 +27,7 @@ core::Result<core::Engine> engine_of(std::string_view id, std::string_view twin_
   engine.settings = settings;
   engine.declaration = core::method_declaration(twin_of);
   engine.broad_phase = std::make_unique<PairFinder>(alone);
-  engine.dynamics = std::make_unique<Pipeline>(options);
+  engine.dynamics = std::move(dynamics);
   return engine;
 }
 
@@ -49,7 +53,14 @@ core::Result<core::Engine> create_octree_gpu(const core::Settings& settings) {
   if (solver == "jacobi") options.solver = Solver::kJacobi;
   if (solver == "printed-E8" || options.variant == core::Variant::kE8) options.solver = Solver::kRacing;
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
-  return engine_of("octree-gpu", "octree-cpu", settings, options, {options.broad, options.variant});
+  RigidPipelineOptions turning;
+  turning.broad = options.broad;
+  turning.levels = options.levels;
+  turning.solver = core::soft_settings_of(settings);
+  turning.has_fixed_thresholds = settings.text("thresholds") == "fixed";
+  auto dynamics = std::make_unique<PipelineByMotion>(options, turning, "octree-cpu",
+                                                     core::refuse_method_settings("octree-gpu", settings));
+  return engine_of("octree-gpu", "octree-cpu", settings, std::move(dynamics), {options.broad, options.variant});
 }
 
 core::Result<core::Engine> create_hash_gpu(const core::Settings& settings) {
@@ -59,7 +70,8 @@ core::Result<core::Engine> create_hash_gpu(const core::Settings& settings) {
   options.levels = *core::levels_named(settings.text("levels"));
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
   const float alone_m = options.hash_cell_m > 0.0F ? options.hash_cell_m : core::Parameters{}.hash_cell_m;
-  return engine_of("hash-gpu", "hash-cpu", settings, options, {Broad::kHash, core::Variant::kSound, alone_m});
+  return engine_of("hash-gpu", "hash-cpu", settings, std::make_unique<Pipeline>(options),
+                   {Broad::kHash, core::Variant::kSound, alone_m});
 }
 
 std::string device_name() {

@@ -5,6 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "core/method/rigid/refuse_method_settings.hpp"
+#include "core/method/rigid/rigid_declaration.hpp"
+#include "core/method/rigid/rigid_settings.hpp"
 #include "core/variant.hpp"
 #include "reference/engines.hpp"
 #include "reference/octree_cpu/pipeline_by_motion.hpp"
@@ -15,8 +18,8 @@
 namespace broadside::reference {
 namespace {
 
-const std::array<core::SettingRow, 6>& settings_table() {
-  static const std::array<core::SettingRow, 6> kTable{{
+const std::array<core::SettingRow, 9>& settings_table() {
+  static const std::array<core::SettingRow, 9> kTable{{
       {"broad",
        "tree",
        {"tree", "octree", "brute"},
@@ -30,18 +33,18 @@ const std::array<core::SettingRow, 6>& settings_table() {
         "printed-E8"},
        "a printed, wrong form of the paper to run instead"},
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
+      {"contact",
+       "conjugate",
+       {"conjugate", "soft-step"},
+       "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"},
+      {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"},
+      {"thresholds",
+       "scaled",
+       {"scaled", "fixed"},
+       "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
+       "v_threshold_m_s"},
   }};
   return kTable;
-}
-
-// What the published method has and bodies that turn have not.
-core::Status why_not_rigid(const core::Settings& settings) {
-  for (const auto& [key, sound] :
-       {std::pair("variant", "sound"), std::pair("solver", "colored"), std::pair("vertex_stage", "on")})
-    if (settings.text(key) != sound)
-      return core::Error{std::string("unsupported: ") + key + " = " + settings.text(key) + " for bodies that turn",
-                         "octree-cpu", "leave it out, or take a scene whose bodies translate", core::Exit::kMissing};
-  return core::Done{};
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {
@@ -71,9 +74,11 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   RigidPipelineOptions turning;
   turning.make_broad_phase = options.make_broad_phase;
   turning.levels = options.levels;
-  const ContactSolverOptions contact;
-  turning.make_solver = [contact](const core::Scene&) { return make_contact_solver(contact); };
-  turning.declaration = rigid_declaration(contact);
+  const core::SoftSettings soft = core::soft_settings_of(settings);
+  turning.make_solver = [soft, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
+    return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
+  };
+  turning.declaration = core::rigid_declaration(soft);
   turning.threads = threads;
 
   core::Engine engine;
@@ -83,9 +88,10 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.settings = settings;
   engine.broad_phase = std::move(alone);
   engine.declaration = core::method_declaration();
-  engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning), why_not_rigid(settings));
-  engine.equivalence = [contact, build = engine.build, workers = worker_count(settings.number("threads"))](
-                           const core::Scene& scene) { return rigid_card(scene, contact, build, workers); };
+  engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning),
+                                                       core::refuse_method_settings("octree-cpu", settings));
+  engine.equivalence = [soft, build = engine.build, workers = worker_count(settings.number("threads"))](
+                           const core::Scene& scene) { return rigid_card(scene, soft, build, workers); };
   return engine;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/engine/dynamics.hpp"
 #include "core/method/frame_digest.hpp"
+#include "core/method/rigid/point_digest.hpp"
 #include "core/scene/scene.hpp"
 
 namespace broadside::gpu {
@@ -37,14 +38,27 @@ inline std::string first_difference(const core::FrameRecord& p, const core::Fram
     if (c.post_a.v != d.post_a.v || c.post_b.v != d.post_b.v) return name + ": velocities after";
     return name + ": the sign of a zero";
   }
+  if (p.points.size() != q.points.size())
+    return "points: " + std::to_string(p.points.size()) + " against " + std::to_string(q.points.size());
+  for (std::size_t k = 0; k < p.points.size(); ++k) {
+    const core::ContactPoint& c = p.points[k];
+    const core::ContactPoint& d = q.points[k];
+    if (core::point_digest(c) == core::point_digest(d)) continue;
+    const std::string name =
+        "point " + std::to_string(k) + " (" + std::to_string(c.a) + ", " + std::to_string(c.b) + ")";
+    if (c.a != d.a || c.b != d.b || c.feature != d.feature) return name + ": bodies or feature";
+    if (c.gap_m != d.gap_m || c.normal != d.normal || c.point != d.point) return name + ": place, gap or normal";
+    return name + ": impulse";
+  }
+  if (p.orientation != q.orientation) return "orientations";
   if (p.position != q.position) return "positions";
   if (p.velocity != q.velocity) return "velocities";
   return "nothing that is recorded";
 }
 
 // Steps both for so many frames; ends at the first frame that differs. Every `full_every` frames everything is read
-// back, otherwise the digest alone. Returns all contacts of the frames that were read in full, so that a test can tell
-// that something happened.
+// back, otherwise the digest alone. Returns all contacts and points of the frames that were read in full, so that a
+// test can tell that something happened.
 inline std::uint64_t compare_pipelines(const core::Scene& scene, core::Dynamics& subject, core::Dynamics& twin,
                                        int frames, int full_every = 10) {
   EXPECT_TRUE(core::check_scene(scene).ok()) << core::check_scene(scene).error().line();
@@ -60,7 +74,7 @@ inline std::uint64_t compare_pipelines(const core::Scene& scene, core::Dynamics&
     if (!good(subject.step(scene.dt_s)) || !good(twin.step(scene.dt_s))) return contacts;
     const auto level = k % full_every == 0 ? core::RecordLevel::kFull : core::RecordLevel::kDigest;
     if (!good(subject.read_back(p, level)) || !good(twin.read_back(q, level))) return contacts;
-    contacts += p.contacts.size();
+    contacts += p.contacts.size() + p.points.size();
     const bool has_pairs = !p.pairs.empty() || !q.pairs.empty();
     if (p.digest == q.digest &&
         !(has_pairs && (subject.groups() & twin.groups() & core::bit(core::Group::kPairs)) != 0 && p.pairs != q.pairs))

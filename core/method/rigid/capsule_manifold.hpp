@@ -36,7 +36,7 @@ BROADSIDE_HD void capsules(const PlacedShape& a, const PlacedShape& b, float rou
   const SegmentPolytope sb = segment_polytope(b);
   const float ball_a = a.shape->radius_m;
   const float ball_b = b.shape->radius_m;
-  const NearestDirection direction = nearest_direction(sa, sb);
+  const NearestDirection direction = nearest_direction(sa, sb, {0.0F, 1.0F, 0.0F}, 0.0F, 3.0e38F);
   const NearestFeatures& near = direction.features;
   const float distance = sqrtf(near.squared_m2);
   out.count = 0;
@@ -63,8 +63,8 @@ BROADSIDE_HD void capsules(const PlacedShape& a, const PlacedShape& b, float rou
     const PlacedShape& other = is_end_of_a ? b : a;
     Vec3 p;
     if (!line_end(is_end_of_a ? a : b, k & 1, is_end_of_a ? -out.normal : out.normal, p)) continue;
-    PointDistance from = point_to_segment(other, p, rounding_m);
-    const float gap = from.gap_m - other.shape->radius_m;
+    const PointDistance from = point_to_solid(other, p, rounding_m);
+    const float gap = from.gap_m;
     const float turn = is_end_of_a ? 1.0F : -1.0F;
     if (!(turn * dot(from.normal, out.normal) >= kSameNormal)) continue;
     const std::uint32_t name = corner_name(static_cast<std::uint32_t>(k & 1));

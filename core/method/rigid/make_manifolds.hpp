@@ -10,6 +10,7 @@
 #include "core/method/rigid/capsule_manifold.hpp"
 #include "core/method/rigid/contact_points.hpp"
 #include "core/method/rigid/contact_shape.hpp"
+#include "core/method/rigid/cylinder_manifold.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/plane_manifold.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
@@ -32,6 +33,11 @@ BROADSIDE_HD int ordered(const PlacedShape& a, const PlacedShape& b, float round
     plane_manifold(a, b, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kSphere) {
     sphere_manifold(a, b, rounding_m, reach_m, out[0]);
+  } else if (a.shape->kind == ContactKind::kCylinder) {
+    cylinder_manifold(a, b, rounding_m, reach_m, out[0]);
+  } else if (kind == ContactKind::kCylinder) {
+    cylinder_manifold(b, a, rounding_m, reach_m, out[0]);
+    turn_over(out[0]);
   } else if (a.shape->kind == ContactKind::kCapsule) {
     capsule_manifold(a, b, rounding_m, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kBox && kind == ContactKind::kBox) {

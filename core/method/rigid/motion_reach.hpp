@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/attributes.hpp"
 #include "core/math/box.hpp"
@@ -54,6 +55,14 @@ BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m) {
     swept.max[k] = (box.max[k] + high) + pad;
   }
   return swept;
+}
+
+// Whether a body of this box that may come so far reaches the face (0 to 5: -x +x -y +y -z +z) of the domain.
+BROADSIDE_HD bool may_reach_face(const Box& box, float reach_m, const Box& domain, std::uint32_t face) {
+  const int axis = static_cast<int>(face / 2);
+  const bool is_inside =
+      (face & 1U) != 0 ? box.max[axis] + reach_m < domain.max[axis] : box.min[axis] - reach_m > domain.min[axis];
+  return !is_inside;
 }
 
 }  // namespace broadside::core

@@ -15,18 +15,12 @@
 namespace broadside::core {
 
 template <typename Polytope>
-BROADSIDE_HD float least_along(const Polytope& p, Vec3 direction) {
-  float least = 3.402823e38F;
-  for (int k = 0; k < p.corner_count(); ++k) least = fminf(least, dot(direction, p.corner(k)));
-  return least;
-}
-
-template <typename Polytope>
 BROADSIDE_HD int lowest_corner(const Polytope& p, Vec3 direction) {
+  const Vec3 local = p.local(direction);
   int lowest = 0;
   float least = 3.402823e38F;
   for (int k = 0; k < p.corner_count(); ++k) {
-    const float along = dot(direction, p.corner(k));
+    const float along = p.height(k, local);
     if (!(along < least)) continue;
     least = along;
     lowest = k;
@@ -34,10 +28,29 @@ BROADSIDE_HD int lowest_corner(const Polytope& p, Vec3 direction) {
   return lowest;
 }
 
+// The part of a body that may be within a distance of the other one: corners and edges up to a height above the body's
+// lowest corner along a direction, seen from the other body.
+struct Layer {
+  Vec3 direction;  // as local() gives it
+  float top = 3.402823e38F;
+};
+
+template <typename Polytope>
+BROADSIDE_HD bool reaches_into(const Polytope& p, const Layer& layer, int from, int to) {
+  return p.height(from, layer.direction) <= layer.top || p.height(to, layer.direction) <= layer.top;
+}
+
+// thickness_m: above the lowest corner along the unit direction.
+template <typename Polytope>
+BROADSIDE_HD Layer layer_of(const Polytope& p, Vec3 direction, float thickness_m) {
+  const Vec3 local = p.local(direction);
+  return {local, p.height(lowest_corner(p, direction), local) + thickness_m};
+}
+
 // How far A is above B along a unit direction.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD float gap_along(const PolytopeA& a, const PolytopeB& b, Vec3 n) {
-  return least_along(a, n) + least_along(b, -n);
+  return a.least(n) + b.least(-n);
 }
 
 struct NearestFeatures {
@@ -63,15 +76,17 @@ namespace nearest_detail {
 
 // Corners of `points` against edges of `edges`; a_has_corner says which of them is A.
 template <typename Points, typename Edges>
-BROADSIDE_HD void corners_against_edges(const Points& points, const Edges& edges, bool a_has_corner,
-                                        NearestFeatures& best) {
+BROADSIDE_HD void corners_against_edges(const Points& points, const Layer& near_points, const Edges& edges,
+                                        const Layer& near_edges, bool a_has_corner, NearestFeatures& best) {
   for (int e = 0; e < edges.edge_count(); ++e) {
     int from = 0;
     int to = 0;
     edges.edge(e, from, to);
+    if (!reaches_into(edges, near_edges, from, to)) continue;
     const Vec3 p = edges.corner(from);
     const Vec3 q = edges.corner(to);
     for (int c = 0; c < points.corner_count(); ++c) {
+      if (!reaches_into(points, near_points, c, c)) continue;
       const Vec3 x = points.corner(c);
       const float share = share_nearest(x, p, q);
       const Vec3 y = share == 1.0F ? q : p + share * (q - p);
@@ -123,26 +138,30 @@ BROADSIDE_HD EdgeCrossing edge_crossing(Vec3 p0, Vec3 p1, Vec3 q0, Vec3 q1) {
 }
 
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD NearestFeatures nearest_corner_and_edge(const PolytopeA& a, const PolytopeB& b) {
+BROADSIDE_HD NearestFeatures nearest_corner_and_edge(const PolytopeA& a, const Layer& near_a, const PolytopeB& b,
+                                                     const Layer& near_b) {
   NearestFeatures best;
-  nearest_detail::corners_against_edges(a, b, true, best);
-  nearest_detail::corners_against_edges(b, a, false, best);
+  nearest_detail::corners_against_edges(a, near_a, b, near_b, true, best);
+  nearest_detail::corners_against_edges(b, near_b, a, near_a, false, best);
   return best;
 }
 
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD NearestFeatures nearest_edges(const PolytopeA& a, const PolytopeB& b) {
+BROADSIDE_HD NearestFeatures nearest_edges(const PolytopeA& a, const Layer& near_a, const PolytopeB& b,
+                                           const Layer& near_b) {
   NearestFeatures best;
   for (int i = 0; i < a.edge_count(); ++i) {
     int a0 = 0;
     int a1 = 0;
     a.edge(i, a0, a1);
+    if (!reaches_into(a, near_a, a0, a1)) continue;
     const Vec3 p0 = a.corner(a0);
     const Vec3 p1 = a.corner(a1);
     for (int j = 0; j < b.edge_count(); ++j) {
       int b0 = 0;
       int b1 = 0;
       b.edge(j, b0, b1);
+      if (!reaches_into(b, near_b, b0, b1)) continue;
       const Vec3 q0 = b.corner(b0);
       const Vec3 q1 = b.corner(b1);
       const EdgeCrossing crossing = edge_crossing(p0, p1, q0, q1);
@@ -186,11 +205,16 @@ struct NearestDirection {
   NearestFeatures features;
 };
 
-// Of two pairs of features that are equally near but for rounding, and of two ways to compute the direction between
-// them, the one along which the bodies are farther apart is the better one.
+// Only features that may be nearer than reach_m, given a direction that parts the bodies by parted_m; where there are
+// none, the gap stays -infinity. Of two pairs of features that are equally near but for rounding, and of two ways to
+// compute the direction between them, the one along which the bodies are farther apart is the better one.
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b) {
+BROADSIDE_HD NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m,
+                                                float reach_m) {
   NearestDirection best;
+  const float thickness = reach_m - parted_m > 0.0F ? reach_m - parted_m : 0.0F;
+  const Layer near_a = layer_of(a, parting, thickness);
+  const Layer near_b = layer_of(b, -parting, thickness);
   const auto attempt = [&](Vec3 direction) {
     const float squared = dot(direction, direction);
     if (!(squared > 0.0F)) return;
@@ -200,10 +224,11 @@ BROADSIDE_HD NearestDirection nearest_direction(const PolytopeA& a, const Polyto
     best.gap_m = gap;
     best.normal = n;
   };
-  const NearestFeatures corner = nearest_corner_and_edge(a, b);
-  const NearestFeatures edges = nearest_edges(a, b);
+  const NearestFeatures corner = nearest_corner_and_edge(a, near_a, b, near_b);
+  const NearestFeatures edges = nearest_edges(a, near_a, b, near_b);
+  if (corner.squared_m2 > 3.0e38F && edges.squared_m2 > 3.0e38F) return best;
   best.features = edges.squared_m2 < corner.squared_m2 ? edges : corner;
-  attempt(without(without(corner.on_a - corner.on_b, corner.along_a), corner.along_b));
+  if (corner.squared_m2 < 3.0e38F) attempt(without(without(corner.on_a - corner.on_b, corner.along_a), corner.along_b));
   if (edges.squared_m2 < 3.0e38F) attempt(across_edges(edges.along_a, edges.along_b, edges.on_a - edges.on_b));
   // A corner may be nearest where a point of its edge is nearer by less than rounding. Then a far end of that edge
   // stands out along the direction, by the first power of what the distance shows only in the second.

@@ -163,4 +163,27 @@ BROADSIDE_HD PointDistance point_to_hull(const PlacedShape& placed, Vec3 p, floa
   return {distance, turned(placed.axes, (1.0F / distance) * from), name};
 }
 
+// Of the whole body, with the ball around a sphere's center or a capsule's segment.
+BROADSIDE_HD PointDistance point_to_solid(const PlacedShape& solid, Vec3 p, float rounding_m) {
+  PointDistance out;
+  switch (solid.shape->kind) {
+    case ContactKind::kSphere:
+      out = point_to_point(p - solid.center, rounding_m, 0);
+      break;
+    case ContactKind::kCapsule:
+      out = point_to_segment(solid, p, rounding_m);
+      break;
+    case ContactKind::kBox:
+      return point_to_box(solid, p, rounding_m);
+    case ContactKind::kCylinder:
+      return point_to_cylinder(solid, p, rounding_m);
+    case ContactKind::kHull:
+      return point_to_hull(solid, p, rounding_m);
+    default:
+      return {3.402823e38F, {0.0F, 1.0F, 0.0F}, 0};
+  }
+  out.gap_m = out.gap_m - solid.shape->radius_m;
+  return out;
+}
+
 }  // namespace broadside::core

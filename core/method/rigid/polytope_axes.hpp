@@ -36,19 +36,47 @@ BROADSIDE_HD bool lies_between(Vec3 n, Vec3 left, Vec3 right) {
   return dot(n, left + right) > 0.0F && dot(middle, cross(left, n)) >= 0.0F && dot(middle, cross(n, right)) >= 0.0F;
 }
 
+// A face that is in front of a corner of the other body by no more than the best gap so far is passed over; that
+// corner is the last one that stood out.
 template <typename Reference, typename Other>
 BROADSIDE_HD SeparatingAxis axis_of_faces(const Reference& reference, const Other& other, bool reference_is_a) {
   SeparatingAxis best;
+  Vec3 standing_out = other.corner(0);
   for (int k = 0; k < reference.face_count(); ++k) {
     const Vec3 out = reference.face_normal(k);
-    const float gap = least_along(other, out) - dot(out, reference.corner(reference.face_corner(k, 0)));
-    if (!(gap > best.gap_m)) continue;
-    if (reference_is_a)
-      best = {gap, -out, AxisKind::kFaceOfA, k, 0};
-    else
-      best = {gap, out, AxisKind::kFaceOfB, 0, k};
+    const float height = reference.face_height(k);
+    if (!(dot(out, standing_out) - height > best.gap_m)) continue;
+    const float gap = other.least(out) - height;
+    if (gap > best.gap_m) {
+      if (reference_is_a)
+        best = {gap, -out, AxisKind::kFaceOfA, k, 0};
+      else
+        best = {gap, out, AxisKind::kFaceOfB, 0, k};
+    }
+    standing_out = other.corner(lowest_corner(other, out));
   }
   return best;
+}
+
+// Up to so many pairs of edges (two boxes have 144) all are tried without a look at where they are.
+inline constexpr int kFewEdgePairs = 256;
+
+// Edges of large hulls are compared while there are at most so many pairs of them (0.05 s on a slow core). Beyond, and
+// that is deep inside each other, those farthest inside are left out: a depth is then that across a face.
+inline constexpr int kMostEdgePairs = 1 << 16;
+// After these a layer is as thick as rounding.
+inline constexpr int kMostHalvings = 24;
+
+template <typename Polytope>
+BROADSIDE_HD int edges_in(const Polytope& p, const Layer& layer) {
+  int count = 0;
+  for (int k = 0; k < p.edge_count(); ++k) {
+    int from = 0;
+    int to = 0;
+    p.edge(k, from, to);
+    if (reaches_into(p, layer, from, to)) ++count;
+  }
+  return count;
 }
 
 }  // namespace axes_detail
@@ -62,10 +90,26 @@ BROADSIDE_HD SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB&
   if (best.kind == AxisKind::kNone || of_b.gap_m > best.gap_m + rounding_m) best = of_b;
   if (best.gap_m > reach_m) return best;
   SeparatingAxis edges;
+  // An axis across two edges matters where it is wider than that across the best face, so its edges are at most as far
+  // apart as the bodies, apart, may be to have points, or overlapping, as they are deep.
+  Layer near_a;
+  Layer near_b;
+  if (a.edge_count() * b.edge_count() > axes_detail::kFewEdgePairs && best.kind != AxisKind::kNone) {
+    float thickness = fmaxf(reach_m, -best.gap_m) - best.gap_m + rounding_m;
+    for (int halvings = 0; halvings < axes_detail::kMostHalvings; ++halvings) {
+      near_a = layer_of(a, best.normal, thickness);
+      near_b = layer_of(b, -best.normal, thickness);
+      if (axes_detail::edges_in(a, near_a) * axes_detail::edges_in(b, near_b) <= axes_detail::kMostEdgePairs) break;
+      thickness = 0.5F * thickness;
+    }
+  } else {
+    near_a.direction = near_b.direction = {0.0F, 0.0F, 0.0F};
+  }
   for (int i = 0; i < a.edge_count(); ++i) {
     int a0 = 0;
     int a1 = 0;
     a.edge(i, a0, a1);
+    if (!reaches_into(a, near_a, a0, a1)) continue;
     const Vec3 p = a.corner(a0);
     const Vec3 u = a.corner(a1) - p;
     Vec3 a_left;
@@ -81,6 +125,7 @@ BROADSIDE_HD SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB&
       int b0 = 0;
       int b1 = 0;
       b.edge(j, b0, b1);
+      if (!reaches_into(b, near_b, b0, b1)) continue;
       Vec3 b_left;
       Vec3 b_right;
       if (b.face_count() > 0) {

@@ -102,7 +102,9 @@ BROADSIDE_HD void polytope_manifold(const PolytopeA& a, const PolytopeB& b, cons
   // A point as deep as the axis says: then its gap is the distance.
   const bool is_shown = has_witness || polytope_detail::least_gap(area) <= axis.gap_m + 2.0F * rounding_m;
   if (!is_shown) {
-    const NearestDirection near = nearest_direction(a, b);
+    const NearestDirection near =
+        nearest_direction(a, b, axis.normal, axis.gap_m, reach_m + balls_m + 2.0F * rounding_m);
+    if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near
     has_witness = true;
     witness.gap_m = axis.gap_m;
     witness.feature = feature_key(near.features.name_a, near.features.name_b);

@@ -37,6 +37,11 @@ struct BoxPolytope {
     right = 2 * (axis == 2 ? 1 : 2) + ((k >> 1) & 1);
   }
   BROADSIDE_HD Vec3 face_normal(int k) const { return (k & 1) != 0 ? axes[k / 2] : -axes[k / 2]; }
+  // Of the plane of a face, along its normal.
+  BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + half[k / 2]; }
+  // Heights of corners along a direction that local() has prepared; of one body among each other.
+  BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
+  BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int face_corner_count(int) const { return 4; }
   // Anticlockwise seen from outside.
   BROADSIDE_HD int face_corner(int face, int k) const {
@@ -49,6 +54,11 @@ struct BoxPolytope {
     const int at_u = around == 1 || around == 2 ? 1 : 0;
     const int at_w = around >= 2 ? 1 : 0;
     return (is_upper ? 1 << axis : 0) | (at_u << u) | (at_w << w);
+  }
+  // The least of dot(direction, p) over the body.
+  BROADSIDE_HD float least(Vec3 direction) const {
+    const Vec3 d = turned_back(axes, direction);
+    return dot(direction, center) - (fabsf(d.x) * half.x + fabsf(d.y) * half.y + fabsf(d.z) * half.z);
   }
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);
@@ -78,8 +88,12 @@ struct SegmentPolytope {
   }
   BROADSIDE_HD void edge_faces(int, int& left, int& right) const { left = right = 0; }
   BROADSIDE_HD Vec3 face_normal(int) const { return {}; }
+  BROADSIDE_HD float face_height(int) const { return 0.0F; }
+  BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
+  BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int face_corner_count(int) const { return 2; }
   BROADSIDE_HD int face_corner(int, int k) const { return k; }
+  BROADSIDE_HD float least(Vec3 direction) const { return dot(direction, center) - fabsf(dot(direction, half)); }
   BROADSIDE_HD int support_face(Vec3) const { return 0; }
 };
 
@@ -106,9 +120,19 @@ struct HullPolytope {
     right = static_cast<int>(hull.edges[k].right);
   }
   BROADSIDE_HD Vec3 face_normal(int k) const { return turned(axes, hull.faces[k].normal); }
+  BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + hull.faces[k].offset_m; }
+  // In body axes, from the hull's own center: differences of heights of one hull alone.
+  BROADSIDE_HD Vec3 local(Vec3 direction) const { return turned_back(axes, direction); }
+  BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, hull.vertices[k]); }
   BROADSIDE_HD int face_corner_count(int k) const { return static_cast<int>(hull.faces[k].corner_count); }
   BROADSIDE_HD int face_corner(int face, int k) const {
     return static_cast<int>(hull.corners[hull.faces[face].first_corner + static_cast<std::uint32_t>(k)]);
+  }
+  BROADSIDE_HD float least(Vec3 direction) const {
+    const Vec3 d = turned_back(axes, direction);
+    float lowest = 3.402823e38F;
+    for (int k = 0; k < corner_count(); ++k) lowest = fminf(lowest, dot(d, hull.vertices[k]));
+    return dot(direction, center) + lowest;
   }
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);

@@ -127,10 +127,13 @@ BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const Sol
   return largest;
 }
 
-// An overlap is pushed apart no faster than half of what it would take to fall out of it: where something rides on what
-// is pushed, and keeps its speed, it keeps no more energy than that of a quarter of the lift.
-BROADSIDE_HD float fastest_push(const PatchConstraint& c, float depth_m, float gravity_m_s2) {
-  return gravity_m_s2 > 0.0F ? sqrtf(0.5F * gravity_m_s2 * depth_m) : c.fastest_push_m_s;
+// An overlap is pushed apart no faster than half of what it would take to fall out of it, beside what the soft contact
+// yields to the impulse that it bears: where something rides on what is pushed, and keeps its speed, it keeps no more
+// energy than that of a quarter of the lift.
+BROADSIDE_HD float fastest_push(const PatchConstraint& c, const PatchPoint& p, float depth_m, const SoftStep& step) {
+  const float yields_m_s = step.impulse_scale * p.normal_impulse / (step.mass_scale * p.normal_mass);
+  const float rises_m_s = step.gravity_m_s2 > 0.0F ? sqrtf(0.5F * step.gravity_m_s2 * depth_m) : c.fastest_push_m_s;
+  return rises_m_s + yields_m_s;
 }
 
 // One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
@@ -147,7 +150,7 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
     } else {
       const float wish = (gap + c.slop_m) * step.push_rate_per_s;
       const float slow = wish > step.settle_m_s ? step.settle_m_s : wish;
-      const float fast = fastest_push(c, -gap, step.gravity_m_s2);
+      const float fast = fastest_push(c, p, -gap, step);
       const float toward = slow < -fast ? -fast : slow;
       change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
     }
@@ -194,6 +197,11 @@ BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step
 // one sweep would leave a spin toward the last of them. What is left after these is below a thousandth, for the four
 // corners of a cube.
 inline constexpr int kSweepsOfBounce = 8;
+
+// Sweeps over all patches, at most: of three balls that meet at once two pairs share one, and what the second pair does
+// changes the first. One that changes no speed by more than this share of the fastest is the last.
+inline constexpr int kMostBounceSweeps = 32;
+inline constexpr float kBounceDone = 0x1p-10F;
 
 // Before a bounce: the impulse that stopped each point.
 BROADSIDE_HD void note_stopping(PatchConstraint& c) {

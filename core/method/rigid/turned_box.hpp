@@ -52,8 +52,10 @@ BROADSIDE_HD float vertex_support(const VertexTreeView& tree, Vec3 d) {
   }
   float best = leaf_support(tree, first, d, -INFINITY);
   for (std::uint32_t k = 0; k < 8; ++k) {
-    if (tree.leaf_begin[8 * k] == tree.leaf_begin[8 * k + 8] || !(box_support(tree.level1[k], d) > best)) continue;
-    for (std::uint32_t leaf = 8 * k; leaf < 8 * k + 8; ++leaf)
+    const std::uint32_t begin = 8 * k;
+    const std::uint32_t end = begin + 8;
+    if (tree.leaf_begin[begin] == tree.leaf_begin[end] || !(box_support(tree.level1[k], d) > best)) continue;
+    for (std::uint32_t leaf = begin; leaf < end; ++leaf)
       if (!is_empty(leaf) && box_support(tree.level2[leaf], d) > best) best = leaf_support(tree, leaf, d, best);
   }
   return best;

@@ -12,6 +12,7 @@
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
+#include "core/method/rigid/soft_settings.hpp"
 
 namespace broadside::reference {
 
@@ -63,13 +64,9 @@ struct ContactSolverOptions {
   float fixed_bounce_from_m_s = 0.0F;
 };
 
-// What a step does at most: its substeps, and how often one of them adds to a velocity for one contact.
-struct MostOfStep {
-  std::uint32_t substeps = 0;
-  std::uint32_t applications = 0;
-};
-MostOfStep most_of_step(const ContactSolverOptions& options);
+core::SoftSettings soft_settings(const ContactSolverOptions& options);
 
+std::unique_ptr<ContactSolver> make_soft_solver(const core::SoftSettings& settings);
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options);
 
 }  // namespace broadside::reference

@@ -1,9 +1,8 @@
 // A loop whose turns write to slots of their own, on the threads of the arena that it is called in.
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cstddef>
+#include <functional>
 
 namespace broadside::reference {
 
@@ -11,15 +10,19 @@ namespace broadside::reference {
 // nanoseconds, waking a worker some microseconds.
 inline constexpr std::size_t kTurnsPerTask = 64;
 
+// work(first, last) for parts of the range, from several threads at once.
+void parts_in_parallel(std::size_t first, std::size_t last, const std::function<void(std::size_t, std::size_t)>& work);
+
+// work(k) for each k of the range.
 template <typename Work>
 void in_parallel(std::size_t first, std::size_t last, const Work& work) {
-  if (last - first < 2 * kTurnsPerTask) {
-    for (std::size_t k = first; k < last; ++k) work(k);
-    return;
-  }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, kTurnsPerTask), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k != range.end(); ++k) work(k);
-  });
+  const auto part = [&work](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) work(k);
+  };
+  if (last - first < 2 * kTurnsPerTask)
+    part(first, last);
+  else
+    parts_in_parallel(first, last, part);
 }
 
 }  // namespace broadside::reference

@@ -12,9 +12,9 @@ using core::Pair;
 
 namespace {
 
-bool meets(const RigidBodies& bodies, core::Levels levels, Pair pair, std::uint64_t& tests) {
-  const RigidShape& a = bodies.shapes[bodies.shape[pair.i]];
-  const RigidShape& b = bodies.shapes[bodies.shape[pair.j]];
+bool meets(const core::RigidBodies& bodies, core::Levels levels, Pair pair, std::uint64_t& tests) {
+  const core::RigidShape& a = bodies.shapes[bodies.shape[pair.i]];
+  const core::RigidShape& b = bodies.shapes[bodies.shape[pair.j]];
   const core::RelativePose pose = core::relative_pose(bodies.pose(pair.i), a.balls.outer_m, bodies.pose(pair.j),
                                                       b.balls.outer_m, bodies.reach_m[pair.i] + bodies.reach_m[pair.j]);
   return core::is_confirmed(levels, a.nodes, b.nodes, pose, tests);
@@ -22,7 +22,7 @@ bool meets(const RigidBodies& bodies, core::Levels levels, Pair pair, std::uint6
 
 }  // namespace
 
-void OrientedLevelStage::confirm(const RigidBodies& bodies, core::Levels levels, std::span<const Pair> candidates,
+void OrientedLevelStage::confirm(const core::RigidBodies& bodies, core::Levels levels, std::span<const Pair> candidates,
                                  std::vector<Pair>& confirmed) {
   confirmed.clear();
   pairs_tested_.fetch_add(candidates.size(), std::memory_order_relaxed);
@@ -37,7 +37,8 @@ void OrientedLevelStage::confirm(const RigidBodies& bodies, core::Levels levels,
     if (keep_[k] != 0) confirmed.push_back(candidates[k]);
 }
 
-void OrientedLevelStage::confirm_all(const RigidBodies& bodies, core::Levels levels, std::vector<Pair>& confirmed) {
+void OrientedLevelStage::confirm_all(const core::RigidBodies& bodies, core::Levels levels,
+                                     std::vector<Pair>& confirmed) {
   const std::uint32_t n = bodies.count();
   rows_.resize(n);
   // One row per body. Rows are joined in order, so the result is sorted whatever thread made which row.

@@ -8,19 +8,19 @@
 
 #include "core/method/levels.hpp"
 #include "core/pair.hpp"
-#include "reference/octree_cpu/rigid/rigid_bodies.hpp"
+#include "core/scene/rigid_bodies.hpp"
 
 namespace broadside::reference {
 
 class OrientedLevelStage {
  public:
   // candidates: sorted pairs. confirmed: those of them that may come to touch within the step, sorted.
-  void confirm(const RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
+  void confirm(const core::RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
                std::vector<core::Pair>& confirmed);
 
   // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair, and neither are
   // two whose boxes of the whole step do not meet.
-  void confirm_all(const RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
+  void confirm_all(const core::RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
 
   // Since reset_counts(). Sums of integers, so no thread order shows in them.
   [[nodiscard]] std::uint64_t pairs_tested() const { return pairs_tested_.load(std::memory_order_relaxed); }

@@ -49,7 +49,7 @@ void PatchStage::load(const core::Scene& scene) {
   patches_made_ = 0;
 }
 
-void PatchStage::touch_bodies(const RigidBodies& bodies, std::span<const core::Pair> confirmed) {
+void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
   fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
     const auto [i, j] = confirmed[k];
     const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
@@ -66,7 +66,7 @@ void PatchStage::touch_bodies(const RigidBodies& bodies, std::span<const core::P
 
 // A body that is at rest may be driven into a face within the step, as fast as its fastest neighbor comes. A face has
 // no end that a body could pass by, so looking too far costs nothing but time.
-void PatchStage::find_pushed_reach(const RigidBodies& bodies, std::span<const core::Pair> confirmed) {
+void PatchStage::find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
   pushed_reach_m_.assign(bodies.count(), 0.0F);
   for (const auto [i, j] : confirmed) {
     pushed_reach_m_[i] = std::max(pushed_reach_m_[i], bodies.reach_m[j]);
@@ -75,7 +75,7 @@ void PatchStage::find_pushed_reach(const RigidBodies& bodies, std::span<const co
   for (std::uint32_t i = 0; i < bodies.count(); ++i) pushed_reach_m_[i] += bodies.reach_m[i];
 }
 
-void PatchStage::touch_faces(const RigidBodies& bodies, std::span<const core::Pair> confirmed,
+void PatchStage::touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                              std::vector<ContactPatch>& patches) {
   find_pushed_reach(bodies, confirmed);
   fill_in_order(bodies.count(), kBodiesOfBlock, face_blocks_, of_faces_, [&](std::size_t k, Block& block) {
@@ -84,10 +84,7 @@ void PatchStage::touch_faces(const RigidBodies& bodies, std::span<const core::Pa
     const core::Box& box = bodies.shape_boxes[i];
     const float reach_m = pushed_reach_m_[i];
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-      const int axis = static_cast<int>(face / 2);
-      const bool is_inside =
-          (face & 1U) != 0 ? box.max[axis] + reach_m < domain_.max[axis] : box.min[axis] - reach_m > domain_.min[axis];
-      if (is_inside) continue;
+      if (!core::may_reach_face(box, reach_m, domain_, face)) continue;
       core::Manifold found[core::kPatchesOfPair];
       const int count = core::make_manifolds(bodies.shapes[bodies.shape[i]].contact, bodies.pose(i), face_shapes_[face],
                                              face_poses_[face], reach_m, found);

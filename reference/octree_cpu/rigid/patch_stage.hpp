@@ -11,8 +11,8 @@
 #include "core/math/box.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/pair.hpp"
+#include "core/scene/rigid_bodies.hpp"
 #include "core/scene/scene.hpp"
-#include "reference/octree_cpu/rigid/rigid_bodies.hpp"
 
 namespace broadside::reference {
 
@@ -20,10 +20,10 @@ class PatchStage {
  public:
   void load(const core::Scene& scene);
   // confirmed: sorted pairs.
-  void touch_bodies(const RigidBodies& bodies, std::span<const core::Pair> confirmed);
+  void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
   // After touch_bodies. patches: of both stages, sorted by (a, b): of a body first those with bodies, then those with
   // faces. Static bodies touch no face.
-  void touch_faces(const RigidBodies& bodies, std::span<const core::Pair> confirmed,
+  void touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                    std::vector<core::ContactPatch>& patches);
   // Since load.
   [[nodiscard]] std::uint64_t patches_made() const { return patches_made_; }
@@ -31,7 +31,7 @@ class PatchStage {
  private:
   using Block = std::vector<core::ContactPatch>;
 
-  void find_pushed_reach(const RigidBodies& bodies, std::span<const core::Pair> confirmed);
+  void find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
 
   core::Box domain_;
   std::array<core::ContactShape, core::kFaceCount> face_shapes_;

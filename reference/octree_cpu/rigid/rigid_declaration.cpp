@@ -3,26 +3,16 @@
 #include <string>
 #include <utility>
 
+#include "core/method/rigid/rigid_declaration.hpp"
 #include "reference/vendor_build.hpp"
 
 namespace broadside::reference {
 
 core::Declaration rigid_declaration(const ContactSolverOptions& solver) {
-  return core::Declaration::of(
-      {{"motion", "rigid"},
-       {"detection_at", "start"},
-       {"contacts", "totals"},
-       {"integrator", "semi-implicit Euler; Runge-Kutta 4 for orientation, angular momentum constant"},
-       {"order", "1"},
-       {"substeps", std::to_string(most_of_step(solver).substeps)},
-       {"iterations", std::to_string(most_of_step(solver).applications)},
-       {"friction", "cone"},
-       {"contact_model", "rigid"},
-       {"correction", "position"},
-       {"precision", "f32"}});
+  return core::rigid_declaration(soft_settings(solver));
 }
 
-core::EquivalenceCard rigid_card(const core::Scene& scene, const ContactSolverOptions& solver, std::string build,
+core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, std::string build,
                                  int threads) {
   if (scene.motion != core::Motion::kRigid) return {};
   core::EquivalenceCard card = own_card(std::move(build), "float32 without contraction",
@@ -32,15 +22,16 @@ core::EquivalenceCard rigid_card(const core::Scene& scene, const ContactSolverOp
   card.push_back({"broad-phase margin", "how far bodies may come in the step", ""});
   card.push_back({"friction rule", "geometric mean", ""});
   card.push_back({"restitution rule", "the larger", ""});
-  const bool is_swept = solver.kind == SolverKind::kConjugate;
+  const bool is_swept = solver.sweeps > 1;
   card.push_back({"contact solver",
                   std::string("substeps with soft constraints and relaxation") +
                       (is_swept ? ", along conjugate directions" : ", color by color"),
                   "one application a contact"});
   card.push_back(
       {"solver iterations",
-       is_swept ? "until little changes, in at most " + std::to_string(most_of_step(solver).substeps) + " substeps"
-                : "one sweep in each of at most " + std::to_string(most_of_step(solver).substeps) + " substeps",
+       is_swept
+           ? "until little changes, in at most " + std::to_string(core::most_of_step(solver).substeps) + " substeps"
+           : "one sweep in each of at most " + std::to_string(core::most_of_step(solver).substeps) + " substeps",
        "one pass"});
   card.push_back({"rotation", "bodies turn, with the gyroscopic torque", ""});
   card.push_back({"warm starting", "by the features that meet", ""});

@@ -8,6 +8,7 @@
 #include "core/method/frame_digest.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/point_digest.hpp"
+#include "core/method/rigid/told_point.hpp"
 #include "core/method/rigid/turned_box.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
@@ -28,7 +29,7 @@ RigidPipeline::~RigidPipeline() = default;
 
 core::Status RigidPipeline::load(const core::Scene& scene) {
   if (core::Status s = core::refuse_springs(scene); !s) return s;
-  auto bodies = make_rigid_bodies(scene);
+  auto bodies = core::make_rigid_bodies(scene);
   if (!bodies) return bodies.error();
   scene_ = &scene;
   bodies_ = std::move(bodies).value();
@@ -77,7 +78,7 @@ void RigidPipeline::place(float dt_s) {
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies_.count(), 256), [&](const auto& range) {
     for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
       const core::RigidState& s = bodies_.detected[i] = bodies_.state[i];
-      const RigidShape& shape = bodies_.shapes[bodies_.shape[i]];
+      const core::RigidShape& shape = bodies_.shapes[bodies_.shape[i]];
       const core::FreeMotion motion =
           core::free_motion(s, bodies_.mass[i], shape.balls, scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
       bodies_.free_end[i] = core::free_end(s, bodies_.mass[i], scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
@@ -127,11 +128,9 @@ void RigidPipeline::tell_points() {
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     const core::ContactPatch& patch = patches_[k];
     for (int i = 0; i < patch.manifold.count; ++i) {
-      const core::ManifoldPoint& p = patch.manifold.points[i];
-      const core::Vec3 impulse = impulses[k][static_cast<std::size_t>(i)];
-      if (p.gap_m > 0.0F && impulse == core::Vec3{}) continue;
-      points_.push_back({patch.a, patch.b, bodies_.detected[patch.a].x + p.point, patch.manifold.normal, p.gap_m,
-                         impulse, p.feature});
+      core::ContactPoint told;
+      if (core::told_point(patch, i, impulses[k][static_cast<std::size_t>(i)], bodies_.detected[patch.a].x, told))
+        points_.push_back(told);
     }
   }
 }

@@ -16,10 +16,10 @@
 #include "core/engine/stage.hpp"
 #include "core/method/levels.hpp"
 #include "core/pair.hpp"
+#include "core/scene/rigid_bodies.hpp"
 #include "reference/octree_cpu/rigid/contact_solver.hpp"
 #include "reference/octree_cpu/rigid/oriented_level_stage.hpp"
 #include "reference/octree_cpu/rigid/patch_stage.hpp"
-#include "reference/octree_cpu/rigid/rigid_bodies.hpp"
 
 namespace broadside::reference {
 
@@ -62,7 +62,7 @@ class RigidPipeline : public core::Dynamics {
   virtual void record(core::FrameRecord&) {}
 
   const core::Scene* scene_ = nullptr;
-  RigidBodies bodies_;
+  core::RigidBodies bodies_;
   PatchStage patch_stage_;
   core::PairSet candidates_;
   std::vector<core::Pair> confirmed_;

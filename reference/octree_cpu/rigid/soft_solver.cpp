@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/contact.hpp"
+#include "core/math/order_free_sum.hpp"
 
 namespace broadside::reference {
 
@@ -17,22 +18,12 @@ float largest_mass_ratio(std::span<const core::ContactPatch> patches, std::span<
   float largest = 1.0F;
   for (const core::ContactPatch& patch : patches) {
     if (core::is_face(patch.b)) continue;
-    const float a = masses[patch.a].inverse_mass;
-    const float b = masses[patch.b].inverse_mass;
-    if (a > 0.0F && b > 0.0F) largest = std::max(largest, std::max(a / b, b / a));
+    largest = std::max(largest, core::mass_ratio(masses[patch.a].inverse_mass, masses[patch.b].inverse_mass));
   }
   return largest;
 }
 
 }  // namespace
-
-SoftSolverOptions soft_step_options() {
-  SoftSolverOptions options;
-  options.substeps = 8;
-  options.sweeps = 1;
-  options.omega_dt = 1.2F;
-  return options;
-}
 
 float SoftSolver::largest_of_patches() const {
   return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
@@ -43,9 +34,10 @@ void SoftSolver::follow_direction() {
   work_.each_patch([&](const PatchConstraint& c, const SolverBody&, const SolverBody&) {
     of_patches_[work_.index_of(c)] = core::squared_change(c, ways_[work_.index_of(c)]);
   });
-  double sum = 0.0;
-  for (const float part : of_patches_) sum += part;
-  const auto change = static_cast<float>(sum);
+  const core::OrderFreeSum sum(largest_of_patches());
+  std::uint64_t units = 0;
+  for (const float part : of_patches_) units += sum.units(part);
+  const float change = sum.value(units);
   const float share = last_change_ > 0.0F && change <= last_change_ ? change / last_change_ : 0.0F;
   last_change_ = change;
   work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
@@ -60,7 +52,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   work_.each_patch([&](const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
     of_patches_[work_.index_of(c)] = core::fastest_point(c, a, b);
   });
-  const float done = options_.done * largest_of_patches();
+  const float done = settings_.done * largest_of_patches();
   work_.each_patch_by_color([](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::warm_start(c, a, b); });
   for (std::uint32_t k = 1;; ++k) {
     work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
@@ -70,7 +62,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
     });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
-    if (k >= options_.sweeps || largest_of_patches() <= done) return;
+    if (k >= settings_.sweeps || largest_of_patches() <= done) return;
     follow_direction();
   }
 }
@@ -93,17 +85,10 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
 
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                          const RigidStep& step) {
-  const bool is_uneven = largest_mass_ratio(patches, step.masses) > options_.even_masses;
-  const std::uint32_t substeps = is_uneven ? 2 * options_.substeps : options_.substeps;
-  core::SoftStep numbers =
-      core::soft_step(step.dt_s / static_cast<float>(substeps), options_.omega_dt, options_.damping);
-  constexpr float kSettleShare = 0.05F;
-  const float gravity = core::length(step.gravity_m_s2);
-  numbers.gravity_m_s2 = gravity;
-  numbers.settle_m_s = kSettleShare * gravity * numbers.dt_s;
-  numbers.bounce_from_m_s =
-      options_.fixed_bounce_from_m_s > 0.0F ? options_.fixed_bounce_from_m_s : 2.0F * step.dt_s * gravity;
-  work_.begin(states, patches, step, numbers.dt_s, options_.limits);
+  const bool is_uneven = largest_mass_ratio(patches, step.masses) > settings_.even_masses;
+  const std::uint32_t substeps = is_uneven ? 2 * settings_.substeps : settings_.substeps;
+  const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, substeps);
+  work_.begin(states, patches, step, numbers.dt_s, settings_.limits);
   for (std::uint32_t k = 0; k < substeps; ++k) substep(step, numbers);
   work_.finish(states, patches);
 }

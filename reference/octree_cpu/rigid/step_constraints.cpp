@@ -28,9 +28,7 @@ void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c
 }
 
 void StepConstraints::begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
-                            const RigidStep& step, float substep_s, const PatchLimits& limits) {
-  // Without gravity nothing says how fast is fast but the step.
-  constexpr float kPushShare = 1.0F / 64.0F;
+                            const RigidStep& step, float substep_s, const core::PatchLimits& limits) {
   substep_s_ = substep_s;
   bodies_.resize(states.size() + 1);
   bodies_.back() = {};
@@ -49,9 +47,7 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
     c = core::make_constraint(patch.manifold, bodies_[patch.a], bodies_[b], across, surface);
     c.a = patch.a;
     c.b = b;
-    const float reach = core::reach_of(c, bodies_[c.a], bodies_[c.b]);
-    c.slop_m = limits.fixed_slop_m > 0.0F ? limits.fixed_slop_m : limits.slop_share * reach;
-    c.fastest_push_m_s = kPushShare * reach / step.dt_s;
+    core::set_limits(c, bodies_[c.a], bodies_[c.b], limits, step.dt_s);
     recall(patch, c);
     if (surface.restitution > 0.0F) bouncing.store(true, std::memory_order_relaxed);
   });
@@ -77,9 +73,6 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
 }
 
 void StepConstraints::bounce(const core::SoftStep& numbers) {
-  // Of three balls that meet at once two pairs share one: what the second pair does changes the first.
-  constexpr int kMostSweeps = 32;
-  constexpr float kDone = 0x1p-10F;
   if (!may_bounce_) return;
   of_patches_.assign(constraints_.size(), 0.0F);
   each_patch([&](const PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
@@ -88,10 +81,10 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   const auto largest = [&] {
     return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
   };
-  const float done = kDone * largest();
+  const float done = core::kBounceDone * largest();
   if (!(done > 0.0F)) return;
   // A share of what stopped them is given back, so that is to be known well.
-  for (int sweep = 0; sweep < kMostSweeps && largest() > done; ++sweep)
+  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
       of_patches_[index_of(c)] = core::relax_patch(c, a, b, numbers);
     });
@@ -99,7 +92,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     core::note_stopping(c);
     of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
   });
-  for (int sweep = 0; sweep < kMostSweeps && largest() > done; ++sweep)
+  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
       of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
     });

@@ -8,6 +8,7 @@
 
 #include "core/method/rigid/patch_constraint.hpp"
 #include "core/method/rigid/soft_contact.hpp"
+#include "core/method/rigid/soft_settings.hpp"
 #include "core/method/rigid/solver_body.hpp"
 #include "reference/octree_cpu/rigid/contact_solver.hpp"
 #include "reference/octree_cpu/rigid/impulse_memory.hpp"
@@ -16,16 +17,10 @@
 
 namespace broadside::reference {
 
-// The depth at which patches rest.
-struct PatchLimits {
-  float slop_share = 0.0F;    // of the reach of the smaller body, or
-  float fixed_slop_m = 0.0F;  // where it is not 0, the same for all
-};
-
 class StepConstraints {
  public:
   void begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
-             const RigidStep& step, float substep_s, const PatchLimits& limits);
+             const RigidStep& step, float substep_s, const core::PatchLimits& limits);
   // Writes the states, and keeps the impulses of the last substep and of the step.
   void finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches);
   void forget() { memory_.forget(); }

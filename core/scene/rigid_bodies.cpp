@@ -1,4 +1,4 @@
-#include "reference/octree_cpu/rigid/rigid_bodies.hpp"
+#include "core/scene/rigid_bodies.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,10 +9,8 @@
 #include "core/scene/mass_properties.hpp"
 #include "core/scene/surface_octree.hpp"
 
-namespace broadside::reference {
+namespace broadside::core {
 namespace {
-
-using core::Vec3;
 
 using Triple = std::array<double, 3>;
 using Inertia = std::array<double, 6>;  // xx yy zz xy xz yz
@@ -37,7 +35,7 @@ Inertia inverse(const Inertia& m) {
 }
 
 // By the unit quaternion, in double; sign -1 turns back.
-Triple turned(core::Quat q, double sign, const Triple& v) {
+Triple turned(Quat q, double sign, const Triple& v) {
   const double size = std::sqrt(double(q.w) * q.w + double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z);
   const double w = q.w / size;
   const Triple u{sign * q.x / size, sign * q.y / size, sign * q.z / size};
@@ -56,8 +54,8 @@ Vec3 narrow(const Triple& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-core::RigidMass mass_of(const core::Body& body, const core::MassProperties& given) {
-  core::RigidMass mass;
+RigidMass mass_of(const Body& body, const MassProperties& given) {
+  RigidMass mass;
   mass.inverse_mass = body.inverse_mass;
   mass.center_of_mass = narrow(given.center_of_mass_m);
   const Inertia i = inverse(given.inertia_kg_m2);
@@ -66,8 +64,8 @@ core::RigidMass mass_of(const core::Body& body, const core::MassProperties& give
   return mass;
 }
 
-core::RigidState start_of(const core::Body& body, const core::MassProperties& given) {
-  core::RigidState s;
+RigidState start_of(const Body& body, const MassProperties& given) {
+  RigidState s;
   s.q = body.orientation;
   s.v = body.velocity;
   const Triple arm = turned(s.q, 1.0, given.center_of_mass_m);
@@ -77,48 +75,48 @@ core::RigidState start_of(const core::Body& body, const core::MassProperties& gi
   return s;
 }
 
-bool has_vertices(const core::ContactShape& shape) {
-  return shape.kind == core::ContactKind::kHull || shape.kind == core::ContactKind::kMesh;
+bool has_vertices(const ContactShape& shape) {
+  return shape.kind == ContactKind::kHull || shape.kind == ContactKind::kMesh;
 }
 
 // Of the shape, about the center of mass.
-core::Box box_of(const core::ContactShape& shape, const core::VertexTreeView& vertices) {
-  core::Box box;
+Box box_of(const ContactShape& shape, const VertexTreeView& vertices) {
+  Box box;
   for (int k = 0; k < 3; ++k) {
-    box.min[k] = shape.center[k] - core::shape_support(shape, vertices, core::axis_vector(k, -1.0F));
-    box.max[k] = shape.center[k] + core::shape_support(shape, vertices, core::axis_vector(k, 1.0F));
+    box.min[k] = shape.center[k] - shape_support(shape, vertices, axis_vector(k, -1.0F));
+    box.max[k] = shape.center[k] + shape_support(shape, vertices, axis_vector(k, 1.0F));
   }
   return box;
 }
 
 // A ball about the center of mass inside the shape, where its closed form tells one; else none.
-float inner_ball_m(const core::ContactShape& s) {
-  const float off = core::length(s.center);
+float inner_ball_m(const ContactShape& s) {
+  const float off = length(s.center);
   float inner = 0.0F;
-  if (s.kind == core::ContactKind::kBox) inner = std::min({s.half.x, s.half.y, s.half.z});
-  if (s.kind == core::ContactKind::kSphere || s.kind == core::ContactKind::kCapsule) inner = s.radius_m;
-  if (s.kind == core::ContactKind::kCylinder) inner = std::min(s.radius_m, s.half_length_m);
+  if (s.kind == ContactKind::kBox) inner = std::min({s.half.x, s.half.y, s.half.z});
+  if (s.kind == ContactKind::kSphere || s.kind == ContactKind::kCapsule) inner = s.radius_m;
+  if (s.kind == ContactKind::kCylinder) inner = std::min(s.radius_m, s.half_length_m);
   return std::max(0.0F, inner - off);
 }
 
-RigidShape shape_of(const core::ContactShape& contact, const core::Mesh& mesh) {
+RigidShape shape_of(const ContactShape& contact, const Mesh& mesh) {
   RigidShape shape;
   shape.contact = contact;
-  if (has_vertices(contact)) shape.octree = core::build_body_octree(mesh.vertices);
+  if (has_vertices(contact)) shape.octree = build_body_octree(mesh.vertices);
   // A convex body's exact test costs no more than tests of its parts.
-  shape.nodes = contact.kind == core::ContactKind::kMesh ? core::surface_node_boxes(mesh, Vec3{} - contact.center)
-                                                         : core::single_node_boxes(box_of(contact, shape.vertices()));
-  shape.balls.outer_m = core::length(contact.center) + contact.size_m;
+  shape.nodes = contact.kind == ContactKind::kMesh ? surface_node_boxes(mesh, Vec3{} - contact.center)
+                                                   : single_node_boxes(box_of(contact, shape.vertices()));
+  shape.balls.outer_m = length(contact.center) + contact.size_m;
   shape.balls.inner_m = inner_ball_m(contact);
   return shape;
 }
 
-void add_wrenches(const core::Scene& scene, RigidBodies& bodies) {
+void add_wrenches(const Scene& scene, RigidBodies& bodies) {
   if (scene.wrenches.empty()) return;
   bodies.wrench.resize(scene.bodies.size());
-  for (const core::Wrench& w : scene.wrenches) {
-    core::RigidWrench& sum = bodies.wrench[w.body];
-    const bool turns = w.axes == core::WrenchAxes::kBody;
+  for (const Wrench& w : scene.wrenches) {
+    RigidWrench& sum = bodies.wrench[w.body];
+    const bool turns = w.axes == WrenchAxes::kBody;
     Vec3& force = turns ? sum.force_body_n : sum.force_world_n;
     Vec3& torque = turns ? sum.torque_body_n_m : sum.torque_world_n_m;
     force = force + w.force_n;
@@ -128,10 +126,10 @@ void add_wrenches(const core::Scene& scene, RigidBodies& bodies) {
 
 }  // namespace
 
-core::Result<RigidBodies> make_rigid_bodies(const core::Scene& scene) {
-  const auto mass = core::all_mass_properties(scene);
+Result<RigidBodies> make_rigid_bodies(const Scene& scene) {
+  const auto mass = all_mass_properties(scene);
   if (!mass) return mass.error();
-  auto shapes = core::build_contact_shapes(scene, mass.value());
+  auto shapes = build_contact_shapes(scene, mass.value());
   if (!shapes) return shapes.error();
   RigidBodies bodies;
   bodies.contact_shapes = std::move(shapes).value();
@@ -140,13 +138,13 @@ core::Result<RigidBodies> make_rigid_bodies(const core::Scene& scene) {
     bodies.shapes.push_back(
         shape_of(bodies.contact_shapes.shapes[k], *scene.meshes[bodies.contact_shapes.mesh_of_shape[k]]));
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
-    const core::Body& body = scene.bodies[i];
+    const Body& body = scene.bodies[i];
     const bool is_static = !(body.inverse_mass > 0.0F);
-    core::RigidState state;
+    RigidState state;
     state.x = body.position;
     state.q = body.orientation;
     bodies.state.push_back(is_static ? state : start_of(body, mass.value()[i]));
-    bodies.mass.push_back(is_static ? core::RigidMass{} : mass_of(body, mass.value()[i]));
+    bodies.mass.push_back(is_static ? RigidMass{} : mass_of(body, mass.value()[i]));
     bodies.material.push_back(body.material);
     bodies.is_static.push_back(is_static ? 1 : 0);
     bodies.static_spin.push_back(is_static ? body.angular_velocity : Vec3{});
@@ -161,4 +159,4 @@ core::Result<RigidBodies> make_rigid_bodies(const core::Scene& scene) {
   return bodies;
 }
 
-}  // namespace broadside::reference
+}  // namespace broadside::core

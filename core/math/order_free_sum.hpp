@@ -1,0 +1,38 @@
+// A sum of nonnegative floats that is the same for every order of its terms: for threads that add up side by side.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+
+namespace broadside::core {
+
+// Terms are counted in units of a power of two, 2^40 to 2^41 of which are the largest term: what a term loses is below a
+// 2^40th of that. Sums of integers have no order. Up to 2^22 terms.
+class OrderFreeSum {
+ public:
+  // largest: of all terms; finite.
+  BROADSIDE_HD explicit constexpr OrderFreeSum(float largest) {
+    const auto exponent = static_cast<int>(std::bit_cast<std::uint32_t>(largest) >> 23) - 127;
+    // Of a subnormal or zero, as of the least normal number.
+    shift_ = 40 - (exponent < -126 ? -126 : exponent);
+  }
+
+  // Of one term.
+  BROADSIDE_HD constexpr std::uint64_t units(float term) const {
+    return static_cast<std::uint64_t>(static_cast<double>(term) * power_of_two(shift_));
+  }
+  BROADSIDE_HD constexpr float value(std::uint64_t sum_of_units) const {
+    return static_cast<float>(static_cast<double>(sum_of_units) * power_of_two(-shift_));
+  }
+
+ private:
+  BROADSIDE_HD static constexpr double power_of_two(int exponent) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+  }
+
+  int shift_ = 0;
+};
+
+}  // namespace broadside::core

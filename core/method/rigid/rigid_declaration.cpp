@@ -1,0 +1,24 @@
+#include "core/method/rigid/rigid_declaration.hpp"
+
+#include <map>
+#include <string>
+
+namespace broadside::core {
+Declaration rigid_declaration(const SoftSettings& solver, std::string_view twin_of) {
+  std::map<std::string, std::string> given{
+      {"motion", "rigid"},
+      {"detection_at", "start"},
+      {"contacts", "totals"},
+      {"integrator", "semi-implicit Euler; Runge-Kutta 4 for orientation, angular momentum constant"},
+      {"order", "1"},
+      {"substeps", std::to_string(most_of_step(solver).substeps)},
+      {"iterations", std::to_string(most_of_step(solver).applications)},
+      {"friction", "cone"},
+      {"contact_model", "rigid"},
+      {"correction", "position"},
+      {"precision", "f32"}};
+  if (!twin_of.empty()) given["twin_of"] = twin_of;
+  return Declaration::of(given);
+}
+
+}  // namespace broadside::core

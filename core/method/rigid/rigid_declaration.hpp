@@ -1,0 +1,14 @@
+// What the engines whose stages are those of RIGID 8 say of themselves where bodies turn.
+#pragma once
+
+#include <string_view>
+
+#include "core/engine/declaration.hpp"
+#include "core/method/rigid/soft_settings.hpp"
+
+namespace broadside::core {
+
+// twin_of: empty, or the engine whose bits it repeats.
+Declaration rigid_declaration(const SoftSettings& solver, std::string_view twin_of = {});
+
+}  // namespace broadside::core

@@ -1,0 +1,82 @@
+// What the soft solver may be set to, and the numbers of a step that follow.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/soft_contact.hpp"
+
+namespace broadside::core {
+
+// What of a patch is small, or fast.
+struct PatchLimits {
+  float slop_share = 0.0F;    // of the patch's reach
+  float fixed_slop_m = 0.0F;  // in its place, where it is given
+};
+
+// core/method/rigid/SOLVERS.md has the measurements that the defaults were chosen by.
+struct SoftSettings {
+  // Of a step; twice as many where bodies that touch have masses further apart than even_masses: what a contact yields
+  // grows with the mass on it, and falls with the square of the substep.
+  std::uint32_t substeps = 4;
+  float even_masses = 64.0F;
+  // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
+  std::uint32_t sweeps = 12;
+  // A sweep is the last one that changes no point's speed by more than this share of the fastest.
+  float done = 0x1p-10F;
+  float omega_dt = 6.0F;
+  float damping = 1.0F;
+  PatchLimits limits{0x1p-16F, 0.0F};
+  float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
+};
+
+// Catto's soft step, without conjugate directions.
+inline SoftSettings soft_step_settings() {
+  SoftSettings settings;
+  settings.substeps = 8;
+  settings.sweeps = 1;
+  settings.omega_dt = 1.2F;
+  return settings;
+}
+
+// What a step does at most: its substeps, and how often a substep adds to the velocities of a contact's bodies.
+struct MostOfStep {
+  std::uint32_t substeps = 0;
+  std::uint32_t applications = 0;
+};
+
+inline MostOfStep most_of_step(const SoftSettings& settings) {
+  // The start from the last impulse, sweeps with a step along the direction between two, relaxation and rebound.
+  return {2 * settings.substeps, 1 + (2 * settings.sweeps - 1) + 1 + 1};
+}
+
+inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {
+  constexpr float kSettleShare = 0.05F;
+  const float gravity = length(gravity_m_s2);
+  SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
+  step.gravity_m_s2 = gravity;
+  step.settle_m_s = kSettleShare * gravity * step.dt_s;
+  step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
+  return step;
+}
+
+// The larger of two masses that move over the smaller; 1 where one of them does not.
+BROADSIDE_HD constexpr float mass_ratio(float inverse_mass_a, float inverse_mass_b) {
+  if (!(inverse_mass_a > 0.0F) || !(inverse_mass_b > 0.0F)) return 1.0F;
+  return inverse_mass_a > inverse_mass_b ? inverse_mass_a / inverse_mass_b : inverse_mass_b / inverse_mass_a;
+}
+
+// dt_s: of the step.
+BROADSIDE_HD void set_limits(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const PatchLimits& limits,
+                             float dt_s) {
+  // Without gravity nothing says how fast is fast but the step.
+  constexpr float kPushShare = 1.0F / 64.0F;
+  const float reach = reach_of(c, a, b);
+  c.slop_m = limits.fixed_slop_m > 0.0F ? limits.fixed_slop_m : limits.slop_share * reach;
+  c.fastest_push_m_s = kPushShare * reach / dt_s;
+}
+
+}  // namespace broadside::core

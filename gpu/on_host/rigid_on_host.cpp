@@ -1,0 +1,41 @@
+// The launches of frames of turning bodies on fibers of the host.
+#include <cstdlib>
+
+#include "gpu/rigid/rigid_kernel.hpp"
+#include "gpu/stages/rigid/place_stage.cuh"
+#include "gpu/stages/rigid/rigid_digest.cuh"
+#include "gpu/stages/rigid/rigid_frame.cuh"
+
+namespace broadside::gpu {
+namespace {
+
+constexpr std::uint32_t kThreads = 64;
+constexpr std::uint32_t kBlocks = 2;
+
+std::uint64_t seed() {
+  const char* text = std::getenv("BROADSIDE_ON_HOST_SEED");
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
+}
+
+}  // namespace
+
+core::Result<LaunchShape> rigid_launch_shape() {
+  return LaunchShape{kThreads, kBlocks, 0, kBlocks};
+}
+
+core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_place(frame); });
+  return core::Done{};
+}
+
+core::Status launch_rigid_frame(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_rigid_frame(frame); });
+  return core::Done{};
+}
+
+core::Status launch_rigid_digest(const RigidDigestView& view, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_rigid_digest(view); });
+  return core::Done{};
+}
+
+}  // namespace broadside::gpu

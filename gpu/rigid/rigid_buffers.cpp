@@ -1,0 +1,155 @@
+#include "gpu/rigid/rigid_buffers.hpp"
+
+#include <algorithm>
+
+#include "gpu/stages/rigid/constraint_layout.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+// A heap has some seven contacts a body and a color for each of twice the most contacts of one body; a frame that has
+// more is repeated with room for all of them.
+constexpr std::size_t kPairsPerBody = 8;
+constexpr std::size_t kPatchesPerBody = 6;
+constexpr std::size_t kLeast = 1024;
+constexpr std::size_t kFirstColors = 128;
+// So that a growing pile does not repeat every frame.
+constexpr std::size_t with_reserve(std::size_t count) {
+  return count + count / 4;
+}
+
+}  // namespace
+
+core::Status RigidBuffers::Memory::reserve_bodies(std::size_t bodies) {
+  BROADSIDE_TRY(begin.reserve(bodies, "bodies"));
+  BROADSIDE_TRY(count.reserve(bodies, "bodies"));
+  BROADSIDE_TRY(filled.reserve(bodies, "bodies"));
+  return count.fill_bytes(0);
+}
+
+core::Status RigidBuffers::Memory::reserve_patches(std::size_t patches) {
+  BROADSIDE_TRY(entries.reserve(2 * patches, "contacts"));
+  BROADSIDE_TRY(feature.reserve(4 * patches, "contacts"));
+  return impulse.reserve(4 * patches, "contacts");
+}
+
+void RigidBuffers::Memory::swap(Memory& other) noexcept {
+  begin.swap(other.begin);
+  count.swap(other.count);
+  filled.swap(other.filled);
+  entries.swap(other.entries);
+  feature.swap(other.feature);
+  impulse.swap(other.impulse);
+}
+
+PatchMemory RigidBuffers::Memory::view() const {
+  return {begin.data(), count.data(), filled.data(), entries.data(), feature.data(), impulse.data()};
+}
+
+std::uint64_t RigidBuffers::Memory::bytes() const {
+  return begin.bytes() + count.bytes() + filled.bytes() + entries.bytes() + feature.bytes() + impulse.bytes();
+}
+
+core::Status RigidBuffers::reserve_patches(std::size_t patches) {
+  BROADSIDE_TRY(patches_.reserve(patches, "contacts"));
+  BROADSIDE_TRY(ranks_.reserve(patches, "contacts"));
+  BROADSIDE_TRY(impulses_.reserve(4 * patches, "contacts"));
+  return memory_.reserve_patches(patches);
+}
+
+core::Status RigidBuffers::reserve_places(std::size_t places) {
+  BROADSIDE_TRY(patch_at_.reserve(places, "contacts"));
+  return constraints_.reserve(constraint_floats(places), "contacts");
+}
+
+core::Status RigidBuffers::reserve_colors(std::size_t colors) {
+  colors_ = std::max(colors_, colors);
+  BROADSIDE_TRY(color_begin_.reserve(colors_ + 1, "colors"));
+  BROADSIDE_TRY(color_cursor_.reserve(colors_, "colors"));
+  BROADSIDE_TRY(color_count_.reserve(colors_, "colors"));
+  return color_count_.fill_bytes(0);
+}
+
+core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
+  const std::size_t n = states.size();
+  BROADSIDE_TRY(before_.upload(states, "bodies"));
+  BROADSIDE_TRY(after_.upload(states, "bodies"));
+  BROADSIDE_TRY(free_end_.reserve(n, "bodies"));
+  BROADSIDE_TRY(reach_m_.reserve(n, "bodies"));
+  BROADSIDE_TRY(fall_m_.reserve(n, "bodies"));
+  BROADSIDE_TRY(pushed_m_.reserve(n, "bodies"));
+  BROADSIDE_TRY(shape_boxes_.reserve(n, "bodies"));
+  BROADSIDE_TRY(boxes_.reserve(n, "bodies"));
+  BROADSIDE_TRY(coloring_.reserve(n, "bodies"));
+  BROADSIDE_TRY(bodies_.reserve(n + 1, "bodies"));
+  BROADSIDE_TRY(old_memory_.reserve_bodies(n));
+  BROADSIDE_TRY(memory_.reserve_bodies(n));
+  BROADSIDE_TRY(confirmed_.reserve(std::max(kLeast, kPairsPerBody * n), "pairs"));
+  BROADSIDE_TRY(reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
+  BROADSIDE_TRY(old_memory_.reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
+  colors_ = 0;
+  BROADSIDE_TRY(reserve_colors(kFirstColors));
+  BROADSIDE_TRY(reserve_places(std::max(kLeast, kPatchesPerBody * n) + 32 * kFirstColors));
+  BROADSIDE_TRY(counts_.reserve(1, "counters"));
+  BROADSIDE_TRY(counts_.fill_bytes(0));
+  BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
+  return barrier_.fill_bytes(0);
+}
+
+// The two memories change places, and grow when it is their turn.
+std::size_t RigidBuffers::patch_room() const {
+  return std::min({patches_.capacity(), ranks_.capacity(), impulses_.capacity() / 4, memory_.entries.capacity() / 2,
+                   memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4});
+}
+
+core::Status RigidBuffers::grow(const RigidCounts& demanded) {
+  if (demanded.confirmed > confirmed_.capacity())
+    BROADSIDE_TRY(confirmed_.reserve(with_reserve(demanded.confirmed), "pairs"));
+  if (demanded.patches > patch_room()) BROADSIDE_TRY(reserve_patches(with_reserve(demanded.patches)));
+  if (demanded.colors > colors_) BROADSIDE_TRY(reserve_colors(with_reserve(demanded.colors)));
+  if (demanded.places > patch_at_.capacity()) BROADSIDE_TRY(reserve_places(with_reserve(demanded.places)));
+  return wait_for_device("making room for contacts");
+}
+
+void RigidBuffers::advance() {
+  before_.swap(after_);
+  old_memory_.swap(memory_);
+}
+
+void RigidBuffers::fill(RigidFrameView& view) const {
+  view.before = before_.data();
+  view.after = after_.data();
+  view.free_end = free_end_.data();
+  view.reach_m = reach_m_.data();
+  view.fall_m = fall_m_.data();
+  view.pushed_m = pushed_m_.data();
+  view.shape_boxes = shape_boxes_.data();
+  view.boxes = boxes_.data();
+  view.confirmed = {confirmed_.data(), confirmed_.capacity()};
+  view.patches = {patches_.data(), patch_room()};
+  view.ranks = ranks_.data();
+  view.coloring = coloring_.data();
+  view.color_capacity = static_cast<std::uint32_t>(colors_);
+  view.color_count = color_count_.data();
+  view.color_begin = color_begin_.data();
+  view.color_cursor = color_cursor_.data();
+  view.patch_at = patch_at_.data();
+  view.place_capacity = patch_at_.capacity();
+  view.constraints = constraints_.data();
+  view.bodies = bodies_.data();
+  view.impulses = impulses_.data();
+  view.old_memory = old_memory_.view();
+  view.memory = memory_.view();
+  view.counts = counts_.data();
+  view.barrier = barrier_.data();
+}
+
+std::uint64_t RigidBuffers::bytes() const {
+  return before_.bytes() + after_.bytes() + free_end_.bytes() + reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() +
+         shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + patches_.bytes() + ranks_.bytes() +
+         coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
+         constraints_.bytes() + bodies_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() +
+         counts_.bytes() + barrier_.bytes();
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,76 @@
+// Device memory of turning bodies that changes from step to step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/method/rigid/rigid_state.hpp"
+#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/runtime/device_buffer.hpp"
+
+namespace broadside::gpu {
+
+class RigidBuffers {
+ public:
+  core::Status load(std::span<const core::RigidState> states);
+  // Room for what the aborted frame demanded.
+  core::Status grow(const RigidCounts& demanded);
+  // The step is kept: what was after is before now.
+  void advance();
+  void fill(RigidFrameView& view) const;
+  [[nodiscard]] std::uint64_t bytes() const;
+
+  [[nodiscard]] const DeviceBuffer<core::RigidState>& before() const { return before_; }
+  [[nodiscard]] const DeviceBuffer<core::RigidState>& after() const { return after_; }
+  [[nodiscard]] const DeviceBuffer<PackedBox>& boxes() const { return boxes_; }
+  [[nodiscard]] const DeviceBuffer<core::Pair>& confirmed() const { return confirmed_; }
+  [[nodiscard]] const DeviceBuffer<core::ContactPatch>& patches() const { return patches_; }
+  [[nodiscard]] const DeviceBuffer<core::Vec3>& impulses() const { return impulses_; }
+
+ private:
+  struct Memory {
+    DeviceBuffer<std::uint32_t> begin;
+    DeviceBuffer<std::uint32_t> count;
+    DeviceBuffer<std::uint32_t> filled;
+    DeviceBuffer<PatchEntry> entries;
+    DeviceBuffer<std::uint32_t> feature;
+    DeviceBuffer<PackedVec3> impulse;
+
+    core::Status reserve_bodies(std::size_t bodies);
+    core::Status reserve_patches(std::size_t patches);
+    void swap(Memory& other) noexcept;
+    [[nodiscard]] PatchMemory view() const;
+    [[nodiscard]] std::uint64_t bytes() const;
+  };
+  [[nodiscard]] std::size_t patch_room() const;
+  core::Status reserve_patches(std::size_t patches);
+  core::Status reserve_places(std::size_t places);
+  core::Status reserve_colors(std::size_t colors);
+
+  DeviceBuffer<core::RigidState> before_;
+  DeviceBuffer<core::RigidState> after_;
+  DeviceBuffer<core::ContactPose> free_end_;
+  DeviceBuffer<float> reach_m_;
+  DeviceBuffer<float> fall_m_;
+  DeviceBuffer<std::uint32_t> pushed_m_;
+  DeviceBuffer<core::Box> shape_boxes_;
+  DeviceBuffer<PackedBox> boxes_;
+  DeviceBuffer<core::Pair> confirmed_;
+  DeviceBuffer<core::ContactPatch> patches_;
+  DeviceBuffer<PatchRank> ranks_;
+  DeviceBuffer<BodyColors> coloring_;
+  DeviceBuffer<std::uint32_t> color_count_;
+  DeviceBuffer<std::uint32_t> color_begin_;
+  DeviceBuffer<std::uint32_t> color_cursor_;
+  DeviceBuffer<std::uint32_t> patch_at_;
+  DeviceBuffer<float> constraints_;
+  DeviceBuffer<PackedSolverBody> bodies_;
+  DeviceBuffer<core::Vec3> impulses_;
+  Memory old_memory_;
+  Memory memory_;
+  DeviceBuffer<RigidCounts> counts_;
+  DeviceBuffer<unsigned long long> barrier_;
+  std::size_t colors_ = 0;
+};
+
+}  // namespace broadside::gpu

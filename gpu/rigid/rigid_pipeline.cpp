@@ -1,0 +1,281 @@
+#include "gpu/rigid/rigid_pipeline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/scene/refuse_springs.hpp"
+#include "core/scene/rigid_bodies.hpp"
+#include "gpu/rigid/rigid_buffers.hpp"
+#include "gpu/rigid/rigid_kernel.hpp"
+#include "gpu/rigid/rigid_read_back.hpp"
+#include "gpu/rigid/rigid_scene.hpp"
+#include "gpu/runtime/host_side.hpp"
+
+namespace broadside::gpu {
+
+struct RigidPipeline::Impl {
+  RigidPipelineOptions options;
+  const core::Scene* scene = nullptr;
+  core::RigidBodies bodies;  // as loaded: states at the start
+  StreamHandle stream = nullptr;
+  RigidScene device_scene;
+  RigidBuffers buffers;
+  BroadBuffers broad;
+  DeviceBuffer<core::Pair> pairs;
+  DeviceBuffer<Counters> broad_counters;
+  DeviceBuffer<unsigned long long> broad_barrier;
+  Mapped<Outcome, 1> broad_outcome;
+  Mapped<RigidOutcome, 1> outcome;
+  PairsShape pairs_launch;
+  LaunchShape launch;
+  BoxFacts facts;
+  RigidFrameView view;
+  PairsView pairs_view;
+  RigidCounts last;
+  std::uint64_t last_pairs = 0;
+  std::array<core::StageTime, core::kStageCount> times{};
+  std::uint64_t steps = 0;
+  std::uint64_t repeats = 0;
+  std::uint64_t patches_made = 0;
+  std::uint64_t pairs_tested = 0;
+  float dt_s = 0.0F;
+
+  [[nodiscard]] bool has_broad() const;
+  [[nodiscard]] Start start() const;
+  core::Status load_broad();
+  core::Status refit(const RigidCounts& counts);
+  void fill();
+  core::Status launch_all();
+  core::Result<bool> is_kept();
+  void take_frame();
+};
+
+namespace {
+
+// A cell of the broad phase is made for boxes so much larger than those seen, since boxes grow with the speed of their
+// bodies.
+constexpr float kRoomForSpeed = 1.25F;
+// Eight overlaps a body, and more when a frame finds more.
+constexpr std::uint64_t kPairsPerBody = 8;
+
+std::uint32_t as_word(float v) {
+  return std::bit_cast<std::uint32_t>(v);
+}
+
+}  // namespace
+
+RigidPipeline::RigidPipeline(const RigidPipelineOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+}
+RigidPipeline::~RigidPipeline() = default;
+
+// As the twin: without level 0 there is nothing that a broad phase could start from.
+bool RigidPipeline::Impl::has_broad() const {
+  return options.broad != Broad::kBrute;
+}
+
+Start RigidPipeline::Impl::start() const {
+  if (options.broad == Broad::kOctree) return Start::kOctree;
+  const auto count = static_cast<std::uint32_t>(bodies.state.size());
+  if (options.broad != Broad::kTree || count < options.least_for_grid || !fits_grid(facts)) return Start::kTiles;
+  return count < kLeastBoxesForBulk ? Start::kGrid : Start::kBulk;
+}
+
+core::Status RigidPipeline::Impl::load_broad() {
+  const std::size_t n = bodies.state.size();
+  auto shape =
+      pairs_launch_shape(start(), facts.count, static_cast<std::uint32_t>(grid_buckets(n)), kLeastBoxesForBins);
+  if (!shape.ok()) return shape.error();
+  pairs_launch = shape.value();
+  BROADSIDE_TRY(broad.load(start(), facts, 0.0F, core::Variant::kSound, pairs_launch.bins, pairs_launch.sort.blocks));
+  return wait_for_device("clearing the broad phase");
+}
+
+// Cells for boxes of these sizes and places.
+core::Status RigidPipeline::Impl::refit(const RigidCounts& counts) {
+  const auto side = std::bit_cast<float>(counts.largest_side);
+  const auto coordinate = std::bit_cast<float>(counts.largest_coordinate);
+  const float most = std::numeric_limits<float>::max() / (2.0F * kRoomForSpeed);
+  if (!(side < most && coordinate < most))
+    return core::Error{"a body has left the finite numbers", "step " + std::to_string(steps + 1) + " of octree-gpu",
+                       "take a shorter step, or look for bodies that start inside each other"};
+  const Start before = start();
+  facts.largest_side_m = std::max(facts.largest_side_m, kRoomForSpeed * side);
+  facts.coordinate_range_m = std::max(facts.coordinate_range_m, kRoomForSpeed * coordinate);
+  if (start() != before) return load_broad();
+  broad.refit(facts);
+  return core::Done{};
+}
+
+core::Status RigidPipeline::load(const core::Scene& scene) {
+  BROADSIDE_TRY(core::refuse_springs(scene));
+  Impl& d = *impl_;
+  auto bodies = core::make_rigid_bodies(scene);
+  if (!bodies.ok()) return bodies.error();
+  d.bodies = std::move(bodies).value();
+  d.scene = &scene;
+  d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
+  d.last = {};
+  d.times = {};
+  d.view = {};
+  d.pairs_view = {};
+  auto stream = frame_stream();
+  if (!stream.ok()) return stream.error();
+  d.stream = stream.value();
+  BROADSIDE_TRY(wait_for_stream(d.stream, "the end of the scene before"));
+  BROADSIDE_TRY(d.device_scene.load(scene, d.bodies));
+  BROADSIDE_TRY(d.buffers.load(d.bodies.state));
+  BROADSIDE_TRY(d.outcome.allocate());
+  BROADSIDE_TRY(d.broad_outcome.allocate());
+  BROADSIDE_TRY(d.broad_counters.reserve(1, "counters"));
+  BROADSIDE_TRY(d.broad_counters.fill_bytes(0));
+  BROADSIDE_TRY(d.broad_barrier.reserve(1, "barrier"));
+  BROADSIDE_TRY(d.broad_barrier.fill_bytes(0));
+  const std::size_t n = d.bodies.state.size();
+  BROADSIDE_TRY(d.pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBody * n), "pairs"));
+  auto shape = rigid_launch_shape();
+  if (!shape.ok()) return shape.error();
+  d.launch = shape.value();
+
+  d.facts = {};
+  d.facts.count = static_cast<std::uint32_t>(n);
+  d.facts.low_corner = scene.domain.min;
+  d.facts.domain = scene.domain;
+  BROADSIDE_TRY(d.load_broad());
+
+  d.view.body_count = static_cast<std::uint32_t>(n);
+  d.view.levels = d.options.levels;
+  d.view.has_broad = d.has_broad();
+  d.view.gravity_m_s2 = scene.gravity_m_s2;
+  d.view.domain = scene.domain;
+  d.view.face_material = scene.face_material;
+  d.view.solver =
+      d.options.has_fixed_thresholds ? core::with_fixed_thresholds(d.options.solver, scene) : d.options.solver;
+  d.device_scene.fill(d.view);
+  return wait_for_device("loading the scene");
+}
+
+void RigidPipeline::Impl::fill() {
+  buffers.fill(view);
+  view.dt_s = dt_s;
+  for (std::uint32_t kind = 0; kind < 2; ++kind) {
+    view.substeps[kind] = (kind + 1) * view.solver.substeps;
+    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
+  }
+  view.pairs = pairs.data();
+  view.pair_capacity = pairs.capacity();
+  view.broad_counters = broad_counters.data();
+  view.outcome = outcome.device(0);
+  // Tiles need no cells.
+  const bool has_cells = has_broad() && start() != Start::kTiles;
+  view.side_limit = has_cells ? as_word(facts.largest_side_m) : as_word(std::numeric_limits<float>::max());
+  view.coordinate_limit = has_cells ? as_word(facts.coordinate_range_m) : as_word(std::numeric_limits<float>::max());
+  broad.fill(pairs_view.broad);
+  broad.fill(pairs_view.bulk);
+  pairs_view.box_count = view.body_count;
+  pairs_view.boxes = view.boxes;
+  pairs_view.pairs = {pairs.data(), pairs.capacity()};
+  pairs_view.counters = broad_counters.data();
+  pairs_view.barrier = broad_barrier.data();
+  pairs_view.outcome = broad_outcome.device(0);
+}
+
+core::Status RigidPipeline::Impl::launch_all() {
+  fill();
+  BROADSIDE_TRY(launch_place(view, launch, stream));
+  if (has_broad()) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
+  BROADSIDE_TRY(launch_rigid_frame(view, launch, stream));
+  return wait_for_stream(stream, "a frame");
+}
+
+// When its room was too small it has grown, and the frame has to be launched again from the same state.
+core::Result<bool> RigidPipeline::Impl::is_kept() {
+  last = outcome[0].counts;
+  if (last.is_aborted == 0) return true;
+  ++repeats;
+  if (last.largest_side > view.side_limit || last.largest_coordinate > view.coordinate_limit) {
+    BROADSIDE_TRY(refit(last));
+    return false;
+  }
+  if (has_broad() && broad_outcome[0].counters.is_aborted != 0) {
+    BROADSIDE_TRY(broad.grow(broad_outcome[0].counters));
+    BROADSIDE_TRY(pairs.reserve(broad_outcome[0].counters.pairs + broad_outcome[0].counters.pairs / 4, "pairs"));
+    return false;
+  }
+  BROADSIDE_TRY(buffers.grow(last));
+  return false;
+}
+
+void RigidPipeline::Impl::take_frame() {
+  unsigned long long begin_ns = outcome[0].begin_ns;
+  for (std::size_t k = 0; k < core::kStageCount; ++k) {
+    // The broad phase ends where the kernel behind it begins; boxes and pairs are timed together.
+    const unsigned long long end_ns = k == 0 ? begin_ns : outcome[0].stage_end_ns[k];
+    times[k] = {core::kStageNames[k], static_cast<double>(end_ns - begin_ns) * 1e-9};
+    begin_ns = end_ns;
+  }
+  buffers.advance();
+  last_pairs = has_broad() ? broad_outcome[0].counters.pairs : 0;
+  const std::uint64_t n = bodies.state.size();
+  pairs_tested += has_broad() ? last_pairs : n * (n - 1) / 2;
+  patches_made += last.patches;
+  ++steps;
+}
+
+core::Status RigidPipeline::step(float dt_s) {
+  Impl& d = *impl_;
+  d.dt_s = dt_s;
+  for (bool is_done = false; !is_done;) {
+    BROADSIDE_TRY(d.launch_all());
+    const auto kept = d.is_kept();
+    if (!kept.ok()) return kept.error();
+    is_done = kept.value();
+  }
+  d.take_frame();
+  return core::Done{};
+}
+
+core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
+  Impl& d = *impl_;
+  frame = {};
+  frame.step = d.steps;
+  frame.time_s = static_cast<double>(d.steps) * static_cast<double>(d.dt_s);
+  // The frame is kept, so what it came to is what the next one starts from.
+  const RigidLeft left{d.bodies, d.buffers, d.pairs, d.steps == 0 ? 0 : d.last_pairs, d.last};
+  auto digest = rigid_digest_of(left, d.launch, d.stream);
+  if (!digest.ok()) return digest.error();
+  frame.digest = digest.value();
+  return level == core::RecordLevel::kFull ? read_back_rigid(left, frame) : core::Status(core::Done{});
+}
+
+std::uint32_t RigidPipeline::groups() const {
+  using core::Group;
+  const std::uint32_t always = core::bit(Group::kBodies) | core::bit(Group::kDetection) |
+                               core::bit(Group::kDetectedOrientation) | core::bit(Group::kConfirmed) |
+                               core::bit(Group::kPoints);
+  return impl_->has_broad() ? always | core::bit(Group::kPairs) : always;
+}
+
+std::span<const core::StageTime> RigidPipeline::stage_times() const {
+  if (impl_->steps == 0) return {};
+  return impl_->times;
+}
+
+std::vector<core::Counter> RigidPipeline::counters() const {
+  const Impl& d = *impl_;
+  return {{"launches", 3 * (d.steps + d.repeats)},
+          {"level stage: pairs tested", d.pairs_tested},
+          {"contact patches", d.patches_made},
+          {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+}
+
+std::uint64_t RigidPipeline::repeated_frames() const {
+  return impl_->repeats;
+}
+
+}  // namespace broadside::gpu

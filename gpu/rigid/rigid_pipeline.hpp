@@ -1,0 +1,49 @@
+// The pipeline of bodies that turn, on the GPU: RIGID 8, all state on the device, bit-identical to octree-cpu's.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/engine/declaration.hpp"
+#include "core/engine/dynamics.hpp"
+#include "core/method/levels.hpp"
+#include "core/method/rigid/rigid_settings.hpp"
+#include "gpu/broad/broad_buffers.hpp"
+
+namespace broadside::gpu {
+
+struct RigidPipelineOptions {
+  Broad broad = Broad::kTree;  // kBrute = the levels test all pairs of bodies
+  core::Levels levels = core::Levels::kC;
+  core::SoftSettings solver;
+  bool has_fixed_thresholds = false;  // the scene's
+  std::uint32_t least_for_grid = kLeastBodiesForGrid;
+};
+
+// Uses the current CUDA device; not thread-safe.
+class RigidPipeline final : public core::Dynamics {
+ public:
+  explicit RigidPipeline(const RigidPipelineOptions& options);
+  ~RigidPipeline() override;
+
+  // Refuses what the twin refuses.
+  core::Status load(const core::Scene& scene) override;
+  // Three launches: boxes, candidate pairs, all the rest; again, from the same state, when room or a cell of the broad
+  // phase turned out too small. Synchronizes. An error when a body has left the finite numbers.
+  core::Status step(float dt_s) override;
+  core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
+  [[nodiscard]] std::uint32_t groups() const override;
+  [[nodiscard]] std::span<const core::StageTime> stage_times() const override;
+  [[nodiscard]] std::vector<core::Counter> counters() const override;
+
+  // Frames that were repeated since load.
+  [[nodiscard]] std::uint64_t repeated_frames() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace broadside::gpu

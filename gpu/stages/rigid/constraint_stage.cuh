@@ -1,0 +1,110 @@
+// Before and after the substeps: constraints of patches, with the impulses that the step before left; and what the step
+// leaves. The same as reference/octree_cpu/rigid/step_constraints.cpp.
+#pragma once
+
+#include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/soft_contact.hpp"
+#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/constraint_tiles.cuh"
+#include "gpu/stages/rigid/patch_stage.cuh"
+#include "gpu/stages/rigid/solver_bodies.cuh"
+
+namespace broadside::gpu {
+
+template <typename Team>
+__device__ void begin_bodies(const Team& team, const RigidFrameView& f) {
+  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size())
+    store_body(f.bodies[i], core::solver_body(f.before[i], f.mass[i]));
+  if (team.rank() == 0) store_body(f.bodies[f.body_count], core::SolverBody{});
+}
+
+// Where these bodies' points of the step before have this feature: the first of them, patch by patch; or nowhere.
+constexpr std::uint32_t kForgotten = 0xFFFFFFFFU;
+__device__ inline std::uint32_t remembered_at(const RigidFrameView& f, std::uint32_t a, std::uint32_t b,
+                                              std::uint32_t feature) {
+  const PatchMemory& memory = f.old_memory;
+  const std::uint32_t body = is_moved(f, a) ? a : b;
+  const std::uint32_t other = body == a ? b : a;
+  std::uint32_t found = kForgotten;
+  for (std::uint32_t k = 0; k < memory.count[body]; ++k) {
+    const PatchEntry entry = memory.entries[memory.begin[body] + k];
+    if (entry.other != other) continue;
+    for (std::uint32_t point = 4 * entry.patch; point < 4 * entry.patch + 4; ++point)
+      if (memory.feature[point] == feature) found = min(found, point);
+  }
+  return found;
+}
+
+__device__ inline void recall(const RigidFrameView& f, const core::SoftStep& soft, const core::ContactPatch& patch,
+                              core::PatchConstraint& c) {
+  for (int k = 0; k < c.count; ++k) {
+    const std::uint32_t at = remembered_at(f, patch.a, patch.b, patch.manifold.points[k].feature);
+    if (at == kForgotten) continue;
+    const PackedVec3 impulse = f.old_memory.impulse[at];
+    core::PatchPoint& p = c.points[k];
+    p.normal_impulse = soft.dt_s * impulse.w;
+    p.tangent_impulse_1 = soft.dt_s * core::dot(impulse.v, c.tangent_1);
+    p.tangent_impulse_2 = soft.dt_s * core::dot(impulse.v, c.tangent_2);
+  }
+}
+
+// The step's numbers: more substeps where masses that touch are far apart.
+__device__ inline int step_kind(const RigidFrameView& f) {
+  return __uint_as_float(f.counts->mass_ratio) > f.solver.even_masses ? 1 : 0;
+}
+
+template <typename Team>
+__device__ void make_constraints(const Team& team, const RigidFrameView& f) {
+  const core::SoftStep soft = f.soft[step_kind(f)];
+  for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
+    if (f.patch_at[place] == kUncolored) continue;
+    const core::ContactPatch patch = f.patches.items[f.patch_at[place]];
+    const bool is_face = core::is_face(patch.b);
+    const std::uint32_t b = is_face ? f.body_count : patch.b;
+    const core::Material surface = core::combine(f.material[patch.a], is_face ? f.face_material : f.material[patch.b]);
+    const core::Vec3 across = is_face ? core::Vec3{} : f.before[patch.b].x - f.before[patch.a].x;
+    const core::SolverBody body_a = load_moving(f.bodies[patch.a]);
+    const core::SolverBody body_b = load_moving(f.bodies[b]);
+    core::PatchConstraint c = core::make_constraint(patch.manifold, body_a, body_b, across, surface);
+    c.a = patch.a;
+    c.b = b;
+    core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
+    recall(f, soft, patch, c);
+    if (surface.restitution > 0.0F) atomicMax(&f.counts->bounces, 1U);
+    store_constraint(TileSlot(f.constraints, place), c);
+  }
+}
+
+template <typename Team>
+__device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
+  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size())
+    f.after[i] = core::state_after(load_body(f.bodies[i]), f.before[i]);
+}
+
+// Impulses of the step for those who read it, those of the last substep for the next step.
+template <typename Team>
+__device__ void finish_patches(const Team& team, const RigidFrameView& f) {
+  const core::SoftStep soft = f.soft[step_kind(f)];
+  const float per_s = 1.0F / soft.dt_s;
+  for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
+    const std::uint32_t patch = f.patch_at[place];
+    if (patch == kUncolored) continue;
+    const TileSlot slot(f.constraints, place);
+    core::PatchConstraint c = load_bodies_and_points(slot);
+    load_tangents(slot, c);
+    load_impulses(slot, c);
+    load_totals(slot, c);
+    for (int k = 0; k < core::kManifoldPoints; ++k) {
+      const std::uint64_t at = 4 * std::uint64_t{patch} + static_cast<std::uint64_t>(k);
+      f.memory.feature[at] = k < c.count ? f.patches.items[patch].manifold.points[k].feature : 0;
+      if (k >= c.count) continue;
+      const core::PatchPoint& p = c.points[k];
+      f.impulses[at] = core::total_impulse(c, p);
+      const core::Vec3 friction = p.tangent_impulse_1 * c.tangent_1 + p.tangent_impulse_2 * c.tangent_2;
+      f.memory.impulse[at] = {per_s * friction, per_s * p.normal_impulse};
+    }
+  }
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,51 @@
+// Which candidate pairs have body-octree nodes that meet, in body axes; a thread a pair. RIGID 8.3.
+#pragma once
+
+#include "core/method/rigid/oriented_levels.hpp"
+#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/grid/team.cuh"
+
+namespace broadside::gpu {
+
+__device__ inline core::ContactPose pose_of(const RigidFrameView& f, std::uint32_t body) {
+  return {f.before[body].x, f.before[body].q};
+}
+
+__device__ inline bool levels_meet(const RigidFrameView& f, core::Pair pair) {
+  const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
+  const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
+  const core::RelativePose pose = core::relative_pose(pose_of(f, pair.i), a.balls.outer_m, pose_of(f, pair.j),
+                                                      b.balls.outer_m, f.reach_m[pair.i] + f.reach_m[pair.j]);
+  core::Uncounted tests;
+  return core::is_confirmed(f.levels, *a.nodes, *b.nodes, pose, tests);
+}
+
+// Of all n^2 ordered pairs, where no broad phase came before: false for what is no pair.
+__device__ inline bool pair_of_all(const RigidFrameView& f, std::uint64_t k, core::Pair& pair) {
+  pair = {static_cast<std::uint32_t>(k / f.body_count), static_cast<std::uint32_t>(k % f.body_count)};
+  // Boxes of the whole step that do not meet are no pair.
+  return pair.i < pair.j && core::overlaps(unpack(f.boxes[pair.i]), unpack(f.boxes[pair.j])) &&
+         (f.mass[pair.i].inverse_mass > 0.0F || f.mass[pair.j].inverse_mass > 0.0F);
+}
+
+template <typename Team>
+__device__ void confirm_pairs(const Team& team, const RigidFrameView& f) {
+  const std::uint64_t n =
+      f.has_broad ? f.broad_counters->pairs : std::uint64_t{f.body_count} * std::uint64_t{f.body_count};
+  const std::uint64_t first = team.spread_rank() - lane();  // of this warp
+  for (std::uint64_t of_warp = first; of_warp < n; of_warp += team.size()) {
+    const std::uint64_t k = of_warp + lane();
+    core::Pair pair;
+    bool is_pair = k < n;
+    if (is_pair && f.has_broad) pair = f.pairs[k];
+    if (is_pair && !f.has_broad) is_pair = pair_of_all(f, k, pair);
+    const bool meets = is_pair && levels_meet(f, pair);
+    const std::uint64_t place = warp_append_one(meets, &f.counts->confirmed);
+    if (!meets || place >= f.confirmed.capacity) continue;
+    f.confirmed.items[place] = pair;
+    atomicMax(&f.pushed_m[pair.i], __float_as_uint(f.reach_m[pair.j]));
+    atomicMax(&f.pushed_m[pair.j], __float_as_uint(f.reach_m[pair.i]));
+  }
+}
+
+}  // namespace broadside::gpu

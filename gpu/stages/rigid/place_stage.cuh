@@ -1,0 +1,54 @@
+// Boxes of turned bodies, swept over what each can fill within the step. RIGID 8.2 and 8.7.
+#pragma once
+
+#include "core/method/rigid/motion_reach.hpp"
+#include "core/method/rigid/passing_by.hpp"
+#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/grid/device.cuh"
+#include "gpu/stages/grid/team.cuh"
+
+namespace broadside::gpu {
+
+// As a word, a float from 0 on is ordered like the float; one below 0, or none, is above all of them.
+__device__ inline std::uint32_t as_ordered(float v) {
+  return __float_as_uint(v);
+}
+
+__device__ inline core::RigidWrench wrench_of(const RigidFrameView& f, std::uint32_t body) {
+  return f.wrench == nullptr ? core::RigidWrench{} : f.wrench[body];
+}
+
+// A thread a body; a launch of its own, without a barrier.
+__device__ inline void run_place(const RigidFrameView& f) {
+  const GridPlaces grid;
+  if (grid.rank() == 0) {
+    f.counts->arrived = 0;
+    f.outcome->begin_ns = now_ns();
+  }
+  std::uint32_t side = 0;
+  std::uint32_t coordinate = 0;
+  for (std::uint64_t k = grid.rank(); k < f.body_count; k += grid.size()) {
+    const auto i = static_cast<std::uint32_t>(k);
+    const core::RigidState s = f.before[i];
+    const core::RigidMass mass = f.mass[i];
+    const RigidShapeView& shape = f.shapes[f.shape_of_body[i]];
+    const core::RigidWrench wrench = wrench_of(f, i);
+    const core::FreeMotion motion = core::free_motion(s, mass, shape.balls, f.gravity_m_s2, wrench, f.dt_s);
+    const core::Box shape_box = core::turned_box(shape.contact, shape.vertices, s.x, s.q);
+    const core::Box box = core::swept_box(shape_box, motion);
+    f.free_end[i] = core::free_end(s, mass, f.gravity_m_s2, wrench, f.dt_s);
+    f.reach_m[i] = motion.reach_m();
+    f.fall_m[i] = core::length(motion.fall);
+    f.pushed_m[i] = 0;
+    f.shape_boxes[i] = shape_box;
+    f.boxes[i] = pack(box, i, mass.inverse_mass > 0.0F ? 0U : 1U);
+    for (int axis = 0; axis < 3; ++axis) {
+      side = max(side, as_ordered(box.max[axis] - box.min[axis]));
+      coordinate = max(coordinate, max(as_ordered(fabsf(box.min[axis])), as_ordered(fabsf(box.max[axis]))));
+    }
+  }
+  if (side != 0) atomicMax(&f.counts->largest_side, side);
+  if (coordinate != 0) atomicMax(&f.counts->largest_coordinate, coordinate);
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,197 @@
+// Cylinders, which the exact arbiter of convex cores does not know: certified by themselves. A point that lies on both
+// surfaces says that bodies are no farther apart than its gap; the plane across the normal says that they are no
+// nearer. Where they overlap, no direction of a fine search may part them by a shorter way.
+#include "core/method/rigid/cylinder_manifold.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tests/core/method/rigid/manifold_cases.hpp"
+
+namespace broadside::core {
+namespace {
+
+using exact::Point;
+
+double length(Point p) {
+  return std::sqrt(dot(p, p));
+}
+
+Subject cylinder(float radius, float half_length, int axis) {
+  Subject out = ball_on_segment(ContactKind::kCylinder, radius, half_length, axis);
+  return out;
+}
+
+// The least of dot(d, p) over a placed body, in double.
+double least(const Subject& s, Point d) {
+  const exact::ConvexCore core = s.placed();
+  if (s.shape.kind != ContactKind::kCylinder) {
+    double lowest = 1e300;
+    for (const Point p : core.vertices) lowest = std::min(lowest, dot(p, d));
+    return lowest - core.radius_m * length(d);
+  }
+  const Point along = core.directions[0];
+  const Point center = 0.5 * (core.vertices[0] + core.vertices[1]);
+  const double on_axis = dot(d, along);
+  return dot(d, center) - std::abs(on_axis) * s.shape.half_length_m - s.shape.radius_m * length(d - on_axis * along);
+}
+
+double gap_along(const Subject& a, const Subject& b, Point d) {
+  return least(a, d) + least(b, -1.0 * d);
+}
+
+double off(const Subject& s, Point p) {
+  if (s.shape.kind != ContactKind::kCylinder) return off_surface(s, p);
+  const exact::ConvexCore core = s.placed();
+  const Point local = p - 0.5 * (core.vertices[0] + core.vertices[1]);
+  const double on_axis = dot(local, core.directions[0]);
+  const double over_end = std::abs(on_axis) - s.shape.half_length_m;
+  const double over_side = length(local - on_axis * core.directions[0]) - s.shape.radius_m;
+  if (over_end > 0.0 && over_side > 0.0) return std::hypot(over_end, over_side);
+  return std::abs(std::max(over_end, over_side));
+}
+
+// The widest gap that a search over directions finds: 1500 spread over the sphere, then steps that shrink about the
+// best.
+double widest_gap(const Subject& a, const Subject& b) {
+  double best = -1e300;
+  Point at;
+  const auto attempt = [&](Point d) {
+    const double gap = gap_along(a, b, d);
+    if (gap > best) {
+      best = gap;
+      at = d;
+    }
+  };
+  constexpr int kDirections = 1500;
+  for (int k = 0; k < kDirections; ++k) {
+    const double z = 1.0 - (2.0 * k + 1.0) / kDirections;
+    const double turn = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const double r = std::sqrt(1.0 - z * z);
+    attempt({r * std::cos(turn), r * std::sin(turn), z});
+  }
+  for (double step = 0.1; step > 1e-7; step *= 0.7)
+    for (int k = 0; k < 16; ++k) {
+      const double turn = k * std::numbers::pi / 8.0;
+      const Point u = std::abs(at.x) < 0.7 ? cross(at, {1, 0, 0}) : cross(at, {0, 1, 0});
+      const Point w = cross(at, u);
+      const Point d = at + (step * std::cos(turn)) * u + (step * std::sin(turn)) * w;
+      attempt((1.0 / length(d)) * d);
+    }
+  return best;
+}
+
+testing::AssertionResult is_certified(const Subject& a, const Subject& b, float reach_m) {
+  const auto wrong = [] { return testing::AssertionFailure(); };
+  Manifold m[kPatchesOfPair];
+  const int count = make_manifolds(a.shape, a.pose, b.shape, b.pose, reach_m, m);
+  // As for polytopes; and the last rim is round to two roundings of the radius.
+  const double rounding = 3.0 * rounding_of(a, b);
+  const double widest = widest_gap(a, b);
+  if (count == 0) {
+    if (widest > reach_m - rounding) return testing::AssertionSuccess();
+    return wrong() << "no points, and no direction parts them by more than " << widest << " m";
+  }
+  const Point n = exact::to_point(m[0].normal);
+  double deepest = 1e30;
+  for (int k = 0; k < m[0].count; ++k) {
+    const ManifoldPoint& p = m[0].points[k];
+    deepest = std::min(deepest, static_cast<double>(p.gap_m));
+    const Point middle = at_world(a, p.point);
+    // Points of a line or an end share the normal of the deepest one, up to 8 degrees beside their own.
+    const double allowed = 2.0 * rounding + 0.5 * 0.1411 * std::abs(p.gap_m);
+    const double off_a = off(a, middle + (0.5 * p.gap_m) * n);
+    const double off_b = off(b, middle - (0.5 * p.gap_m) * n);
+    if (!(off_a <= allowed) || !(off_b <= allowed))
+      return wrong() << "point " << k << " of " << m[0].count << ", gap " << p.gap_m << " m, is " << off_a
+                     << " m off A, " << off_b << " m off B, allowed " << allowed << " m";
+  }
+  const double along = gap_along(a, b, n);
+  if (!(std::abs(along - deepest) <= 2.0 * rounding))
+    return wrong() << "gap " << deepest << " m, along the normal " << along << " m, rounding " << rounding;
+  if (!(widest <= deepest + 2.0 * rounding))
+    return wrong() << "gap " << deepest << " m, but a direction parts them by " << widest << " m, rounding "
+                   << rounding;
+  return testing::AssertionSuccess();
+}
+
+Subject other_body(Draw& draw, int kind) {
+  if (kind == 0) return sphere(draw.between(0.2F, 1.0F));
+  if (kind == 1) return capsule(draw.between(0.1F, 0.5F), draw.between(0.1F, 1.0F), draw.below(3));
+  if (kind == 2) return box({draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F)});
+  return cylinder(draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), draw.below(3));
+}
+
+TEST(Cylinders, OfRandomPairsAreCertified) {
+  Draw draw(1);
+  int apart = 0;
+  int deep = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    Subject a = cylinder(draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), draw.below(3));
+    Subject b = other_body(draw, trial % 4);
+    a.pose = {draw.in_cube(1.0F), draw.turn()};
+    b.pose = {draw.in_cube(1.0F), draw.turn()};
+    const Vec3 direction = normalized(draw.in_cube(1.0F));
+    const float distances[] = {-0.05F, -0.01F, 0.0F, 1e-4F, 0.02F, 0.05F};
+    const float wanted = distances[draw.below(6)];
+    double low = 0.0;
+    double high = 6.0;
+    for (int k = 0; k < 12; ++k) {
+      b.pose.x = a.pose.x + static_cast<float>(0.5 * (low + high)) * direction;
+      (widest_gap(a, b) < wanted ? low : high) = 0.5 * (low + high);
+    }
+    ASSERT_TRUE(is_certified(a, b, 0.1F)) << "trial " << trial << "\n" << text_of(a) << "\n" << text_of(b);
+    ASSERT_TRUE(is_certified(b, a, 0.1F)) << "trial " << trial << ", swapped\n" << text_of(b) << "\n" << text_of(a);
+    apart += wanted > 0.01F ? 1 : 0;
+    deep += wanted < 0.0F ? 1 : 0;
+  }
+  EXPECT_GT(apart, 100);
+  EXPECT_GT(deep, 100);
+}
+
+TEST(Cylinders, OfSpecialPositionsAreCertified) {
+  Draw draw(2);
+  for (int trial = 0; trial < 600; ++trial) {
+    const auto size = [&] { return 0.25F * static_cast<float>(1 + draw.below(4)); };
+    const auto at = [&] { return 0.25F * static_cast<float>(draw.below(9) - 4); };
+    Subject a = cylinder(size(), size(), draw.below(3));
+    Subject b = cylinder(size(), size(), draw.below(3));
+    if (trial % 4 == 0) b = sphere(size());
+    if (trial % 4 == 1) b = capsule(size(), size(), draw.below(3));
+    if (trial % 4 == 2) b = box({size(), size(), size()});
+    a.pose = {{at(), at(), at()}, draw.quarter_turns()};
+    b.pose = {{at(), at(), at()}, draw.quarter_turns()};
+    ASSERT_TRUE(is_certified(a, b, 0.3F)) << "trial " << trial << "\n" << text_of(a) << "\n" << text_of(b);
+  }
+}
+
+// A cylinder that stands on a box has four points that are spread around its end; one that lies has both ends of its
+// line.
+TEST(Cylinders, StandAndLie) {
+  Subject floor = box({2.0F, 0.5F, 2.0F});
+  Subject can = cylinder(0.5F, 1.0F, 1);
+  can.pose.x = {0.25F, 1.5F, 0.0F};
+  Manifold m[kPatchesOfPair];
+  ASSERT_EQ(make_manifolds(can.shape, can.pose, floor.shape, floor.pose, 0.01F, m), 1);
+  ASSERT_EQ(m[0].count, 4);
+  double area = 0.0;  // of the triangles from the axis
+  double angle[4];
+  for (int k = 0; k < 4; ++k) angle[k] = std::atan2(m[0].points[k].point.z, m[0].points[k].point.x);
+  std::sort(angle, angle + 4);
+  for (int k = 0; k < 4; ++k) {
+    const double next = k == 3 ? angle[0] + 2.0 * std::numbers::pi : angle[k + 1];
+    area += 0.5 * 0.25 * std::sin(next - angle[k]);
+  }
+  EXPECT_NEAR(area, 0.5, 0.03) << "a square in the rim has twice the radius squared";
+  can.pose.q = {std::sqrt(0.5F), 0.0F, 0.0F, std::sqrt(0.5F)};
+  can.pose.x.y = 1.0F;
+  ASSERT_EQ(make_manifolds(can.shape, can.pose, floor.shape, floor.pose, 0.01F, m), 1);
+  ASSERT_EQ(m[0].count, 2);
+  EXPECT_NEAR(std::abs(m[0].points[0].point.x - m[0].points[1].point.x), 2.0F, 1e-5F);
+}
+
+}  // namespace
+}  // namespace broadside::core

@@ -1,0 +1,87 @@
+// The GPU's pipeline of bodies that turn, with the kernels' threads on the host: its frames are octree-cpu's, bit for
+// bit.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/engine/engine.hpp"
+#include "datasets/scenes.hpp"
+#include "gpu/rigid/rigid_pipeline.hpp"
+#include "reference/engines.hpp"
+#include "tests/gpu/twin_comparison.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+using Given = std::map<std::string, std::string>;
+
+std::unique_ptr<core::Dynamics> twin_of(const Given& given) {
+  const core::EngineRow row = reference::octree_cpu_row();
+  auto settings = core::Settings::parse(row.id, row.settings, given);
+  EXPECT_TRUE(settings.ok());
+  return std::move(row.create(settings.value()).value().dynamics);
+}
+
+core::Scene scene_of(const std::string& name) {
+  auto scene = datasets::make_scene(name, {});
+  EXPECT_TRUE(scene.ok()) << (scene.ok() ? "" : scene.error().line());
+  return std::move(scene).value();
+}
+
+std::uint64_t compare(const std::string& name, int frames, const RigidPipelineOptions& options = {},
+                      const Given& given = {}) {
+  SCOPED_TRACE(name);
+  const core::Scene scene = scene_of(name);
+  RigidPipeline subject(options);
+  return compare_pipelines(scene, subject, *twin_of(given), frames, 3);
+}
+
+TEST(RigidOnHost, FreeMotionTurnsWithTheSameBits) {
+  compare("rigid:torque-free:box", 20);
+}
+
+TEST(RigidOnHost, PrimitivesThatTouch) {
+  EXPECT_GT(compare("rigid:stack:5", 20), 0U);
+  EXPECT_GT(compare("rigid:sphere:slip-to-roll", 20), 0U);
+  EXPECT_GT(compare("rigid:card-tent:stands", 12), 0U);
+  EXPECT_GT(compare("rigid:billiards:three", 40), 0U);
+}
+
+TEST(RigidOnHost, AHeap) {
+  EXPECT_GT(compare("freefall:cube:40[rigid=1]", 50), 0U);
+}
+
+TEST(RigidOnHost, EveryStartAndLevel) {
+  for (const core::LevelsRow& row : core::kLevels) {
+    SCOPED_TRACE(row.name);
+    RigidPipelineOptions options;
+    options.levels = row.levels;
+    const std::string name(row.name);
+    EXPECT_GT(compare("freefall:cube:12[rigid=1]", 30, options, {{"levels", name}}), 0U);
+    options.broad = Broad::kBrute;
+    EXPECT_GT(compare("freefall:cube:12[rigid=1]", 30, options, {{"broad", "brute"}, {"levels", name}}), 0U);
+  }
+  RigidPipelineOptions options;
+  options.broad = Broad::kOctree;
+  EXPECT_GT(compare("freefall:cube:12[rigid=1]", 30, options, {{"broad", "octree"}}), 0U);
+  options.broad = Broad::kTree;
+  options.least_for_grid = 2;
+  EXPECT_GT(compare("freefall:cube:40[rigid=1]", 40, options), 0U);
+}
+
+// Threads of the kernel in another order each round.
+TEST(RigidOnHost, NoOrderOfThreadsShows) {
+  for (const char* seed : {"1", "2", "3"}) {
+    SCOPED_TRACE(seed);
+    ASSERT_EQ(setenv("BROADSIDE_ON_HOST_SEED", seed, 1), 0);
+    EXPECT_GT(compare("freefall:cube:20[rigid=1]", 30), 0U);
+    unsetenv("BROADSIDE_ON_HOST_SEED");
+  }
+}
+
+}  // namespace
+}  // namespace broadside::gpu
