@@ -17,7 +17,8 @@ namespace broadside::bench::contest {
 namespace {
 
 // A setting where a library's default leaves something out that others have, or offers another method.
-constexpr std::array<std::string_view, 16> kEntrants{"plain-rigid",
+constexpr std::array<std::string_view, 17> kEntrants{"octree-cpu",
+                                                     "plain-rigid",
                                                      "bullet-world",
                                                      "ode-world",
                                                      "ode-world[solver=dantzig]",

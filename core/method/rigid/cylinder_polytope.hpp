@@ -101,6 +101,7 @@ struct CylinderPolytope {
     const float on_axis = dot(direction, along);
     return dot(direction, center) - (fabsf(on_axis) * half_length + radius * length(direction - on_axis * along));
   }
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
   // An end where it looks less than 45 degrees away, else the nearest side.
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const float on_axis = dot(direction, along);

@@ -33,8 +33,9 @@ struct PatchPoint {
   float normal_total = 0.0F;
   float tangent_total_1 = 0.0F;
   float tangent_total_2 = 0.0F;
-  float approach_m_s = 0.0F;  // at the start of the substep, positive where the bodies come nearer
-  bool slides = false;        // in this substep, from when static friction did not hold it
+  float stopping_impulse = 0.0F;  // normal, of the substep, before a bounce, N s
+  float approach_m_s = 0.0F;      // at the start of the substep, positive where the bodies come nearer
+  bool slides = false;            // in this substep, from when static friction did not hold it
 };
 
 struct PatchConstraint {

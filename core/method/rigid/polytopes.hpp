@@ -60,6 +60,8 @@ struct BoxPolytope {
     const Vec3 d = turned_back(axes, direction);
     return dot(direction, center) - (fabsf(d.x) * half.x + fabsf(d.y) * half.y + fabsf(d.z) * half.z);
   }
+  // The same, given which corner is lowest.
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);
     const Vec3 size{fabsf(d.x), fabsf(d.y), fabsf(d.z)};
@@ -94,6 +96,7 @@ struct SegmentPolytope {
   BROADSIDE_HD int face_corner_count(int) const { return 2; }
   BROADSIDE_HD int face_corner(int, int k) const { return k; }
   BROADSIDE_HD float least(Vec3 direction) const { return dot(direction, center) - fabsf(dot(direction, half)); }
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
   BROADSIDE_HD int support_face(Vec3) const { return 0; }
 };
 
@@ -134,6 +137,7 @@ struct HullPolytope {
     for (int k = 0; k < corner_count(); ++k) lowest = fminf(lowest, dot(d, hull.vertices[k]));
     return dot(direction, center) + lowest;
   }
+  BROADSIDE_HD float least_at(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);
     int best = 0;
