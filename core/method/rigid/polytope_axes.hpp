@@ -30,9 +30,10 @@ BROADSIDE_HD bool arcs_cross(Vec3 a_left, Vec3 a_right, Vec3 b_left, Vec3 b_righ
   return cba * dba <= 0.0F && adc * bdc <= 0.0F && cba * bdc >= 0.0F;
 }
 
-// A direction across an edge between two faces: is it between their normals?
+// A direction across an edge between two faces: is it between their normals? Around the edge of a sheet every one is.
 BROADSIDE_HD bool lies_between(Vec3 n, Vec3 left, Vec3 right) {
   const Vec3 middle = cross(left, right);
+  if (left + right == Vec3{}) return true;
   return dot(n, left + right) > 0.0F && dot(middle, cross(left, n)) >= 0.0F && dot(middle, cross(n, right)) >= 0.0F;
 }
 
@@ -183,6 +184,11 @@ BROADSIDE_HD SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB&
         if (dot(between, between) > most * most) continue;
         Vec3 n;
         if (!axes_detail::across(of_a, a.face_count() > 0, of_b, b.face_count() > 0, n)) continue;
+        // A sheet has no inside that would say on which side the other body is.
+        if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet) {
+          const float back = gap_along(a, b, -n);
+          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, i, of_b.index};
+        }
         if (!(dot(n, of_a.start - of_b.start) > edges.gap_m)) continue;
         const float gap = gap_along(a, b, n);
         if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, of_b.index};
