@@ -54,6 +54,7 @@ BROADSIDE_HD Vec3 rim_angle(int pass, int k) {
 // from corner k to the next. Edges: 16 around the lower end, 16 around the upper one, 16 along.
 struct CylinderPolytope {
   static constexpr int kMostFaceCorners = kRimCorners;
+  static constexpr bool kIsSheet = false;
   Vec3 center;
   Vec3 along;  // unit
   float half_length = 0.0F;

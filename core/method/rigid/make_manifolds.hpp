@@ -12,6 +12,7 @@
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cylinder_manifold.hpp"
 #include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/mesh_manifold.hpp"
 #include "core/method/rigid/plane_manifold.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
@@ -20,9 +21,6 @@
 
 namespace broadside::core {
 
-// A pair of convex shapes has one patch.
-inline constexpr int kPatchesOfPair = 1;
-
 namespace manifold_detail {
 
 // The lower kind is a.
@@ -30,7 +28,10 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
                                 Manifold* out) {
   out[0].count = 0;
   const ContactKind kind = b.shape->kind;
-  if (kind == ContactKind::kHalfSpace) {
+  if (kind == ContactKind::kMesh) return mesh_manifolds(a, b, rounding_m, reach_m, out);
+  if (kind == ContactKind::kHalfSpace && a.shape->kind == ContactKind::kMesh) {
+    mesh_plane_manifold(a, b, reach_m, out[0]);
+  } else if (kind == ContactKind::kHalfSpace) {
     plane_manifold(a, b, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kSphere) {
     sphere_manifold(a, b, rounding_m, reach_m, out[0]);
