@@ -142,7 +142,7 @@ __device__ inline void store_totals(const TileSlot& slot, const core::PatchConst
 }
 
 __device__ inline core::PatchWay load_way(const TileSlot& slot, int count) {
-  core::PatchWay way;
+  core::PatchWay way{};
   BROADSIDE_UNROLL
   for (int k = 0; k < core::kManifoldPoints; ++k) {
     if (k >= count) break;

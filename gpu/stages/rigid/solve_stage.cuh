@@ -77,7 +77,7 @@ __device__ float sweep(const Team& team, const RigidFrameView& f, Solve& solve, 
   each_patch_by_color(team, f,
                       [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
                         load_for_sweep(slot, c);
-                        core::PatchWay way;
+                        core::PatchWay way{};
                         core::note_impulses(c, way);
                         if (has_way) store_before(slot, c.count, way);
                         largest = fmaxf(largest, core::solve_patch(c, a, b, solve.soft));
