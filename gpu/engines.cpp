@@ -8,8 +8,8 @@ namespace broadside::gpu {
 namespace {
 
 // The keys and values of octree-cpu, but for its threads.
-const std::array<core::SettingRow, 5>& octree_settings() {
-  static const std::array<core::SettingRow, 5> kTable{{
+const std::array<core::SettingRow, 8>& octree_settings() {
+  static const std::array<core::SettingRow, 8> kTable{{
       {"broad",
        "tree",
        {"tree", "octree", "brute"},
@@ -22,6 +22,16 @@ const std::array<core::SettingRow, 5>& octree_settings() {
         "printed-E8"},
        "a printed, wrong form of the paper to run instead"},
       {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
+      {"contact",
+       "conjugate",
+       {"conjugate", "soft-step"},
+       "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"},
+      {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"},
+      {"thresholds",
+       "scaled",
+       {"scaled", "fixed"},
+       "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
+       "v_threshold_m_s"},
   }};
   return kTable;
 }

@@ -53,7 +53,11 @@ core::Result<core::Engine> create_octree_gpu(const core::Settings& settings) {
   if (solver == "jacobi") options.solver = Solver::kJacobi;
   if (solver == "printed-E8" || options.variant == core::Variant::kE8) options.solver = Solver::kRacing;
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
-  const RigidPipelineOptions turning{options.broad, options.levels, {}, options.least_for_grid};
+  RigidPipelineOptions turning;
+  turning.broad = options.broad;
+  turning.levels = options.levels;
+  turning.solver = core::soft_settings_of(settings);
+  turning.has_fixed_thresholds = settings.text("thresholds") == "fixed";
   auto dynamics = std::make_unique<PipelineByMotion>(options, turning, "octree-cpu",
                                                      core::refuse_method_settings("octree-gpu", settings));
   return engine_of("octree-gpu", "octree-cpu", settings, std::move(dynamics), {options.broad, options.variant});

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "core/exact/convex_hull.hpp"
 #include "core/scene/hull_faces.hpp"
 #include "core/scene/primitive.hpp"
+#include "core/scene/triangle_tree.hpp"
 
 namespace broadside::core {
 namespace {
@@ -71,6 +73,12 @@ class Builder {
     std::size_t edge = 0;
     ContactShape shape;
   };
+  struct MeshPlace {
+    std::size_t vertex = 0;
+    std::size_t triangle = 0;
+    std::size_t node = 0;
+    ContactShape shape;
+  };
 
   Result<ContactShape> shape_of(std::uint32_t index) {
     const Mesh& mesh = *scene_.meshes[index];
@@ -80,15 +88,38 @@ class Builder {
     auto solid = uniform_solid(mesh, 1.0);
     if (solid && solid.value().solid == Solid::kHull)
       if (const auto hull = exact::convex_hull(mesh.vertices)) return add_hull(index, *hull);
-    return Error{"a mesh that is not convex has no contacts yet", "mesh " + mesh.name,
-                 "use boxes, spheres, capsules, cylinders or convex meshes"};
+    if (const auto known = meshes_.find(index); known != meshes_.end()) return known->second.shape;
+    return add_mesh(index, mesh);
+  }
+
+  Result<ContactShape> add_mesh(std::uint32_t index, const Mesh& mesh) {
+    const TriangleTables tables = triangle_tables(mesh);
+    if (tables.normals.empty())
+      return Error{"no triangle of the mesh has an area", "mesh " + mesh.name, "give a mesh with a surface"};
+    MeshPlace place{out_.mesh_vertices.size(), out_.mesh_normals.size(), out_.mesh_nodes.size(), {}};
+    append(out_.mesh_vertices, mesh.vertices);
+    append(out_.mesh_triangles, tables.triangles);
+    append(out_.mesh_normals, tables.normals);
+    append(out_.mesh_least_facing, tables.least_facing);
+    append(out_.mesh_nodes, tables.nodes);
+    place.shape.kind = ContactKind::kMesh;
+    place.shape.size_m = farthest_m(mesh.vertices);
+    place.shape.mesh.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
+    place.shape.mesh.triangle_count = static_cast<std::uint32_t>(tables.normals.size());
+    place.shape.mesh.node_count = static_cast<std::uint32_t>(tables.nodes.size());
+    meshes_.emplace(index, place);
+    return place.shape;
+  }
+
+  template <typename Table>
+  static void append(Table& all, const Table& these) {
+    all.insert(all.end(), these.begin(), these.end());
   }
 
   ContactShape add_hull(std::uint32_t index, const Mesh& convex) {
     const HullTables tables = hull_tables(convex);
     HullPlace place{
         out_.hull_vertices.size(), out_.hull_faces.size(), out_.hull_corners.size(), out_.hull_edges.size(), {}};
-    const auto append = [](auto& all, const auto& these) { all.insert(all.end(), these.begin(), these.end()); };
     append(out_.hull_vertices, tables.vertices);
     append(out_.hull_faces, tables.faces);
     append(out_.hull_corners, tables.corners);
@@ -104,6 +135,15 @@ class Builder {
 
   void point_into_tables() {
     for (std::size_t k = 0; k < out_.shapes.size(); ++k) {
+      if (out_.shapes[k].kind == ContactKind::kMesh) {
+        const MeshPlace& place = meshes_.at(out_.mesh_of_shape[k]);
+        MeshView& mesh = out_.shapes[k].mesh;
+        mesh.vertices = out_.mesh_vertices.data() + place.vertex;
+        mesh.triangles = out_.mesh_triangles.data() + 3 * place.triangle;
+        mesh.normals = out_.mesh_normals.data() + place.triangle;
+        mesh.least_facing = out_.mesh_least_facing.data() + place.triangle;
+        mesh.nodes = out_.mesh_nodes.data() + place.node;
+      }
       if (out_.shapes[k].kind != ContactKind::kHull) continue;
       const HullPlace& place = hulls_.at(out_.mesh_of_shape[k]);
       HullView& hull = out_.shapes[k].hull;
@@ -117,6 +157,7 @@ class Builder {
   const Scene& scene_;
   std::span<const MassProperties> mass_;
   std::map<std::uint32_t, HullPlace> hulls_;
+  std::map<std::uint32_t, MeshPlace> meshes_;
   ContactShapes out_;
 };
 

@@ -25,6 +25,12 @@ struct ContactShapes {
   std::vector<std::uint32_t> hull_corners;
   std::vector<HullEdge> hull_edges;
 
+  std::vector<Vec3> mesh_vertices;
+  std::vector<std::uint32_t> mesh_triangles;
+  std::vector<Vec3> mesh_normals;
+  std::vector<float> mesh_least_facing;
+  std::vector<TriangleNode> mesh_nodes;
+
   ContactShapes() = default;
   ContactShapes(ContactShapes&&) = default;
   ContactShapes& operator=(ContactShapes&&) = default;
@@ -35,6 +41,7 @@ struct ContactShapes {
 
 // mass: one a body, as all_mass_properties gives it. What primitive_of knows is that closed-form shape, a convex mesh
 // is its own hull, and a mesh that is open or crosses itself has its hull as for its inertia (hull_notes says so).
+// Other meshes, and flat ones, are their triangles.
 Result<ContactShapes> build_contact_shapes(const Scene& scene, std::span<const MassProperties> mass);
 
 }  // namespace broadside::core

@@ -154,7 +154,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.view.gravity_m_s2 = scene.gravity_m_s2;
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;
-  d.view.solver = d.options.solver;
+  d.view.solver =
+      d.options.has_fixed_thresholds ? core::with_fixed_thresholds(d.options.solver, scene) : d.options.solver;
   d.device_scene.fill(d.view);
   return wait_for_device("loading the scene");
 }
@@ -163,8 +164,8 @@ void RigidPipeline::Impl::fill() {
   buffers.fill(view);
   view.dt_s = dt_s;
   for (std::uint32_t kind = 0; kind < 2; ++kind) {
-    view.substeps[kind] = (kind + 1) * options.solver.substeps;
-    view.soft[kind] = core::soft_step_of(options.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
+    view.substeps[kind] = (kind + 1) * view.solver.substeps;
+    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
   }
   view.pairs = pairs.data();
   view.pair_capacity = pairs.capacity();

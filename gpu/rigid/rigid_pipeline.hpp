@@ -9,7 +9,7 @@
 #include "core/engine/declaration.hpp"
 #include "core/engine/dynamics.hpp"
 #include "core/method/levels.hpp"
-#include "core/method/rigid/soft_settings.hpp"
+#include "core/method/rigid/rigid_settings.hpp"
 #include "gpu/broad/broad_buffers.hpp"
 
 namespace broadside::gpu {
@@ -18,6 +18,7 @@ struct RigidPipelineOptions {
   Broad broad = Broad::kTree;  // kBrute = the levels test all pairs of bodies
   core::Levels levels = core::Levels::kC;
   core::SoftSettings solver;
+  bool has_fixed_thresholds = false;  // the scene's
   std::uint32_t least_for_grid = kLeastBodiesForGrid;
 };
 

@@ -29,9 +29,8 @@ RigidScene::Places RigidScene::add_tables(const core::RigidShape& shape) {
   at.corners = indices_.add({hull.corners, corners_of(hull)});
   at.edges = edges_.add({hull.edges, hull.edge_count});
   at.triangles = indices_.add({mesh.triangles, 3 * std::size_t{mesh.triangle_count}});
-  at.triangle_normals = vectors_.add({mesh.triangle_normals, mesh.triangle_count});
-  at.vertex_normals = vectors_.add({mesh.vertex_normals, mesh.vertex_count});
-  at.beyond = indices_.add({mesh.beyond, 3 * std::size_t{mesh.triangle_count}});
+  at.normals = vectors_.add({mesh.normals, mesh.triangle_count});
+  at.least_facing = numbers_.add({mesh.least_facing, mesh.triangle_count});
   at.nodes = nodes_.add({mesh.nodes, mesh.node_count});
   at.tree_boxes = boxes_.add(shape.octree.boxes);
   at.leaf_begin = indices_.add(shape.octree.leaf_begin);
@@ -43,6 +42,7 @@ RigidScene::Places RigidScene::add_tables(const core::RigidShape& shape) {
 core::Status RigidScene::upload_tables() {
   BROADSIDE_TRY(vectors_.upload("shapes"));
   BROADSIDE_TRY(indices_.upload("shapes"));
+  BROADSIDE_TRY(numbers_.upload("shapes"));
   BROADSIDE_TRY(faces_.upload("shapes"));
   BROADSIDE_TRY(edges_.upload("shapes"));
   BROADSIDE_TRY(nodes_.upload("shapes"));
@@ -61,9 +61,8 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
   core::MeshView& mesh = view.contact.mesh;
   mesh.vertices = vectors_.at(at.vertices);
   mesh.triangles = indices_.at(at.triangles);
-  mesh.triangle_normals = vectors_.at(at.triangle_normals);
-  mesh.vertex_normals = vectors_.at(at.vertex_normals);
-  mesh.beyond = indices_.at(at.beyond);
+  mesh.normals = vectors_.at(at.normals);
+  mesh.least_facing = numbers_.at(at.least_facing);
   mesh.nodes = nodes_.at(at.nodes);
   view.nodes = levels_.at(at.levels);
   view.vertices = {boxes_.at(at.tree_boxes) + core::kLevelOffset[1], boxes_.at(at.tree_boxes) + core::kLevelOffset[2],
@@ -75,6 +74,7 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
 core::Status RigidScene::load(const core::Scene& scene, const core::RigidBodies& bodies) {
   vectors_.clear();
   indices_.clear();
+  numbers_.clear();
   faces_.clear();
   edges_.clear();
   nodes_.clear();
@@ -112,9 +112,9 @@ void RigidScene::fill(RigidFrameView& view) const {
 }
 
 std::uint64_t RigidScene::bytes() const {
-  return vectors_.bytes() + indices_.bytes() + faces_.bytes() + edges_.bytes() + nodes_.bytes() + boxes_.bytes() +
-         levels_.bytes() + shapes_.bytes() + shape_of_body_.bytes() + mass_.bytes() + material_.bytes() +
-         wrench_.bytes() + face_shapes_.bytes() + face_poses_.bytes();
+  return vectors_.bytes() + indices_.bytes() + numbers_.bytes() + faces_.bytes() + edges_.bytes() + nodes_.bytes() +
+         boxes_.bytes() + levels_.bytes() + shapes_.bytes() + shape_of_body_.bytes() + mass_.bytes() +
+         material_.bytes() + wrench_.bytes() + face_shapes_.bytes() + face_poses_.bytes();
 }
 
 }  // namespace broadside::gpu

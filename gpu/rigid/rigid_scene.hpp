@@ -26,9 +26,8 @@ class RigidScene {
     std::size_t corners = 0;
     std::size_t edges = 0;
     std::size_t triangles = 0;
-    std::size_t triangle_normals = 0;
-    std::size_t vertex_normals = 0;
-    std::size_t beyond = 0;
+    std::size_t normals = 0;
+    std::size_t least_facing = 0;
     std::size_t nodes = 0;
     std::size_t tree_boxes = 0;
     std::size_t leaf_begin = 0;
@@ -41,6 +40,7 @@ class RigidScene {
 
   DeviceTable<core::Vec3> vectors_;
   DeviceTable<std::uint32_t> indices_;
+  DeviceTable<float> numbers_;
   DeviceTable<core::HullFace> faces_;
   DeviceTable<core::HullEdge> edges_;
   DeviceTable<core::TriangleNode> nodes_;

@@ -1,11 +1,13 @@
 #include <oneapi/tbb/version.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "core/method/rigid/refuse_method_settings.hpp"
+#include "core/method/rigid/rigid_declaration.hpp"
+#include "core/method/rigid/rigid_settings.hpp"
 #include "core/variant.hpp"
 #include "reference/engines.hpp"
 #include "reference/octree_cpu/pipeline_by_motion.hpp"
@@ -45,18 +47,6 @@ const std::array<core::SettingRow, 9>& settings_table() {
   return kTable;
 }
 
-constexpr unsigned long kMostSubsteps = 1024;  // more are below the rounding of a step
-
-// What the published method has and bodies that turn have not.
-core::Status why_not_rigid(const core::Settings& settings) {
-  for (const auto& [key, sound] :
-       {std::pair("variant", "sound"), std::pair("solver", "colored"), std::pair("vertex_stage", "on")})
-    if (settings.text(key) != sound)
-      return core::Error{std::string("unsupported: ") + key + " = " + settings.text(key) + " for bodies that turn",
-                         "octree-cpu", "leave it out, or take a scene whose bodies translate", core::Exit::kMissing};
-  return core::Done{};
-}
-
 core::Result<core::Engine> create(const core::Settings& settings) {
   PipelineOptions options;
   options.levels = *core::levels_named(settings.text("levels"));
@@ -84,16 +74,11 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   RigidPipelineOptions turning;
   turning.make_broad_phase = options.make_broad_phase;
   turning.levels = options.levels;
-  ContactSolverOptions contact;
-  if (settings.text("contact") == "soft-step") contact.kind = SolverKind::kSoftStep;
-  contact.substeps = static_cast<std::uint32_t>(std::min(settings.number("substeps"), kMostSubsteps));
-  turning.make_solver = [contact, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
-    ContactSolverOptions of_scene = contact;
-    if (is_fixed) of_scene.fixed_slop_m = scene.parameters.delta_m;
-    if (is_fixed) of_scene.fixed_bounce_from_m_s = scene.parameters.v_threshold_m_s;
-    return make_contact_solver(of_scene);
+  const core::SoftSettings soft = core::soft_settings_of(settings);
+  turning.make_solver = [soft, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
+    return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
   };
-  turning.declaration = rigid_declaration(contact);
+  turning.declaration = core::rigid_declaration(soft);
   turning.threads = threads;
 
   core::Engine engine;
@@ -103,9 +88,10 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.settings = settings;
   engine.broad_phase = std::move(alone);
   engine.declaration = core::method_declaration();
-  engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning), why_not_rigid(settings));
-  engine.equivalence = [contact, build = engine.build, workers = worker_count(settings.number("threads"))](
-                           const core::Scene& scene) { return rigid_card(scene, contact, build, workers); };
+  engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning),
+                                                       core::refuse_method_settings("octree-cpu", settings));
+  engine.equivalence = [soft, build = engine.build, workers = worker_count(settings.number("threads"))](
+                           const core::Scene& scene) { return rigid_card(scene, soft, build, workers); };
   return engine;
 }
 

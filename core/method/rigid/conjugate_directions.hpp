@@ -19,7 +19,9 @@ struct PatchWay {
 };
 
 BROADSIDE_HD void note_impulses(const PatchConstraint& c, PatchWay& way) {
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     way.before[k][0] = c.points[k].normal_impulse;
     way.before[k][1] = c.points[k].tangent_impulse_1;
     way.before[k][2] = c.points[k].tangent_impulse_2;
@@ -29,7 +31,9 @@ BROADSIDE_HD void note_impulses(const PatchConstraint& c, PatchWay& way) {
 // The square of what the sweep changed, in the mobilities of the points, J.
 BROADSIDE_HD float squared_change(const PatchConstraint& c, const PatchWay& way) {
   float sum = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     const PatchPoint& p = c.points[k];
     const float n = p.normal_impulse - way.before[k][0];
     const float t1 = p.tangent_impulse_1 - way.before[k][1];
@@ -42,7 +46,9 @@ BROADSIDE_HD float squared_change(const PatchConstraint& c, const PatchWay& way)
 // Goes on along the last direction by `share` of it, and turns the direction to what the sweep changed.
 BROADSIDE_HD void follow(PatchConstraint& c, PatchWay& way, SolverBody& a, SolverBody& b, float share) {
   PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     PatchPoint& p = c.points[k];
     const float step[3] = {p.normal_impulse - way.before[k][0], p.tangent_impulse_1 - way.before[k][1],
                            p.tangent_impulse_2 - way.before[k][2]};

@@ -36,11 +36,11 @@ BROADSIDE_HD constexpr bool is_better(float value, std::uint32_t key, float best
   return value > best || (value == best && key < best_key);
 }
 
-// Picks up to four of `count` candidates, at(k) each, with a gap of at most reach_m: the deepest, the one farthest from
-// it, the one that makes the largest triangle with both, and the one farthest outside that triangle. Distances are
+// Picks up to four of the candidates that for_each gives, with a gap of at most reach_m: the deepest, the one farthest
+// from it, the one that makes the largest triangle with both, and the one farthest outside that triangle. Distances are
 // those across the normal. The result does not depend on the order of the candidates.
-template <typename At>
-BROADSIDE_HD void keep_four(Manifold& out, int count, float reach_m, const At& at) {
+template <typename ForEach>
+BROADSIDE_HD void keep_four_of(Manifold& out, float reach_m, const ForEach& for_each) {
   out.count = 0;
   ManifoldPoint kept[kManifoldPoints];
   const Vec3 n = out.normal;
@@ -48,13 +48,14 @@ BROADSIDE_HD void keep_four(Manifold& out, int count, float reach_m, const At& a
     float best = 0.0F;
     std::uint32_t best_key = 0;
     bool found = false;
-    for (int k = 0; k < count; ++k) {
-      const ManifoldPoint candidate = at(k);
-      if (!(candidate.gap_m <= reach_m)) continue;
-      // Where the common area is a line but for rounding, one edge may cross one side twice.
+    ManifoldPoint chosen;
+    for_each([&](const ManifoldPoint& candidate) {
+      if (!(candidate.gap_m <= reach_m)) return;
+      // One corner may come with several triangles; where the common area is a line but for rounding, one edge may
+      // cross one side twice.
       bool is_kept = false;
       for (int earlier = 0; earlier < round; ++earlier) is_kept |= kept[earlier].feature == candidate.feature;
-      if (is_kept) continue;
+      if (is_kept) return;
       const Vec3 from_first = candidate.point - kept[0].point;
       float value = 0.0F;
       if (round == 0) {
@@ -73,14 +74,15 @@ BROADSIDE_HD void keep_four(Manifold& out, int count, float reach_m, const At& a
           value = fmaxf(value, -turn * dot(n, cross(end - start, candidate.point - start)));
         }
       }
-      if (round > 0 && !(value > 0.0F)) continue;
-      if (found && !is_better(value, candidate.feature, best, best_key)) continue;
+      if (round > 0 && !(value > 0.0F)) return;
+      if (found && !is_better(value, candidate.feature, best, best_key)) return;
       found = true;
       best = value;
       best_key = candidate.feature;
-      kept[round] = candidate;
-    }
+      chosen = candidate;
+    });
     if (!found) break;
+    kept[round] = chosen;
     out.count = round + 1;
   }
   // In the order of their keys: the same while the same four are kept.
@@ -90,6 +92,13 @@ BROADSIDE_HD void keep_four(Manifold& out, int count, float reach_m, const At& a
       out.points[place] = out.points[place - 1];
     out.points[place] = kept[k];
   }
+}
+
+template <typename At>
+BROADSIDE_HD void keep_four(Manifold& out, int count, float reach_m, const At& at) {
+  keep_four_of(out, reach_m, [&](const auto& consider) {
+    for (int k = 0; k < count; ++k) consider(at(k));
+  });
 }
 
 BROADSIDE_HD void keep_one(Manifold& out, Vec3 point, float gap_m, std::uint32_t feature) {

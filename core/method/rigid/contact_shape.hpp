@@ -56,18 +56,14 @@ struct TriangleNode {
 struct MeshView {
   const Vec3* vertices = nullptr;            // mesh coordinates, m
   const std::uint32_t* triangles = nullptr;  // three corners each, in the order of the tree
-  // Unit, outward: of a triangle, and of a corner the mean of its triangles weighted by their angles there.
-  const Vec3* triangle_normals = nullptr;
-  const Vec3* vertex_normals = nullptr;
-  // Per triangle and side k (from corner k to corner k + 1): the triangle beyond it, or kNoTriangle.
-  const std::uint32_t* beyond = nullptr;
+  const Vec3* normals = nullptr;             // of triangles: unit, outward
+  // The least cosine between a triangle's normal and those beyond its convex edges; 1 where it has none.
+  const float* least_facing = nullptr;
   const TriangleNode* nodes = nullptr;
   std::uint32_t vertex_count = 0;
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;
 };
-
-inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFU;
 
 struct ContactShape {
   ContactKind kind = ContactKind::kSphere;

@@ -54,6 +54,7 @@ BROADSIDE_HD Vec3 rim_angle(int pass, int k) {
 // from corner k to the next. Edges: 16 around the lower end, 16 around the upper one, 16 along.
 struct CylinderPolytope {
   static constexpr int kMostFaceCorners = kRimCorners;
+  static constexpr bool kIsSheet = false;
   Vec3 center;
   Vec3 along;  // unit
   float half_length = 0.0F;
@@ -101,6 +102,7 @@ struct CylinderPolytope {
     const float on_axis = dot(direction, along);
     return dot(direction, center) - (fabsf(on_axis) * half_length + radius * length(direction - on_axis * along));
   }
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
   // An end where it looks less than 45 degrees away, else the nearest side.
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const float on_axis = dot(direction, along);

@@ -12,6 +12,7 @@
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cylinder_manifold.hpp"
 #include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/mesh_manifold.hpp"
 #include "core/method/rigid/plane_manifold.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
@@ -20,16 +21,17 @@
 
 namespace broadside::core {
 
-// A pair of convex shapes has one patch.
-inline constexpr int kPatchesOfPair = 1;
-
 namespace manifold_detail {
 
 // The lower kind is a.
-BROADSIDE_HD int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m, Manifold* out) {
+BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                                Manifold* out) {
   out[0].count = 0;
   const ContactKind kind = b.shape->kind;
-  if (kind == ContactKind::kHalfSpace) {
+  if (kind == ContactKind::kMesh) return mesh_manifolds(a, b, rounding_m, reach_m, out);
+  if (kind == ContactKind::kHalfSpace && a.shape->kind == ContactKind::kMesh) {
+    mesh_plane_manifold(a, b, reach_m, out[0]);
+  } else if (kind == ContactKind::kHalfSpace) {
     plane_manifold(a, b, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kSphere) {
     sphere_manifold(a, b, rounding_m, reach_m, out[0]);
@@ -61,8 +63,9 @@ BROADSIDE_HD int ordered(const PlacedShape& a, const PlacedShape& b, float round
 
 // Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
 // apart by up to this much are given too, so that a solver may stop bodies before they touch.
-BROADSIDE_HD int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
-                                const ContactPose& pose_b, float reach_m, Manifold* out) {
+BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
+                                       const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,
+                                       Manifold* out) {
   const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
   const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
   const float rounding_m = contact_rounding_m(a, b);

@@ -33,8 +33,9 @@ struct PatchPoint {
   float normal_total = 0.0F;
   float tangent_total_1 = 0.0F;
   float tangent_total_2 = 0.0F;
-  float approach_m_s = 0.0F;  // at the start of the substep, positive where the bodies come nearer
-  bool slides = false;        // in this substep, from when static friction did not hold it
+  float stopping_impulse = 0.0F;  // normal, of the substep, before a bounce, N s
+  float approach_m_s = 0.0F;      // at the start of the substep, positive where the bodies come nearer
+  bool slides = false;            // in this substep, from when static friction did not hold it
 };
 
 struct PatchConstraint {
@@ -70,7 +71,9 @@ BROADSIDE_HD float mobility(const SolverBody& body, Vec3 arm, Vec3 d1, Vec3 d2) 
 BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   float of_a = 0.0F;
   float of_b = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     const PatchPoint& p = c.points[k];
     of_a = dot(p.arm_a, p.arm_a) > of_a ? dot(p.arm_a, p.arm_a) : of_a;
     of_b = dot(p.arm_b, p.arm_b) > of_b ? dot(p.arm_b, p.arm_b) : of_b;
@@ -89,7 +92,9 @@ BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const Sol
   c.tangent_2 = cross(c.normal, c.tangent_1);
   c.surface = surface;
   c.count = manifold.count;
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     PatchPoint& p = c.points[k];
     p.arm_a = manifold.points[k].point;
     p.arm_b = manifold.points[k].point - center_b_from_a;

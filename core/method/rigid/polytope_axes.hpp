@@ -30,30 +30,46 @@ BROADSIDE_HD bool arcs_cross(Vec3 a_left, Vec3 a_right, Vec3 b_left, Vec3 b_righ
   return cba * dba <= 0.0F && adc * bdc <= 0.0F && cba * bdc >= 0.0F;
 }
 
-// A direction across an edge between two faces: is it between their normals?
+// A direction across an edge between two faces: is it between their normals? Around the edge of a sheet every one is.
 BROADSIDE_HD bool lies_between(Vec3 n, Vec3 left, Vec3 right) {
   const Vec3 middle = cross(left, right);
+  if (left + right == Vec3{}) return true;
   return dot(n, left + right) > 0.0F && dot(middle, cross(left, n)) >= 0.0F && dot(middle, cross(n, right)) >= 0.0F;
 }
 
-// A face that is in front of a corner of the other body by no more than the best gap so far is passed over; that
-// corner is the last one that stood out.
+// The face that looks most at a point comes first: its gap is near the widest. A face that is in front of one of the
+// last corners that stood out by no more than the best gap so far is passed over.
 template <typename Reference, typename Other>
 BROADSIDE_HD SeparatingAxis axis_of_faces(const Reference& reference, const Other& other, bool reference_is_a) {
+  constexpr int kKept = 4;
   SeparatingAxis best;
-  Vec3 standing_out = other.corner(0);
+  Vec3 standing_out[kKept];
+  for (int k = 0; k < kKept; ++k) standing_out[k] = other.corner(0);
+  int seen = 0;
+  int first = 0;
+  float most = -3.402823e38F;
   for (int k = 0; k < reference.face_count(); ++k) {
+    const float looks = dot(reference.face_normal(k), other.center) - reference.face_height(k);
+    if (!(looks > most)) continue;
+    most = looks;
+    first = k;
+  }
+  for (int round = -1; round < reference.face_count(); ++round) {
+    const int k = round < 0 ? first : round;
+    if (round == first || k >= reference.face_count()) continue;
     const Vec3 out = reference.face_normal(k);
     const float height = reference.face_height(k);
-    if (!(dot(out, standing_out) - height > best.gap_m)) continue;
-    const float gap = other.least(out) - height;
-    if (gap > best.gap_m) {
-      if (reference_is_a)
-        best = {gap, -out, AxisKind::kFaceOfA, k, 0};
-      else
-        best = {gap, out, AxisKind::kFaceOfB, 0, k};
-    }
-    standing_out = other.corner(lowest_corner(other, out));
+    float bound = 3.402823e38F;
+    for (int c = 0; c < kKept; ++c) bound = fminf(bound, dot(out, standing_out[c]));
+    if (!(bound - height > best.gap_m)) continue;
+    const int lowest = lowest_corner(other, out);
+    standing_out[seen++ % kKept] = other.corner(lowest);
+    const float gap = other.least_at(lowest, out) - height;
+    if (!(gap > best.gap_m)) continue;
+    if (reference_is_a)
+      best = {gap, -out, AxisKind::kFaceOfA, k, 0};
+    else
+      best = {gap, out, AxisKind::kFaceOfB, 0, k};
   }
   return best;
 }
@@ -79,6 +95,51 @@ BROADSIDE_HD int edges_in(const Polytope& p, const Layer& layer) {
   return count;
 }
 
+struct PlacedEdge {
+  int index = 0;
+  Vec3 start;
+  Vec3 along;  // from end to end
+  float half_length = 0.0F;
+  Vec3 left;  // normals of its faces
+  Vec3 right;
+};
+
+inline constexpr int kChunk = 24;
+
+// False: the edge is not in the layer.
+template <typename Polytope>
+BROADSIDE_HD bool place(const Polytope& p, const Layer& layer, int k, PlacedEdge& out) {
+  int from = 0;
+  int to = 0;
+  p.edge(k, from, to);
+  if (!reaches_into(p, layer, from, to)) return false;
+  out.index = k;
+  out.start = p.corner(from);
+  out.along = p.corner(to) - out.start;
+  out.half_length = 0.5F * length(out.along);
+  if (p.face_count() > 0) {
+    int left = 0;
+    int right = 0;
+    p.edge_faces(k, left, right);
+    out.left = p.face_normal(left);
+    out.right = p.face_normal(right);
+  }
+  return true;
+}
+
+// The unit direction from B to A across two edges that make a face of the difference of both bodies. False: they make
+// none, or are parallel.
+BROADSIDE_HD bool across(const PlacedEdge& a, bool a_is_solid, const PlacedEdge& b, bool b_is_solid, Vec3& n) {
+  if (a_is_solid && b_is_solid && !arcs_cross(a.left, a.right, -b.left, -b.right)) return false;
+  const Vec3 product = cross(a.along, b.along);
+  const float squared = dot(product, product);
+  if (!(squared > kParallelSine * kParallelSine * (dot(a.along, a.along) * dot(b.along, b.along)))) return false;
+  n = across_edges(a.along, b.along, a.start - b.start);
+  if (a_is_solid ? dot(n, a.left + a.right) > 0.0F : (b_is_solid && dot(n, b.left + b.right) < 0.0F)) n = -n;
+  if (b_is_solid && !a_is_solid && !lies_between(n, b.left, b.right)) return false;
+  return !(a_is_solid && !b_is_solid) || lies_between(-n, a.left, a.right);
+}
+
 }  // namespace axes_detail
 
 // Of two segments alone, which have no faces, there may be none.
@@ -92,10 +153,12 @@ BROADSIDE_HD SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB&
   SeparatingAxis edges;
   // An axis across two edges matters where it is wider than that across the best face, so its edges are at most as far
   // apart as the bodies, apart, may be to have points, or overlapping, as they are deep.
+  float farthest = 1.0e18F;
   Layer near_a;
   Layer near_b;
   if (a.edge_count() * b.edge_count() > axes_detail::kFewEdgePairs && best.kind != AxisKind::kNone) {
-    float thickness = fmaxf(reach_m, -best.gap_m) - best.gap_m + rounding_m;
+    farthest = fmaxf(reach_m, -best.gap_m) + rounding_m;
+    float thickness = farthest - best.gap_m;
     for (int halvings = 0; halvings < axes_detail::kMostHalvings; ++halvings) {
       near_a = layer_of(a, best.normal, thickness);
       near_b = layer_of(b, -best.normal, thickness);
@@ -105,53 +168,31 @@ BROADSIDE_HD SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB&
   } else {
     near_a.direction = near_b.direction = {0.0F, 0.0F, 0.0F};
   }
-  for (int i = 0; i < a.edge_count(); ++i) {
-    int a0 = 0;
-    int a1 = 0;
-    a.edge(i, a0, a1);
-    if (!reaches_into(a, near_a, a0, a1)) continue;
-    const Vec3 p = a.corner(a0);
-    const Vec3 u = a.corner(a1) - p;
-    Vec3 a_left;
-    Vec3 a_right;
-    if (a.face_count() > 0) {
-      int left = 0;
-      int right = 0;
-      a.edge_faces(i, left, right);
-      a_left = a.face_normal(left);
-      a_right = a.face_normal(right);
-    }
-    for (int j = 0; j < b.edge_count(); ++j) {
-      int b0 = 0;
-      int b1 = 0;
-      b.edge(j, b0, b1);
-      if (!reaches_into(b, near_b, b0, b1)) continue;
-      Vec3 b_left;
-      Vec3 b_right;
-      if (b.face_count() > 0) {
-        int left = 0;
-        int right = 0;
-        b.edge_faces(j, left, right);
-        b_left = b.face_normal(left);
-        b_right = b.face_normal(right);
-        if (a.face_count() > 0 && !axes_detail::arcs_cross(a_left, a_right, -b_left, -b_right)) continue;
+  // Edges of B a handful at a time, so that each of A is visited once for many.
+  axes_detail::PlacedEdge chunk[axes_detail::kChunk];
+  for (int j = 0; j < b.edge_count();) {
+    int count = 0;
+    for (; j < b.edge_count() && count < axes_detail::kChunk; ++j)
+      if (axes_detail::place(b, near_b, j, chunk[count])) ++count;
+    for (int i = 0; i < a.edge_count() && count > 0; ++i) {
+      axes_detail::PlacedEdge edge_a;
+      if (!axes_detail::place(a, near_a, i, edge_a)) continue;
+      for (int k = 0; k < count; ++k) {
+        const axes_detail::PlacedEdge& edge_b = chunk[k];
+        const Vec3 between = (edge_a.start + 0.5F * edge_a.along) - (edge_b.start + 0.5F * edge_b.along);
+        const float most = farthest + edge_a.half_length + edge_b.half_length;
+        if (dot(between, between) > most * most) continue;
+        Vec3 n;
+        if (!axes_detail::across(edge_a, a.face_count() > 0, edge_b, b.face_count() > 0, n)) continue;
+        // A sheet has no inside that would say on which side the other body is.
+        if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet) {
+          const float back = gap_along(a, b, -n);
+          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, i, edge_b.index};
+        }
+        if (!(dot(n, edge_a.start - edge_b.start) > edges.gap_m)) continue;
+        const float gap = gap_along(a, b, n);
+        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, edge_b.index};
       }
-      const Vec3 q = b.corner(b0);
-      const Vec3 v = b.corner(b1) - q;
-      const Vec3 across = cross(u, v);
-      const float squared = dot(across, across);
-      if (!(squared > kParallelSine * kParallelSine * (dot(u, u) * dot(v, v)))) continue;
-      Vec3 n = across_edges(u, v, p - q);
-      if (a.face_count() > 0) {
-        if (dot(n, a_left + a_right) > 0.0F) n = -n;
-      } else if (b.face_count() > 0) {
-        if (dot(n, b_left + b_right) < 0.0F) n = -n;
-      }
-      if (b.face_count() > 0 && a.face_count() == 0 && !axes_detail::lies_between(n, b_left, b_right)) continue;
-      if (a.face_count() > 0 && b.face_count() == 0 && !axes_detail::lies_between(-n, a_left, a_right)) continue;
-      if (!(dot(n, p - q) > edges.gap_m)) continue;
-      const float gap = gap_along(a, b, n);
-      if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, j};
     }
   }
   return edges.gap_m > best.gap_m + rounding_m ? edges : best;

@@ -12,6 +12,7 @@ namespace broadside::core {
 // 4 k + 3 run along axis k.
 struct BoxPolytope {
   static constexpr int kMostFaceCorners = 4;
+  static constexpr bool kIsSheet = false;
   Vec3 center;
   TurnedAxes axes;
   Vec3 half;
@@ -60,6 +61,8 @@ struct BoxPolytope {
     const Vec3 d = turned_back(axes, direction);
     return dot(direction, center) - (fabsf(d.x) * half.x + fabsf(d.y) * half.y + fabsf(d.z) * half.z);
   }
+  // The same, given which corner is lowest.
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);
     const Vec3 size{fabsf(d.x), fabsf(d.y), fabsf(d.z)};
@@ -75,6 +78,7 @@ BROADSIDE_HD BoxPolytope box_polytope(const PlacedShape& p) {
 // The middle line of a capsule: two corners, one edge, no face.
 struct SegmentPolytope {
   static constexpr int kMostFaceCorners = 2;
+  static constexpr bool kIsSheet = false;
   Vec3 center;
   Vec3 half;  // from the center to corner 1
 
@@ -94,6 +98,7 @@ struct SegmentPolytope {
   BROADSIDE_HD int face_corner_count(int) const { return 2; }
   BROADSIDE_HD int face_corner(int, int k) const { return k; }
   BROADSIDE_HD float least(Vec3 direction) const { return dot(direction, center) - fabsf(dot(direction, half)); }
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
   BROADSIDE_HD int support_face(Vec3) const { return 0; }
 };
 
@@ -101,8 +106,42 @@ BROADSIDE_HD SegmentPolytope segment_polytope(const PlacedShape& p) {
   return {p.center, p.shape->half_length_m * p.axes[p.shape->axis]};
 }
 
+// A triangle of a mesh: a sheet with a front (face 0) and a back.
+struct TrianglePolytope {
+  static constexpr int kMostFaceCorners = 3;
+  static constexpr bool kIsSheet = true;
+  Vec3 center;
+  Vec3 corners[3];
+  Vec3 normal;  // of the front
+
+  BROADSIDE_HD int corner_count() const { return 3; }
+  BROADSIDE_HD int edge_count() const { return 3; }
+  BROADSIDE_HD int face_count() const { return 2; }
+  BROADSIDE_HD Vec3 corner(int k) const { return corners[k]; }
+  BROADSIDE_HD void edge(int k, int& from, int& to) const {
+    from = k;
+    to = k == 2 ? 0 : k + 1;
+  }
+  BROADSIDE_HD void edge_faces(int, int& left, int& right) const {
+    left = 0;
+    right = 1;
+  }
+  BROADSIDE_HD Vec3 face_normal(int k) const { return k == 0 ? normal : -normal; }
+  BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), corners[0]); }
+  BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
+  BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corners[k]); }
+  BROADSIDE_HD int face_corner_count(int) const { return 3; }
+  BROADSIDE_HD int face_corner(int face, int k) const { return face == 0 ? k : 2 - k; }
+  BROADSIDE_HD float least(Vec3 direction) const {
+    return fminf(fminf(dot(direction, corners[0]), dot(direction, corners[1])), dot(direction, corners[2]));
+  }
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
+  BROADSIDE_HD int support_face(Vec3 direction) const { return dot(normal, direction) >= 0.0F ? 0 : 1; }
+};
+
 struct HullPolytope {
   static constexpr int kMostFaceCorners = kFaceCorners;
+  static constexpr bool kIsSheet = false;
   Vec3 center;
   TurnedAxes axes;
   HullView hull;
@@ -134,6 +173,7 @@ struct HullPolytope {
     for (int k = 0; k < corner_count(); ++k) lowest = fminf(lowest, dot(d, hull.vertices[k]));
     return dot(direction, center) + lowest;
   }
+  BROADSIDE_HD float least_at(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);
     int best = 0;

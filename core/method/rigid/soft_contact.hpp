@@ -51,14 +51,18 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
 // Before anything else of a substep: how fast the points come.
 BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   const PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k)
+    if (k < c.count) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
 }
 
 // The largest speed of a point relative to the other body, m/s.
 BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   const PatchMotion m = motion_of(a, b);
   float squared = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     const Vec3 v = relative_velocity(m, c.points[k]);
     squared = dot(v, v) > squared ? dot(v, v) : squared;
   }
@@ -68,7 +72,9 @@ BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, 
 // The impulses of the substep before.
 BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
   PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     PatchPoint& p = c.points[k];
     p.slides = false;
     push(m, a, b, p,
@@ -120,24 +126,31 @@ BROADSIDE_HD float solve_friction(const PatchConstraint& c, PatchPoint& p, Patch
 
 BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const SolverBody& a, const SolverBody& b) {
   float largest = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     const float size = solve_friction(c, c.points[k], m, a, b);
     largest = size > largest ? size : largest;
   }
   return largest;
 }
 
-// An overlap is pushed apart no faster than half of what it would take to fall out of it: where something rides on what is
-// pushed, and keeps its speed, it keeps no more energy than that of a quarter of the lift.
-BROADSIDE_HD float fastest_push(const PatchConstraint& c, float depth_m, float gravity_m_s2) {
-  return gravity_m_s2 > 0.0F ? sqrtf(0.5F * gravity_m_s2 * depth_m) : c.fastest_push_m_s;
+// An overlap is pushed apart no faster than half of what it would take to fall out of it, beside what the soft contact
+// yields to the impulse that it bears: where something rides on what is pushed, and keeps its speed, it keeps no more
+// energy than that of a quarter of the lift.
+BROADSIDE_HD float fastest_push(const PatchConstraint& c, const PatchPoint& p, float depth_m, const SoftStep& step) {
+  const float yields_m_s = step.impulse_scale * p.normal_impulse / (step.mass_scale * p.normal_mass);
+  const float rises_m_s = step.gravity_m_s2 > 0.0F ? sqrtf(0.5F * step.gravity_m_s2 * depth_m) : c.fastest_push_m_s;
+  return rises_m_s + yields_m_s;
 }
 
 // One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
 BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     const float speed = dot(c.normal, relative_velocity(m, p));
@@ -147,7 +160,7 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
     } else {
       const float wish = (gap + c.slop_m) * step.push_rate_per_s;
       const float slow = wish > step.settle_m_s ? step.settle_m_s : wish;
-      const float fast = fastest_push(c, -gap, step.gravity_m_s2);
+      const float fast = fastest_push(c, p, -gap, step);
       const float toward = slow < -fast ? -fast : slow;
       change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
     }
@@ -160,18 +173,23 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
 }
 
 // One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
-// is the next substep's.
-BROADSIDE_HD void relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+// is the next substep's. Returns the largest change of a point's speed, m/s.
+BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) {
+  float largest = 0.0F;
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     if (gap > 0.0F && !(p.normal_impulse > 0.0F)) continue;
     const float speed = dot(c.normal, relative_velocity(m, p)) + (gap > 0.0F ? gap * step.per_dt_s : 0.0F);
-    add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
+    const float size = add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
+    largest = size > largest ? size : largest;
   }
-  solve_frictions(c, m, a, b);
+  const float size = solve_frictions(c, m, a, b);
   store(m, a, b);
+  return size > largest ? size : largest;
 }
 
 // Whether the point came fast enough to bounce, and was met in this substep.
@@ -182,8 +200,10 @@ BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const S
 // The fastest approach of the patch's points that bounce, m/s; 0 = none does.
 BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step) {
   float fastest = 0.0F;
-  for (int k = 0; k < c.count; ++k)
-    if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k)
+    if (k < c.count)
+      if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
   return fastest;
 }
 
@@ -197,8 +217,17 @@ inline constexpr int kSweepsOfBounce = 8;
 inline constexpr int kMostBounceSweeps = 32;
 inline constexpr float kBounceDone = 0x1p-10F;
 
-// Points that came fast leave with the share of that speed that restitution gives back. Returns the largest change of a
-// point's speed along the normal, m/s.
+// Before a bounce: the impulse that stopped each point.
+BROADSIDE_HD void note_stopping(PatchConstraint& c) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k)
+    if (k < c.count) c.points[k].stopping_impulse = c.points[k].normal_impulse;
+}
+
+// Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
+// than that share of the impulse that stopped them (Poisson's rule): where friction turns a body about its corner,
+// Newton's rule alone may give back more energy than stopping took (Kane and Levinson, Dynamics, 1985). Returns the
+// largest change of a point's speed, m/s.
 BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
@@ -207,18 +236,22 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
     PatchPoint& p = c.points[(k / c.count) % 2 == 0 ? at : c.count - 1 - at];
     if (!bounces(c, p, step)) continue;
     const float speed = dot(c.normal, relative_velocity(m, p));
-    const float change = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
+    const float wish = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
+    const float most = (1.0F + c.surface.restitution) * p.stopping_impulse - p.normal_impulse;
+    const float change = wish < most ? wish : most;
     const float size = add_normal_impulse(c, p, m, a, b, change);
     largest = size > largest ? size : largest;
   }
-  solve_frictions(c, m, a, b);
+  const float size = solve_frictions(c, m, a, b);
   store(m, a, b);
-  return largest;
+  return size > largest ? size : largest;
 }
 
 // Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
 BROADSIDE_HD void add_to_totals(PatchConstraint& c, const SoftStep& step) {
-  for (int k = 0; k < c.count; ++k) {
+  BROADSIDE_UNROLL
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    if (k >= c.count) break;
     PatchPoint& p = c.points[k];
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;

@@ -33,6 +33,7 @@ enum PointWord : std::uint32_t {
   kImpulses,  // normal, tangent 1 and 2, of the substep
   kSlides = kImpulses + 3,
   kApproach,
+  kStopping,
   kTotals,                // as kImpulses
   kBefore = kTotals + 3,  // of core::PatchWay
   kWay = kBefore + 3,

@@ -34,9 +34,12 @@ __device__ void each_patch(const Team& team, const RigidFrameView& f, const Work
 // work(slot, constraint, a, b) color by color; what it makes of the bodies' velocities is stored.
 template <typename Team, typename Work>
 __device__ void each_patch_by_color(const Team& team, const RigidFrameView& f, const Work& work) {
-  for (std::uint32_t color = 0; color < f.counts->colors; ++color) {
-    const std::uint64_t end = std::uint64_t{f.color_begin[color]} + f.color_count[color];
-    for (std::uint64_t place = f.color_begin[color] + team.rank(); place < end; place += team.size()) {
+  const std::uint32_t colors = f.counts->colors;
+  std::uint32_t begin = f.color_begin[0];
+  std::uint32_t count = f.color_count[0];
+  for (std::uint32_t color = 0; color < colors; ++color) {
+    const std::uint64_t end = std::uint64_t{begin} + count;
+    for (std::uint64_t place = begin + team.rank(); place < end; place += team.size()) {
       const TileSlot slot(f.constraints, place);
       core::PatchConstraint c = load_bodies_and_points(slot);
       core::SolverBody a = load_moving(f.bodies[c.a]);
@@ -44,6 +47,11 @@ __device__ void each_patch_by_color(const Team& team, const RigidFrameView& f, c
       work(slot, c, a, b);
       store_velocity(f.bodies[c.a], a);
       store_velocity(f.bodies[c.b], b);
+    }
+    // Before the barrier, which makes the threads forget what they loaded.
+    if (color + 1 < colors) {
+      begin = f.color_begin[color + 1];
+      count = f.color_count[color + 1];
     }
     team.sync();
   }
@@ -69,7 +77,7 @@ __device__ float sweep(const Team& team, const RigidFrameView& f, Solve& solve, 
   each_patch_by_color(team, f,
                       [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
                         load_for_sweep(slot, c);
-                        core::PatchWay way;
+                        core::PatchWay way{};
                         core::note_impulses(c, way);
                         if (has_way) store_before(slot, c.count, way);
                         largest = fmaxf(largest, core::solve_patch(c, a, b, solve.soft));
@@ -108,13 +116,16 @@ __device__ float follow_direction(const Team& team, const RigidFrameView& f, Sol
 template <typename Team>
 __device__ void sweep_until_done(const Team& team, const RigidFrameView& f, Solve& solve) {
   const bool has_way = f.solver.sweeps > 1;
-  float fastest = 0.0F;
-  each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
-    fastest = fmaxf(fastest, core::fastest_point(c, load_moving(f.bodies[c.a]), load_moving(f.bodies[c.b])));
-    if (has_way) store_direction(slot, c.count, core::PatchWay{});
-  });
-  // The speeds are read before anything changes them.
-  const float done = f.solver.done * solve.sums.largest(team, fastest);
+  float done = 0.0F;
+  if (has_way) {
+    float fastest = 0.0F;
+    each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
+      fastest = fmaxf(fastest, core::fastest_point(c, load_moving(f.bodies[c.a]), load_moving(f.bodies[c.b])));
+      store_direction(slot, c.count, core::PatchWay{});
+    });
+    // The speeds are read before anything changes them.
+    done = f.solver.done * solve.sums.largest(team, fastest);
+  }
   each_patch_by_color(team, f,
                       [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
                         load_tangents(slot, c);
@@ -130,24 +141,52 @@ __device__ void sweep_until_done(const Team& team, const RigidFrameView& f, Solv
   }
 }
 
-// Until nothing bounces any more that did.
+// Returns the largest change of a point's speed.
 template <typename Team>
-__device__ void bounce_all(const Team& team, const RigidFrameView& f, Solve& solve) {
+__device__ float relax(const Team& team, const RigidFrameView& f, const Solve& solve) {
+  float largest = 0.0F;
+  each_patch_by_color(team, f,
+                      [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
+                        load_for_sweep(slot, c);
+                        largest = fmaxf(largest, core::relax_patch(c, a, b, solve.soft));
+                        store_impulses(slot, c);
+                      });
+  return largest;
+}
+
+// The fastest approach of what bounces. stops: what stopped each point is noted.
+template <typename Team>
+__device__ float fastest_of_bounces(const Team& team, const RigidFrameView& f, Solve& solve, bool stops) {
   float fastest = 0.0F;
   each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
     load_surface_and_masses(slot, c);
     load_impulses(slot, c);
     load_approach(slot, c);
     fastest = fmaxf(fastest, core::fastest_bounce(c, solve.soft));
+    if (!stops) return;
+    core::note_stopping(c);
+    store_stopping(slot, c);
   });
-  float largest = solve.sums.largest(team, fastest);
+  return solve.sums.largest(team, fastest);
+}
+
+// Until nothing bounces any more that did.
+template <typename Team>
+__device__ void bounce_all(const Team& team, const RigidFrameView& f, Solve& solve) {
+  float largest = fastest_of_bounces(team, f, solve, false);
   const float done = core::kBounceDone * largest;
+  if (!(done > 0.0F)) return;
+  // A share of what stopped them is given back, so that is to be known well.
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k)
+    largest = solve.sums.largest(team, relax(team, f, solve));
+  largest = fastest_of_bounces(team, f, solve, true);
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
     float change = 0.0F;
     each_patch_by_color(team, f,
                         [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
                           load_for_sweep(slot, c);
                           load_approach(slot, c);
+                          load_stopping(slot, c);
                           if (!(core::fastest_bounce(c, solve.soft) > 0.0F)) return;
                           change = fmaxf(change, core::bounce(c, a, b, solve.soft));
                           store_impulses(slot, c);
@@ -176,12 +215,7 @@ __device__ void run_substep(const Team& team, const RigidFrameView& f, Solve& so
     core::move(body, f.mass[i], solve.soft.dt_s);
     store_body(f.bodies[i], body);
   });
-  each_patch_by_color(team, f,
-                      [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-                        load_for_sweep(slot, c);
-                        core::relax_patch(c, a, b, solve.soft);
-                        store_impulses(slot, c);
-                      });
+  (void)relax(team, f, solve);
   if (solve.may_bounce) bounce_all(team, f, solve);
   each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
     load_for_sweep(slot, c);

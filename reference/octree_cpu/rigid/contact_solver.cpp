@@ -16,8 +16,12 @@ core::SoftSettings soft_settings(const ContactSolverOptions& options) {
   return soft;
 }
 
+std::unique_ptr<ContactSolver> make_soft_solver(const core::SoftSettings& settings) {
+  return std::make_unique<SoftSolver>(settings);
+}
+
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options) {
-  return std::make_unique<SoftSolver>(soft_settings(options));
+  return make_soft_solver(soft_settings(options));
 }
 
 }  // namespace broadside::reference

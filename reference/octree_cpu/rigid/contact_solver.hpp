@@ -66,6 +66,7 @@ struct ContactSolverOptions {
 
 core::SoftSettings soft_settings(const ContactSolverOptions& options);
 
+std::unique_ptr<ContactSolver> make_soft_solver(const core::SoftSettings& settings);
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactSolverOptions& options);
 
 }  // namespace broadside::reference

@@ -12,7 +12,7 @@ core::Declaration rigid_declaration(const ContactSolverOptions& solver) {
   return core::rigid_declaration(soft_settings(solver));
 }
 
-core::EquivalenceCard rigid_card(const core::Scene& scene, const ContactSolverOptions& solver, std::string build,
+core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, std::string build,
                                  int threads) {
   if (scene.motion != core::Motion::kRigid) return {};
   core::EquivalenceCard card = own_card(std::move(build), "float32 without contraction",
@@ -22,17 +22,17 @@ core::EquivalenceCard rigid_card(const core::Scene& scene, const ContactSolverOp
   card.push_back({"broad-phase margin", "how far bodies may come in the step", ""});
   card.push_back({"friction rule", "geometric mean", ""});
   card.push_back({"restitution rule", "the larger", ""});
-  const bool is_swept = solver.kind == SolverKind::kConjugate;
+  const bool is_swept = solver.sweeps > 1;
   card.push_back({"contact solver",
                   std::string("substeps with soft constraints and relaxation") +
                       (is_swept ? ", along conjugate directions" : ", color by color"),
                   "one application a contact"});
-  card.push_back({"solver iterations",
-                  is_swept ? "until little changes, in at most " +
-                                 std::to_string(core::most_of_step(soft_settings(solver)).substeps) + " substeps"
-                           : "one sweep in each of at most " +
-                                 std::to_string(core::most_of_step(soft_settings(solver)).substeps) + " substeps",
-                  "one pass"});
+  card.push_back(
+      {"solver iterations",
+       is_swept
+           ? "until little changes, in at most " + std::to_string(core::most_of_step(solver).substeps) + " substeps"
+           : "one sweep in each of at most " + std::to_string(core::most_of_step(solver).substeps) + " substeps",
+       "one pass"});
   card.push_back({"rotation", "bodies turn, with the gyroscopic torque", ""});
   card.push_back({"warm starting", "by the features that meet", ""});
   card.push_back({"sleeping", "off", ""});

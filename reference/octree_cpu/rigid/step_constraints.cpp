@@ -82,6 +82,16 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
   };
   const float done = core::kBounceDone * largest();
+  if (!(done > 0.0F)) return;
+  // A share of what stopped them is given back, so that is to be known well.
+  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
+    each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
+      of_patches_[index_of(c)] = core::relax_patch(c, a, b, numbers);
+    });
+  each_patch([&](PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
+    core::note_stopping(c);
+    of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
+  });
   for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
       of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;

@@ -1,0 +1,301 @@
+// Meshes that are not convex, against each other, convex shapes and planes.
+//
+// A tree over the triangles finds those that are near; each of them is a sheet of two faces and is treated as any
+// polytope. What is kept of a pair of triangles are contacts in front of both: the normal lies between a triangle's
+// own and those beyond its convex edges, so that the inner edges of a smooth surface make no contacts of their own.
+// Points are merged into patches by normal, the deepest first.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/method/rigid/capsule_manifold.hpp"
+#include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/contact_shape.hpp"
+#include "core/method/rigid/cylinder_manifold.hpp"
+#include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/polytope_axes.hpp"
+#include "core/method/rigid/polytope_manifold.hpp"
+#include "core/method/rigid/polytopes.hpp"
+
+namespace broadside::core {
+
+// A pair of bodies has at most so many patches: a convex pair one, meshes the four deepest of different normals.
+inline constexpr int kPatchesOfPair = 4;
+
+// Normals within 26 degrees of that of its deepest point (this cosine) are one patch.
+inline constexpr float kSamePatch = 0.9F;
+
+// So many points of a pair of meshes are looked at when patches are made, the deepest ones.
+inline constexpr int kMeshPoints = 48;
+
+namespace mesh_detail {
+
+struct Touch {
+  Vec3 normal;
+  ManifoldPoint point;
+};
+
+struct Touches {
+  int count = 0;
+  Touch all[kMeshPoints];
+
+  // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
+  // the deepest or, of equal ones, the lowest key.
+  BROADSIDE_HD void add(const Touch& t, float rounding_m) {
+    int place = count;
+    for (int k = 0; k < count; ++k) {
+      const Vec3 apart = t.point.point - all[k].point.point;
+      if (dot(apart, apart) <= 16.0F * rounding_m * rounding_m && dot(t.normal, all[k].normal) >= kSameNormal)
+        place = k;
+    }
+    if (place == kMeshPoints) {
+      place = 0;
+      for (int k = 1; k < count; ++k)
+        if (is_deeper(all[place].point, all[k].point)) place = k;
+    }
+    if (place < count && !is_deeper(t.point, all[place].point)) return;
+    if (place == count) ++count;
+    all[place] = t;
+  }
+  BROADSIDE_HD static bool is_deeper(const ManifoldPoint& p, const ManifoldPoint& q) {
+    return is_better(-p.gap_m, p.feature, -q.gap_m, q.feature);
+  }
+};
+
+BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::uint32_t t) {
+  const MeshView& view = mesh.shape->mesh;
+  TrianglePolytope out;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    out.corners[k] = mesh.center + turned(mesh.axes, view.vertices[view.triangles[3 * t + k]]);
+  out.center = (1.0F / 3.0F) * (out.corners[0] + out.corners[1] + out.corners[2]);
+  out.normal = turned(mesh.axes, view.normals[t]);
+  return out;
+}
+
+// Does a triangle's surface look that way? Rounding of normals counts as looking.
+BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, Vec3 direction) {
+  const float least = mesh.shape->mesh.least_facing[t];
+  return dot(normal, direction) >= least - (1.0F - kSameNormal) && dot(normal, direction) > 0.0F;
+}
+
+// Boxes of two nodes, one in the axes of the other body: apart along an axis of either by more than reach_m? Not all
+// fifteen axes: a pair too many costs time alone.
+BROADSIDE_HD bool are_apart(const PlacedShape& a, Vec3 center_a, Vec3 half_a, const PlacedShape& b, Vec3 center_b,
+                            Vec3 half_b, float reach_m) {
+  const Vec3 d = (a.center + turned(a.axes, center_a)) - (b.center + turned(b.axes, center_b));
+  for (int i = 0; i < 3; ++i) {
+    float reach_a = half_a[i];
+    float reach_b = half_b[i];
+    for (int j = 0; j < 3; ++j) {
+      reach_a += fabsf(dot(a.axes[i], b.axes[j])) * half_b[j];
+      reach_b += fabsf(dot(b.axes[i], a.axes[j])) * half_a[j];
+    }
+    if (fabsf(dot(a.axes[i], d)) > reach_a + reach_m || fabsf(dot(b.axes[i], d)) > reach_b + reach_m) return true;
+  }
+  return false;
+}
+
+// Depth of a tree is at most 32 levels, and a visit leaves at most one open node a level of either tree.
+inline constexpr int kOpenNodes = 72;
+
+// Triangles of a mesh that may be within reach_m of a box in another body's axes.
+template <typename Visit>
+BROADSIDE_HD void near_triangles(const PlacedShape& mesh, const PlacedShape& other, Vec3 center, Vec3 half,
+                                 float reach_m, const Visit& visit) {
+  std::uint32_t open[kOpenNodes];
+  int count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const TriangleNode& node = mesh.shape->mesh.nodes[open[--count]];
+    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), other, center, half, reach_m))
+      continue;
+    if (node.count == 0 && count + 2 <= kOpenNodes) {
+      open[count++] = node.first + 1;
+      open[count++] = node.first;
+    }
+    for (std::uint32_t k = 0; k < node.count; ++k) visit(node.first + k);
+  }
+}
+
+BROADSIDE_HD std::uint32_t key_in_mesh(std::uint32_t key, std::uint32_t triangle) {
+  return feature_key(key, triangle + 1);
+}
+
+// A convex body (A) and one triangle.
+template <typename Polytope>
+BROADSIDE_HD void against_triangle(const Polytope& a, float ball_m, const PlacedShape& mesh, std::uint32_t t,
+                                   float rounding_m, float reach_m, Touches& out) {
+  const TrianglePolytope triangle = triangle_polytope(mesh, t);
+  const SeparatingAxis axis = separating_axis(a, triangle, rounding_m, reach_m + ball_m);
+  Manifold m;
+  polytope_manifold(a, triangle, axis, ball_m, 0.0F, rounding_m, reach_m, m);
+  if (!(m.count > 0) || !looks(mesh, t, triangle.normal, m.normal)) return;
+  for (int k = 0; k < m.count; ++k) {
+    ManifoldPoint p = m.points[k];
+    p.feature = key_in_mesh(p.feature, t);
+    out.add({m.normal, p}, rounding_m);
+  }
+}
+
+struct PointPolytope {
+  static constexpr int kMostFaceCorners = 1;
+  static constexpr bool kIsSheet = false;
+  Vec3 center;
+
+  BROADSIDE_HD int corner_count() const { return 1; }
+  BROADSIDE_HD int edge_count() const { return 0; }
+  BROADSIDE_HD int face_count() const { return 0; }
+  BROADSIDE_HD Vec3 corner(int) const { return center; }
+  BROADSIDE_HD void edge(int, int& from, int& to) const { from = to = 0; }
+  BROADSIDE_HD void edge_faces(int, int& left, int& right) const { left = right = 0; }
+  BROADSIDE_HD Vec3 face_normal(int) const { return {}; }
+  BROADSIDE_HD float face_height(int) const { return 0.0F; }
+  BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
+  BROADSIDE_HD float height(int, Vec3 direction) const { return dot(direction, center); }
+  BROADSIDE_HD int face_corner_count(int) const { return 1; }
+  BROADSIDE_HD int face_corner(int, int) const { return 0; }
+  BROADSIDE_HD float least(Vec3 direction) const { return dot(direction, center); }
+  BROADSIDE_HD float least_at(int, Vec3 direction) const { return dot(direction, center); }
+  BROADSIDE_HD int support_face(Vec3) const { return 0; }
+};
+
+BROADSIDE_HD Vec3 half_of(const ContactShape& s) {
+  if (s.kind == ContactKind::kBox) return s.half;
+  if (s.kind == ContactKind::kHull) return {s.size_m, s.size_m, s.size_m};
+  Vec3 half{s.radius_m, s.radius_m, s.radius_m};
+  if (s.kind == ContactKind::kCapsule) half[s.axis] = s.radius_m + s.half_length_m;
+  if (s.kind == ContactKind::kCylinder) half[s.axis] = s.half_length_m;
+  return half;
+}
+
+BROADSIDE_HD void convex_against(const PlacedShape& a, const PlacedShape& mesh, float rounding_m, float reach_m,
+                                 Touches& out) {
+  near_triangles(mesh, a, {}, half_of(*a.shape), reach_m, [&](std::uint32_t t) {
+    switch (a.shape->kind) {
+      case ContactKind::kSphere:
+        return against_triangle(PointPolytope{a.center}, a.shape->radius_m, mesh, t, rounding_m, reach_m, out);
+      case ContactKind::kCapsule:
+        return against_triangle(segment_polytope(a), a.shape->radius_m, mesh, t, rounding_m, reach_m, out);
+      case ContactKind::kBox:
+        return against_triangle(box_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, out);
+      case ContactKind::kCylinder:
+        // The even prism stands for the round body: sixteen sides are as fine as the triangles of most meshes.
+        return against_triangle(cylinder_polytope(a, 0, {}), 0.0F, mesh, t, rounding_m, reach_m, out);
+      default:
+        return against_triangle(hull_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, out);
+    }
+  });
+}
+
+BROADSIDE_HD void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                               Touches& out) {
+  struct Open {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+  };
+  Open open[kOpenNodes];
+  int count = 0;
+  open[count++] = {};
+  while (count > 0) {
+    const Open pair = open[--count];
+    const TriangleNode& node_a = a.shape->mesh.nodes[pair.a];
+    const TriangleNode& node_b = b.shape->mesh.nodes[pair.b];
+    const Vec3 half_a = 0.5F * (node_a.max - node_a.min);
+    const Vec3 half_b = 0.5F * (node_b.max - node_b.min);
+    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, reach_m))
+      continue;
+    if (node_a.count == 0 || node_b.count == 0) {
+      const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
+      for (std::uint32_t k = 0; k < 2 && count < kOpenNodes; ++k)
+        open[count++] = {opens_a ? node_a.first + 1 - k : pair.a, opens_a ? pair.b : node_b.first + 1 - k};
+      continue;
+    }
+    for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i) {
+      const TrianglePolytope of_a = triangle_polytope(a, i);
+      for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j) {
+        const TrianglePolytope of_b = triangle_polytope(b, j);
+        const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, reach_m);
+        Manifold m;
+        polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
+        if (!(m.count > 0) || !looks(b, j, of_b.normal, m.normal) || !looks(a, i, of_a.normal, -m.normal)) continue;
+        for (int k = 0; k < m.count; ++k) {
+          ManifoldPoint p = m.points[k];
+          p.feature = key_in_mesh(key_in_mesh(p.feature, i), j);
+          out.add({m.normal, p}, rounding_m);
+        }
+      }
+    }
+  }
+}
+
+// The deepest point that is left begins a patch, and takes along what shares its normal.
+BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
+  int patches = 0;
+  bool is_taken[kMeshPoints] = {};
+  while (patches < kPatchesOfPair) {
+    int deepest = -1;
+    for (int k = 0; k < touches.count; ++k)
+      if (!is_taken[k] && (deepest < 0 || Touches::is_deeper(touches.all[k].point, touches.all[deepest].point)))
+        deepest = k;
+    if (deepest < 0) break;
+    Manifold& patch = out[patches++];
+    patch.normal = touches.all[deepest].normal;
+    bool is_of_patch[kMeshPoints] = {};
+    for (int k = 0; k < touches.count; ++k) {
+      is_of_patch[k] = !is_taken[k] && dot(touches.all[k].normal, patch.normal) >= kSamePatch;
+      is_taken[k] |= is_of_patch[k];
+    }
+    keep_four_of(patch, reach_m, [&](const auto& consider) {
+      for (int k = 0; k < touches.count; ++k)
+        if (is_of_patch[k]) consider(touches.all[k].point);
+    });
+  }
+  return patches;
+}
+
+}  // namespace mesh_detail
+
+// B is the mesh; A a convex shape or a mesh.
+BROADSIDE_HD int mesh_manifolds(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                                Manifold* out) {
+  mesh_detail::Touches touches;
+  if (a.shape->kind == ContactKind::kMesh)
+    mesh_detail::mesh_against(a, b, rounding_m, reach_m, touches);
+  else
+    mesh_detail::convex_against(a, b, rounding_m, reach_m, touches);
+  return mesh_detail::patches_of(touches, reach_m, out);
+}
+
+// Corners of the mesh over a plane: one patch.
+BROADSIDE_HD void mesh_plane_manifold(const PlacedShape& a, const PlacedShape& plane, float reach_m, Manifold& out) {
+  const MeshView& mesh = a.shape->mesh;
+  const Vec3 n = turned(plane.axes, plane.shape->normal);
+  const Vec3 local = turned_back(a.axes, n);
+  const float above = dot(n, a.center - plane.center);
+  out.normal = n;
+  keep_four_of(out, reach_m, [&](const auto& consider) {
+    std::uint32_t open[mesh_detail::kOpenNodes];
+    int count = 0;
+    open[count++] = 0;
+    while (count > 0) {
+      const TriangleNode& node = mesh.nodes[open[--count]];
+      const Vec3 low{local.x > 0.0F ? node.min.x : node.max.x, local.y > 0.0F ? node.min.y : node.max.y,
+                     local.z > 0.0F ? node.min.z : node.max.z};
+      if (above + dot(local, low) > reach_m) continue;
+      if (node.count == 0 && count + 2 <= mesh_detail::kOpenNodes) {
+        open[count++] = node.first + 1;
+        open[count++] = node.first;
+      }
+      for (std::uint32_t k = 3 * node.first; k < 3 * (node.first + node.count); ++k) {
+        const std::uint32_t v = mesh.triangles[k];
+        const float gap = above + dot(local, mesh.vertices[v]);
+        const Vec3 p = a.center + turned(a.axes, mesh.vertices[v]);
+        consider({p - (0.5F * gap) * n, gap, feature_key(corner_name(v), face_name(0))});
+      }
+    }
+  });
+}
+
+}  // namespace broadside::core
