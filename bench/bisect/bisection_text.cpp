@@ -117,8 +117,8 @@ std::string bisection_markdown(const Builds& builds, const Question& question, c
   std::string text = fmt::format("# Bisection of {} builds\n\nThe command, on each build:\n\n    {}\n",
                                  builds.list().size(), question.command);
   for (const Answer& answer : bisection.answers) {
-    text += fmt::format("\n## {}\n\n", headline(builds, answer));
-    if (const std::string sides = body(builds, question, answer); !sides.empty()) text += "```\n" + sides + "```\n";
+    text += fmt::format("\n## {}\n", headline(builds, answer));
+    if (const std::string sides = body(builds, question, answer); !sides.empty()) text += "\n```\n" + sides + "```\n";
     if (!answer.traces.empty())
       text += "\nWhere the traces of both sides part (A: last unchanged, B: first changed):\n\n```\n" + answer.traces +
               "```\n";

@@ -190,7 +190,7 @@ TEST(Bisection, AKilledOneGoesOnWhereItWas) {
   // The third run ends the program that started it, without a word.
   const std::string kill = "if [ -f '" + log.string() + "' ] && [ $(wc -l < '" + log.string() +
                            "') -eq 2 ]; then echo killed >> '" + log.string() +
-                           "'; kill -9 $(cut -d ' ' -f 4 /proc/$PPID/stat); sleep 5; fi\n";
+                           "'; kill -9 $(cut -d ' ' -f 4 /proc/$PPID/stat); exit 1; fi\n";
   std::vector<std::string> arguments{"bisect"};
   const char* const settings[] = {kSound, kSound, kMoreTests, kMoreTests};
   std::vector<std::string> builds;
