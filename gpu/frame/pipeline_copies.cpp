@@ -1,4 +1,5 @@
 // What a pipeline tells of a frame: its digest, and copies that are under way while later frames are computed.
+#include "gpu/broad/pack_view.hpp"
 #include "gpu/frame/pipeline_parts.hpp"
 
 namespace broadside::gpu {
@@ -29,6 +30,23 @@ void Pipeline::Impl::take_digests() {
 core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
   BROADSIDE_TRY(start_copy(level));
   return finish_copy(frame);
+}
+
+core::Result<core::DeviceStates> Pipeline::states_on_device() const {
+  const Impl& d = *impl_;
+  if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
+  auto device = current_device();
+  if (!device.ok()) return device.error();
+  const StateView state = d.buffers.state().view();
+  core::DeviceStates states;
+  states.position = &state.position->v.x;
+  states.velocity = &state.velocity->v.x;
+  states.row_bytes = sizeof(PackedVec3);
+  states.bodies = d.scene->bodies.size();
+  states.pairs = d.buffers.pairs().data();
+  states.pair_count = d.last.pairs;
+  states.device = device.value();
+  return states;
 }
 
 core::Status Pipeline::start_copy(core::RecordLevel level) {

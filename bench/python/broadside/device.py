@@ -1,10 +1,10 @@
-"""Arrays on a GPU: boxes that are taken where they lie, and pairs that stay where they were found.
+"""Arrays on a GPU: boxes that are taken where they lie, pairs and states that stay where they were found.
 
 Streams. Boxes are read after everything that their stream was asked for before the call: the stream that
 __cuda_array_interface__ names; the legacy default stream where it is of version 2, which names none; no stream where it
 names None, and then the boxes must be complete. By DLPack their owner is asked for boxes that are complete on the
-legacy default stream. Pairs are complete when the call returns, and any stream may read them. They are the engine's memory:
-its next call writes there again, so work that reads them must have ended by then.
+legacy default stream. Pairs and states are complete when the call returns, and any stream may read them. They are the
+engine's memory: its next call writes there again, so work that reads them must have ended by then.
 """
 
 from __future__ import annotations
@@ -52,28 +52,30 @@ class DeviceBoxes:
 
 
 class DeviceRows:
-    """Rows [n, width] of uint32 in an engine's memory, for other libraries: cupy.asarray(rows), torch.from_dlpack(rows).
+    """Rows [n, width] in an engine's memory, of uint32 or float32: cupy.asarray(rows), torch.from_dlpack(rows).
 
     Nothing is copied. Valid until the engine's next call; keeps the engine alive.
     """
 
-    dtype = "uint32"
-
-    def __init__(self, address: int, shape: tuple[int, int], memory: int, device: int, owner: Any):
-        self.shape, self._address, self._place, self._owner = shape, address, (memory, device), owner
-        if memory == CUDA:  # of the host's memory there is none
-            self.__cuda_array_interface__ = {"shape": shape, "typestr": "<u4", "data": (address, True), "version": 3,
-                                             "strides": None, "stream": None}
+    def __init__(self, address: int, shape: tuple[int, int], dtype: str, place: tuple[int, int], owner: Any,
+                 row_bytes: int | None = None):
+        self.shape, self.dtype, self._address, self._place, self._owner = shape, dtype, address, place, owner
+        self._row_bytes = row_bytes or 4 * shape[1]
+        if place[0] == CUDA:  # of the host's memory there is none
+            self.__cuda_array_interface__ = {
+                "shape": shape, "typestr": "<u4" if dtype == "uint32" else "<f4", "data": (address, True),
+                "strides": (self._row_bytes, 4), "version": 3, "stream": None}
 
     def __len__(self) -> int:
         return self.shape[0]
 
     def __repr__(self) -> str:
-        return f"<rows {self.shape} of uint32 at {self._address:#x}, DLPack device {self._place}>"
+        return f"<rows {self.shape} of {self.dtype} at {self._address:#x}, DLPack device {self._place}>"
 
     def __dlpack_device__(self) -> tuple[int, int]:
         return self._place
 
     def __dlpack__(self, *, stream: Any = None, **newer: Any) -> Any:
         """A capsule; the rows are complete on every stream, so none is waited for."""
-        return native.given_rows(self._address, *self.shape, *self._place, self)
+        is_float = self.dtype == "float32"
+        return native.given_rows(self._address, *self.shape, self._row_bytes, is_float, *self._place, self)

@@ -56,7 +56,7 @@ class BroadPhase:
         flags = None if is_static is None else fitted(is_static, np.uint8, "is_static")
         address, rows, device = self._held.find_pairs_on_device(boxes.address, boxes.count, boxes.stream, flags)
         self.demanded = self.raw = rows
-        return DeviceRows(address, (rows, 2), CUDA, device, self._held)
+        return DeviceRows(address, (rows, 2), "uint32", (CUDA, device), self._held)
 
 
 def find_pairs(boxes: Any, is_static: Any = None, engine: str = "octree-cpu") -> np.ndarray | DeviceRows:
@@ -96,6 +96,16 @@ class Dynamics:
     def step(self, count: int = 1) -> None:
         """Advances by `count` steps of the scene's dt_s."""
         self._held.step(count)
+
+    def read_on_device(self) -> dict[str, DeviceRows]:
+        """States and pairs of a GPU engine where they lie, until its next step: body/position and body/velocity [n, 3]
+        float32, pairs/pairs [rows, 2] in no order. Complete for every stream.
+        """
+        facts = self._held.states_on_device()
+        place, row_bytes, bodies = (CUDA, facts["device"]), facts["row_bytes"], (facts["bodies"], 3)
+        return {"body/position": DeviceRows(facts["position"], bodies, "float32", place, self._held, row_bytes),
+                "body/velocity": DeviceRows(facts["velocity"], bodies, "float32", place, self._held, row_bytes),
+                "pairs/pairs": DeviceRows(facts["pairs"], (facts["pair_count"], 2), "uint32", place, self._held)}
 
     def read(self) -> State:
         """The State after the last step; its arrays stay as they are when the engine goes on."""

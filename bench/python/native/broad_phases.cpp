@@ -140,8 +140,14 @@ void add_broad_phases(py::module_& module) {
       .def_property_readonly("device", &TakenArray::device)
       .def_property_readonly("shape", &TakenArray::shape)
       .def_property_readonly("type", &TakenArray::type);
-  module.def("given_rows", given_rows, py::arg("address"), py::arg("rows"), py::arg("width"), py::arg("memory"),
-             py::arg("device"), py::arg("owner"));
+  module.def(
+      "given_rows",
+      [](std::uint64_t address, std::int64_t rows, std::int64_t width, std::int64_t row_bytes, bool is_float,
+         int memory, int device, const py::object& owner) {
+        return given_rows({address, rows, width, row_bytes, is_float}, memory, device, owner);
+      },
+      py::arg("address"), py::arg("rows"), py::arg("width"), py::arg("row_bytes"), py::arg("is_float"),
+      py::arg("memory"), py::arg("device"), py::arg("owner"));
 }
 
 }  // namespace broadside::bench::python

@@ -56,6 +56,7 @@ bool has_gaps(const DLTensor& t) {
 struct GivenRows {
   DLManagedTensor managed{};
   std::int64_t shape[2] = {};
+  std::int64_t strides[2] = {};
   py::object owner;
 };
 
@@ -110,18 +111,20 @@ std::string TakenArray::type() const {
   return "<" + std::string(1, kCodes[type.code]) + std::to_string(type.bits / 8);
 }
 
-py::capsule given_rows(std::uint64_t address, std::int64_t rows, std::int64_t width, int memory, int device,
-                       const py::object& owner) {
+py::capsule given_rows(const OwnRows& rows, int memory, int device, const py::object& owner) {
   auto given = std::make_unique<GivenRows>();
-  given->shape[0] = rows;
-  given->shape[1] = width;
+  given->shape[0] = rows.rows;
+  given->shape[1] = rows.width;
+  given->strides[0] = rows.row_bytes / static_cast<std::int64_t>(sizeof(float));
+  given->strides[1] = 1;
   given->owner = owner;
   DLTensor& t = given->managed.dl_tensor;
-  t.data = reinterpret_cast<void*>(address);
+  t.data = reinterpret_cast<void*>(rows.address);
   t.device = {memory, device};
   t.ndim = 2;
-  t.dtype = {1, 32, 1};
+  t.dtype = {static_cast<std::uint8_t>(rows.is_float ? 2 : 1), 32, 1};
   t.shape = given->shape;
+  t.strides = given->strides;
   given->managed.manager_ctx = given.get();
   given->managed.deleter = release;
   PyObject* const capsule = PyCapsule_New(&given->managed, kName, drop);

@@ -32,8 +32,16 @@ class TakenArray {
   void* managed_ = nullptr;
 };
 
-// Rows of whole numbers of 32 bits for another library to take once; owner lives as long as it holds them.
-pybind11::capsule given_rows(std::uint64_t address, std::int64_t rows, std::int64_t width, int memory, int device,
-                             const pybind11::object& owner);
+// Where rows of numbers of 32 bits lie, of this library's own memory.
+struct OwnRows {
+  std::uint64_t address = 0;
+  std::int64_t rows = 0;
+  std::int64_t width = 0;
+  std::int64_t row_bytes = 0;  // from one row to the next
+  bool is_float = false;       // else whole numbers without a sign
+};
+
+// A capsule for another library to take once; owner lives as long as it holds the rows.
+pybind11::capsule given_rows(const OwnRows& rows, int memory, int device, const pybind11::object& owner);
 
 }  // namespace broadside::bench::python

@@ -56,7 +56,7 @@ def test_a_capsule_with_gaps_is_refused():
 def test_rows_are_given_without_a_copy_and_keep_their_owner():
     pairs = np.array([[0, 1], [2, 3]], np.uint32)
     before = sys.getrefcount(pairs)
-    rows = DeviceRows(address(pairs), pairs.shape, HOST, 0, pairs)
+    rows = DeviceRows(address(pairs), pairs.shape, "uint32", (HOST, 0), pairs)
     seen = np.from_dlpack(rows)
     assert (address(seen), seen.tolist(), seen.dtype) == (address(pairs), pairs.tolist(), np.uint32)
     del rows
@@ -67,11 +67,24 @@ def test_rows_are_given_without_a_copy_and_keep_their_owner():
     assert sys.getrefcount(pairs) == before
 
 
+def test_rows_with_other_numbers_between_them():
+    """As states lie on the GPU: three floats, and a fourth that is something else."""
+    packed = np.arange(12, dtype=np.float32).reshape(3, 4)
+    seen = np.from_dlpack(DeviceRows(address(packed), (3, 3), "float32", (HOST, 0), packed, 16))
+    assert address(seen) == address(packed) and np.array_equal(seen, packed[:, :3])
+
+
+def test_states_of_the_host_are_not_on_a_device():
+    says = r"plain-rigid: its states are in the host's memory; read\(\) gives them"
+    with pytest.raises(broadside.BadInput, match=says):
+        broadside.Dynamics("plain-rigid", "rigid:stack:5").read_on_device()
+
+
 def test_a_capsule_that_nobody_takes_is_let_go():
     pairs = np.zeros((1, 2), np.uint32)
     before = sys.getrefcount(pairs)
     for _ in range(3):
-        native.given_rows(address(pairs), 1, 2, HOST, 0, pairs)
+        native.given_rows(address(pairs), 1, 2, 8, False, HOST, 0, pairs)
     gc.collect()
     assert sys.getrefcount(pairs) == before
 
@@ -98,7 +111,7 @@ def test_what_boxes_on_a_gpu_say_of_themselves():
 def test_a_call_by_dlpack_is_short():
     """Printed, not judged: no test measures time against a limit."""
     pairs = np.zeros((1000, 2), np.uint32)
-    rows, count = DeviceRows(address(pairs), pairs.shape, HOST, 0, pairs), 2000
+    rows, count = DeviceRows(address(pairs), pairs.shape, "uint32", (HOST, 0), pairs), 2000
     start = time.perf_counter()
     for _ in range(count):
         np.from_dlpack(rows)
@@ -131,8 +144,8 @@ class DriverMemory:
     def write(self, array):
         self.call("cuMemcpyHtoD_v2", self.address, ctypes.c_void_p(address(array)), ctypes.c_size_t(array.nbytes))
 
-    def read(self, where, shape):
-        rows = np.empty(shape, np.uint32)
+    def read(self, where, shape, dtype=np.uint32):
+        rows = np.empty(shape, dtype)
         to, size = ctypes.c_void_p(address(rows)), ctypes.c_size_t(rows.nbytes)
         self.call("cuMemcpyDtoH_v2", to, ctypes.c_uint64(where), size)
         return rows
@@ -157,6 +170,21 @@ def test_boxes_and_pairs_stay_on_the_gpu(count):
         there = memory.read(rows.__cuda_array_interface__["data"][0], rows.shape)
         assert np.array_equal(in_order(there), host.find_pairs(boxes)) and len(there) > 0
     assert np.array_equal(broad.find_pairs(boxes), host.find_pairs(boxes)), "boxes of the host, by the same engine"
+
+
+@on_gpu
+def test_states_stay_on_the_gpu():
+    world = broadside.Dynamics("octree-gpu", "freefall:sphere:50")
+    memory = DriverMemory(np.zeros(1, np.uint32))
+    for _ in range(3):
+        world.step(20)
+        there, state = world.read_on_device(), world.read()
+        for path in ("body/position", "body/velocity"):
+            facts = there[path].__cuda_array_interface__
+            packed = memory.read(facts["data"][0], (facts["shape"][0], facts["strides"][0] // 4), np.float32)
+            assert np.array_equal(packed[:, :3], state[path])
+        pairs = there["pairs/pairs"].__cuda_array_interface__
+        assert np.array_equal(in_order(memory.read(pairs["data"][0], pairs["shape"])), state["pairs/pairs"])
 
 
 @on_gpu

@@ -61,6 +61,18 @@ def test_the_program_is_there_too(tmp_path):
     assert subprocess.run([program, "nonsense"], env=BARE, capture_output=True, check=False).returncode == 2
 
 
+def test_pip_is_told_which_python_the_package_is_for(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(Path(os.environ["BROADSIDE_SOURCE"]) / "bench/python")
+    import pip_backend
+
+    other = tmp_path / "python"
+    other.write_text("#!/bin/sh\necho 2.7\n", encoding="ascii")
+    other.chmod(0o755)
+    monkeypatch.setattr(pip_backend, "PYTHON", str(other))
+    with pytest.raises(SystemExit, match="which is version 2.7; use its pip"):
+        pip_backend.build_wheel(tmp_path)
+
+
 def test_it_needs_no_pandas_until_a_table_is_asked_for(tmp_path):
     script = ("import sys\nfor name in ('pandas', 'xarray'): sys.modules[name] = None\nimport broadside\n"
               "trace, = broadside.run('two-body:apart', 'octree-cpu', frames=2)\n"
