@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/continuous/surface_view.hpp"
+
 namespace broadside::continuous {
 namespace {
 
@@ -126,6 +128,17 @@ MovingFeatures moving_features(const MovingSurface& surface, const SurfaceFeatur
     out.end[k] = to_double(surface.end[points[k]]);
   }
   return out;
+}
+
+std::vector<VertexPath> vertex_paths(const MovingSurface& surface) {
+  std::vector<VertexPath> paths;
+  paths.reserve(surface.start.size());
+  for (std::size_t v = 0; v < surface.start.size(); ++v) {
+    const core::Vec3 from = surface.start[v];
+    const core::Vec3 to = surface.end[v];
+    paths.push_back({{from.x, from.y, from.z, 0.0F}, {to.x, to.y, to.z, 0.0F}});
+  }
+  return paths;
 }
 
 }  // namespace broadside::continuous
