@@ -172,6 +172,12 @@ std::string candidates_json(const std::vector<CandidateRow>& rows) {
                    {"digest", fmt::format("{:#018x}", r.digest)},
                    {"pairs_s", r.pairs_s},
                    {"candidates_s", r.candidates_s}});
+    if (r.impacts_s > 0.0)
+      out.back()["impacts"] = {{"touching", r.touching},
+                               {"digest", fmt::format("{:#018x}", r.impacts)},
+                               {"first_touch", r.first_touch},
+                               {"all_s", r.impacts_s},
+                               {"earliest_s", r.earliest_s}};
   }
   return out.dump(2);
 }

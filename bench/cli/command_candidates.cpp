@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bench/agree/motion/query_file.hpp"
 #include "bench/candidates/candidate_race.hpp"
@@ -23,6 +25,7 @@ struct CandidatesArguments {
   EngineArguments engines;
   std::string queries;
   bool tries_all = false;
+  bool finds_impacts = false;
   bool as_json = false;
   ChildLimits limits;
   bool is_in_process = false;
@@ -57,29 +60,51 @@ core::Exit verdict_on_candidates(const std::vector<CandidateRow>& rows) {
   return exit;
 }
 
-// The candidates with the arbiter's answers, as agree --motion reads them. By the twin, since all engines agree.
-core::Status write_queries(const CandidatesArguments& a) {
+// By the twin, since all engines agree.
+struct Found {
+  continuous::MovingSurface surface;
+  continuous::SurfaceFeatures features;
+  continuous::FeaturePairs pairs;
+  CandidateRow row;
+};
+
+core::Result<Found> candidates_of(const MotionSource& source) {
   const auto cell = parse_cell_spec("octree-cpu");
   if (!cell) return cell.error();
-  auto surface = make_surface(a.source);
+  auto surface = make_surface(source);
   if (!surface) return surface.error();
-  const continuous::SurfaceFeatures features = continuous::features_of(surface.value());
-  CandidateRow row;
-  auto found = candidates_by(cell.value(), surface.value(), features, row);
-  if (!found) return found.error();
-  if (core::Status s = prepare_folder(a.queries); !s) return s;
+  Found out;
+  out.surface = std::move(surface).value();
+  out.features = continuous::features_of(out.surface);
+  auto pairs = candidates_by(cell.value(), out.surface, out.features, out.row);
+  if (!pairs) return pairs.error();
+  out.pairs = std::move(pairs).value();
+  return out;
+}
+
+// With the arbiter's answers, as agree --motion reads them.
+core::Status write_queries(const Found& found, const std::string& folder) {
+  if (core::Status s = prepare_folder(folder); !s) return s;
   for (const auto kind : {continuous::FeatureKind::kVertexFace, continuous::FeatureKind::kEdgeEdge}) {
     const bool is_face = kind == continuous::FeatureKind::kVertexFace;
     std::vector<FileQuery> queries;
-    for (const auto pair : is_face ? found.value().vertex_face : found.value().edge_edge) {
-      const auto moving = continuous::moving_features(surface.value(), features, kind, pair);
+    for (const auto pair : is_face ? found.pairs.vertex_face : found.pairs.edge_edge) {
+      const auto moving = continuous::moving_features(found.surface, found.features, kind, pair);
       queries.push_back({exact::to_rational(moving), exact::first_touch(moving).touches});
     }
-    const auto file = std::filesystem::path(a.queries) / (is_face ? "vertex-face.csv" : "edge-edge.csv");
+    const auto file = std::filesystem::path(folder) / (is_face ? "vertex-face.csv" : "edge-edge.csv");
     if (core::Status s = write_query_file(queries, file); !s) return s;
-    fmt::print("{} queries in {}\n", queries.size(), file.string());
+    fmt::print(stderr, "{} queries in {}\n", queries.size(), file.string());
   }
   return core::Done{};
+}
+
+void print_impacts(const CandidateRow& r) {
+  const double count = static_cast<double>(r.vertex_face + r.edge_edge);
+  fmt::print("first touches: {} of {:.0f} candidates touch, the first at {} of the step; digest {:#018x}\n", r.touching,
+             count, r.touching > 0 ? fmt::format("{:.17g}", r.first_touch) : std::string("no time"), r.impacts);
+  fmt::print("  all times {:.3f} ms, {:.1f} million candidates/s; the earliest alone {:.3f} ms, {:.1f} million/s\n",
+             r.impacts_s * 1e3, 1e-6 * count / r.impacts_s, r.earliest_s * 1e3, 1e-6 * count / r.earliest_s);
 }
 
 core::Exit candidates(const CandidatesArguments& a) {
@@ -88,12 +113,20 @@ core::Exit candidates(const CandidatesArguments& a) {
   if (!cells) return complain(cells.error());
   auto rows = race_candidates(a.source, cells.value(), a.tries_all, a.limits, a.is_in_process);
   if (!rows) return complain(rows.error());
-  if (a.as_json)
-    fmt::print("{}\n", candidates_json(rows.value()));
-  else
-    print_candidates(rows.value());
-  if (!a.queries.empty())
-    if (core::Status s = write_queries(a); !s) return complain(s.error());
+  if (!a.as_json) print_candidates(rows.value());
+  if (a.finds_impacts || !a.queries.empty()) {
+    auto found = candidates_of(a.source);
+    if (!found) return complain(found.error());
+    CandidateRow& row = found.value().row;
+    if (a.finds_impacts)
+      if (core::Status s = time_impacts(found.value().surface, found.value().features, found.value().pairs, row); !s)
+        return complain(s.error());
+    if (a.finds_impacts && !a.as_json) print_impacts(row);
+    if (a.finds_impacts) rows.value().push_back(row);
+    if (!a.queries.empty())
+      if (core::Status s = write_queries(found.value(), a.queries); !s) return complain(s.error());
+  }
+  if (a.as_json) fmt::print("{}\n", candidates_json(rows.value()));
   return verdict_on_candidates(rows.value());
 }
 
@@ -118,6 +151,8 @@ void add_candidates(CLI::App& program, core::Exit& exit) {
   command->add_option("--to", a->source.end, "The same mesh at the end of the step, with triangles in the same order");
   a->engines.add_to(*command);
   command->add_flag("--try-all", a->tries_all, "Also try every pair of features, without a broad phase");
+  command->add_flag("--impacts", a->finds_impacts,
+                    "Also find the first touches of the candidates, with our own continuous collision on every core");
   command->add_option("--queries", a->queries,
                       "A folder for vertex-face.csv and edge-edge.csv, which 'agree --motion KIND --case FILE' reads");
   command->add_flag("--json", a->as_json, "As JSON");
