@@ -61,6 +61,10 @@ BROADSIDE_HD Triple<Real> magnitude(const Triple<Real>& a) {
   return {magnitude(a.x), magnitude(a.y), magnitude(a.z)};
 }
 template <typename Real>
+BROADSIDE_HD Triple<Real> lesser(const Triple<Real>& a, const Triple<Real>& b) {
+  return {lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)};
+}
+template <typename Real>
 BROADSIDE_HD Triple<Real> larger(const Triple<Real>& a, const Triple<Real>& b) {
   return {larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z)};
 }

@@ -28,55 +28,41 @@ continuous::Differences<Lanes, kCount> load_differences(const Source& source, co
   return continuous::differences<kCount>(start, end);
 }
 
-// What the first look leaves of a block, with the times up to which it proves that there is no touch.
+// What the first look leaves of a block.
 struct LeftOver {
   std::uint32_t count = 0;
   std::uint32_t query[kBlock + 16];
-  double time[kBlock + 16];
-
-  void add(std::uint32_t q, double t) {
-    query[count] = q;
-    time[count] = t;
-    ++count;
-  }
 };
 
 template <typename Lanes, int kCount, typename Source>
-void look(const Source& source, std::uint32_t first, std::uint32_t last, double limit, double* times, LeftOver& left) {
+void look(const Source& source, std::uint32_t first, std::uint32_t last, double* times, LeftOver& left) {
   std::uint32_t queries[Lanes::kWidth];
-  double until[Lanes::kWidth];
   for (std::uint32_t base = first; base < last; base += Lanes::kWidth) {
     const std::uint32_t count = last - base < Lanes::kWidth ? last - base : Lanes::kWidth;
     for (std::uint32_t k = 0; k < Lanes::kWidth; ++k) queries[k] = base + k < last ? base + k : last - 1;
     const auto x = load_differences<Lanes, kCount>(source, queries);
-    const Lanes time = continuous::first_look(x);
     const unsigned usual = is_of_usual_size(x).lanes();
-    const unsigned open = (time <= Lanes(limit)).lanes();
-    for (std::uint32_t k = 0; k < count; ++k) times[base + k] = kNoTouch;
-    const unsigned all = (1U << count) - 1U;
-    if ((open & usual & all) != 0) {
-      time.store(until);
-      for (std::uint32_t k = 0; k < count; ++k)
-        if (((open & usual) >> k & 1U) != 0) left.add(base + k, until[k]);
+    const unsigned apart = is_apart_at_first_look(x).lanes();
+    for (std::uint32_t k = 0; k < count; ++k) {
+      times[base + k] = kNoTouch;
+      // Written always and counted where it is so: no branch to guess.
+      left.query[left.count] = base + k;
+      left.count += usual >> k & ~(apart >> k) & 1U;
     }
+    if ((usual | ~((1U << count) - 1U)) == ~0U) continue;
     for (std::uint32_t k = 0; k < count; ++k)
       if ((usual >> k & 1U) == 0) times[base + k] = impact_alone<kCount>(source, base + k);
   }
 }
 
 template <typename Lanes, int kCount, typename Source>
-void search(const Source& source, double limit, double* times, LeftOver& left) {
-  for (int k = 0; k < Lanes::kWidth && left.count > 0; ++k) {  // the last lanes repeat the last query
+void search_left(const Source& source, double limit, double* times, LeftOver& left) {
+  for (int k = 0; k < Lanes::kWidth && left.count > 0; ++k)  // the last lanes repeat the last query
     left.query[left.count + k] = left.query[left.count - 1];
-    left.time[left.count + k] = left.time[left.count - 1];
-  }
   double until[Lanes::kWidth];
   for (std::uint32_t base = 0; base < left.count; base += Lanes::kWidth) {
     const auto x = load_differences<Lanes, kCount>(source, left.query + base);
-    const auto volume = continuous::volume_of(x);
-    const auto is_apart = continuous::is_never_flat(volume);
-    const Lanes time = pick(is_apart, Lanes(kNoTouch), Lanes::load(left.time + base));
-    const auto found = continuous::search_from(x, volume, time, Lanes(limit));
+    const auto found = continuous::search(x, continuous::volume_of(x), Lanes(limit));
     const unsigned touching = found.touches.lanes();
     const unsigned open = found.is_open.lanes();
     if ((touching | open) == 0) continue;
@@ -84,8 +70,7 @@ void search(const Source& source, double limit, double* times, LeftOver& left) {
     for (std::uint32_t k = 0; k < Lanes::kWidth && base + k < left.count; ++k) {
       const std::uint32_t query = left.query[base + k];
       if ((touching >> k & 1U) != 0) times[query] = until[k];
-      if ((open >> k & 1U) == 0) continue;
-      times[query] = impact_by_turning<kCount>(source, query, until[k]);
+      if ((open >> k & 1U) != 0) times[query] = impact_by_turning<kCount>(source, query, until[k]);
     }
   }
 }
@@ -95,8 +80,8 @@ void impacts(const Source& source, std::uint32_t first, std::uint32_t last, doub
   LeftOver left;
   for (std::uint32_t base = first; base < last; base += kBlock) {
     left.count = 0;
-    look<Lanes, kCount>(source, base, last - base < kBlock ? last : base + kBlock, limit, times, left);
-    search<Lanes, kCount>(source, limit, times, left);
+    look<Lanes, kCount>(source, base, last - base < kBlock ? last : base + kBlock, times, left);
+    search_left<Lanes, kCount>(source, limit, times, left);
   }
 }
 
