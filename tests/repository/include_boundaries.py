@@ -22,6 +22,7 @@ ROOMS = {
     "mutants": {"cell", "process"},
     "timing": {"cell", "process", "record"},
     "agree": {"cell", "process"},
+    "candidates": {"cell", "process"},
     "converge": set(),
     "forensics": {"cell", "process", "record"},
     "shrink": {"cell", "process", "record"},
@@ -30,7 +31,7 @@ ROOMS = {
     "contest": {"cell", "document", "process", "record", "campaign"},
     "fetched": {"process"},
     "benchmarks": {"record"},
-    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "converge", "forensics", "shrink", "campaign", "document", "paper",
+    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "candidates", "converge", "forensics", "shrink", "campaign", "document", "paper",
             "contest", "fetched"},
 }
 # Files of bench/ itself that wire rooms. Every other one includes no room.
