@@ -26,6 +26,7 @@ constexpr AddCommand kCommands[] = {
     add_run,              //
     add_agree,            //
     add_pairs,            //
+    add_candidates,       //
     add_check,            //
     add_converge,         //
     add_time,             //

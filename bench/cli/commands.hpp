@@ -15,6 +15,7 @@ void add_list(CLI::App& program, core::Exit& exit);
 void add_run(CLI::App& program, core::Exit& exit);
 void add_agree(CLI::App& program, core::Exit& exit);
 void add_pairs(CLI::App& program, core::Exit& exit);
+void add_candidates(CLI::App& program, core::Exit& exit);
 void add_compare(CLI::App& program, core::Exit& exit);
 void add_bisect(CLI::App& program, core::Exit& exit);
 void add_mutants(CLI::App& program, core::Exit& exit);

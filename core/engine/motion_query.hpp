@@ -2,6 +2,7 @@
 // engines that answer them.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
@@ -26,6 +27,15 @@ class FeatureMotionQuery {
  public:
   virtual ~FeatureMotionQuery() = default;
   virtual Result<FirstTouch> first_touch(const continuous::MovingFeatures& features) = 0;
+  // Many at once; as many places as features. What an engine does to answer many queries faster belongs here.
+  virtual Status first_touches(std::span<const continuous::MovingFeatures> features, std::span<FirstTouch> found) {
+    for (std::size_t k = 0; k < features.size(); ++k) {
+      auto one = first_touch(features[k]);
+      if (!one) return one.error();
+      found[k] = one.value();
+    }
+    return Done{};
+  }
 };
 
 struct MovingBody {

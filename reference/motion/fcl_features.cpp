@@ -23,27 +23,38 @@ class Features final : public core::FeatureMotionQuery {
   Features(bool is_filtered, bool uses_newton) : is_filtered_(is_filtered), uses_newton_(uses_newton) {}
 
   core::Result<core::FirstTouch> first_touch(const continuous::MovingFeatures& f) override {
-    return vendor_call("fcl-features: first touch", [&]() -> core::Result<core::FirstTouch> {
-      std::array<Vector, 4> from, to;
-      for (int k = 0; k < 4; ++k) {
-        from[k] = vector(f.start[k]);
-        to[k] = vector(f.end[k]);
-      }
-      double time = 1.0;
-      Vector at;
-      bool touches = false;
-      if (f.kind == continuous::FeatureKind::kVertexFace) {
-        const auto ask = is_filtered_ ? Intersect::intersect_VF_filtered : Intersect::intersect_VF;
-        touches = ask(from[1], from[2], from[3], from[0], to[1], to[2], to[3], to[0], &time, &at, uses_newton_);
-      } else {
-        const auto ask = is_filtered_ ? Intersect::intersect_EE_filtered : Intersect::intersect_EE;
-        touches = ask(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], &time, &at, uses_newton_);
-      }
-      return core::FirstTouch{touches, touches ? time : 1.0};
+    return vendor_call("fcl-features: first touch", [&]() -> core::Result<core::FirstTouch> { return ask(f); });
+  }
+
+  // As FCL is asked by its own traversal: one query after the other, nothing around them.
+  core::Status first_touches(std::span<const continuous::MovingFeatures> features,
+                             std::span<core::FirstTouch> found) override {
+    return vendor_call("fcl-features: first touches", [&]() -> core::Status {
+      for (std::size_t k = 0; k < features.size(); ++k) found[k] = ask(features[k]);
+      return core::Done{};
     });
   }
 
  private:
+  [[nodiscard]] core::FirstTouch ask(const continuous::MovingFeatures& f) const {
+    std::array<Vector, 4> from, to;
+    for (int k = 0; k < 4; ++k) {
+      from[k] = vector(f.start[k]);
+      to[k] = vector(f.end[k]);
+    }
+    double time = 1.0;
+    Vector at;
+    bool touches = false;
+    if (f.kind == continuous::FeatureKind::kVertexFace) {
+      const auto query = is_filtered_ ? Intersect::intersect_VF_filtered : Intersect::intersect_VF;
+      touches = query(from[1], from[2], from[3], from[0], to[1], to[2], to[3], to[0], &time, &at, uses_newton_);
+    } else {
+      const auto query = is_filtered_ ? Intersect::intersect_EE_filtered : Intersect::intersect_EE;
+      touches = query(from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3], &time, &at, uses_newton_);
+    }
+    return {touches, touches ? time : 1.0};
+  }
+
   bool is_filtered_;
   bool uses_newton_;
 };

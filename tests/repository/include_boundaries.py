@@ -22,6 +22,7 @@ ROOMS = {
     "mutants": {"cell", "process"},
     "timing": {"cell", "process", "record"},
     "agree": {"cell", "process"},
+    "candidates": {"cell", "process"},
     "converge": set(),
     "forensics": {"cell", "process", "record"},
     "shrink": {"cell", "process", "record"},
@@ -32,8 +33,8 @@ ROOMS = {
     "fetched": {"process"},
     "benchmarks": {"record"},
     "python": {"cell", "process", "record"},
-    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "converge", "forensics", "shrink", "bisect", "campaign", "document",
-            "paper", "contest", "fetched"},
+    "cli": {"cell", "process", "record", "mutants", "timing", "agree", "candidates", "converge", "forensics", "shrink", "bisect", "campaign",
+            "document", "paper", "contest", "fetched"},
 }
 # Files of bench/ itself that wire rooms. Every other one includes no room.
 WIRING = {

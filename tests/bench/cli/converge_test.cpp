@@ -29,7 +29,7 @@ TEST(Converge, WhatHasNoOrderOrNoAnswerSaysSo) {
   const Ended none = run_program({"converge", "two-body:rest", "--engine", "plain-rigid"});
   EXPECT_EQ(none.exit_code, 2) << none.out << none.err;
   EXPECT_NE(none.err.find("the scene has no exact answer"), std::string::npos) << none.err;
-  const Ended cannot = run_program({"converge", "rigid:flight:pushed", "--engine", "octree-cpu"});
+  const Ended cannot = run_program({"converge", "rigid:flight:pushed", "--engine", "hash-cpu"});
   EXPECT_EQ(cannot.exit_code, 3) << cannot.out << cannot.err;
 }
 
