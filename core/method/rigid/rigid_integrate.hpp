@@ -37,10 +37,13 @@ BROADSIDE_HD RigidState accelerated(RigidState s, const RigidMass& mass, Vec3 gr
   return s;
 }
 
-// An upper bound of the angular speed that this angular momentum can have in any orientation, rad/s: the trace of the
-// inverse inertia is at least its largest eigenvalue, and at most three times it.
-BROADSIDE_HD float fastest_spin_rad_s(const RigidMass& mass, Vec3 angular_momentum) {
-  return ((mass.inverse_inertia.xx + mass.inverse_inertia.yy) + mass.inverse_inertia.zz) * length(angular_momentum);
+// An upper bound of the angular speed that the body can come to while it turns freely, rad/s. Twice its energy is w . L
+// and stays, and is least where it is all about the axis of the smallest moment; the trace of the inverse inertia is at
+// least the largest eigenvalue. So a needle that tumbles is as fast as its slenderness allows and no faster.
+BROADSIDE_HD float fastest_spin_rad_s(const RigidMass& mass, Quat q, Vec3 angular_momentum) {
+  const float trace = (mass.inverse_inertia.xx + mass.inverse_inertia.yy) + mass.inverse_inertia.zz;
+  const float twice_energy = dot(turned_inverse_inertia(mass, q, angular_momentum), angular_momentum);
+  return twice_energy > 0.0F ? sqrtf(trace * twice_energy) : 0.0F;
 }
 
 BROADSIDE_HD constexpr Quat operator+(Quat a, Quat b) {
@@ -101,7 +104,7 @@ BROADSIDE_HD constexpr RestedQuat turned_part(const RigidMass& mass, Vec3 angula
 
 // The orientation after dt while no torque acts.
 BROADSIDE_HD RestedQuat turned(const RigidMass& mass, Vec3 angular_momentum, RestedQuat s, float dt_s) {
-  const float most = dt_s * fastest_spin_rad_s(mass, angular_momentum) * (1.0F / kLargestTurnOfPart);
+  const float most = dt_s * fastest_spin_rad_s(mass, s.q, angular_momentum) * (1.0F / kLargestTurnOfPart);
   if (!(most > 1.0F)) return turned_part(mass, angular_momentum, s, dt_s);
   const bool is_resolved = most < static_cast<float>(kMostTurnParts);
   const int parts = is_resolved ? static_cast<int>(most) + 1 : kMostTurnParts;
