@@ -172,6 +172,11 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
   return size > largest ? size : largest;
 }
 
+// Whether the point came fast enough to bounce, and was met in this substep.
+BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const SoftStep& step) {
+  return c.surface.restitution > 0.0F && p.approach_m_s > step.bounce_from_m_s && p.normal_impulse > 0.0F;
+}
+
 // One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
 // is the next substep's. Returns the largest change of a point's speed, m/s.
 BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
@@ -183,18 +188,15 @@ BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     if (gap > 0.0F && !(p.normal_impulse > 0.0F)) continue;
-    const float speed = dot(c.normal, relative_velocity(m, p)) + (gap > 0.0F ? gap * step.per_dt_s : 0.0F);
+    // What bounces has been met, wherever its neighbors left it.
+    const float may_close = gap > 0.0F && !bounces(c, p, step) ? gap * step.per_dt_s : 0.0F;
+    const float speed = dot(c.normal, relative_velocity(m, p)) + may_close;
     const float size = add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
     largest = size > largest ? size : largest;
   }
   const float size = solve_frictions(c, m, a, b);
   store(m, a, b);
   return size > largest ? size : largest;
-}
-
-// Whether the point came fast enough to bounce, and was met in this substep.
-BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const SoftStep& step) {
-  return c.surface.restitution > 0.0F && p.approach_m_s > step.bounce_from_m_s && p.normal_impulse > 0.0F;
 }
 
 // The fastest approach of the patch's points that bounce, m/s; 0 = none does.
@@ -225,21 +227,27 @@ BROADSIDE_HD void note_stopping(PatchConstraint& c) {
 }
 
 // Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
-// than that share of the impulse that stopped them (Poisson's rule): where friction turns a body about its corner,
-// Newton's rule alone may give back more energy than stopping took (Kane and Levinson, Dynamics, 1985). Returns the
-// largest change of a point's speed, m/s.
+// than that share of the impulse that stopped their patch (Poisson's rule): where friction turns a body about its
+// corner, Newton's rule alone may give back more energy than stopping took (Kane and Levinson, Dynamics, 1985). Returns
+// the largest change of a point's speed, m/s.
 BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
+  // Of the patch together: how its points share what stopped it is often open.
+  float room = 0.0F;
+  for (int k = 0; k < c.count; ++k) {
+    const PatchPoint& p = c.points[k];
+    if (bounces(c, p, step)) room += (1.0F + c.surface.restitution) * p.stopping_impulse - p.normal_impulse;
+  }
   for (int k = 0; k < kSweepsOfBounce * c.count; ++k) {
     const int at = k % c.count;
     PatchPoint& p = c.points[(k / c.count) % 2 == 0 ? at : c.count - 1 - at];
     if (!bounces(c, p, step)) continue;
     const float speed = dot(c.normal, relative_velocity(m, p));
     const float wish = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
-    const float most = (1.0F + c.surface.restitution) * p.stopping_impulse - p.normal_impulse;
-    const float change = wish < most ? wish : most;
-    const float size = add_normal_impulse(c, p, m, a, b, change);
+    const float before = p.normal_impulse;
+    const float size = add_normal_impulse(c, p, m, a, b, wish < room ? wish : room);
+    room -= p.normal_impulse - before;
     largest = size > largest ? size : largest;
   }
   const float size = solve_frictions(c, m, a, b);
