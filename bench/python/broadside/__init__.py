@@ -9,18 +9,49 @@ Units are SI, the frame is the world's, quaternions are w x y z. Arrays of a tra
 wrong is an exception with the line that the command line prints: BadInput, LawBroken, Missing or Internal.
 """
 
-from .device import DeviceRows
-from .engines import BroadPhase, Dynamics, engines, find_pairs
-from .errors import BadInput, Error, Internal, LawBroken, Missing
-from .program_engine import engine
-from .runs import Answer, compare, contest, report, run, time
-from .scenes import Scene, SceneBuilder, scene, scenes
-from .trace import Column, Frame, Trace
-from .verdicts import Verdict, Verdicts, check, laws
-from .writer import TraceWriter
+from __future__ import annotations
 
-__all__ = [
-    "Answer", "BadInput", "BroadPhase", "Column", "DeviceRows", "Dynamics", "Error", "Frame", "Internal",
-    "LawBroken", "Missing", "Scene", "SceneBuilder", "Trace", "TraceWriter", "Verdict", "Verdicts", "check",
-    "compare", "contest", "engine", "engines", "find_pairs", "laws", "report", "run", "scene", "scenes", "time",
-]
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .device import DeviceRows
+    from .errors import BadInput, Error, Internal, LawBroken, Missing
+    from .in_process import BroadPhase, Dynamics, engines, find_pairs
+    from .program_engine import engine
+    from .runs import Answer, compare, contest, report, run, time
+    from .scene_builder import Scene, SceneBuilder, scene, scenes
+    from .trace import Column, Frame, Trace
+    from .verdicts import Verdict, Verdicts, check, laws
+    from .writer import TraceWriter
+
+# Where each name is. A module is loaded when a name of it is first asked for: the process of a Python engine asks for
+# `engine` alone, and has ten seconds to say hello, so it does not load what judges and simulates.
+_PLACES = {
+    "device": ["DeviceRows"],
+    "errors": ["BadInput", "Error", "Internal", "LawBroken", "Missing"],
+    "in_process": ["BroadPhase", "Dynamics", "engines", "find_pairs"],
+    "program_engine": ["engine"],
+    "runs": ["Answer", "compare", "contest", "report", "run", "time"],
+    "scene_builder": ["Scene", "SceneBuilder", "scene", "scenes"],
+    "trace": ["Column", "Frame", "Trace"],
+    "verdicts": ["Verdict", "Verdicts", "check", "laws"],
+    "writer": ["TraceWriter"],
+}
+_MODULE_OF = {name: module for module, names in _PLACES.items() for name in names}
+__all__ = sorted(_MODULE_OF)
+
+
+def __getattr__(name: str) -> Any:
+    if name in _MODULE_OF:
+        value = getattr(importlib.import_module(f".{_MODULE_OF[name]}", __name__), name)
+    elif name in ("native", "program"):
+        value = importlib.import_module(f".{name}", __name__)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

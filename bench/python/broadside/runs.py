@@ -13,7 +13,7 @@ from . import program
 from .errors import BadInput, Missing
 from .program import Answer  # noqa: F401  (what compare, report and contest return)
 from .program_engine import command_of
-from .scenes import Scene, SceneBuilder
+from .scene_builder import Scene, SceneBuilder
 from .trace import Trace
 
 

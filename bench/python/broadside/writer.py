@@ -11,7 +11,7 @@ import numpy as np
 from . import native
 from .arrays import fitted
 from .errors import BadInput, Error
-from .scenes import Scene, scene as make_scene
+from .scene_builder import Scene, scene as make_scene
 
 STATES = ("position", "orientation", "velocity", "angular_velocity")
 

@@ -11,7 +11,7 @@ from . import native
 from .arrays import fitted, host_array
 from .device import CUDA, DeviceBoxes, DeviceRows, is_on_gpu
 from .errors import BadInput
-from .scenes import Scene, scene as make_scene
+from .scene_builder import Scene, scene as make_scene
 
 
 def _settings(settings):
