@@ -34,8 +34,9 @@ figure.drawing figcaption { font-size: .8rem; color: var(--soft); max-width: 40r
 }
 @media print {
   .wide { overflow: visible; background: none }
-  .wide table { width: 100%; min-width: 0; font-size: 6.5pt }
-  .wide th, .wide td { white-space: normal; overflow-wrap: anywhere; padding: .15rem .2rem; position: static }
+  .wide table { width: 100%; min-width: 0; table-layout: fixed }
+  .wide th, .wide td { white-space: normal; overflow-wrap: anywhere; padding: .15rem .2rem; position: static;
+    font-size: 6.5pt }
   .wide td.bad, .wide td.away { min-width: 0 }
   .wide tr, figure.drawing { break-inside: avoid }
   figure.drawing { width: 48% } figure.drawing svg { width: 100%; height: auto }
