@@ -20,7 +20,7 @@ constexpr std::string_view kBlockStyle = R"(
     linear-gradient(to left, var(--soft), transparent) right / .9rem 100% no-repeat scroll }
 .wide table { width: auto; min-width: 60% }
 .wide th, .wide td { white-space: nowrap }
-.wide td.bad, .wide td.away { white-space: normal; min-width: 8rem }
+.wide td.bad, .wide td.away { white-space: normal; min-width: 10rem }
 .wide tbody th { position: sticky; left: 0; background: var(--paper) }
 .wide td.good { color: var(--pass) } .wide td.bad { color: var(--fail); font-weight: 600 } .wide td.away { color: var(--soft) }
 figure.drawing { margin: 1rem 0; display: inline-block; vertical-align: top; max-width: 100% }
