@@ -158,7 +158,8 @@ const Entry* own_entry(const SceneTable& scene, const std::string& engine) {
 
 std::string entry_text(const Entry& entry) {
   if (entry.state != core::CellState::kRecorded)
-    return std::string(core::cell_state_word(entry.state)) + (entry.reason.empty() ? "" : ": " + entry.reason);
+    return std::string(core::cell_state_word(entry.state)) +
+           (entry.reason.empty() ? "" : ": " + entry.reason.substr(0, entry.reason.find(';')));
   const core::LawCount& laws = entry.coverage.of(core::LawKind::kMechanics);
   const std::string counted = fmt::format("{} of {}", laws.applied, laws.laws);
   if (entry.broken.empty()) return (entry.coverage.applied() == 0 ? "nothing judged, " : "holds, ") + counted;

@@ -67,7 +67,8 @@ core::Status read_energy(ContestTable& table, const std::filesystem::path& folde
 // Null where this engine was not asked for the scene at its own step.
 const Entry* own_entry(const SceneTable& scene, const std::string& engine);
 
-// "9 broken: friction-cone, energy-growth" or "holds, 11 of 14"; the word of an absent cell.
+// "9 broken: friction-cone, energy-growth" or "holds, 11 of 14"; the word of an absent cell and the first
+// part of its reason.
 std::string entry_text(const Entry& entry);
 
 }  // namespace broadside::bench::contest

@@ -1,5 +1,5 @@
-// Why engines of others break laws on scenes with known answers, as far as somebody looked: reference/README.md has each
-// with what was seen. What has no row here was not yet looked into, and the page says so.
+// Why engines of others break laws on scenes with known answers, as far as somebody looked: reference/README.md has
+// each with what was seen. What has no row here was not yet looked into, and the page says so.
 #pragma once
 
 #include <string_view>

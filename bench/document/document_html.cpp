@@ -20,7 +20,7 @@ constexpr std::string_view kBlockStyle = R"(
     linear-gradient(to left, var(--soft), transparent) right / .9rem 100% no-repeat scroll }
 .wide table { width: auto; min-width: 60% }
 .wide th, .wide td { white-space: nowrap }
-.wide td.bad, .wide td.away { white-space: normal; min-width: 8rem }
+.wide td.bad, .wide td.away { white-space: normal; min-width: 10rem }
 .wide tbody th { position: sticky; left: 0; background: var(--paper) }
 .wide td.good { color: var(--pass) } .wide td.bad { color: var(--fail); font-weight: 600 } .wide td.away { color: var(--soft) }
 figure.drawing { margin: 1rem 0; display: inline-block; vertical-align: top; max-width: 100% }
@@ -34,8 +34,9 @@ figure.drawing figcaption { font-size: .8rem; color: var(--soft); max-width: 40r
 }
 @media print {
   .wide { overflow: visible; background: none }
-  .wide table { width: 100%; min-width: 0; font-size: 6.5pt }
-  .wide th, .wide td { white-space: normal; overflow-wrap: anywhere; padding: .15rem .2rem; position: static }
+  .wide table { width: 100%; min-width: 0; table-layout: fixed }
+  .wide th, .wide td { white-space: normal; overflow-wrap: anywhere; padding: .15rem .2rem; position: static;
+    font-size: 6.5pt }
   .wide td.bad, .wide td.away { min-width: 0 }
   .wide tr, figure.drawing { break-inside: avoid }
   figure.drawing { width: 48% } figure.drawing svg { width: 100%; height: auto }

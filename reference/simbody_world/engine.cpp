@@ -18,7 +18,11 @@ namespace {
 constexpr std::string_view kId = "simbody-world";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 3> rows{{
+  static const std::array<core::SettingRow, 4> rows{{
+      {"tuning",
+       "accurate",
+       {"accurate", "shipped"},
+       "shipped: accuracy 1e-3 and slip below 1 cm/s, as Simbody ships, whatever the next two say"},
       {"accuracy_digits", "8", {}, "of its error-controlled Runge-Kutta-Merson integrator: 8 is 1e-8; Simbody ships 3"},
       {"stiffness_kpa", "10000", {}, "of every surface, kPa; 10000 is rubber"},
       {"slip_speed_um_s", "1000", {}, "micrometers/s below which friction fades; Simbody ships 10000"},
@@ -71,6 +75,10 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   options.accuracy = std::pow(10.0, -static_cast<double>(std::clamp(settings.number("accuracy_digits"), 1UL, 15UL)));
   options.stiffness_pa = 1e3 * static_cast<double>(std::max(1UL, settings.number("stiffness_kpa")));
   options.slip_speed_m_s = 1e-6 * static_cast<double>(std::max(1UL, settings.number("slip_speed_um_s")));
+  if (settings.text("tuning") == "shipped") {
+    options.accuracy = 1e-3;
+    options.slip_speed_m_s = 1e-2;
+  }
 
   core::Engine engine;
   engine.id = kId;

@@ -129,6 +129,55 @@ class References(unittest.TestCase):
                 self.assertEqual(made.read(), kept.read())
 
 
+class ContestMatrix(unittest.TestCase):
+    KEEP = os.path.join(ROOT, "bench", "contest", "results", "keep")
+
+    def test_the_page_that_is_kept_is_that_of_the_files(self):
+        kept = os.path.dirname(self.KEEP)
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(os.path.join(kept, "matrix.json"), folder)
+            subprocess.run([sys.executable, self.KEEP, "--tables", "--to", folder], check=True)
+            with open(os.path.join(folder, "README.md"), encoding="utf-8") as made, \
+                    open(os.path.join(kept, "README.md"), encoding="utf-8") as page:
+                self.assertEqual(made.read(), page.read())
+
+    def test_what_is_broken_and_what_has_no_trace_are_named(self):
+        stamp = {"scene_name": "a", "engine": "mine", "settings_short": "k=1", "machine": "a machine",
+                 "broadside_build": "a build", "engine_build": "Mine 1"}
+        verdicts = [{"validator": v, "outcome": o, "kind": "mechanics"}
+                    for v, o in (("rest", "fail"), ("momentum", "pass"), ("passage", "not applicable"))]
+        rows = {"cells.json": [{"stamp": stamp, "state": "recorded", "trace_file": "/of/this/run/a.h5"},
+                               {"stamp": {**stamp, "scene_name": "b"}, "state": "crashed", "trace_file": ""}],
+                "verdicts.json": [{"trace_file": "/of/this/run/a.h5", "verdicts": verdicts}]}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content in rows.items():
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    json.dump({"rows": content}, file)
+            subprocess.run([sys.executable, self.KEEP, folder, "--to", folder], check=True)
+            with open(os.path.join(folder, "README.md"), encoding="utf-8") as file:
+                page = file.read()
+            with open(os.path.join(folder, "matrix.json"), encoding="utf-8") as file:
+                self.assertNotIn("/of/this/run", file.read())
+        self.assertIn("| a | rest |", page)
+        self.assertIn("| b | crashed |", page)
+        self.assertIn("| `mine[k=1]` | Mine 1 | 2 | 0 | 1 | 1 |", page)
+
+
+class KnownAnswers(unittest.TestCase):
+    def test_the_table_that_is_kept_is_that_of_the_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = os.path.join(folder, "reference", "results")
+            os.makedirs(results)
+            for name in ("known_answers", "known_answers.json"):
+                shutil.copy(os.path.join(ROOT, "reference", "results", name), results)
+            page = os.path.join(folder, "reference", "README.md")
+            shutil.copy(os.path.join(ROOT, "reference", "README.md"), page)
+            subprocess.run([sys.executable, os.path.join(results, "known_answers"), "--table"], check=True)
+            with open(page, encoding="utf-8") as made, \
+                    open(os.path.join(ROOT, "reference", "README.md"), encoding="utf-8") as kept:
+                self.assertEqual(made.read(), kept.read())
+
+
 class GpuPage(unittest.TestCase):
     def page_of(self, files):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,10 +1,11 @@
 // Jolt Physics under Node: `jolt` in the list of engines.
 //
 // What is set: no damping, since scenes have none (the library's default is 0.05/s); speeds without the default caps of
-// 500 m/s and 47 rad/s; convex radius 0, so that corners are as the scene draws them; no sleeping. The rest is the
-// library's default, the gyroscopic torque (off) too, which is a setting. Jolt combines friction by the geometric mean and
-// restitution by the maximum, as scenes do. Listeners are told of points before they are solved, and never of impulses, so
-// contacts are declared as geometry. Telling them is inside the step's time.
+// 500 m/s and 47 rad/s; convex radius 0, so that corners are as the scene draws them; no sleeping; bounces above the
+// scene's threshold (the library's is 1 m/s). The rest is the library's default, the gyroscopic torque (off) too, which
+// is a setting. Jolt combines friction by the geometric mean and restitution by the maximum, as scenes do. Listeners are
+// told of points before they are solved, and never of impulses, so contacts are declared as geometry. Telling them is
+// inside the step's time.
 import initJolt from "jolt-physics";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -134,6 +135,9 @@ function begin(given) {
   jolt = worldFor(scene.bodies.length + 6);
   const system = jolt.GetPhysicsSystem();
   system.SetGravity(vec3(scene.gravity));
+  const physics = system.GetPhysicsSettings();
+  physics.mMinVelocityForRestitution = scene.v_threshold;
+  system.SetPhysicsSettings(physics);
   bodyInterface = system.GetBodyInterface();
   system.SetContactListener(listener);
   points = [], bodies = scene.bodies.map(bodyOf);

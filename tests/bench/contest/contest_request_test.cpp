@@ -1,8 +1,10 @@
 #include "bench/contest/contest_request.hpp"
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <string>
 
 namespace broadside::bench::contest {
 namespace {
@@ -43,8 +45,25 @@ TEST(ContestRequest, WithoutScenesOneOfEachKindTakesEveryStep) {
   EXPECT_EQ(cells.size(), default_scenes().size() + 9 * 3);
 }
 
+// Which engines of npm this machine has installed must not matter: asking one what it is would start this program.
+class WithoutFetchedEngines {
+ public:
+  WithoutFetchedEngines() {
+    if (const char* before = getenv(kName)) before_ = before;
+    setenv(kName, "/nowhere", 1);
+  }
+  ~WithoutFetchedEngines() { before_.empty() ? unsetenv(kName) : setenv(kName, before_.c_str(), 1); }
+  WithoutFetchedEngines(const WithoutFetchedEngines&) = delete;
+  WithoutFetchedEngines& operator=(const WithoutFetchedEngines&) = delete;
+
+ private:
+  static constexpr const char* kName = "XDG_CACHE_HOME";
+  std::string before_;
+};
+
 // An engine that is not on this machine is a word on the page, and no cell.
 TEST(ContestRequest, AbsentEnginesHaveAReasonAndNoCell) {
+  const WithoutFetchedEngines none;
   ContestRequest request;
   request.scenes = {"two-body:head-on"};
   const auto entrants = entrants_of(request);
