@@ -19,7 +19,10 @@ struct Volume {
 inline constexpr double kVolumeRounding = 16.0 * 0x1p-53;
 // A split is three layers of a difference of up to twice the largest coefficient, a product and a sum: 15 roundings.
 inline constexpr double kSplitRounding = 16.0 * 0x1p-53;
-inline constexpr int kClips = 5;
+// Newton's method doubles the digits from one or two on.
+inline constexpr int kGuesses = 5;
+// A split's and a dozen roundings of values that are no larger than three times the largest coefficient.
+inline constexpr double kGuessRounding = 64.0 * 0x1p-53;
 // Times are sums of a dozen rounded products below 1.
 inline constexpr double kTimeRounding = 0x1p-49;
 
@@ -67,43 +70,44 @@ BROADSIDE_HD Split<Real> split(const Real (&g)[4], const Real& share) {
 
 // Until when the points are surely in no plane, from `time` on: above 1 for the whole rest of the step, and no more
 // than `time` when they may be in one now. The steepest line from the first coefficient to another one lies below the
-// polygon of all, and so below the volume: no zero lies before its own. A line from the last coefficient, where the
-// volume has changed its sign, cuts off what lies behind a zero; so the lines close in on it, as Bezier clipping does.
+// polygon of all, and so below the volume: no zero lies before its own. From there Newton's method guesses the zero,
+// and the coefficients of the part before it prove the guess; where they do not, the line's zero counts.
 template <typename Real>
 BROADSIDE_HD Real unflat_until(const Volume<Real>& volume, const Real& time) {
-  const Real zero(0.0);
+  const Real zero(0.0), one(1.0);
   Real g[4];
   // The sign of now: behind a time at which it is about zero, the first coefficient there says which it is.
   const auto is_below = split(volume.at, time).behind[0] < zero;
   for (int k = 0; k < 4; ++k) g[k] = pick(is_below, zero - volume.at[k], volume.at[k]) - volume.doubt;
-  {
-    const Split<Real> parts = split(g, time);
-    for (int k = 0; k < 4; ++k) g[k] = parts.behind[k];
+  const Split<Real> rest = split(g, time);
+  const Real& here = rest.behind[0];
+  const Real slope =
+      larger(larger(Real(3.0) * (here - rest.behind[1]), Real(1.5) * (here - rest.behind[2])), here - rest.behind[3]);
+  const auto is_above = here > zero;
+  const auto meets = is_above & (slope > here);
+  const auto is_clear = is_above & !(slope > here);
+  const Real share = pick(meets, here, zero) / pick(meets, slope, one);
+  const Real from = time + share * (one - time);
+  const Split<Real> tail = split(rest.behind, share);
+  const Real(&h)[4] = tail.behind;
+  // The guess is of a little more than zero, by what splitting once more and Newton's method may round.
+  const Real most = larger(larger(magnitude(h[0]), magnitude(h[1])), larger(magnitude(h[2]), magnitude(h[3])));
+  const Real a0 = h[0] - Real(kGuessRounding) * most;
+  const Real a1 = Real(3.0) * (h[1] - h[0]);
+  const Real a2 = Real(3.0) * ((h[2] - h[1]) - (h[1] - h[0]));
+  const Real a3 = (h[3] - h[0]) - Real(3.0) * (h[2] - h[1]);
+  Real guess(0.0);
+  for (int k = 0; k < kGuesses; ++k) {
+    const Real value = a0 + guess * (a1 + guess * (a2 + guess * a3));
+    const Real rate = a1 + guess * (Real(2.0) * a2 + guess * (Real(3.0) * a3));
+    const auto falls = rate < zero;
+    guess = pick(falls, within_unit(guess - value / pick(falls, rate, one)), one);
   }
-  Real from = time;
-  Real to(1.0);
-  auto is_open = g[0] > zero;
-  auto is_clear = time > Real(2.0);  // none
-  for (int clip = 0; clip < kClips && any(is_open); ++clip) {
-    const Real slope = larger(larger(Real(3.0) * (g[0] - g[1]), Real(1.5) * (g[0] - g[2])), g[0] - g[3]);
-    const auto meets = slope > g[0];
-    // Without a zero up to `to`: the rest of the step is clear, if that is its end.
-    is_clear = is_clear | (is_open & !meets & (to >= Real(1.0)));
-    from = pick(is_open & !meets, to, from);
-    is_open = is_open & meets;
-    const Real share = pick(is_open, g[0], zero) / pick(is_open, slope, Real(1.0));
-    const Split<Real> left = split(g, share);
-    from = from + share * (to - from);
-    for (int k = 0; k < 4; ++k) g[k] = left.behind[k];
-    const auto ends_below = is_open & (g[3] < zero) & (g[0] > zero);
-    const Real back = larger(larger(Real(3.0) * (g[2] - g[3]), Real(1.5) * (g[1] - g[3])), g[0] - g[3]);
-    const Real kept = Real(1.0) + pick(ends_below, g[3], zero) / pick(ends_below, back, Real(1.0));
-    const Split<Real> right = split(g, kept);
-    to = pick(ends_below, from + kept * (to - from), to);
-    for (int k = 0; k < 4; ++k) g[k] = pick(ends_below, right.before[k], g[k]);
-    is_open = is_open & (g[0] > zero) & (to - from > Real(kTimeRounding));
-  }
-  return pick(is_clear, Real(2.0), larger(time, from - Real(kTimeRounding)));
+  const Split<Real> parts = split(h, guess);
+  const Real(&b)[4] = parts.before;
+  const auto is_proved = meets & (lesser(lesser(b[0], b[1]), lesser(b[2], b[3])) > zero);
+  const Real until = pick(is_proved, from + guess * (one - from), from) - Real(kTimeRounding);
+  return pick(is_clear, Real(2.0), larger(time, until));
 }
 
 }  // namespace broadside::continuous

@@ -27,6 +27,11 @@ BROADSIDE_HD bool any(bool is_true) {
 }
 
 template <typename Real>
+BROADSIDE_HD Real within_unit(const Real& x) {
+  return lesser(larger(x, Real(0.0)), Real(1.0));
+}
+
+template <typename Real>
 struct Triple {
   Real x{0.0}, y{0.0}, z{0.0};
 };

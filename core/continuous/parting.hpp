@@ -125,11 +125,6 @@ BROADSIDE_HD Triple<Real> nearest(const Triple<Real> (&now)[kFaceCount]) {
   return pick(is_inside, pick(has_area, normal, a), edge);
 }
 
-template <typename Real>
-BROADSIDE_HD Real within_unit(const Real& x) {
-  return lesser(larger(x, Real(0.0)), Real(1.0));
-}
-
 // The difference of the nearest points of two edges, or where both lie inside of them, their common normal. No unit.
 template <typename Real>
 BROADSIDE_HD Triple<Real> nearest(const Triple<Real> (&now)[kEdgeCount]) {

@@ -7,11 +7,12 @@ namespace {
 using continuous::FeatureKind;
 
 constexpr std::uint32_t kThreads = 128;
-constexpr std::uint32_t kBlocksPerMultiprocessor = 4;  // 128 registers a thread
+constexpr std::uint32_t kResidentBlocks = 4;  // 128 registers a thread
+// No block waits for another: more than are resident even out the ends.
+constexpr std::uint32_t kBlocksPerMultiprocessor = 16;
 
 template <FeatureKind kKind>
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
-    look_kernel(const __grid_constant__ ImpactView view) {
+__global__ void __launch_bounds__(kThreads, kResidentBlocks) look_kernel(const __grid_constant__ ImpactView view) {
   look_at_queries<kKind>(view);
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
+#include "validation/mechanics/mesh_passage.hpp"
 #include "validation/mechanics/motion.hpp"
 #include "validation/mechanics/oriented_box.hpp"
 #include "validation/subject_facts.hpp"
@@ -15,7 +17,7 @@ constexpr double kUnseenShare = 0.125;
 
 class Passage final : public Validator {
  public:
-  explicit Passage(const Subject& subject) : scene_(subject.header.scene), shapes_(scene_) {}
+  explicit Passage(const Subject& subject) : scene_(subject.header.scene), shapes_(scene_), meshes_(scene_) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
@@ -24,7 +26,7 @@ class Passage final : public Validator {
   }
 
   core::Verdict conclude() override {
-    return tally_.conclude("no two bodies with convex shapes moved fast enough past each other to pass through");
+    return tally_.conclude("no two bodies moved fast enough past each other to pass through");
   }
 
  private:
@@ -54,18 +56,41 @@ class Passage final : public Validator {
     };
     const BodyFacts& fa = m.facts[pair.i];
     const BodyFacts& fb = m.facts[pair.j];
-    const double overlap = overlap_bound(oriented_box(fa, origin(pair.i, p), matrix_of(p.q)),
-                                         oriented_box(fb, origin(pair.j, q), matrix_of(q.q)));
+    const OrientedBox box_a = oriented_box(fa, origin(pair.i, p), matrix_of(p.q));
+    const OrientedBox box_b = oriented_box(fb, origin(pair.j, q), matrix_of(q.q));
+    const double overlap = overlap_bound(box_a, box_b);
     if (overlap < 0.0) return -overlap;
+    if (!shapes_.knows(fa.mesh))
+      return distance_of_vertices(fa.mesh, origin(pair.i, p), p.q, box_b,
+                                  shapes_.placed(fb.mesh, origin(pair.j, q), q.q));
+    if (!shapes_.knows(fb.mesh))
+      return distance_of_vertices(fb.mesh, origin(pair.j, q), q.q, box_a,
+                                  shapes_.placed(fa.mesh, origin(pair.i, p), p.q));
     return exact::signed_distance(shapes_.placed(fa.mesh, origin(pair.i, p), p.q),
                                   shapes_.placed(fb.mesh, origin(pair.j, q), q.q))
         .distance_m;
   }
 
+  // Of a mesh that is not convex its vertices stand for it: how far the nearest is from the other body, or how deep the
+  // deepest is in it. No mesh is less deep than one of its vertices. At most the distance, as above.
+  [[nodiscard]] double distance_of_vertices(std::uint32_t mesh, Vec3d origin, Quatd q, const OrientedBox& box,
+                                            const exact::ConvexCore& other) const {
+    const Mat3d r = matrix_of(q);
+    double least = std::numeric_limits<double>::infinity();
+    exact::ConvexCore point;
+    point.vertices.resize(1);
+    for (const core::Vec3 v : scene_.meshes[mesh]->vertices) {
+      const Vec3d at = origin + r * Vec3d{v.x, v.y, v.z};
+      const double outside = distance_outside(box, at);
+      point.vertices[0] = to_point(at);
+      least = std::min(least, outside > 0.0 ? outside : exact::signed_distance(point, other).distance_m);
+    }
+    return least;
+  }
+
   void judge(const Motion& m, core::Pair pair) {
     const BodyFacts& fa = m.facts[pair.i];
     const BodyFacts& fb = m.facts[pair.j];
-    if (!shapes_.knows(fa.mesh) || !shapes_.knows(fb.mesh)) return;
     const BodyStep& a = m.bodies[pair.i];
     const BodyStep& b = m.bodies[pair.j];
     const auto swing = [](const BodyStep& s, const BodyFacts& f) {
@@ -73,7 +98,12 @@ class Passage final : public Validator {
     };
     // No two points of the bodies come closer by more than this in the step.
     const double moved = length((a.after.x - a.before.x) - (b.after.x - b.before.x)) + swing(a, fa) + swing(b, fb);
-    const double allowed = 0.5 * std::min(fa.smallest_side_m, fb.smallest_side_m);
+    const bool knows_a = shapes_.knows(fa.mesh);
+    const bool knows_b = shapes_.knows(fb.mesh);
+    const bool is_by_vertices = knows_a != knows_b;
+    // A vertex in the middle of a plate is half of its thickness deep, and no vertex is deeper in it.
+    const double allowed = is_by_vertices ? 0.25 * (knows_a ? fa : fb).smallest_side_m
+                                          : 0.5 * std::min(fa.smallest_side_m, fb.smallest_side_m);
     // What is not deep at the ends cannot have been much deeper between them: penetration judges the ends.
     if (moved <= allowed) return;
     // So fast that the poses do not say which way it turned.
@@ -81,14 +111,30 @@ class Passage final : public Validator {
     const double first = overlap_bound(oriented_box(fa, a.before), oriented_box(fb, b.before));
     const double last = overlap_bound(oriented_box(fa, a.after), oriented_box(fb, b.after));
     if (0.5 * (first + last + moved) <= allowed && tally_.check_bound(std::max({0.0, first, last}), allowed)) return;
+    if (!knows_a && !knows_b) {
+      judge_meshes(m, pair, moved, allowed);
+      return;
+    }
     const double d0 = distance_at(m, pair, 0.0);
     const double d1 = distance_at(m, pair, 1.0);
     const double limit = allowed + std::max({0.0, -d0, -d1});
     const double deepest = deepest_between({m, pair, limit, kUnseenShare * allowed}, {0.0, d0}, {1.0, d1}, moved);
-    tally_.check(deepest, {limit, "m", kOrigin}, Where::pair(m.step, pair.i, pair.j, "bodies.position"), [&] {
-      return "apart by " + number_text(d0) + " and " + number_text(d1) + " m at the two ends, and " +
-             number_text(deepest) + " m deep between them";
-    });
+    tally_.check(deepest, {limit, "m", is_by_vertices ? kOriginOfVertices : kOrigin},
+                 Where::pair(m.step, pair.i, pair.j, "bodies.position"), [&] {
+                   return "apart by " + number_text(d0) + " and " + number_text(d1) + " m at the two ends, and " +
+                          number_text(deepest) + " m deep between them";
+                 });
+  }
+
+  // By the arbiter: what never touches passed nothing, and what touched for a short while only was not deep. Whether
+  // the rest were deep, two surfaces do not say.
+  void judge_meshes(const Motion& m, core::Pair pair, double moved, double allowed) {
+    const double deepest = meshes_.deepest_m(m, pair, moved);
+    if (deepest > allowed) {
+      tally_.leave_undecided();
+      return;
+    }
+    tally_.check(deepest, {allowed, "m", kOrigin}, Where::pair(m.step, pair.i, pair.j, "bodies.position"));
   }
 
   struct Sample {
@@ -116,8 +162,12 @@ class Passage final : public Validator {
 
   static constexpr std::string_view kOrigin =
       "half of the smaller body's smallest side, beyond the depth at the ends: certified by conservative advancement";
+  static constexpr std::string_view kOriginOfVertices =
+      "a quarter of the convex body's smallest side, half of how deep a vertex can be in it, beyond the depth at the "
+      "ends: certified by conservative advancement";
   const core::Scene& scene_;
   ExactShapes shapes_;
+  MeshPassage meshes_;
   Tally tally_{"passage", "fast encounters", kOrigin};
 };
 

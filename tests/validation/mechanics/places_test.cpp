@@ -1,7 +1,11 @@
 // contact-truth, penetration, passage, energy-growth and rest: where bodies are, and what that costs.
+#include <array>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "core/contact.hpp"
+#include "datasets/shapes/box_mesh.hpp"
 #include "tests/validation/mechanics/one_step.hpp"
 
 namespace broadside::tests {
@@ -151,6 +155,48 @@ TEST(Passage, FindsWhatIsDeepBetweenTwoFrames) {
   EXPECT_DOUBLE_EQ(v.limit, 0.5);
   EXPECT_NE(v.explanation.find("m at the two ends, and 0."), std::string::npos) << told(v);
   EXPECT_EQ(law("passage", passes(1.0)).outcome, core::Outcome::kFail);
+}
+
+// A cube of 1 m with a dent in its top, cut into quarters: no convex shape. It falls through a plate, or past
+// its edge.
+Specimen falls(bool hits, bool plate_is_dented = false) {
+  const auto dented = [](std::array<double, 3> sides) {
+    core::Mesh mesh = datasets::box_mesh(sides, {2, 2, 2}).value();
+    for (core::Vec3& v : mesh.vertices)
+      if (v.x == 0.0F && v.z == 0.0F && v.y > 0.0F) v.y *= 0.5F;
+    return std::make_shared<const core::Mesh>(std::move(mesh));
+  };
+  Specimen r = one_step(2);
+  r.header.scene.gravity_m_s2 = {};
+  r.header.scene.meshes.push_back(dented({1, 1, 1}));
+  r.header.scene.meshes.push_back(
+      plate_is_dented ? dented({4, 0.2, 4})
+                      : std::make_shared<const core::Mesh>(datasets::box_mesh({4, 0.2, 4}, {1, 1, 1}).value()));
+  r.header.scene.bodies[0].inverse_mass = 0.0F;
+  r.header.scene.bodies[0].mesh = 2;
+  r.header.scene.bodies[1].mesh = 1;
+  r.header.scene.bodies[1].position = {hits ? 0.0F : 5.5F, 3, 0};
+  r.header.scene.bodies[1].velocity = {hits ? 0.0F : static_cast<float>(-3.5 / kStep), static_cast<float>(-6 / kStep),
+                                       0};
+  end_step(r, [&](core::WideStates& s) {
+    s.position[1].x -= hits ? 0.0 : 3.5;
+    s.position[1].y -= 6;
+  });
+  return r;
+}
+
+TEST(Passage, OfAMeshGoesByItsVertices) {
+  const core::Verdict v = law("passage", falls(true));
+  EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
+  EXPECT_NEAR(v.limit, 0.05, 1e-7) << "a quarter of the plate's thickness";
+  EXPECT_EQ(law("passage", falls(false)).outcome, core::Outcome::kPass) << told(law("passage", falls(false)));
+}
+
+TEST(Passage, OfTwoMeshesGoesByTheArbiter) {
+  EXPECT_EQ(law("passage", falls(false, true)).outcome, core::Outcome::kPass)
+      << told(law("passage", falls(false, true)));
+  EXPECT_EQ(law("passage", falls(true, true)).outcome, core::Outcome::kInconclusive)
+      << told(law("passage", falls(true, true)));
 }
 
 TEST(Passage, MeetsNothingThatIsSlow) {

@@ -1,0 +1,28 @@
+// How deep two meshes that are not convex can have been in each other within a step, by the arbiter of first touches.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "core/exact/rigid_touch.hpp"
+#include "validation/mechanics/motion.hpp"
+
+namespace broadside::validation {
+
+class MeshPassage {
+ public:
+  explicit MeshPassage(const core::Scene& scene) : scene_(scene) {}
+
+  // No less than their depth at any time between the two recorded states: 0 where they never touch. Between their first
+  // touch and their last one they move by so much; in the middle they are at most half of it deep, because at both of
+  // these times they only touch. moved_m: no two of their points come closer by more than this in the step.
+  double deepest_m(const Motion& motion, core::Pair pair, double moved_m);
+
+ private:
+  const exact::MovingShape& shape(const Motion& motion, std::uint32_t body);
+
+  const core::Scene& scene_;
+  std::map<std::uint32_t, exact::MovingShape> shapes_;  // by mesh: about the center of mass
+};
+
+}  // namespace broadside::validation
