@@ -148,6 +148,7 @@ __device__ float relax(const Team& team, const RigidFrameView& f, const Solve& s
   each_patch_by_color(team, f,
                       [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
                         load_for_sweep(slot, c);
+                        if (solve.may_bounce) load_approach(slot, c);
                         largest = fmaxf(largest, core::relax_patch(c, a, b, solve.soft));
                         store_impulses(slot, c);
                       });
