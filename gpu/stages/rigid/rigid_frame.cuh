@@ -33,6 +33,24 @@ __device__ inline bool lacks_pairs(const RigidFrameView& f) {
          (f.has_broad && f.broad_counters->is_aborted != 0);
 }
 
+// The first blocks of the grid, or one: one class for both, because the sweeps are long to compile.
+class SolvingTeam {
+ public:
+  __device__ SolvingTeam(std::uint32_t blocks, std::uint32_t* arrived) : blocks_{blocks, arrived} {}
+
+  __device__ std::uint64_t rank() const { return blocks_.rank(); }
+  __device__ std::uint64_t size() const { return blocks_.size(); }
+  __device__ void sync() const {
+    if (blocks_.blocks == 1)
+      __syncthreads();
+    else
+      blocks_.sync();
+  }
+
+ private:
+  PartialGridTeam blocks_;
+};
+
 template <typename Team>
 __device__ void solve_and_finish(const Team& team, const RigidFrameView& f) {
   run_substeps(team, f);
@@ -103,11 +121,7 @@ __device__ inline void run_rigid_frame(const RigidFrameView& f) {
   make_constraints(grid, f);
   grid.sync();
   const std::uint32_t blocks = solving_blocks(f);
-  if (blocks > 1) {
-    if (blockIdx.x < blocks) solve_and_finish(PartialGridTeam{blocks, &f.counts->arrived}, f);
-  } else if (blockIdx.x == 0) {
-    solve_and_finish(BlockTeam{}, f);
-  }
+  if (blockIdx.x < blocks) solve_and_finish(SolvingTeam(blocks, &f.counts->arrived), f);
 }
 
 }  // namespace broadside::gpu
