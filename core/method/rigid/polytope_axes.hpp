@@ -175,23 +175,23 @@ BROADSIDE_HD SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB&
     for (; j < b.edge_count() && count < axes_detail::kChunk; ++j)
       if (axes_detail::place(b, near_b, j, chunk[count])) ++count;
     for (int i = 0; i < a.edge_count() && count > 0; ++i) {
-      axes_detail::PlacedEdge of_a;
-      if (!axes_detail::place(a, near_a, i, of_a)) continue;
+      axes_detail::PlacedEdge edge_a;
+      if (!axes_detail::place(a, near_a, i, edge_a)) continue;
       for (int k = 0; k < count; ++k) {
-        const axes_detail::PlacedEdge& of_b = chunk[k];
-        const Vec3 between = (of_a.start + 0.5F * of_a.along) - (of_b.start + 0.5F * of_b.along);
-        const float most = farthest + of_a.half_length + of_b.half_length;
+        const axes_detail::PlacedEdge& edge_b = chunk[k];
+        const Vec3 between = (edge_a.start + 0.5F * edge_a.along) - (edge_b.start + 0.5F * edge_b.along);
+        const float most = farthest + edge_a.half_length + edge_b.half_length;
         if (dot(between, between) > most * most) continue;
         Vec3 n;
-        if (!axes_detail::across(of_a, a.face_count() > 0, of_b, b.face_count() > 0, n)) continue;
+        if (!axes_detail::across(edge_a, a.face_count() > 0, edge_b, b.face_count() > 0, n)) continue;
         // A sheet has no inside that would say on which side the other body is.
         if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet) {
           const float back = gap_along(a, b, -n);
-          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, i, of_b.index};
+          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, i, edge_b.index};
         }
-        if (!(dot(n, of_a.start - of_b.start) > edges.gap_m)) continue;
+        if (!(dot(n, edge_a.start - edge_b.start) > edges.gap_m)) continue;
         const float gap = gap_along(a, b, n);
-        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, of_b.index};
+        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, edge_b.index};
       }
     }
   }
