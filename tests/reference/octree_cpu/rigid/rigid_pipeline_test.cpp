@@ -81,18 +81,6 @@ TEST(RigidPipeline, HasTheSameBitsAtLevelsAToCAndWithoutABroadPhase) {
   EXPECT_EQ(digests(frames_of(std::move(brute), scene, 60)), c);
 }
 
-// Surfaces have nodes of their own at each level: A, B and C confirm the same pairs of them.
-TEST(RigidPipeline, HasTheSameBitsAtLevelsAToCForMeshes) {
-  const Scene scene = scene_of("freefall:lumpy:12[rigid=1]");
-  const auto c = frames_of(options(), scene, 90);
-  std::size_t points = 0;
-  for (const FrameRecord& f : c) points += f.points.size();
-  ASSERT_GT(points, 100U) << "the bodies did not touch";
-  EXPECT_EQ(digests(frames_of(options(0, Levels::kA), scene, 90)), digests(c));
-  EXPECT_EQ(digests(frames_of(options(0, Levels::kB), scene, 90)), digests(c));
-  EXPECT_EQ(digests(frames_of(options(2), scene, 90)), digests(c));
-}
-
 TEST(RigidPipeline, RepeatsARunAfterAnotherLoad) {
   const Scene scene = scene_of(kHeap);
   const Scene other = scene_of("rigid:stack:5");
