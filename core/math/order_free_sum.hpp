@@ -8,8 +8,8 @@
 
 namespace broadside::core {
 
-// Terms are counted in units of a power of two, 2^40 to 2^41 of which are the largest term: what a term loses is below a
-// 2^40th of that. Sums of integers have no order. Up to 2^22 terms.
+// Terms are counted in units of a power of two, 2^40 to 2^41 of which are the largest term: what a term loses is below
+// a 2^40th of that. Sums of integers have no order. Up to 2^22 terms.
 class OrderFreeSum {
  public:
   // largest: of all terms; finite.
