@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "validation/mechanics/point_speed.hpp"
+#include "validation/mechanics/scene_friction.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -31,15 +32,10 @@ class FrictionCone final : public Validator {
   core::Verdict conclude() override { return tally_.conclude("no point of contact with an impulse"); }
 
  private:
-  // The scene's rule: the geometric mean of the two surfaces (DESIGN).
   [[nodiscard]] Friction friction_of(const core::ContactPoint& p) const {
-    const core::Material& a = scene_.bodies[p.a].material;
-    const core::Material& b = core::is_face(p.b) ? scene_.face_material : scene_.bodies[p.b].material;
-    const auto mean = [](double x, double y) { return std::sqrt(x * y); };
-    const double fixed = mean(a.mu_static, b.mu_static);
-    const double sliding = mean(a.mu_kinetic, b.mu_kinetic);
+    const SceneFriction mu = scene_friction(scene_, p);
     const double widest = model_ == "pyramid" ? std::sqrt(2.0) : 1.0;
-    return {widest * std::max(fixed, sliding), model_ == "regularized" ? 0.0 : std::min(fixed, sliding)};
+    return {widest * mu.larger(), model_ == "regularized" ? 0.0 : std::min(mu.fixed, mu.sliding)};
   }
 
   // The sums of what all impulses of the step did to a body, by magnitude.

@@ -2,8 +2,10 @@
 #include <cstdint>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "validation/mechanics/point_speed.hpp"
+#include "validation/mechanics/scene_friction.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -13,13 +15,17 @@ namespace {
 
 class Unilateral final : public Validator {
  public:
-  explicit Unilateral(const Subject& subject) : margin_m_(subject.header.declaration.number("contact_margin_m")) {}
+  explicit Unilateral(const Subject& subject)
+      : scene_(subject.header.scene),
+        margin_m_(subject.header.declaration.number("contact_margin_m")),
+        has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
     given_.clear();
     for (const core::ContactPoint& p : evidence.frame.points) given_[{p.a, p.b}].add(m, p);
+    if (has_substeps_) list_points(evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
       if (p.impulse == core::Vec3{}) continue;
       const Vec3d at(p.point);
@@ -34,7 +40,10 @@ class Unilateral final : public Validator {
       own.add(m, p);
       const double gained = std::max(own.speed_at_point(p, m), given_[{p.a, p.b}].speed_at_point(p, m));
       const double left = approach_at(Moment::kEnd) + change_by_turning(m, p.a, at) + change_by_turning(m, p.b, at);
-      const double approach = std::max(came, left + gained);
+      double approach = std::max(came, left + gained);
+      // With substeps the impulses of a step come one after the other: this point may have been met before others had
+      // slowed its bodies, and after others had driven them on.
+      if (has_substeps_) approach = std::max(approach, came + driven_by_others(m, evidence.frame.points, p));
       // Gravity may bring them together within the step.
       const double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
@@ -70,9 +79,52 @@ class Unilateral final : public Validator {
     }
   };
 
+  void list_points(const std::vector<core::ContactPoint>& points) {
+    points_of_.clear();
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+      points_of_[points[k].a].push_back(k);
+      if (!core::is_face(points[k].b)) points_of_[points[k].b].push_back(k);
+    }
+  }
+
+  // At most by how much the impulses of other points, those that drive the bodies together and not those that part
+  // them, can raise the approach at this point, m/s.
+  double driven_by_others(const Motion& m, const std::vector<core::ContactPoint>& points,
+                          const core::ContactPoint& p) const {
+    return driven(m, points, p, p.a, 1.0) + driven(m, points, p, p.b, -1.0);
+  }
+
+  // sign: 1 for the body that the normal points to. An impulse's normal part only grows within a step; its friction may
+  // have had any direction, up to mu times that.
+  double driven(const Motion& m, const std::vector<core::ContactPoint>& points, const core::ContactPoint& p,
+                std::uint32_t body, double sign) const {
+    const auto listed = points_of_.find(body);
+    if (core::is_face(body) || !m.facts[body].is_dynamic || listed == points_of_.end()) return 0.0;
+    // By reciprocity, how fast this point parts for a unit impulse elsewhere on the body is how fast that place moves
+    // for a unit impulse here.
+    const Change unit = change_by(m, body, Vec3d(p.point), sign * Vec3d(p.normal));
+    double sum = 0.0;
+    for (const std::uint32_t k : listed->second) {
+      const core::ContactPoint& q = points[k];
+      if (&q == &p || q.impulse == core::Vec3{}) continue;
+      const Vec3d n(q.normal);
+      const double push = std::max(0.0, dot(Vec3d(q.impulse), n));
+      const Vec3d moves = unit.dv + cross(unit.dw, Vec3d(q.point) - m.bodies[body].before.x);
+      const double along = dot(moves, n);
+      const double side = q.a == body ? 1.0 : -1.0;
+      sum += push * std::max(0.0, -side * along);
+      sum += scene_friction(scene_, q).larger() * push * length(moves - along * n);
+    }
+    return sum;
+  }
+
   static constexpr std::string_view kOrigin =
-      "the declared margin, h times the approach speed with gravity, wrenches and turning, and rounding";
+      "the declared margin, h times the approach speed with gravity, wrenches and turning, and rounding; with substeps "
+      "also what other impulses of the step drive";
+  const core::Scene& scene_;
   double margin_m_;
+  bool has_substeps_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> points_of_;   // by body
   std::map<std::pair<std::uint32_t, std::uint32_t>, Given> given_;  // by the bodies of the points
   Tally tally_{"unilateral", "points with an impulse", kOrigin};
 };
