@@ -5,10 +5,7 @@
 #define BROADSIDE_HD __host__ __device__ __forceinline__
 // Of a large function that is called from several places: there is one of it.
 #define BROADSIDE_HD_CALLED __host__ __device__ inline __noinline__
-// Before a loop of a few turns over an array that shall be in registers.
-#define BROADSIDE_UNROLL _Pragma("unroll")
 #else
-#define BROADSIDE_UNROLL
 #define BROADSIDE_HD inline
 #define BROADSIDE_HD_CALLED inline
 #endif

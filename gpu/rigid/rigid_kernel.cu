@@ -11,8 +11,8 @@ namespace broadside::gpu {
 namespace {
 
 constexpr std::uint32_t kThreads = 256;
-// One: 255 registers a thread, so that a patch's points stay in them.
-constexpr std::uint32_t kBlocksPerMultiprocessor = 1;
+// Two: 128 registers a thread.
+constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
 __global__ void __launch_bounds__(kThreads) place_kernel(const __grid_constant__ RigidFrameView frame) {
   run_place(frame);

@@ -19,9 +19,7 @@ struct PatchWay {
 };
 
 BROADSIDE_HD void note_impulses(const PatchConstraint& c, PatchWay& way) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     way.before[k][0] = c.points[k].normal_impulse;
     way.before[k][1] = c.points[k].tangent_impulse_1;
     way.before[k][2] = c.points[k].tangent_impulse_2;
@@ -31,9 +29,7 @@ BROADSIDE_HD void note_impulses(const PatchConstraint& c, PatchWay& way) {
 // The square of what the sweep changed, in the mobilities of the points, J.
 BROADSIDE_HD float squared_change(const PatchConstraint& c, const PatchWay& way) {
   float sum = 0.0F;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     const PatchPoint& p = c.points[k];
     const float n = p.normal_impulse - way.before[k][0];
     const float t1 = p.tangent_impulse_1 - way.before[k][1];
@@ -46,9 +42,7 @@ BROADSIDE_HD float squared_change(const PatchConstraint& c, const PatchWay& way)
 // Goes on along the last direction by `share` of it, and turns the direction to what the sweep changed.
 BROADSIDE_HD void follow(PatchConstraint& c, PatchWay& way, SolverBody& a, SolverBody& b, float share) {
   PatchMotion m = motion_of(a, b);
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
     const float step[3] = {p.normal_impulse - way.before[k][0], p.tangent_impulse_1 - way.before[k][1],
                            p.tangent_impulse_2 - way.before[k][2]};

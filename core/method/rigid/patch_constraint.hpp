@@ -71,9 +71,7 @@ BROADSIDE_HD float mobility(const SolverBody& body, Vec3 arm, Vec3 d1, Vec3 d2) 
 BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   float of_a = 0.0F;
   float of_b = 0.0F;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     const PatchPoint& p = c.points[k];
     of_a = dot(p.arm_a, p.arm_a) > of_a ? dot(p.arm_a, p.arm_a) : of_a;
     of_b = dot(p.arm_b, p.arm_b) > of_b ? dot(p.arm_b, p.arm_b) : of_b;
@@ -92,9 +90,7 @@ BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const Sol
   c.tangent_2 = cross(c.normal, c.tangent_1);
   c.surface = surface;
   c.count = manifold.count;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
     p.arm_a = manifold.points[k].point;
     p.arm_b = manifold.points[k].point - center_b_from_a;

@@ -51,18 +51,14 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
 // Before anything else of a substep: how fast the points come.
 BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   const PatchMotion m = motion_of(a, b);
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k)
-    if (k < c.count) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
+  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
 }
 
 // The largest speed of a point relative to the other body, m/s.
 BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   const PatchMotion m = motion_of(a, b);
   float squared = 0.0F;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     const Vec3 v = relative_velocity(m, c.points[k]);
     squared = dot(v, v) > squared ? dot(v, v) : squared;
   }
@@ -72,9 +68,7 @@ BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, 
 // The impulses of the substep before.
 BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
   PatchMotion m = motion_of(a, b);
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
     p.slides = false;
     push(m, a, b, p,
@@ -126,9 +120,7 @@ BROADSIDE_HD float solve_friction(const PatchConstraint& c, PatchPoint& p, Patch
 
 BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const SolverBody& a, const SolverBody& b) {
   float largest = 0.0F;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     const float size = solve_friction(c, c.points[k], m, a, b);
     largest = size > largest ? size : largest;
   }
@@ -148,9 +140,7 @@ BROADSIDE_HD float fastest_push(const PatchConstraint& c, const PatchPoint& p, f
 BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     const float speed = dot(c.normal, relative_velocity(m, p));
@@ -182,9 +172,7 @@ BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const S
 BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     if (gap > 0.0F && !(p.normal_impulse > 0.0F)) continue;
@@ -202,10 +190,8 @@ BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
 // The fastest approach of the patch's points that bounce, m/s; 0 = none does.
 BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step) {
   float fastest = 0.0F;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k)
-    if (k < c.count)
-      if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
+  for (int k = 0; k < c.count; ++k)
+    if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
   return fastest;
 }
 
@@ -221,9 +207,7 @@ inline constexpr float kBounceDone = 0x1p-10F;
 
 // Before a bounce: the impulse that stopped each point.
 BROADSIDE_HD void note_stopping(PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k)
-    if (k < c.count) c.points[k].stopping_impulse = c.points[k].normal_impulse;
+  for (int k = 0; k < c.count; ++k) c.points[k].stopping_impulse = c.points[k].normal_impulse;
 }
 
 // Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
@@ -257,9 +241,7 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
 
 // Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
 BROADSIDE_HD void add_to_totals(PatchConstraint& c, const SoftStep& step) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;

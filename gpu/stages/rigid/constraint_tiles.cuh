@@ -42,9 +42,7 @@ __device__ inline core::PatchConstraint load_bodies_and_points(const TileSlot& s
   c.b = __float_as_uint(slot.at(kBodyB));
   c.count = static_cast<int>(__float_as_uint(slot.at(kPointCount)));
   c.normal = slot.vector(kNormal);
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     c.points[k].arm_a = slot.vector(k, kArmA);
     c.points[k].arm_b = slot.vector(k, kArmB);
   }
@@ -60,9 +58,7 @@ __device__ inline void load_surface_and_masses(const TileSlot& slot, core::Patch
   c.surface = {slot.at(kSurface), slot.at(kSurface + 1), slot.at(kSurface + 2)};
   c.slop_m = slot.at(kSlop);
   c.fastest_push_m_s = slot.at(kFastestPush);
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     core::PatchPoint& p = c.points[k];
     p.gap_m = slot.at(k, kGap);
     p.normal_mass = slot.at(k, kNormalMass);
@@ -74,9 +70,7 @@ __device__ inline void load_surface_and_masses(const TileSlot& slot, core::Patch
 }
 
 __device__ inline void load_impulses(const TileSlot& slot, core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     core::PatchPoint& p = c.points[k];
     p.normal_impulse = slot.at(k, kImpulses);
     p.tangent_impulse_1 = slot.at(k, kImpulses + 1);
@@ -86,9 +80,7 @@ __device__ inline void load_impulses(const TileSlot& slot, core::PatchConstraint
 }
 
 __device__ inline void store_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     const core::PatchPoint& p = c.points[k];
     slot.at(k, kImpulses) = p.normal_impulse;
     slot.at(k, kImpulses + 1) = p.tangent_impulse_1;
@@ -98,33 +90,23 @@ __device__ inline void store_impulses(const TileSlot& slot, const core::PatchCon
 }
 
 __device__ inline void load_approach(const TileSlot& slot, core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k)
-    if (k < c.count) c.points[k].approach_m_s = slot.at(k, kApproach);
+  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = slot.at(k, kApproach);
 }
 
 __device__ inline void store_approach(const TileSlot& slot, const core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k)
-    if (k < c.count) slot.at(k, kApproach) = c.points[k].approach_m_s;
+  for (int k = 0; k < c.count; ++k) slot.at(k, kApproach) = c.points[k].approach_m_s;
 }
 
 __device__ inline void load_stopping(const TileSlot& slot, core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k)
-    if (k < c.count) c.points[k].stopping_impulse = slot.at(k, kStopping);
+  for (int k = 0; k < c.count; ++k) c.points[k].stopping_impulse = slot.at(k, kStopping);
 }
 
 __device__ inline void store_stopping(const TileSlot& slot, const core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k)
-    if (k < c.count) slot.at(k, kStopping) = c.points[k].stopping_impulse;
+  for (int k = 0; k < c.count; ++k) slot.at(k, kStopping) = c.points[k].stopping_impulse;
 }
 
 __device__ inline void load_totals(const TileSlot& slot, core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     c.points[k].normal_total = slot.at(k, kTotals);
     c.points[k].tangent_total_1 = slot.at(k, kTotals + 1);
     c.points[k].tangent_total_2 = slot.at(k, kTotals + 2);
@@ -132,9 +114,7 @@ __device__ inline void load_totals(const TileSlot& slot, core::PatchConstraint& 
 }
 
 __device__ inline void store_totals(const TileSlot& slot, const core::PatchConstraint& c) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     slot.at(k, kTotals) = c.points[k].normal_total;
     slot.at(k, kTotals + 1) = c.points[k].tangent_total_1;
     slot.at(k, kTotals + 2) = c.points[k].tangent_total_2;
@@ -143,9 +123,7 @@ __device__ inline void store_totals(const TileSlot& slot, const core::PatchConst
 
 __device__ inline core::PatchWay load_way(const TileSlot& slot, int count) {
   core::PatchWay way{};
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= count) break;
+  for (int k = 0; k < count; ++k) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       way.before[k][i] = slot.at(k, kBefore + i);
       way.way[k][i] = slot.at(k, kWay + i);
@@ -155,17 +133,13 @@ __device__ inline core::PatchWay load_way(const TileSlot& slot, int count) {
 }
 
 __device__ inline void store_before(const TileSlot& slot, int count, const core::PatchWay& way) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k)
-    if (k < count)
-      for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kBefore + i) = way.before[k][i];
+  for (int k = 0; k < count; ++k)
+    for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kBefore + i) = way.before[k][i];
 }
 
 __device__ inline void store_direction(const TileSlot& slot, int count, const core::PatchWay& way) {
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k)
-    if (k < count)
-      for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kWay + i) = way.way[k][i];
+  for (int k = 0; k < count; ++k)
+    for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kWay + i) = way.way[k][i];
 }
 
 // All of it, when it was made.
@@ -179,9 +153,7 @@ __device__ inline void store_constraint(const TileSlot& slot, const core::PatchC
   slot.put(kSurface, {c.surface.mu_static, c.surface.mu_kinetic, c.surface.restitution});
   slot.at(kSlop) = c.slop_m;
   slot.at(kFastestPush) = c.fastest_push_m_s;
-  BROADSIDE_UNROLL
-  for (int k = 0; k < core::kManifoldPoints; ++k) {
-    if (k >= c.count) break;
+  for (int k = 0; k < c.count; ++k) {
     const core::PatchPoint& p = c.points[k];
     slot.put(k, kArmA, p.arm_a);
     slot.put(k, kArmB, p.arm_b);
