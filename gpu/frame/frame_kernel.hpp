@@ -8,6 +8,7 @@
 #include "core/math/vec3.hpp"
 #include "core/result.hpp"
 #include "gpu/broad/bulk_view.hpp"
+#include "gpu/broad/settle_view.hpp"
 #include "gpu/frame/frame_view.hpp"
 #include "gpu/frame/grid_frame_view.hpp"
 #include "gpu/frame/ring_shares.hpp"
@@ -59,6 +60,7 @@ struct PairsView {
   BroadView broad;
   BulkView bulk;  // where the start is Start::kBulk
   AppendView<core::Pair> pairs;
+  SettleView settle;  // of a search in mapped coordinates
   Counters* counters = nullptr;
   unsigned long long* barrier = nullptr;  // the barrier word
   Outcome* outcome = nullptr;

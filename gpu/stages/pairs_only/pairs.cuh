@@ -7,6 +7,7 @@
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/pairs_only/bulk_search.cuh"
 #include "gpu/stages/pairs_only/bulk_sort.cuh"
+#include "gpu/stages/pairs_only/settle_stage.cuh"
 
 namespace broadside::gpu {
 
@@ -20,10 +21,12 @@ __device__ inline void start_counts(const PairsView& view) {
 template <bool kIsBulk>
 struct PairsScratch {
   PairQueue queue;
+  __device__ PairQueue& room() { return queue; }
 };
 template <>
 struct PairsScratch<true> {
   BulkNotes notes;
+  __device__ PairQueue& room() { return notes.queue; }
 };
 
 // Boxes in, pairs out. kIsBulk: the search is that of Start::kBulk.
@@ -60,9 +63,15 @@ __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
                                view.outcome);
   }
   grid.sync();
+  if (view.settle.given != nullptr) {
+    const unsigned long long found = min(view.counters->pairs, static_cast<unsigned long long>(view.pairs.capacity));
+    settle_pairs(grid, view.settle, view.pairs.items, found, scratch.room(), &view.counters->confirmed);
+    grid.sync();
+  }
   if (grid.rank() != 0) return;
   mark_end(grid, view.outcome, FindStep::kSearch);
-  view.counters->is_aborted = !has_room || view.counters->pairs > view.pairs.capacity ? 1 : 0;
+  const bool is_settled = view.settle.given == nullptr || view.counters->confirmed <= view.settle.pairs.capacity;
+  view.counters->is_aborted = !has_room || !is_settled || view.counters->pairs > view.pairs.capacity ? 1 : 0;
   view.outcome->counters = *view.counters;
 }
 
