@@ -3,9 +3,11 @@
 #include <tbb/task_arena.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/engine/search_path.hpp"
 #include "reference/scene_octree/box_check.hpp"
 #include "reference/scene_octree/octree_record.hpp"
 #include "reference/scene_octree/pass_trees.hpp"
@@ -93,7 +95,7 @@ class SceneOctreeBroadPhase final : public core::BroadPhase, public OctreeRecord
   std::vector<std::uint8_t> is_static_;
 };
 
-class TreeBroadPhase final : public core::BroadPhase {
+class TreeBroadPhase final : public core::BroadPhase, public core::TellsPath {
  public:
   explicit TreeBroadPhase(int threads) : arena_(threads) {}
 
@@ -121,6 +123,8 @@ class TreeBroadPhase final : public core::BroadPhase {
   [[nodiscard]] std::vector<core::Counter> counters() const override {
     return {{"broad: nodes visited", tree_.nodes_visited()}, {"broad: box tests", 8U * tree_.packs_tested()}};
   }
+
+  [[nodiscard]] std::string path() const override { return core::words_of(tree_.plan()); }
 
   core::Result<core::PairSet> read_back() override {
     core::PairSet set;
