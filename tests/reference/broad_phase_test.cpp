@@ -49,6 +49,8 @@ const std::vector<Subject>& subjects() {
   static const std::vector<Subject> all{
       {"all_pairs", reference::all_pairs_row, {}},
       {"all_pairs_1_thread", reference::all_pairs_row, {{"threads", "1"}}},
+      {"octree_cpu", reference::octree_cpu_row, {}},
+      {"octree_cpu_kept", reference::octree_cpu_row, {{"broad", "kept"}}},
       {"hash_cpu", reference::hash_cpu_row, {}},
       {"hash_cpu_small_cells", reference::hash_cpu_row, {{"cell_mm", "37"}}},
       {"hash_cpu_large_cells", reference::hash_cpu_row, {{"cell_mm", "3000"}}},
