@@ -5,7 +5,6 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
 
 namespace broadside::reference {
@@ -23,13 +22,12 @@ void gather(std::span<const Box> boxes, std::span<const std::uint32_t> ids, std:
   });
 }
 
-// Bit by bit, so that a box that is no number is seen as changed as often as it comes.
+// A box that is no number equals none, so it is seen as changed as often as it comes.
 bool are_as_before(std::span<const Box> boxes, std::span<const std::uint32_t> ids, const std::vector<Box>& before) {
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, ids.size(), kGrain), true,
       [&](const auto& range, bool is_same) {
-        for (std::size_t k = range.begin(); k != range.end(); ++k)
-          is_same = is_same && std::memcmp(&boxes[ids[k]], &before[k], sizeof(Box)) == 0;
+        for (std::size_t k = range.begin(); k != range.end(); ++k) is_same = is_same && boxes[ids[k]] == before[k];
         return is_same;
       },
       std::logical_and<>());
