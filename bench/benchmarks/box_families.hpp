@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/box.hpp"
 #include "datasets/box_streams/box_sets.hpp"
+#include "datasets/box_streams/box_stream.hpp"
 #include "datasets/box_streams/box_sweeps.hpp"
 
 namespace broadside::bench {
@@ -18,9 +20,15 @@ struct BoxSet {
   std::string path;
   std::uint32_t count;
   std::vector<core::Box> (*make)(std::uint32_t count, double value);
-  double value;  // what the sweep varies; 0 where nothing is
+  double value;      // what the sweep varies; 0 where nothing is
+  std::string spec;  // a name of datasets::make_box_stream, instead of `make`
 
-  [[nodiscard]] std::vector<core::Box> boxes() const { return make(count, value); }
+  // None where the set cannot be made here: a mesh that the machine has not.
+  [[nodiscard]] std::vector<core::Box> boxes() const {
+    if (spec.empty()) return make(count, value);
+    auto stream = datasets::make_box_stream(spec, kSeed);
+    return stream.ok() ? std::move(stream).value().boxes : std::vector<core::Box>{};
+  }
 };
 
 // The three kinds of work to race on, over the count of boxes.
@@ -28,10 +36,21 @@ inline std::vector<BoxSet> race_sets(const std::vector<std::uint32_t>& counts) {
   std::vector<BoxSet> sets;
   for (const std::uint32_t n : counts) {
     const std::string tail = "/" + std::to_string(n);
-    sets.push_back({"uniform" + tail, n, [](std::uint32_t c, double) { return datasets::uniform_boxes(c, kSeed); }, 0});
-    sets.push_back({"heaps" + tail, n, [](std::uint32_t c, double) { return datasets::heap_boxes(c, kSeed); }, 0});
-    sets.push_back({"mixed" + tail, n, [](std::uint32_t c, double) { return datasets::mixed_boxes(c, kSeed); }, 0});
+    sets.push_back(
+        {"uniform" + tail, n, [](std::uint32_t c, double) { return datasets::uniform_boxes(c, kSeed); }, 0, {}});
+    sets.push_back({"heaps" + tail, n, [](std::uint32_t c, double) { return datasets::heap_boxes(c, kSeed); }, 0, {}});
+    sets.push_back({"mixed" + tail, n, [](std::uint32_t c, double) { return datasets::mixed_boxes(c, kSeed); }, 0, {}});
   }
+  return sets;
+}
+
+// Some 100,000 boxes of surfaces, long and thin, spread unevenly.
+inline std::vector<BoxSet> hard_sets() {
+  constexpr std::uint32_t kCount = 100'000;
+  std::vector<BoxSet> sets;
+  for (const char* name : {"mesh:dragon", "mesh:bunny:20", "sheet:100000", "slivers:100000", "needles:100000",
+                           "spiral:100000", "cantor:100000"})
+    sets.push_back({name, kCount, nullptr, 0, std::string("boxes:") + name});
   return sets;
 }
 
@@ -39,7 +58,7 @@ inline std::vector<BoxSet> race_sets(const std::vector<std::uint32_t>& counts) {
 inline std::vector<BoxSet> sweep_sets(std::uint32_t count) {
   std::vector<BoxSet> sets;
   const auto add = [&](const char* name, const char* value, auto make) {
-    sets.push_back({std::string(name) + "/" + value + "/" + std::to_string(count), count, make, std::stod(value)});
+    sets.push_back({std::string(name) + "/" + value + "/" + std::to_string(count), count, make, std::stod(value), {}});
   };
   for (const char* density : {"0.01", "0.1", "1", "4"})
     add("density", density, [](std::uint32_t c, double v) { return datasets::boxes_of_density(c, kSeed, v); });

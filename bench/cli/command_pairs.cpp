@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -14,10 +15,14 @@
 namespace broadside::bench {
 namespace {
 
+// Each part reads all boxes once.
+constexpr std::uint32_t kMostParts = 4096;
+
 struct PairsArguments {
   std::string boxes;
   EngineArguments engines;
   std::uint32_t frames = 0;
+  std::uint32_t parts = 1;
   bool only_digest = false;
   bool as_json = false;
   ChildLimits limits;
@@ -34,10 +39,20 @@ void print_table(const std::vector<RaceRow>& rows) {
       fmt::print("{:<28} {:>12} {:>12} {:#018x} {:>12.3f} {:>12.3f} {:>12.3f} {:>12.3f}\n", r.label, r.pairs, r.raw,
                  r.digest, r.update_s * 1e3, r.find_s * 1e3, r.filter_s * 1e3, r.read_back_s * 1e3);
   }
+  for (const RaceRow& r : rows)
+    if (!r.path.empty()) fmt::print("{}: {}\n", r.label, r.path);
+  for (const RaceRow& r : rows)
+    if (r.parts > 1 && r.absent.empty())
+      fmt::print("{}: {} parts with {:.3g} % more boxes, cut in {:.3f} ms of the update; at most {} pairs at once\n",
+                 r.label, r.parts,
+                 100.0 * (static_cast<double>(r.dealt) / std::max(1.0, static_cast<double>(r.boxes * r.frames)) - 1.0),
+                 r.cut_s * 1e3, r.most_pairs_at_once);
   // All engines had the same boxes.
   for (const RaceRow& r : rows) {
-    if (r.remark.empty()) continue;
-    fmt::print("{}\n", r.remark);
+    if (!r.absent.empty()) continue;
+    const double all = std::max(1.0, static_cast<double>(r.boxes) * static_cast<double>(r.frames));
+    fmt::print("set: {}\n", datasets::words_of(r.kind, static_cast<double>(r.pairs) / all));
+    if (!r.remark.empty()) fmt::print("{}\n", r.remark);
     break;
   }
 }
@@ -63,7 +78,7 @@ core::Exit pairs(const PairsArguments& a) {
   if (a.is_in_process) limit_this_process(a.limits.memory_mib);
   auto cells = a.engines.make();
   if (!cells) return complain(cells.error());
-  auto rows = race_boxes(a.boxes, cells.value(), a.frames, a.limits, a.is_in_process);
+  auto rows = race_boxes(a.boxes, cells.value(), a.frames, a.parts, a.limits, a.is_in_process);
   if (!rows) return complain(rows.error());
   if (a.as_json) {
     fmt::print("{}\n", race_json(rows.value()));
@@ -81,7 +96,9 @@ core::Exit pairs(const PairsArguments& a) {
 void add_pairs(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<PairsArguments>();
   CLI::App* command = program.add_subcommand(
-      "pairs", "Overlapping pairs of boxes: engines must agree (exit 1 if they do not); times are of this one call");
+      "pairs",
+      "Overlapping pairs of boxes: engines must agree (exit 1 if they do not); times are of this one call. Says what "
+      "kind of set this is, and which way an engine took that has several");
   command
       ->add_option(
           "BOXES", a->boxes,
@@ -90,6 +107,11 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
   a->engines.add_to(*command);
   command->add_option("--frames", a->frames, "Frames of a moving stream (default: all)")
       ->check(more_than_zero, "POSITIVE");
+  command
+      ->add_option("--parts", a->parts,
+                   "Cut space into so many ranges and search one after another; pairs are handed on part by part, so "
+                   "that neither all boxes nor all pairs are in the engine at once")
+      ->check(CLI::Range(1U, kMostParts));
   command->add_flag("--digest", a->only_digest, "Print only digest and engine");
   command->add_flag("--json", a->as_json, "As JSON");
   add_limits(*command, a->limits);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "bench/engines.hpp"
 #include "bench/plugin_engines.hpp"
 #include "bench/process/interrupt.hpp"
+#include "bench/timing/parted_frame.hpp"
+#include "core/engine/search_path.hpp"
 #include "datasets/box_streams/box_stream.hpp"
 #include "datasets/box_streams/long_boxes.hpp"
 
@@ -23,8 +26,13 @@ core::Error pairs_interrupted() {
   return {"interrupted", "pairs", "", core::Exit::kMissing};
 }
 
-core::Status run_frame(core::BroadPhase& broad, const std::vector<core::Box>& boxes, std::uint64_t frame,
-                       RaceRow& row) {
+// One frame's digest is that of its pairs; further frames are mixed with their number.
+void add_frame(RaceRow& row, std::uint64_t digest) {
+  row.digest += row.frames == 0 ? digest : core::splitmix64(digest + row.frames);
+  ++row.frames;
+}
+
+core::Status run_frame(core::BroadPhase& broad, const std::vector<core::Box>& boxes, RaceRow& row) {
   const auto start = Clock::now();
   if (core::Status s = broad.update(boxes); !s) return s;
   const auto updated = Clock::now();
@@ -40,14 +48,32 @@ core::Status run_frame(core::BroadPhase& broad, const std::vector<core::Box>& bo
   row.filter_s += pairs.value().filter_s;
   row.pairs += pairs.value().pairs.size();
   row.raw += pairs.value().raw;
-  // One frame's digest is that of its pairs; further frames are mixed with their number.
-  const std::uint64_t digest = core::pair_digest(pairs.value().pairs);
-  row.digest += frame == 0 ? digest : core::splitmix64(digest + frame);
-  ++row.frames;
+  add_frame(row, core::pair_digest(pairs.value().pairs));
   return core::Done{};
 }
 
-core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell, std::uint32_t frames) {
+core::Status run_parted_frame(core::BroadPhase& broad, const std::vector<core::Box>& boxes,
+                              const std::vector<std::uint8_t>& is_static, RaceRow& row) {
+  std::uint64_t digest = 0;
+  const auto found = find_in_parts(broad, boxes, is_static, row.parts,
+                                   [&](std::span<const core::Pair> pairs) { digest += core::pair_digest(pairs); });
+  if (!found) return found.error();
+  const PartedFrame& f = found.value();
+  row.update_s += f.cut_s + f.load_s;
+  row.cut_s += f.cut_s;
+  row.find_s += f.find_s;
+  row.read_back_s += f.read_back_s;
+  row.filter_s += f.filter_s;
+  row.pairs += f.pairs;
+  row.raw += f.raw;
+  row.dealt += f.dealt;
+  row.most_pairs_at_once = std::max(row.most_pairs_at_once, f.most_pairs_at_once);
+  add_frame(row, digest);
+  return core::Done{};
+}
+
+core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell, std::uint32_t frames,
+                           std::uint32_t parts) {
   const std::string reason = why_absent(*cell.row);
   if (!reason.empty())
     return core::Error{"not measured: " + reason, std::string(cell.row->id), "leave it out", core::Exit::kMissing};
@@ -67,16 +93,40 @@ core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell,
   row.label = label_of(cell);
   row.boxes = stream.boxes.size();
   row.remark = datasets::long_boxes_remark(stream.boxes);
+  row.kind = datasets::kind_of(stream.boxes);
   const std::vector<std::uint8_t> is_static(stream.boxes.size());
-  if (core::Status s = broad->load(stream.boxes, is_static); !s) return s.error();
+  row.parts = parts;
+  if (parts == 1)
+    if (core::Status s = broad->load(stream.boxes, is_static); !s) return s.error();
   const std::uint32_t count = frames > 0 ? std::min(frames, stream.frames) : stream.frames;
   for (std::uint32_t k = 0; k < count; ++k) {
     if (is_interrupted()) return pairs_interrupted();
     if (k > 0)
       if (core::Status s = stream.advance(stream.boxes); !s) return s.error();
-    if (core::Status s = run_frame(*broad, stream.boxes, k, row); !s) return s.error();
+    const core::Status s =
+        parts == 1 ? run_frame(*broad, stream.boxes, row) : run_parted_frame(*broad, stream.boxes, is_static, row);
+    if (!s) return s.error();
   }
+  if (const auto* chooser = dynamic_cast<const core::TellsPath*>(broad)) row.path = chooser->path();
   return row;
+}
+
+nlohmann::ordered_json json_of(const datasets::BoxKind& kind) {
+  // A ratio to a point has no number in JSON.
+  const double ratio = kind.size_ratio();
+  return {{"boxes", kind.boxes},
+          {"least_m", kind.least_m},
+          {"median_m", kind.median_m},
+          {"most_m", kind.most_m},
+          {"size_ratio", std::isfinite(ratio) ? nlohmann::ordered_json(ratio) : nlohmann::ordered_json()},
+          {"thin_share", kind.thin_share},
+          {"flatness", kind.flatness},
+          {"cells_of_half", kind.cells_of_half}};
+}
+
+datasets::BoxKind kind_of_json(const nlohmann::json& json) {
+  return {json.at("boxes"),      json.at("least_m"),  json.at("median_m"),     json.at("most_m"),
+          json.at("thin_share"), json.at("flatness"), json.at("cells_of_half")};
 }
 
 core::Result<RaceRow> row_of_json(const std::string& text) {
@@ -94,6 +144,12 @@ core::Result<RaceRow> row_of_json(const std::string& text) {
     row.filter_s = out.at("filter_s");
     row.read_back_s = out.at("read_back_s");
     row.remark = out.value("remark", "");
+    row.path = out.value("path", "");
+    row.parts = out.value("parts", 1U);
+    row.dealt = out.value("dealt", std::uint64_t{0});
+    row.cut_s = out.value("cut_s", 0.0);
+    row.most_pairs_at_once = out.value("most_pairs_at_once", std::uint64_t{0});
+    row.kind = kind_of_json(out.at("set"));
     return row;
   } catch (const std::exception& e) {
     return core::Error{std::string("its answer cannot be read: ") + e.what(), "child process", "",
@@ -102,7 +158,7 @@ core::Result<RaceRow> row_of_json(const std::string& text) {
 }
 
 core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& cell, std::uint32_t frames,
-                                    const ChildLimits& limits) {
+                                    std::uint32_t parts, const ChildLimits& limits) {
   std::vector<std::string> args{"pairs", stream, "--engine", engine_argument(*cell.row), "--json", "--in-process"};
   for (const auto& [key, value] : cell.settings) {
     args.emplace_back("--set");
@@ -111,6 +167,10 @@ core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& c
   if (frames > 0) {
     args.emplace_back("--frames");
     args.push_back(std::to_string(frames));
+  }
+  if (parts > 1) {
+    args.emplace_back("--parts");
+    args.push_back(std::to_string(parts));
   }
   append_memory_limit(args, limits);
   auto ended = run_self(args, limits, Keeps::kOutputAndErrors);
@@ -134,11 +194,12 @@ core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& c
 }  // namespace
 
 core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const std::vector<CellSpec>& cells,
-                                              std::uint32_t frames, const ChildLimits& limits, bool here) {
+                                              std::uint32_t frames, std::uint32_t parts, const ChildLimits& limits,
+                                              bool here) {
   std::vector<RaceRow> rows;
   for (const CellSpec& cell : cells) {
     const bool is_apart = (cell.row->runs_in_child || limits.are_asked) && !here && why_absent(*cell.row).empty();
-    auto row = is_apart ? race_in_child(stream, cell, frames, limits) : race(stream, cell, frames);
+    auto row = is_apart ? race_in_child(stream, cell, frames, parts, limits) : race(stream, cell, frames, parts);
     if (!row) return row.error();
     rows.push_back(std::move(row).value());
   }
@@ -161,7 +222,12 @@ std::string race_json(const std::vector<RaceRow>& rows) {
                    {"update_s", r.update_s},
                    {"find_s", r.find_s},
                    {"filter_s", r.filter_s},
-                   {"read_back_s", r.read_back_s}});
+                   {"read_back_s", r.read_back_s},
+                   {"set", json_of(r.kind)}});
+    if (r.parts > 1)
+      out.back().update(
+          {{"parts", r.parts}, {"dealt", r.dealt}, {"cut_s", r.cut_s}, {"most_pairs_at_once", r.most_pairs_at_once}});
+    if (!r.path.empty()) out.back()["path"] = r.path;
     if (!r.remark.empty()) out.back()["remark"] = r.remark;
   }
   return out.dump(2);

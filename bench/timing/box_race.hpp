@@ -8,6 +8,7 @@
 #include "bench/cell/cell_spec.hpp"
 #include "bench/process/child.hpp"
 #include "core/result.hpp"
+#include "datasets/box_streams/box_kind.hpp"
 
 namespace broadside::bench {
 
@@ -23,18 +24,26 @@ struct RaceRow {
   double find_s = 0.0;
   double filter_s = 0.0;     // of read_back_s: the engine's raw pairs filtered on the given boxes
   double read_back_s = 0.0;  // copies, the engine's own filter, canonical order
-  std::string remark;        // on the set of the first frame, where its shape slows engines; else empty
-  std::string absent;        // why a reference's process gave no answer; empty when it did
-  std::string verdict;       // then: "abort", "time-out", ... (class_of in bench/process/child.hpp)
-  std::string repeat;        // and the command that repeats it; the boxes follow from their name, or are its file
+  datasets::BoxKind kind;    // of the first frame
+  std::uint32_t parts = 1;   // of space, searched one after another
+  std::uint64_t dealt = 0;   // then: boxes of all parts
+  double cut_s = 0.0;        // of update_s: choosing the cut and copying each part's boxes
+  std::uint64_t most_pairs_at_once = 0;
+  std::string path;     // how the engine searched the last frame; empty where it has one way
+  std::string remark;   // on the set of the first frame, where its shape slows engines; else empty
+  std::string absent;   // why a reference's process gave no answer; empty when it did
+  std::string verdict;  // then: "abort", "time-out", ... (class_of in bench/process/child.hpp)
+  std::string repeat;   // and the command that repeats it; the boxes follow from their name, or are its file
 };
 
-// frames: at most this many; 0 = all of the stream. References run in child processes, and all engines where limits
+// frames: at most this many; 0 = all of the stream. parts: of space; each is loaded, searched and handed on alone, and
+// update_s has cutting and loading. References run in child processes, and all engines where limits
 // were asked for, unless `here`. Errors: interrupted, unknown or malformed boxes, an engine without a broad phase or
 // without its device, an engine that fails in this process. An engine whose child process dies leaves a row that says
 // so.
 core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const std::vector<CellSpec>& cells,
-                                              std::uint32_t frames, const ChildLimits& limits, bool here);
+                                              std::uint32_t frames, std::uint32_t parts, const ChildLimits& limits,
+                                              bool here);
 
 // A row as JSON, as the command prints it and as a child process tells its parent.
 std::string race_json(const std::vector<RaceRow>& rows);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 
 namespace broadside::core {
 namespace {
@@ -139,6 +141,17 @@ std::vector<Group> groups_of(const Kinds& kinds, std::uint32_t most, double boxe
   return groups;
 }
 
+// Scales the axes to the sides of two groups, and puts the one with the most cells first.
+void fit_map(PassMap& map, const Group& a, const Group& b, const Widths& world) {
+  Widths cells{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    map.axis[k].scale *= scale_for(std::max(a.side[k], b.side[k]), world[k]);
+    cells[k] = world[k] * static_cast<double>(map.axis[k].scale);
+  }
+  std::stable_sort(std::begin(map.from), std::end(map.from),
+                   [&](std::uint8_t p, std::uint8_t q) { return cells[p] > cells[q]; });
+}
+
 // A pass for each two groups, or for the only one.
 void add_passes(const std::vector<Group>& groups, const Widths& world, PassPlan& plan) {
   std::array<double, kMostGroups> own_tests;
@@ -150,8 +163,7 @@ void add_passes(const std::vector<Group>& groups, const Widths& world, PassPlan&
       plan.plain_tests += cubic(groups[a], groups[b], world) * (a == b ? 0.5 : 1.0);
       if (a == b && count > 1) continue;
       BoxPass pass{1U << a | 1U << b, 0, plan.shapes};
-      for (std::size_t k = 0; k < 3; ++k)
-        pass.map.axis[k].scale *= scale_for(std::max(groups[a].side[k], groups[b].side[k]), world[k]);
+      fit_map(pass.map, groups[a], groups[b], world);
       for (std::uint32_t g = a; g <= b; g += std::max(b - a, 1U)) {
         const double own = 0.5 * fitted(groups[g], groups[g], groups[a], groups[b], world);
         plan.pass_tests += kTestsOfABox * groups[g].share + own;
@@ -180,21 +192,27 @@ PassPlan plan_passes(std::span<const Box> boxes, float largest_m, std::uint32_t 
   const PassMap shapes = map_of_shapes(sample, largest_m);
   const Kinds kinds = kinds_of(sample, shapes);
   const double boxes_a_sample = static_cast<double>(n) / static_cast<double>(sample.size());
-  PassPlan best;
-  for (const std::uint32_t most : {1U, kMostGroups}) {
-    PassPlan plan;
-    plan.shapes = shapes;
-    plan.plain_tests = kTestsOfABox * n;
-    add_passes(groups_of(kinds, most, boxes_a_sample, plan), kinds.world, plan);
-    // What the boxes cost as they are is told by kinds, not by one mean of all: by the last plan.
-    const double plain_tests = plan.plain_tests;
-    if (most == 1U || plan.pass_tests < best.pass_tests) best = std::move(plan);
-    best.plain_tests = plain_tests;
-  }
+  PassPlan plan;
+  plan.shapes = shapes;
+  plan.plain_tests = kTestsOfABox * n;
+  // By exponents, sides differ by powers of two within every kind, and the levels of one octree take them apart.
+  const std::uint32_t most_groups = plan.is_logarithmic() ? 1U : kMostGroups;
+  add_passes(groups_of(kinds, most_groups, boxes_a_sample, plan), kinds.world, plan);
   // The model sees no clusters, so a world far wider than its places is mapped whatever it says.
-  const bool is_gain = best.is_logarithmic() || best.plain_tests > kLeastGain * best.pass_tests;
-  if (!is_gain || is_crowded(sample)) best.passes.clear();
-  return best;
+  const bool is_gain = plan.is_logarithmic() || plan.plain_tests > kLeastGain * plan.pass_tests;
+  if (!is_gain || is_crowded(sample)) plan.passes.clear();
+  return plan;
+}
+
+std::string words_of(const PassPlan& plan) {
+  if (plan.is_plain()) return "one search of the boxes as they are";
+  char text[200];
+  if (plan.is_logarithmic())
+    std::snprintf(text, sizeof text, "one pass by exponent, since most places are below 2^-16 of the farthest");
+  else
+    std::snprintf(text, sizeof text, "%zu %s of long thin boxes: some %.2g tests are expected, %.2g without",
+                  plan.passes.size(), plan.passes.size() == 1 ? "pass" : "passes", plan.pass_tests, plan.plain_tests);
+  return text;
 }
 
 }  // namespace broadside::core

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/math/box.hpp"
@@ -44,10 +45,17 @@ struct AxisMap {
 
 struct PassMap {
   AxisMap axis[3];
+  // Which axis of the given boxes is x, y and z: the one with the most cells is x, along which a GPU's table has its
+  // runs.
+  std::uint8_t from[3] = {0, 1, 2};
 
   [[nodiscard]] Box operator()(const Box& b) const {
-    return {{axis[0](b.min.x), axis[1](b.min.y), axis[2](b.min.z)},
-            {axis[0](b.max.x), axis[1](b.max.y), axis[2](b.max.z)}};
+    Box mapped;
+    for (int k = 0; k < 3; ++k) {
+      mapped.min[k] = axis[from[k]](b.min[from[k]]);
+      mapped.max[k] = axis[from[k]](b.max[from[k]]);
+    }
+    return mapped;
   }
 };
 
@@ -95,5 +103,8 @@ inline constexpr std::uint32_t kLeastBoxesForPasses = 4096;
 // coordinate, where it is known; else 0.
 PassPlan plan_passes(std::span<const Box> boxes, float largest_m = 0.0F,
                      std::uint32_t least_boxes = kLeastBoxesForPasses);
+
+// "one search of the boxes as they are", or the passes and why.
+std::string words_of(const PassPlan& plan);
 
 }  // namespace broadside::core

@@ -22,8 +22,9 @@ const std::array<core::SettingRow, 9>& settings_table() {
   static const std::array<core::SettingRow, 9> kTable{{
       {"broad",
        "tree",
-       {"tree", "octree", "brute"},
-       "where candidates come from: tree = the fast octree; octree = P-Alg 1; brute = the levels' published start"},
+       {"tree", "kept", "octree", "brute"},
+       "where candidates come from: tree = the fast octree; kept = the same, keeping what still holds between frames; "
+       "octree = P-Alg 1; brute = the levels' published start"},
       {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
       {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
       {"threads", "0", {}, "threads; 0 = all. Does not change a bit of the result"},
@@ -64,6 +65,9 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   } else if (settings.text("broad") == "tree") {
     options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };
     alone = make_tree_broad_phase(threads);
+  } else if (settings.text("broad") == "kept") {
+    options.make_broad_phase = [](const core::Scene&) { return make_kept_broad_phase(); };
+    alone = make_kept_broad_phase(threads);
   }
   const std::string& solver = settings.text("solver");
   if (solver == "jacobi") options.solver = Solver::kJacobi;

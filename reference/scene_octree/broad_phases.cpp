@@ -1,36 +1,19 @@
 #include "reference/scene_octree/broad_phases.hpp"
 
-#include <tbb/task_arena.h>
-
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/engine/search_path.hpp"
+#include "reference/scene_octree/apart_trees.hpp"
 #include "reference/scene_octree/box_check.hpp"
 #include "reference/scene_octree/octree_record.hpp"
+#include "reference/scene_octree/own_arena.hpp"
 #include "reference/scene_octree/pass_trees.hpp"
 #include "reference/scene_octree/scene_octree.hpp"
 
 namespace broadside::reference {
 namespace {
-
-// Runs work in an arena of its own, or in the caller's.
-class Arena {
- public:
-  explicit Arena(int threads) {
-    if (threads > 0) own_.emplace(threads);
-  }
-  template <typename Work>
-  void execute(Work&& work) {
-    if (own_)
-      own_->execute(std::forward<Work>(work));
-    else
-      work();
-  }
-
- private:
-  std::optional<tbb::task_arena> own_;
-};
 
 core::Box bounds_of(std::span<const core::Box> boxes) {
   core::Box bounds = core::empty_box();
@@ -84,7 +67,7 @@ class SceneOctreeBroadPhase final : public core::BroadPhase, public OctreeRecord
   }
 
  private:
-  Arena arena_;
+  OwnArena arena_;
   SceneOctree octree_;
   core::BroadPhaseTraits traits_;
   core::Box domain_;
@@ -93,7 +76,7 @@ class SceneOctreeBroadPhase final : public core::BroadPhase, public OctreeRecord
   std::vector<std::uint8_t> is_static_;
 };
 
-class TreeBroadPhase final : public core::BroadPhase {
+class TreeBroadPhase final : public core::BroadPhase, public core::TellsPath {
  public:
   explicit TreeBroadPhase(int threads) : arena_(threads) {}
 
@@ -102,36 +85,60 @@ class TreeBroadPhase final : public core::BroadPhase {
   core::Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     is_static_.assign(is_static.begin(), is_static.end());
     tree_.reset_counts();
+    is_apart_ = is_worth_keeping_apart(is_static) && core::plan_passes(boxes).is_plain();
+    if (is_apart_) apart_.start(is_static);
     return update(boxes);
   }
 
   core::Status update(std::span<const core::Box> boxes) override {
     if (core::Status s = check_box_count(boxes.size(), is_static_.size()); !s) return s;
     bool is_sound = true;
-    arena_.execute([&] { is_sound = tree_.build(boxes, is_static_); });
+    arena_.execute([&] { is_sound = is_apart_ ? apart_.build(boxes) : tree_.build(boxes, is_static_); });
     if (!is_sound) return unsound_box(boxes);
     return core::Done{};
   }
 
   core::Status find() override {
-    arena_.execute([&] { tree_.find(); });
+    arena_.execute([&] {
+      if (is_apart_)
+        apart_.find();
+      else
+        tree_.find();
+    });
     return core::Done{};
   }
 
   [[nodiscard]] std::vector<core::Counter> counters() const override {
-    return {{"broad: nodes visited", tree_.nodes_visited()}, {"broad: box tests", 8U * tree_.packs_tested()}};
+    if (!is_apart_)
+      return {{"broad: nodes visited", tree_.nodes_visited()}, {"broad: box tests", 8U * tree_.packs_tested()}};
+    return {{"broad: nodes visited", apart_.nodes_visited()},
+            {"broad: box tests", 8U * apart_.packs_tested()},
+            {"broad: static trees built", apart_.static_builds()},
+            {"broad: static boxes kept", apart_.static_boxes_kept()}};
+  }
+
+  [[nodiscard]] std::string path() const override {
+    return is_apart_ ? "static boxes in a tree that is kept, moving ones in a tree of each frame"
+                     : core::words_of(tree_.plan());
   }
 
   core::Result<core::PairSet> read_back() override {
     core::PairSet set;
-    arena_.execute([&] { tree_.read_back(set.pairs); });
+    arena_.execute([&] {
+      if (is_apart_)
+        apart_.read_back(set.pairs);
+      else
+        tree_.read_back(set.pairs);
+    });
     set.demanded = set.raw = set.pairs.size();
     return set;
   }
 
  private:
-  Arena arena_;
+  OwnArena arena_;
   PassTrees tree_;
+  ApartTrees apart_;
+  bool is_apart_ = false;
   std::vector<std::uint8_t> is_static_;
 };
 

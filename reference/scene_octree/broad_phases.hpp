@@ -16,6 +16,9 @@ namespace broadside::reference {
 // The default: a packed octree per size class.
 std::unique_ptr<core::BroadPhase> make_tree_broad_phase(int threads = 0);
 
+// The same, for boxes that move little: candidates are kept between frames (kept_pairs.hpp). Exact in every frame.
+std::unique_ptr<core::BroadPhase> make_kept_broad_phase(int threads = 0);
+
 // P-Alg 1 and 2. domain: the root cell; an empty box stands for the bounds of the boxes at load. depth: levels below
 // the root. variant: printed-E2 and printed-E7 search as printed, all others soundly.
 std::unique_ptr<core::BroadPhase> make_scene_octree_broad_phase(const core::Box& domain,

@@ -28,6 +28,13 @@ class PassTrees {
   // The pairs of the last find, in canonical order.
   void read_back(std::vector<core::Pair>& out);
 
+  // Where the workers left the pairs of the last find, in no fixed order.
+  [[nodiscard]] std::span<const std::span<const core::Pair>> found_blocks() {
+    return plan_.is_plain() ? plain_.found_blocks() : settled_.gather();
+  }
+  // Where there are no passes: all boxes in the tree's order.
+  void order_of_boxes(std::vector<std::uint32_t>& ids) const { plain_.order_of_boxes(ids); }
+
   [[nodiscard]] const core::PassPlan& plan() const { return plan_; }
   // Sums over all finds since reset_counts(), the same for any number of threads.
   [[nodiscard]] std::uint64_t nodes_visited() const;

@@ -160,15 +160,36 @@ TreeView SizeTree::view() const {
           static_cast<std::uint32_t>(classes_.size())};
 }
 
+void SizeTree::renumber(std::span<const std::uint32_t> ids) {
+  for (std::uint32_t& id : ids_) id = ids[id];
+}
+
+void SizeTree::order_of_boxes(std::vector<std::uint32_t>& ids) const {
+  ids.clear();
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    const BoxPack& pack = packs_[k / kWidth];
+    // A lane without a box has min above max.
+    if (pack.min_x[k % kWidth] <= pack.max_x[k % kWidth]) ids.push_back(ids_[k]);
+  }
+}
+
 void SizeTree::find() {
   found_.clear();
   const TreeView tree = view();
+  join(tree, tree);
+}
+
+void SizeTree::find_more(const SizeTree& other) {
+  join(view(), other.view());
+}
+
+void SizeTree::join(const TreeView& tree, const TreeView& other) {
   for (std::uint32_t c = 0; c < tree.class_count; ++c) {
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, classes_[c].packs, kSearchGrain), [&](const auto& packs) {
       PairWriter& writer = found_.writer();
       PairSink sink{nullptr, nullptr, &writer, take_more};
       take_more(sink);
-      join_(tree, c, packs.begin(), packs.end(), sink);
+      join_(tree, other, c, packs.begin(), packs.end(), sink);
       writer.commit(reinterpret_cast<core::Pair*>(sink.next));
       nodes_visited_.fetch_add(sink.nodes_visited, std::memory_order_relaxed);
       packs_tested_.fetch_add(sink.packs_tested, std::memory_order_relaxed);

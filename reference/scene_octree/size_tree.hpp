@@ -26,7 +26,13 @@ class SizeTree {
   [[nodiscard]] bool build(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static);
   // Every overlapping pair that is not of two static bodies, once, in no fixed order.
   void find();
-  // The pairs of the last find, in canonical order.
+  // After build: all boxes' ids, class by class along the curve.
+  void order_of_boxes(std::vector<std::uint32_t>& ids) const;
+  // Behind those of find, the overlapping pairs of this tree's boxes with another's, whose ids are others than here.
+  void find_more(const SizeTree& other);
+  // After build: box k is called ids[k] from now on.
+  void renumber(std::span<const std::uint32_t> ids);
+  // The pairs of the last find, in canonical order. Of a tree that was renumbered, found_blocks has them.
   void read_back(std::vector<core::Pair>& out);
 
   [[nodiscard]] std::uint64_t found() const { return found_.count(); }
@@ -43,6 +49,7 @@ class SizeTree {
   void fill_bucket(std::size_t bucket);
   void fill_upper_levels();
   [[nodiscard]] TreeView view() const;
+  void join(const TreeView& tree, const TreeView& other);
 
   JoinKernel join_;
   std::uint32_t body_count_ = 0;

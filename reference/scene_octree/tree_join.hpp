@@ -29,16 +29,22 @@ constexpr std::uint32_t kListFull = kListSize - 8U;
 template <typename Lanes>
 class Join {
  public:
-  Join(const TreeView& tree, PairSink& sink) : tree_(tree), sink_(sink) {}
+  // Packs of `tree` look for partners in `other`: in itself, or in a tree of other boxes.
+  Join(const TreeView& tree, const TreeView& other, PairSink& sink)
+      : tree_(tree), other_(other), is_itself_(&tree == &other), sink_(sink) {}
 
   // pack: its number within its class.
   void search(std::uint32_t pack_class, std::uint32_t pack) {
     const TreeClass& own = tree_.classes[pack_class];
     own_pack_ = own.level_begin[0] + pack;
     bounds_ = Lanes::spread(tree_.packs[own.level_begin[1] + pack / 8U], pack % 8U);
+    if (!is_itself_) {
+      for (std::uint32_t c = 0; c < other_.class_count; ++c) walk(other_.classes[c], 0);
+      return;
+    }
     // core::finds: within a class the first of two packs finds the pair, between classes the pack of the finer one.
     walk(own, pack);
-    for (std::uint32_t other = pack_class + 1U; other < tree_.class_count; ++other) walk(tree_.classes[other], 0);
+    for (std::uint32_t c = pack_class + 1U; c < tree_.class_count; ++c) walk(tree_.classes[c], 0);
   }
 
  private:
@@ -57,7 +63,7 @@ class Join {
       return;
     }
     sink_.nodes_visited += count;
-    const BoxPack* nodes = tree_.packs + class_->level_begin[level];
+    const BoxPack* nodes = other_.packs + class_->level_begin[level];
     const std::uint32_t first_child = first_ >> (3U * (level - 1U));
     std::uint32_t* const begin = lists_[level - 1U];
     std::uint32_t* end = begin;
@@ -81,8 +87,8 @@ class Join {
     const BoxPack& own = tree_.packs[own_pack_];
     const unsigned own_static = tree_.static_lanes[own_pack_];
     sink_.packs_tested += count;
-    const BoxPack* parents = tree_.packs + class_->level_begin[1];
-    const std::uint8_t* static_lanes = tree_.static_lanes + class_->level_begin[0];
+    const BoxPack* parents = other_.packs + class_->level_begin[1];
+    const std::uint8_t* static_lanes = other_.static_lanes + class_->level_begin[0];
     std::uint32_t* end = near_;
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t pack = lists_[0][k];
@@ -108,16 +114,18 @@ class Join {
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t lane = near_[k] % 8U;
       const std::uint32_t pack = packs + near_[k] / 8U;
-      unsigned hits = Lanes::overlapping(tree_.packs[pack], Lanes::spread(own, lane));
+      unsigned hits = Lanes::overlapping(other_.packs[pack], Lanes::spread(own, lane));
       // Of our own pack, the lanes after ours; of two static bodies, none.
-      hits &= pack == own_pack_ ? ~1U << lane : ~0U;
-      hits &= ~(tree_.static_lanes[pack] & (0U - (own_static >> lane & 1U)));
+      hits &= is_itself_ && pack == own_pack_ ? ~1U << lane : ~0U;
+      hits &= ~(other_.static_lanes[pack] & (0U - (own_static >> lane & 1U)));
       if (sink_.end - sink_.next < 8) sink_.more(sink_);
-      sink_.next = Lanes::emit(sink_.next, tree_.ids + std::size_t{8} * pack, own_ids[lane], hits);
+      sink_.next = Lanes::emit(sink_.next, other_.ids + std::size_t{8} * pack, own_ids[lane], hits);
     }
   }
 
   const TreeView& tree_;
+  const TreeView& other_;
+  bool is_itself_;
   PairSink& sink_;
   const TreeClass* class_ = nullptr;
   std::uint32_t own_pack_ = 0;

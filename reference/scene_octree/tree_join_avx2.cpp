@@ -64,9 +64,9 @@ struct Avx2 {
 
 }  // namespace
 
-void join_avx2(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last,
-               PairSink& sink) {
-  Join<Avx2> join(tree, sink);
+void join_avx2(const TreeView& tree, const TreeView& other, std::uint32_t pack_class, std::uint32_t first,
+               std::uint32_t last, PairSink& sink) {
+  Join<Avx2> join(tree, other, sink);
   for (std::uint32_t pack = first; pack < last; ++pack) join.search(pack_class, pack);
 }
 

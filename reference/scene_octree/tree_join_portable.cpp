@@ -38,9 +38,9 @@ struct Portable {
 
 }  // namespace
 
-void join_portable(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last,
-                   PairSink& sink) {
-  Join<Portable> join(tree, sink);
+void join_portable(const TreeView& tree, const TreeView& other, std::uint32_t pack_class, std::uint32_t first,
+                   std::uint32_t last, PairSink& sink) {
+  Join<Portable> join(tree, other, sink);
   for (std::uint32_t pack = first; pack < last; ++pack) join.search(pack_class, pack);
 }
 

@@ -57,12 +57,14 @@ struct PairSink {
   std::uint64_t packs_tested = 0;
 };
 
-// Finds all pairs that packs [first, last) of a class own. Every kernel finds the same set.
-using JoinKernel = void (*)(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last,
-                            PairSink& sink);
+// Finds all pairs that packs [first, last) of a class own: of the tree with itself, or where `other` is another object,
+// of the tree's boxes with all of the other's. Every kernel finds the same set.
+using JoinKernel = void (*)(const TreeView& tree, const TreeView& other, std::uint32_t pack_class, std::uint32_t first,
+                            std::uint32_t last, PairSink& sink);
 
-void join_portable(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last,
-                   PairSink& sink);
-void join_avx2(const TreeView& tree, std::uint32_t pack_class, std::uint32_t first, std::uint32_t last, PairSink& sink);
+void join_portable(const TreeView& tree, const TreeView& other, std::uint32_t pack_class, std::uint32_t first,
+                   std::uint32_t last, PairSink& sink);
+void join_avx2(const TreeView& tree, const TreeView& other, std::uint32_t pack_class, std::uint32_t first,
+               std::uint32_t last, PairSink& sink);
 
 }  // namespace broadside::reference
