@@ -113,8 +113,8 @@ BROADSIDE_HD void lying(const PlacedShape& capsule, const Polytope& other, float
 
 }  // namespace capsule_detail
 
-BROADSIDE_HD void capsule_manifold(const PlacedShape& capsule, const PlacedShape& other, float rounding_m,
-                                   float reach_m, Manifold& out) {
+BROADSIDE_HD_CALLED void capsule_manifold(const PlacedShape& capsule, const PlacedShape& other, float rounding_m,
+                                          float reach_m, Manifold& out) {
   const SegmentPolytope segment = segment_polytope(capsule);
   const float ball = capsule.shape->radius_m;
   out.count = 0;

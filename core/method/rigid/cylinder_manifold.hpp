@@ -225,8 +225,8 @@ BROADSIDE_HD EdgeCrossing crossing_of(const PolytopeA& a, const PolytopeB& b, co
 }
 
 template <typename Polytope>
-BROADSIDE_HD void against(const PlacedShape& cylinder, const PlacedShape& other, Polytope kind, float rounding_m,
-                          float reach_m, Manifold& out) {
+BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape& other, Polytope kind, float rounding_m,
+                                 float reach_m, Manifold& out) {
   const float ball = other.shape->kind == ContactKind::kCapsule ? other.shape->radius_m : 0.0F;
   out.count = 0;
   Vec3 n = cylinder.center - other.center;
@@ -325,8 +325,8 @@ BROADSIDE_HD void against(const PlacedShape& cylinder, const PlacedShape& other,
 }  // namespace cylinder_detail
 
 // The cylinder is A here, whatever the kinds' order.
-BROADSIDE_HD void cylinder_manifold(const PlacedShape& cylinder, const PlacedShape& other, float rounding_m,
-                                    float reach_m, Manifold& out) {
+BROADSIDE_HD_CALLED void cylinder_manifold(const PlacedShape& cylinder, const PlacedShape& other, float rounding_m,
+                                           float reach_m, Manifold& out) {
   switch (other.shape->kind) {
     case ContactKind::kCapsule:
       return cylinder_detail::against(cylinder, other, SegmentPolytope{}, rounding_m, reach_m, out);

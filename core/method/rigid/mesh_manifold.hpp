@@ -125,8 +125,8 @@ BROADSIDE_HD std::uint32_t key_in_mesh(std::uint32_t key, std::uint32_t triangle
 
 // A convex body (A) and one triangle.
 template <typename Polytope>
-BROADSIDE_HD void against_triangle(const Polytope& a, float ball_m, const PlacedShape& mesh, std::uint32_t t,
-                                   float rounding_m, float reach_m, Touches& out) {
+BROADSIDE_HD_CALLED void against_triangle(const Polytope& a, float ball_m, const PlacedShape& mesh, std::uint32_t t,
+                                          float rounding_m, float reach_m, Touches& out) {
   const TrianglePolytope triangle = triangle_polytope(mesh, t);
   const SeparatingAxis axis = separating_axis(a, triangle, rounding_m, reach_m + ball_m);
   Manifold m;
@@ -170,8 +170,8 @@ BROADSIDE_HD Vec3 half_of(const ContactShape& s) {
   return half;
 }
 
-BROADSIDE_HD void convex_against(const PlacedShape& a, const PlacedShape& mesh, float rounding_m, float reach_m,
-                                 Touches& out) {
+BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape& mesh, float rounding_m, float reach_m,
+                                        Touches& out) {
   near_triangles(mesh, a, {}, half_of(*a.shape), reach_m, [&](std::uint32_t t) {
     switch (a.shape->kind) {
       case ContactKind::kSphere:
@@ -189,8 +189,8 @@ BROADSIDE_HD void convex_against(const PlacedShape& a, const PlacedShape& mesh, 
   });
 }
 
-BROADSIDE_HD void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
-                               Touches& out) {
+BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                                      Touches& out) {
   struct Open {
     std::uint32_t a = 0;
     std::uint32_t b = 0;
@@ -258,8 +258,8 @@ BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
 }  // namespace mesh_detail
 
 // B is the mesh; A a convex shape or a mesh.
-BROADSIDE_HD int mesh_manifolds(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
-                                Manifold* out) {
+BROADSIDE_HD_CALLED int mesh_manifolds(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                                       Manifold* out) {
   mesh_detail::Touches touches;
   if (a.shape->kind == ContactKind::kMesh)
     mesh_detail::mesh_against(a, b, rounding_m, reach_m, touches);

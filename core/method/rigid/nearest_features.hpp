@@ -209,8 +209,8 @@ struct NearestDirection {
 // none, the gap stays -infinity. Of two pairs of features that are equally near but for rounding, and of two ways to
 // compute the direction between them, the one along which the bodies are farther apart is the better one.
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m,
-                                                float reach_m) {
+BROADSIDE_HD_CALLED NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b, Vec3 parting,
+                                                       float parted_m, float reach_m) {
   NearestDirection best;
   const float thickness = reach_m - parted_m > 0.0F ? reach_m - parted_m : 0.0F;
   const Layer near_a = layer_of(a, parting, thickness);

@@ -74,7 +74,7 @@ BROADSIDE_HD void cylinder_over_plane(const PlacedShape& c, Vec3 n, Vec3 on_plan
 
 }  // namespace plane_detail
 
-BROADSIDE_HD void plane_manifold(const PlacedShape& a, const PlacedShape& plane, float reach_m, Manifold& out) {
+BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape& plane, float reach_m, Manifold& out) {
   const Vec3 n = turned(plane.axes, plane.shape->normal);
   const Vec3 on_plane = plane.center;
   out.count = 0;

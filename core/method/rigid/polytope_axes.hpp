@@ -40,7 +40,7 @@ BROADSIDE_HD bool lies_between(Vec3 n, Vec3 left, Vec3 right) {
 // The face that looks most at a point comes first: its gap is near the widest. A face that is in front of one of the
 // last corners that stood out by no more than the best gap so far is passed over.
 template <typename Reference, typename Other>
-BROADSIDE_HD SeparatingAxis axis_of_faces(const Reference& reference, const Other& other, bool reference_is_a) {
+BROADSIDE_HD_CALLED SeparatingAxis axis_of_faces(const Reference& reference, const Other& other, bool reference_is_a) {
   constexpr int kKept = 4;
   SeparatingAxis best;
   Vec3 standing_out[kKept];
@@ -144,7 +144,8 @@ BROADSIDE_HD bool across(const PlacedEdge& a, bool a_is_solid, const PlacedEdge&
 
 // Of two segments alone, which have no faces, there may be none.
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB& b, float rounding_m, float reach_m) {
+BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB& b, float rounding_m,
+                                                   float reach_m) {
   SeparatingAxis best = axes_detail::axis_of_faces(a, b, true);
   if (best.gap_m > reach_m) return best;
   const SeparatingAxis of_b = axes_detail::axis_of_faces(b, a, false);

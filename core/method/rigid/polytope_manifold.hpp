@@ -31,8 +31,8 @@ BROADSIDE_HD float least_gap(const CommonArea<kRoom>& area) {
 }
 
 template <typename PolytopeA, typename PolytopeB, int kRoom>
-BROADSIDE_HD void area_of(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis, float rounding_m,
-                          CommonArea<kRoom>& area) {
+BROADSIDE_HD_CALLED void area_of(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis, float rounding_m,
+                                 CommonArea<kRoom>& area) {
   const int face_a = axis.kind == AxisKind::kFaceOfA ? axis.of_a : a.support_face(-axis.normal);
   const int face_b = axis.kind == AxisKind::kFaceOfB ? axis.of_b : b.support_face(axis.normal);
   area.count = 0;
@@ -68,8 +68,9 @@ BROADSIDE_HD bool corner_over_face(const Reference& reference, const Incident& i
 // bodies: where two corners, or a corner and an edge, are nearest, the axis is wider than it and gives way to the
 // direction between them.
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD void polytope_manifold(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis, float ball_a_m,
-                                    float ball_b_m, float rounding_m, float reach_m, Manifold& out) {
+BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis,
+                                           float ball_a_m, float ball_b_m, float rounding_m, float reach_m,
+                                           Manifold& out) {
   const float balls_m = ball_a_m + ball_b_m;
   out.count = 0;
   if (axis.kind == AxisKind::kNone || !(axis.gap_m - balls_m <= reach_m)) return;

@@ -29,8 +29,8 @@ inline constexpr float kParallelSine = 16.0F * 0x1p-24F;
 // the direction that was computed, with the reach of both boxes along it, so every one of them is a true lower bound of
 // the distance and edges that are nearly parallel need no allowance. A later axis is taken where it is wider by more
 // than rounding: faces of A before faces of B before edges.
-BROADSIDE_HD SeparatingAxis separating_axis_of_boxes(const PlacedShape& a, const PlacedShape& b, float rounding_m,
-                                                     float reach_m) {
+BROADSIDE_HD_CALLED SeparatingAxis separating_axis_of_boxes(const PlacedShape& a, const PlacedShape& b,
+                                                            float rounding_m, float reach_m) {
   const Vec3 ha = a.shape->half;
   const Vec3 hb = b.shape->half;
   const Vec3 d = a.center - b.center;

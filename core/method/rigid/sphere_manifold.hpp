@@ -8,8 +8,8 @@
 
 namespace broadside::core {
 
-BROADSIDE_HD void sphere_manifold(const PlacedShape& sphere, const PlacedShape& other, float rounding_m, float reach_m,
-                                  Manifold& out) {
+BROADSIDE_HD_CALLED void sphere_manifold(const PlacedShape& sphere, const PlacedShape& other, float rounding_m,
+                                         float reach_m, Manifold& out) {
   out.count = 0;
   const float ball = sphere.shape->radius_m;
   const PointDistance distance = point_to_solid(other, sphere.center, rounding_m);
