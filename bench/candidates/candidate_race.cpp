@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/timing/broad_phase_cell.hpp"
+#include "bench/process/broad_phase_cell.hpp"
 #include "core/continuous/feature_candidates.hpp"
 #include "core/mesh/load_mesh.hpp"
 #include "datasets/motions/motions.hpp"

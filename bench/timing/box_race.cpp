@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bench/process/broad_phase_cell.hpp"
 #include "bench/process/interrupt.hpp"
-#include "bench/timing/broad_phase_cell.hpp"
 #include "bench/timing/parted_frame.hpp"
 #include "core/engine/search_path.hpp"
 #include "datasets/box_streams/box_stream.hpp"

@@ -1,4 +1,4 @@
-#include "bench/timing/broad_phase_cell.hpp"
+#include "bench/process/broad_phase_cell.hpp"
 
 #include <string_view>
 #include <utility>
