@@ -1,49 +1,37 @@
 #include "gpu/engines.hpp"
 
-#include <array>
+#include <span>
+#include <vector>
 
+#include "core/method/method_settings.hpp"
 #include "gpu/engines_on_cuda.hpp"
 
 namespace broadside::gpu {
 namespace {
 
-// The keys and values of octree-cpu, but for its threads.
-const std::array<core::SettingRow, 8>& octree_settings() {
-  static const std::array<core::SettingRow, 8> kTable{{
+// The keys and values of octree-cpu, but for its threads and for what it keeps between frames.
+std::span<const core::SettingRow> octree_settings() {
+  static const std::vector<core::SettingRow> rows{
       {"broad",
        "tree",
        {"tree", "octree", "brute"},
        "where candidates come from: tree = the fast octree; octree = P-Alg 1; brute = the levels' published start"},
-      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
-      {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
-      {"variant",
-       "sound",
-       {"sound", "printed-E1", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7",
-        "printed-E8"},
-       "a printed, wrong form of the paper to run instead"},
-      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
-      {"contact",
-       "conjugate",
-       {"conjugate", "soft-step"},
-       "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"},
-      {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"},
-      {"thresholds",
-       "scaled",
-       {"scaled", "fixed"},
-       "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
-       "v_threshold_m_s"},
-  }};
-  return kTable;
+      core::levels_setting(),
+      core::solver_setting(),
+      core::variant_setting(),
+      core::vertex_stage_setting(),
+      core::contact_setting(),
+      core::substeps_setting(),
+      core::thresholds_setting(),
+  };
+  return rows;
 }
 
 // Those of hash-cpu, but for its threads.
-const std::array<core::SettingRow, 3>& hash_settings() {
-  static const std::array<core::SettingRow, 3> kTable{{
-      {"cell_mm", "0", {}, "edge of a cell in mm; 0 = the scene's hash_cell_m, and 250 for boxes alone"},
-      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
-      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
-  }};
-  return kTable;
+std::span<const core::SettingRow> hash_settings() {
+  static const std::vector<core::SettingRow> rows{core::cell_setting(), core::levels_setting(),
+                                                  core::vertex_stage_setting()};
+  return rows;
 }
 
 }  // namespace
