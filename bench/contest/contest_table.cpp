@@ -158,26 +158,6 @@ ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>
   return table;
 }
 
-core::Status read_energy(ContestTable& table, const std::filesystem::path& folder,
-                         const std::vector<std::string>& scenes) {
-  // More than a curve of a page's width can show.
-  constexpr std::size_t kMostFrames = 240;
-  for (SceneTable& scene : table.scenes) {
-    if (std::find(scenes.begin(), scenes.end(), scene.scene) == scenes.end()) continue;
-    for (const Entrant& e : table.entrants) {
-      const Entry* entry = own_entry(scene, e.engine);
-      if (entry == nullptr || entry->trace_file.empty()) continue;
-      const std::filesystem::path file = folder / entry->trace_file;
-      std::error_code failed;
-      if (!std::filesystem::exists(file, failed)) continue;
-      auto curve = energy_curve(file, kMostFrames);
-      if (!curve) return curve.error();
-      scene.energy[e.engine] = std::move(curve).value();
-    }
-  }
-  return core::Done{};
-}
-
 const Entry* own_entry(const SceneTable& scene, const std::string& engine) {
   const auto of = scene.entries.find(engine);
   if (of == scene.entries.end()) return nullptr;

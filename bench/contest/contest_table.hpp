@@ -65,7 +65,8 @@ std::pair<std::string, std::string> name_and_step(const std::string& scene_name)
 ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>& entrants,
                            const std::map<std::string, double>& steps_s);
 
-// Reads the traces of these scenes at their own steps, in this folder. A trace that is gone is left out.
+// Reads the traces of these scenes at their own steps, in this folder, and keeps the curves in FOLDER/energy.json: a
+// trace that is gone has the curve that was kept of it, or none.
 core::Status read_energy(ContestTable& table, const std::filesystem::path& folder,
                          const std::vector<std::string>& scenes);
 
