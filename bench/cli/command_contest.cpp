@@ -15,6 +15,7 @@
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/contest/contest_document.hpp"
+#include "bench/contest/missing_engines.hpp"
 #include "bench/process/interrupt.hpp"
 #include "bench/record/run_plan.hpp"
 
@@ -29,6 +30,7 @@ struct ContestArguments {
   std::string out = "out/contest";
   std::uint32_t jobs = 1;  // cells at a time
   bool only_reports = false;
+  bool installs = false;
 };
 
 std::string command_of(const ContestArguments& a) {
@@ -89,6 +91,10 @@ core::Exit run_contest(const ContestArguments& a) {
   if (core::Status s = prepare_folder(folder); !s) return complain(s.error());
   auto entrants = contest::entrants_of(a.request);
   if (!entrants) return complain(entrants.error());
+  if (!a.only_reports && contest::install_missing(entrants.value(), contest::usual_path(a.installs)) > 0) {
+    entrants = contest::entrants_of(a.request);
+    if (!entrants) return complain(entrants.error());
+  }
   for (const contest::Entrant& e : entrants.value())
     if (!e.absent.empty()) fmt::print("{}: {}\n", e.engine, e.absent);
   // A page of cells that another machine or another build did is made of the manifest that they were done from.
@@ -156,6 +162,7 @@ void add_contest(CLI::App& program, core::Exit& exit) {
       ->check(CLI::Range(1U, 1024U))
       ->capture_default_str();
   command->add_flag("--heaps", a->request.has_largest_heaps, "A heap of 10,000 boxes too: an hour more on two cores");
+  command->add_flag("--yes", a->installs, "Install missing engines of npm without asking; no terminal, no question");
   command->add_flag("--only-report", a->only_reports, "Run nothing: make the page of the cells that are there");
   command->add_option("--out", a->out, "Folder for cells and page; a second call goes on in it")->capture_default_str();
   command->footer(
