@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +17,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/contest/contest_document.hpp"
 #include "bench/contest/missing_engines.hpp"
+#include "bench/fetched/fetched_engines.hpp"
 #include "bench/process/interrupt.hpp"
 #include "bench/record/run_plan.hpp"
 
@@ -86,12 +88,31 @@ core::Exit exit_of_contest(const contest::ContestTable& table, std::uint32_t mis
   return missing > 0 ? core::Exit::kMissing : core::Exit::kGood;
 }
 
+bool ask_terminal(const std::string& question) {
+  if (isatty(STDIN_FILENO) == 0 || isatty(STDERR_FILENO) == 0) return false;
+  fmt::print(stderr, "{} [y/N] ", question);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+// Packages of npm, by fetch_engine; `yes` agrees to everything.
+contest::InstallPath npm_path(bool yes) {
+  contest::InstallPath path;
+  for (const core::EngineRow& row : fetched_engine_rows()) path.ids.emplace_back(row.id);
+  path.agrees = [yes](const std::string& question) { return yes || ask_terminal(question); };
+  path.install = [](std::string_view id) {
+    return fetch_engine(id, [id](std::string_view step) { fmt::print(stderr, "{}: {}\n", id, step); });
+  };
+  return path;
+}
+
 core::Exit run_contest(const ContestArguments& a) {
   const fs::path folder = a.out;
   if (core::Status s = prepare_folder(folder); !s) return complain(s.error());
   auto entrants = contest::entrants_of(a.request);
   if (!entrants) return complain(entrants.error());
-  if (!a.only_reports && contest::install_missing(entrants.value(), contest::usual_path(a.installs)) > 0) {
+  if (!a.only_reports && contest::install_missing(entrants.value(), npm_path(a.installs)) > 0) {
     entrants = contest::entrants_of(a.request);
     if (!entrants) return complain(entrants.error());
   }

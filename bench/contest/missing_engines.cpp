@@ -1,41 +1,24 @@
 #include "bench/contest/missing_engines.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
-
-#include "bench/fetched/fetched_engines.hpp"
 
 namespace broadside::bench::contest {
-namespace {
-
-bool ask_terminal(const std::string& question) {
-  if (isatty(STDIN_FILENO) == 0 || isatty(STDERR_FILENO) == 0) return false;
-  fmt::print(stderr, "{} [y/N] ", question);
-  std::string answer;
-  std::getline(std::cin, answer);
-  return answer == "y" || answer == "Y" || answer == "yes";
-}
-
-}  // namespace
-
-std::vector<std::string> fetchable(const std::vector<Entrant>& entrants) {
-  const auto rows = fetched_engine_rows();
-  std::vector<std::string> ids;
+std::vector<std::string> missing_of(const std::vector<Entrant>& entrants, const std::vector<std::string>& ids) {
+  std::vector<std::string> missing;
   for (const Entrant& e : entrants) {
     const std::string id = e.engine.substr(0, e.engine.find('['));
-    const bool is_fetched =
-        std::any_of(rows.begin(), rows.end(), [&id](const core::EngineRow& row) { return row.id == id; });
-    if (!e.absent.empty() && is_fetched && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    const bool can_be = std::find(ids.begin(), ids.end(), id) != ids.end();
+    if (!e.absent.empty() && can_be && std::find(missing.begin(), missing.end(), id) == missing.end())
+      missing.push_back(id);
   }
-  return ids;
+  return missing;
 }
 
 std::size_t install_missing(const std::vector<Entrant>& entrants, const InstallPath& path) {
-  const std::vector<std::string> ids = fetchable(entrants);
+  const std::vector<std::string> ids = missing_of(entrants, path.ids);
   if (ids.empty()) return 0;
   std::string names;
   for (const std::string& id : ids) names += (names.empty() ? "" : ", ") + id;
@@ -52,15 +35,6 @@ std::size_t install_missing(const std::vector<Entrant>& entrants, const InstallP
       fmt::print(stderr, "absent from the contest: {}\n", status.error().line());
   }
   return installed;
-}
-
-InstallPath usual_path(bool yes) {
-  const auto say = [](std::string_view step) { fmt::print(stderr, "{}\n", step); };
-  return {[yes](const std::string& question) { return yes || ask_terminal(question); },
-          [say](std::string_view id) {
-            fmt::print(stderr, "{}: ", id);
-            return fetch_engine(id, say);
-          }};
 }
 
 }  // namespace broadside::bench::contest

@@ -11,15 +11,17 @@ const std::vector<Entrant> kEntrants{{"jolt", "not installed: broadside fetch-en
                                      {"rapier", ""},
                                      {"cannon", "not installed: broadside fetch-engine cannon"},
                                      {"dart-world", "built without DART"}};
+const std::vector<std::string> kIds{"cannon", "jolt", "rapier"};
 
 TEST(MissingEngines, AreNamedOnce) {
-  EXPECT_EQ(fetchable(kEntrants), (std::vector<std::string>{"jolt", "cannon"}));
+  EXPECT_EQ(missing_of(kEntrants, kIds), (std::vector<std::string>{"jolt", "cannon"}));
 }
 
 TEST(MissingEngines, AreInstalledWhereSomebodyAgrees) {
   std::string asked;
   std::vector<std::string> installed;
-  const InstallPath path{[&](const std::string& question) {
+  const InstallPath path{kIds,
+                         [&](const std::string& question) {
                            asked = question;
                            return true;
                          },
@@ -39,10 +41,10 @@ TEST(MissingEngines, NothingIsInstalledUnasked) {
     ++installed;
     return core::Done{};
   };
-  EXPECT_EQ(install_missing(kEntrants, {[](const std::string&) { return false; }, install}), 0U);
+  EXPECT_EQ(install_missing(kEntrants, {kIds, [](const std::string&) { return false; }, install}), 0U);
   EXPECT_EQ(installed, 0U);
   // Nobody is asked where nothing is missing.
-  EXPECT_EQ(install_missing({{"rapier", ""}}, {[](const std::string&) -> bool { throw "asked"; }, install}), 0U);
+  EXPECT_EQ(install_missing({{"rapier", ""}}, {kIds, [](const std::string&) -> bool { throw "asked"; }, install}), 0U);
 }
 
 }  // namespace
