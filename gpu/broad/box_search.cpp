@@ -1,6 +1,7 @@
 #include "gpu/broad/box_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace broadside::gpu {
 namespace {
@@ -18,9 +19,10 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
   BROADSIDE_TRY(barrier_.fill_bytes(0));
-  BROADSIDE_TRY(pairs_.reserve(std::max(kLeastPairs, kPairsPerBox * count_), "pairs"));
-  auto shape =
-      pairs_launch_shape(start_, count_, static_cast<std::uint32_t>(grid_buckets(count_)), options.least_for_bins);
+  BROADSIDE_TRY(pairs_.reserve(std::min(options.most_pairs, std::max(kLeastPairs, kPairsPerBox * count_)), "pairs"));
+  const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
+  auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, options.least_for_bins)
+                                                 : pairs_launch_shape(start_, count_, buckets, options.least_for_bins);
   if (!shape.ok()) return shape.error();
   shape_ = shape.value();
   BROADSIDE_TRY(broad_.load(start_, facts, options.hash_cell_m, options.variant, shape_.bins, shape_.sort.blocks));
@@ -35,6 +37,17 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
 
 core::Result<PackedBox*> BoxSearch::room_for(std::size_t boxes) {
   BROADSIDE_TRY(boxes_.reserve(boxes, "boxes"));
+  return boxes_.data();
+}
+
+core::Result<PackedBox*> BoxSearch::move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream) {
+  if (boxes <= boxes_.capacity()) return boxes_.data();
+  DeviceBuffer<PackedBox> larger;
+  BROADSIDE_TRY(larger.reserve(boxes, "boxes"));
+  if (kept != 0) BROADSIDE_TRY(copy_on_device(larger.data(), boxes_.data(), kept * sizeof(PackedBox), stream));
+  BROADSIDE_TRY(wait_for_stream(stream, "moving boxes"));
+  boxes_ = std::move(larger);
+  view_.boxes = boxes_.data();
   return boxes_.data();
 }
 
@@ -62,10 +75,21 @@ core::Status BoxSearch::load(const SearchedBoxes& boxes, const PairFinderOptions
   return boxes_.upload(boxes.searched(), "boxes");
 }
 
-core::Status BoxSearch::launch(StreamHandle stream) {
+void BoxSearch::fill_view() {
   broad_.fill(view_.broad);
   broad_.fill(view_.bulk);
   view_.pairs = {pairs_.data(), pairs_.capacity()};
+}
+
+core::Status BoxSearch::launch_share(const NamedPairsView& share, StreamHandle stream) {
+  fill_view();
+  NamedPairsView own = share;
+  own.search = view_;
+  return launch_named_pairs(own, shape_, stream);
+}
+
+core::Status BoxSearch::launch(StreamHandle stream) {
+  fill_view();
   BROADSIDE_TRY(launch_pairs(view_, shape_, stream));
   if (!is_settled()) return core::Done{};
   settle_.found = view_.pairs;

@@ -7,7 +7,7 @@
 
 #include "gpu/broad/box_search.hpp"
 #include "gpu/broad/device_packing.hpp"
-#include "gpu/broad/pack_view.hpp"
+#include "gpu/runtime/device_choice.hpp"
 
 namespace broadside::gpu {
 namespace {
