@@ -7,13 +7,14 @@
 namespace broadside::gpu {
 namespace {
 
-// The keys and values of octree-cpu, but for its threads.
-const std::array<core::SettingRow, 8>& octree_settings() {
-  static const std::array<core::SettingRow, 8> kTable{{
+// The keys and values of octree-cpu, but for its threads; and what its broad phase has on devices.
+const std::array<core::SettingRow, 11>& octree_settings() {
+  static const std::array<core::SettingRow, 11> kTable{{
       {"broad",
        "tree",
-       {"tree", "octree", "brute"},
-       "where candidates come from: tree = the fast octree; octree = P-Alg 1; brute = the levels' published start"},
+       {"tree", "kept", "octree", "brute"},
+       "where candidates come from: tree = the fast octree; kept = the same, and of boxes alone keeping what still "
+       "holds between frames; octree = P-Alg 1; brute = the levels' published start"},
       {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
       {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
       {"variant",
@@ -32,6 +33,9 @@ const std::array<core::SettingRow, 8>& octree_settings() {
        {"scaled", "fixed"},
        "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
        "v_threshold_m_s"},
+      {"pairs_at_once", "0", {}, "boxes alone: room on the device for so many pairs, found in chunks; 0 = for all"},
+      {"parts", "0", {}, "boxes alone: ranges of space, searched each on a device; 0 = one for each device"},
+      {"devices", "1", {}, "boxes alone: GPUs that share them; 0 = all that there are"},
   }};
   return kTable;
 }

@@ -11,6 +11,11 @@ constexpr std::uint64_t kPairsPerBox = 8;
 
 }  // namespace
 
+std::uint64_t BoxSearch::first_room(const PairFinderOptions& options) const {
+  const std::uint64_t expected = std::max(kLeastPairs, kPairsPerBox * count_);
+  return options.pairs_at_once == 0 ? expected : std::min(options.pairs_at_once, expected);
+}
+
 core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& options) {
   start_ = options.start(facts);
   count_ = facts.count;
@@ -19,7 +24,7 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
   BROADSIDE_TRY(barrier_.fill_bytes(0));
-  BROADSIDE_TRY(pairs_.reserve(std::min(options.most_pairs, std::max(kLeastPairs, kPairsPerBox * count_)), "pairs"));
+  BROADSIDE_TRY(pairs_.reserve(first_room(options), "pairs"));
   const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
   auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, options.least_for_bins)
                                                  : pairs_launch_shape(start_, count_, buckets, options.least_for_bins);
@@ -65,7 +70,7 @@ core::Status BoxSearch::load(const SearchedBoxes& boxes, const PairFinderOptions
     if (!shape.ok()) return shape.error();
     settle_shape_ = shape.value();
     BROADSIDE_TRY(given_.upload(boxes.given(), "boxes as given"));
-    BROADSIDE_TRY(settled_.reserve(std::max(kLeastPairs, kPairsPerBox * count_), "pairs"));
+    BROADSIDE_TRY(settled_.reserve(first_room(options), "pairs"));
     settle_.given = given_.data();
     settle_.owned = boxes.owned();
     settle_.counters = view_.counters;
@@ -85,16 +90,21 @@ core::Status BoxSearch::launch_share(const NamedPairsView& share, StreamHandle s
   fill_view();
   NamedPairsView own = share;
   own.search = view_;
-  return launch_named_pairs(own, shape_, stream);
+  BROADSIDE_TRY(launch_named_pairs(own, shape_, stream));
+  return settle(stream);
+}
+
+core::Status BoxSearch::settle(StreamHandle stream) {
+  if (!is_settled()) return core::Done{};
+  settle_.found = view_.pairs;
+  settle_.pairs = {settled_.data(), settled_.capacity()};
+  return launch_settle(settle_, settle_shape_, stream);
 }
 
 core::Status BoxSearch::launch(StreamHandle stream) {
   fill_view();
   BROADSIDE_TRY(launch_pairs(view_, shape_, stream));
-  if (!is_settled()) return core::Done{};
-  settle_.found = view_.pairs;
-  settle_.pairs = {settled_.data(), settled_.capacity()};
-  return launch_settle(settle_, settle_shape_, stream);
+  return settle(stream);
 }
 
 core::Status BoxSearch::grow() {

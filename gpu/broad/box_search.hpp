@@ -40,9 +40,14 @@ class BoxSearch {
   // Where the options say that there are shares. `share`: names, places, and whether the boxes are in order already.
   core::Status launch_share(const NamedPairsView& share, StreamHandle stream);
   [[nodiscard]] bool can_share() const { return start_ == Start::kBulk; }
+  [[nodiscard]] std::uint32_t box_count() const { return count_; }
+  [[nodiscard]] std::uint32_t multiprocessors() const { return shape_.search.multiprocessors; }
+  // After a search of shares: what it left on the device.
+  [[nodiscard]] const PairsView& view() const { return view_; }
   // After the stream was waited for: whether pairs were lost; grow then makes room for them.
   [[nodiscard]] bool is_aborted() const { return outcome_[0].counters.is_aborted != 0; }
   core::Status grow();
+  void forget_abort() { outcome_[0].counters.is_aborted = 0; }
   // What the search tests, where somebody asked.
   core::Status count_work(WorkCounter& work, StreamHandle stream);
 
@@ -60,7 +65,9 @@ class BoxSearch {
  private:
   [[nodiscard]] bool is_settled() const { return settle_.given != nullptr; }
   core::Status reserve(const BoxFacts& facts, const PairFinderOptions& options);
+  [[nodiscard]] std::uint64_t first_room(const PairFinderOptions& options) const;
   void fill_view();
+  core::Status settle(StreamHandle stream);
 
   PairsShape shape_;
   LaunchShape settle_shape_;

@@ -17,7 +17,8 @@ struct PairFinderOptions {
   std::uint32_t least_for_bulk = kLeastBoxesForBulk;
   std::uint32_t least_for_bins = kLeastBoxesForBins;
   std::uint32_t least_for_passes = core::kLeastBoxesForPasses;
-  std::uint64_t most_pairs = ~0ULL;  // for which there is room before any was found
+  std::uint32_t least_for_apart = kLeastBoxesForBulk;  // to keep static boxes in a table of their own
+  std::uint64_t pairs_at_once = 0;                     // room for pairs on the device; 0: for all
   bool has_shares = false;  // boxes are searched share by share or part by part, so by the search of bulk pairs alone
 
   // Where the pairs of these boxes come from.

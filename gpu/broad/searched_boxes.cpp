@@ -19,6 +19,11 @@ core::Error bad_box(std::size_t place) {
           "give finite boxes with min <= max"};
 }
 
+core::Error another_count(std::size_t given, std::size_t loaded) {
+  return {"update was given " + std::to_string(given) + " boxes after a load of " + std::to_string(loaded),
+          "broad phase on the GPU", "load again when the number of boxes changes"};
+}
+
 void FactsOfBoxes::add(const Box& box) {
   for (int k = 0; k < 3; ++k) {
     facts_.largest_side_m = std::max(facts_.largest_side_m, box.max[k] - box.min[k]);

@@ -16,6 +16,8 @@ namespace broadside::gpu {
 
 // Of a box that is not finite or has min > max.
 core::Error bad_box(std::size_t place);
+// Of an update with more or fewer boxes than were loaded.
+core::Error another_count(std::size_t given, std::size_t loaded);
 
 bool is_sound(const core::Box& box);
 

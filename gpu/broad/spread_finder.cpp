@@ -86,10 +86,7 @@ core::Status SpreadFinder::load_cut(std::span<const core::Box> boxes, std::span<
 
 core::Status SpreadFinder::update(std::span<const core::Box> boxes) {
   Impl& d = *impl_;
-  if (boxes.size() != d.is_static.size())
-    return core::Error{"update was given " + std::to_string(boxes.size()) + " boxes after a load of " +
-                           std::to_string(d.is_static.size()),
-                       "a set that is spread over devices", "load again when the number of boxes changes"};
+  if (boxes.size() != d.is_static.size()) return another_count(boxes.size(), d.is_static.size());
   const DeviceScope scope;
   return d.deal(boxes);
 }
