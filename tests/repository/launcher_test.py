@@ -122,7 +122,13 @@ class Launcher(unittest.TestCase):
         build = f"{self.tree}/build/release"
         self.assertEqual(f"packs {build} into {self.tree}/out/packages\n", self.call("package").stdout)
         self.assertEqual(f"packs {build} into there\n", self.call("package", "there").stdout)
-        self.assertIn(f"cmake --build {build} --target broadside", self.called("cmake --build")[0], "not the tests")
+        self.assertIn(f"cmake --build {build} --target python_wheel", self.called("cmake --build")[0], "not the tests")
+
+    def test_package_installs_what_its_wheel_needs(self):
+        (self.played / "missing").write_text("pybind11-dev\n", encoding="utf-8")
+        answer = self.call("package")
+        self.assertIn("installing 1 packages of", answer.stderr)
+        self.assertIn("pybind11-dev", answer.stderr)
 
     def test_what_another_package_provides_is_not_installed(self):
         query = self.programs / "dpkg-query"
