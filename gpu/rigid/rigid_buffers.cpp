@@ -54,12 +54,14 @@ core::Status RigidBuffers::reserve_patches(std::size_t patches) {
   BROADSIDE_TRY(patches_.reserve(patches, "contacts"));
   BROADSIDE_TRY(ranks_.reserve(patches, "contacts"));
   BROADSIDE_TRY(impulses_.reserve(4 * patches, "contacts"));
+  BROADSIDE_TRY(by_color_.reserve(2 * patches, "contacts"));
   return memory_.reserve_patches(patches);
 }
 
 core::Status RigidBuffers::reserve_places(std::size_t places) {
   BROADSIDE_TRY(patch_at_.reserve(places, "contacts"));
-  return constraints_.reserve(constraint_floats(places), "contacts");
+  BROADSIDE_TRY(changes_.reserve(places, "contacts"));
+  return constraints_.reserve(constraint_words(places), "contacts");
 }
 
 core::Status RigidBuffers::reserve_colors(std::size_t colors) {
@@ -98,8 +100,8 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
 
 // The two memories change places, and grow when it is their turn.
 std::size_t RigidBuffers::patch_room() const {
-  return std::min({patches_.capacity(), ranks_.capacity(), impulses_.capacity() / 4, memory_.entries.capacity() / 2,
-                   memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4});
+  return std::min({patches_.capacity(), ranks_.capacity(), impulses_.capacity() / 4, by_color_.capacity() / 2,
+                   memory_.entries.capacity() / 2, memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4});
 }
 
 core::Status RigidBuffers::grow(const RigidCounts& demanded) {
@@ -136,6 +138,8 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.patch_at = patch_at_.data();
   view.place_capacity = patch_at_.capacity();
   view.constraints = constraints_.data();
+  view.changes = changes_.data();
+  view.by_color = by_color_.data();
   view.bodies = bodies_.data();
   view.impulses = impulses_.data();
   view.old_memory = old_memory_.view();
@@ -148,8 +152,8 @@ std::uint64_t RigidBuffers::bytes() const {
   return before_.bytes() + after_.bytes() + free_end_.bytes() + reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() +
          shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + patches_.bytes() + ranks_.bytes() +
          coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
-         constraints_.bytes() + bodies_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() +
-         counts_.bytes() + barrier_.bytes();
+         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + impulses_.bytes() +
+         old_memory_.bytes() + memory_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -63,7 +63,9 @@ class RigidBuffers {
   DeviceBuffer<std::uint32_t> color_begin_;
   DeviceBuffer<std::uint32_t> color_cursor_;
   DeviceBuffer<std::uint32_t> patch_at_;
-  DeviceBuffer<float> constraints_;
+  DeviceBuffer<PackedVec3> constraints_;
+  DeviceBuffer<float> changes_;
+  DeviceBuffer<std::uint32_t> by_color_;
   DeviceBuffer<PackedSolverBody> bodies_;
   DeviceBuffer<core::Vec3> impulses_;
   Memory old_memory_;

@@ -67,8 +67,8 @@ struct alignas(16) BodyColors {
 };
 
 // core::SolverBody in words of 16 bytes; those that sweeps over patches read come first, those that they write before
-// all others.
-struct alignas(16) PackedSolverBody {
+// all others: 32 bytes, which is how much memory is read at least.
+struct alignas(128) PackedSolverBody {
   PackedVec3 v;                 // w: inverse mass
   PackedVec3 angular_momentum;  // w: xx of the inverse inertia
   PackedVec3 inertia;           // yy zz xy, w: xz
@@ -77,8 +77,11 @@ struct alignas(16) PackedSolverBody {
   core::Quat q;
   core::Quat q_rest;
 };
-static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 112,
+static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 128,
               "read and written in words of 16 bytes");
+
+// Whose barriers the solver's kernel has: all its blocks'. A cluster's is the fastest.
+enum class SolveTeamKind : std::uint8_t { kGrid, kCluster };
 
 // Counts of one frame; all are what was demanded. A new frame's place kernel sets them to zero.
 struct RigidCounts {
@@ -93,10 +96,9 @@ struct RigidCounts {
   std::uint32_t bounces = 0;     // 1: a patch has restitution
   std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
-  std::uint32_t arrived = 0;        // of PartialGridTeam
   std::uint32_t uncolored[3] = {};  // in turns, a round each
-  // What all threads bring together, in turns (solve_sums.cuh).
-  std::uint32_t largest[4] = {};
+  // What all threads bring together, in turns (team_sums.cuh).
+  std::uint32_t largest[4][2] = {};
   unsigned long long sums[4] = {};
 };
 
@@ -152,7 +154,11 @@ struct RigidFrameView {
   std::uint32_t* color_cursor = nullptr;  // [colors]
   std::uint32_t* patch_at = nullptr;      // [places] kUncolored in a gap
   std::uint64_t place_capacity = 0;
-  float* constraints = nullptr;        // constraint_tiles.cuh
+  PackedVec3* constraints = nullptr;  // constraint_tiles.cuh
+  float* changes = nullptr;           // [places] J, of the last sweep (core::squared_change)
+  // [2 * patches] In the lists of each moved body its patches' places by color: 2 * place, + 1 where it is body B.
+  std::uint32_t* by_color = nullptr;
+  SolveTeamKind solve_team = SolveTeamKind::kGrid;
   PackedSolverBody* bodies = nullptr;  // [bodies + 1]; the last one stands for every face: it never moves
   core::Vec3* impulses = nullptr;      // [4 * patches] N s on A, of the whole step
   PatchMemory old_memory;
