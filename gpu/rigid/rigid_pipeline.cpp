@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <utility>
@@ -205,6 +206,11 @@ std::uint32_t RigidPipeline::Impl::choose_solve_team() {
   const bool is_cluster = options.may_cluster && solve_shape.cluster_blocks > 1 &&
                           wanted <= kMostTurnsOfCluster * solve_shape.cluster_blocks;
   view.solve_team = is_cluster ? SolveTeamKind::kCluster : SolveTeamKind::kGrid;
+  if (const char* trial = std::getenv("BROADSIDE_TRIAL")) {  // TRIAL
+    view.solve_team = trial[0] == 'c' ? SolveTeamKind::kCluster : SolveTeamKind::kGrid;
+    return std::min<std::uint32_t>(std::atoi(trial + 1),
+                                   trial[0] == 'c' ? solve_shape.cluster_blocks : solve_shape.grid.blocks);
+  }
   const std::uint64_t most = is_cluster ? solve_shape.cluster_blocks : solve_shape.grid.blocks;
   return static_cast<std::uint32_t>(std::min(std::bit_ceil(wanted), most));
 }

@@ -160,7 +160,9 @@ struct RigidFrameView {
   std::uint32_t* by_color = nullptr;
   SolveTeamKind solve_team = SolveTeamKind::kGrid;
   PackedSolverBody* bodies = nullptr;  // [bodies + 1]; the last one stands for every face: it never moves
-  core::Vec3* impulses = nullptr;      // [4 * patches] N s on A, of the whole step
+  // [bodies + 1] While contacts bounce: the sweep that has to visit the body's patches, of all of the step.
+  std::uint32_t* stirred = nullptr;
+  core::Vec3* impulses = nullptr;  // [4 * patches] N s on A, of the whole step
   PatchMemory old_memory;
   PatchMemory memory;
 

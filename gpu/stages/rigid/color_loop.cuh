@@ -22,10 +22,19 @@ __device__ __forceinline__ void each_place(const SolveTeam& team, const RigidFra
     if (f.patch_at[place] != kUncolored) work(TileSlot(f.constraints, place), place);
 }
 
-// Color by color, with a barrier between two colors and none at the end. load(slot) gives what work needs of the
-// constraint, with a core::PatchConstraint as `c`. work(slot, place, loaded, a, b) changes the bodies' velocities. The
-// first constraint of a color is loaded while the thread waits for the others: nobody but this thread writes it during
-// a sweep, because every sweep deals constraints out alike.
+// work(a, b) changes the velocities of a patch's two bodies.
+template <typename Work>
+__device__ __forceinline__ void with_bodies(const RigidFrameView& f, const core::PatchConstraint& c, const Work& work) {
+  core::SolverBody a = load_moving(f.bodies[c.a]);
+  core::SolverBody b = load_moving(f.bodies[c.b]);
+  work(a, b);
+  store_velocity(f.bodies[c.a], a);
+  store_velocity(f.bodies[c.b], b);
+}
+
+// work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. load(slot) gives
+// what work needs of the constraint. The first constraint of a color is loaded while the thread waits for the others:
+// nobody but this thread writes it during a sweep, because every sweep deals constraints out alike.
 template <typename Load, typename Work>
 __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, const Load& load,
                                                     const Work& work) {
@@ -42,11 +51,7 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
     const std::uint64_t next_begin = is_last ? 0 : f.color_begin[color];
     const std::uint64_t next_count = is_last ? 0 : f.color_count[color];
     while (place < end) {
-      core::SolverBody a = load_moving(f.bodies[loaded.c.a]);
-      core::SolverBody b = load_moving(f.bodies[loaded.c.b]);
-      work(TileSlot(f.constraints, place), place, loaded, a, b);
-      store_velocity(f.bodies[loaded.c.a], a);
-      store_velocity(f.bodies[loaded.c.b], b);
+      work(TileSlot(f.constraints, place), place, loaded);
       place += team.size();
       if (place < end) loaded = load(TileSlot(f.constraints, place));
     }

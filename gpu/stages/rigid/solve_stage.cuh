@@ -19,6 +19,7 @@ struct Solve {
   bool may_bounce = false;
   bool has_way = false;  // several sweeps along conjugate directions
   TeamSums sums;
+  std::uint32_t sweep = 0;  // of all sweeps of bounces in this step
 };
 
 __device__ __forceinline__ void accelerate(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
@@ -109,9 +110,8 @@ __device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const Ri
   }
 }
 
-// The fastest approach of what bounces. stops: what stopped each point is noted. A barrier.
-__device__ __forceinline__ float fastest_of_bounces(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
-                                                    bool stops) {
+// The fastest approach of what bounces, whose bodies are stirred. A barrier.
+__device__ __forceinline__ float stir_what_bounces(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   float fastest = 0.0F;
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;
@@ -119,10 +119,11 @@ __device__ __forceinline__ float fastest_of_bounces(const SolveTeam& team, const
     load_directions(slot, c);
     load_impulses(slot, c);
     load_approach(slot, c);
-    fastest = fmaxf(fastest, core::fastest_bounce(c, solve.soft));
-    if (!stops) return;
-    core::note_stopping(c);
-    store_stopping(slot, c);
+    const float own = core::fastest_bounce(c, solve.soft);
+    if (!(own > 0.0F)) return;
+    fastest = fmaxf(fastest, own);
+    stir(f, c.a, solve.sweep);
+    stir(f, c.b, solve.sweep);
   });
   __syncwarp();
   solve.sums.bring_largest(TeamSums::kFirst, fastest);
@@ -130,26 +131,21 @@ __device__ __forceinline__ float fastest_of_bounces(const SolveTeam& team, const
   return largest_of_turn(team, solve);
 }
 
-// Relaxes, and where something bounces goes on until that changes nothing any more; then lets it bounce. Ends with a
-// barrier.
-__device__ __forceinline__ void relax_and_bounce(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
-  float done = 0.0F;
-  for (int k = 0;; ++k) {
-    sweep_relaxing(team, f, solve.soft, solve.may_bounce, solve.sums);
+// The same as StepConstraints::bounce of the twin. Ends with a barrier.
+__device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+  solve.sweep += 2;
+  const float fastest = stir_what_bounces(team, f, solve);
+  const float done = core::kBounceDone * fastest;
+  if (!(done > 0.0F)) return;
+  float largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++solve.sweep) {
+    relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
     team.sync();
-    if (!solve.may_bounce) return;
-    float largest = largest_of_turn(team, solve);
-    if (k == 0) {
-      largest = fastest_of_bounces(team, f, solve, false);
-      done = core::kBounceDone * largest;
-      if (!(done > 0.0F)) return;
-    }
-    // A share of what stopped them is given back, so that is to be known well.
-    if (k == core::kMostBounceSweeps || !(largest > done)) break;
+    largest = largest_of_turn(team, solve);
   }
-  float largest = fastest_of_bounces(team, f, solve, true);
+  largest = fastest;
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
-    sweep_bouncing(team, f, solve.soft, solve.sums);
+    sweep_bouncing(team, f, solve.soft, k == 0, solve.sums);
     team.sync();
     largest = largest_of_turn(team, solve);
   }
@@ -177,7 +173,9 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     store_body(f.bodies[i], body);
   });
   team.sync();
-  relax_and_bounce(team, f, solve);
+  relax_all(team, f, solve.soft, solve.may_bounce);
+  team.sync();
+  if (solve.may_bounce) bounce_all(team, f, solve);
   change_substeps(team, f, solve, true, !is_last);
   team.sync();
   if (!is_last && solve.has_way) fastest = largest_of_turn(team, solve);
