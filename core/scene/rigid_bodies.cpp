@@ -152,6 +152,11 @@ Result<RigidBodies> make_rigid_bodies(const Scene& scene) {
   add_wrenches(scene, bodies);
   bodies.detected = bodies.state;
   bodies.free_end.resize(bodies.state.size());
+  bodies.push.resize(bodies.state.size());
+  bodies.drift.resize(bodies.state.size());
+  bodies.swing_m.resize(bodies.state.size());
+  bodies.pushed.resize(bodies.state.size());
+  bodies.pushed_by.resize(bodies.state.size());
   bodies.reach_m.resize(bodies.state.size());
   bodies.fall_m.resize(bodies.state.size());
   bodies.shape_boxes.resize(bodies.state.size());

@@ -11,6 +11,7 @@
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "core/method/rigid/turned_box.hpp"
@@ -44,10 +45,16 @@ struct RigidBodies {
   std::vector<std::uint32_t> shape;
   std::vector<RigidShape> shapes;
   ContactShapes contact_shapes;
-  // Of detection: the pose, where it leads to if nothing is touched, how far the body can come and how far it falls,
-  // the box of the shape, and a box that contains all of where it goes.
+  std::vector<PushWord> push;  // what the candidates of a step tell the next one
+  // Of detection: the pose, where it leads to if nothing is touched, by its velocity alone, and where others may drive
+  // the body; how far it can come and how far it falls, the box of the shape, and a box that contains all of where it
+  // goes.
   std::vector<RigidState> detected;
   std::vector<ContactPose> free_end;
+  std::vector<Vec3> drift;
+  std::vector<float> swing_m;
+  std::vector<Vec3> pushed;
+  std::vector<std::uint32_t> pushed_by;
   std::vector<float> reach_m;
   std::vector<float> fall_m;
   std::vector<Box> shape_boxes;
@@ -59,6 +66,10 @@ struct RigidBodies {
   [[nodiscard]] Vec3 origin(std::uint32_t body) const { return mesh_origin(mass[body], state[body]); }
   [[nodiscard]] RigidWrench wrench_of(std::uint32_t body) const {
     return wrench.empty() ? RigidWrench{} : wrench[body];
+  }
+  // As another body may feel it.
+  [[nodiscard]] Pusher pusher(std::uint32_t body) const {
+    return {detected[body].x, drift[body], pushed[body], swing_m[body], mass[body].inverse_mass, body, pushed_by[body]};
   }
   [[nodiscard]] Vec3 spin(std::uint32_t body) const {
     return is_static[body] != 0 ? static_spin[body] : angular_velocity(mass[body], state[body]);

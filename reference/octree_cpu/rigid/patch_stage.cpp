@@ -55,11 +55,12 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
     const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
     const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
     const float reach_m = bodies.reach_m[i] + bodies.reach_m[j];
-    const float near_m = bodies.fall_m[i] + bodies.fall_m[j];
     core::Manifold found[core::kPatchesOfPair];
     const int count = core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), reach_m, found);
     for (int n = 0; n < count; ++n)
-      if (!core::passes_by(found[n], a, bodies.path(i), b, bodies.path(j), reach_m, near_m))
+      if (!core::passes_by(found[n], a, bodies.path(i), b, bodies.path(j), reach_m,
+                           core::near_m(found[n].normal, bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j],
+                                        bodies.pushed[j])))
         block.push_back({i, j, found[n]});
   });
 }

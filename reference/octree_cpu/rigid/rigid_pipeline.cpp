@@ -82,10 +82,16 @@ void RigidPipeline::place(float dt_s) {
       const core::FreeMotion motion =
           core::free_motion(s, bodies_.mass[i], shape.balls, scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
       bodies_.free_end[i] = core::free_end(s, bodies_.mass[i], scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
-      bodies_.reach_m[i] = motion.reach_m();
+      const core::PushWord push = bodies_.push[i];
+      bodies_.push[i] = 0;
+      bodies_.pushed_by[i] = core::pusher_of(push);
+      bodies_.pushed[i] = core::pushed_way(push, motion.drift, dt_s * bodies_.state[core::pusher_of(push)].v);
+      bodies_.drift[i] = motion.drift;
+      bodies_.swing_m[i] = motion.swing_m;
+      bodies_.reach_m[i] = motion.reach_m() + core::length(bodies_.pushed[i]);
       bodies_.fall_m[i] = core::length(motion.fall);
       bodies_.shape_boxes[i] = core::turned_box(shape.contact, shape.vertices(), s.x, s.q);
-      bodies_.boxes[i] = core::swept_box(bodies_.shape_boxes[i], motion);
+      bodies_.boxes[i] = core::pushed_box(core::swept_box(bodies_.shape_boxes[i], motion), bodies_.pushed[i]);
     }
   });
 }
