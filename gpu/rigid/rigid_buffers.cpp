@@ -77,6 +77,10 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
   BROADSIDE_TRY(before_.upload(states, "bodies"));
   BROADSIDE_TRY(after_.upload(states, "bodies"));
   BROADSIDE_TRY(free_end_.reserve(n, "bodies"));
+  BROADSIDE_TRY(pushers_.reserve(n, "bodies"));
+  BROADSIDE_TRY(old_push_.reserve(n, "bodies"));
+  BROADSIDE_TRY(old_push_.fill_bytes(0));
+  BROADSIDE_TRY(push_.reserve(n, "bodies"));
   BROADSIDE_TRY(reach_m_.reserve(n, "bodies"));
   BROADSIDE_TRY(fall_m_.reserve(n, "bodies"));
   BROADSIDE_TRY(pushed_m_.reserve(n, "bodies"));
@@ -116,6 +120,7 @@ core::Status RigidBuffers::grow(const RigidCounts& demanded) {
 
 void RigidBuffers::advance() {
   before_.swap(after_);
+  old_push_.swap(push_);
   old_memory_.swap(memory_);
 }
 
@@ -123,6 +128,9 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.before = before_.data();
   view.after = after_.data();
   view.free_end = free_end_.data();
+  view.pushers = pushers_.data();
+  view.old_push = old_push_.data();
+  view.push = push_.data();
   view.reach_m = reach_m_.data();
   view.fall_m = fall_m_.data();
   view.pushed_m = pushed_m_.data();
@@ -151,11 +159,12 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 }
 
 std::uint64_t RigidBuffers::bytes() const {
-  return before_.bytes() + after_.bytes() + free_end_.bytes() + reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() +
-         shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + patches_.bytes() + ranks_.bytes() +
-         coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
-         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + stirred_.bytes() +
-         impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + counts_.bytes() + barrier_.bytes();
+  return before_.bytes() + after_.bytes() + free_end_.bytes() + pushers_.bytes() + old_push_.bytes() + push_.bytes() +
+         reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() + shape_boxes_.bytes() + boxes_.bytes() +
+         confirmed_.bytes() + patches_.bytes() + ranks_.bytes() + coloring_.bytes() + color_count_.bytes() +
+         color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() + constraints_.bytes() + changes_.bytes() +
+         by_color_.bytes() + bodies_.bytes() + stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() +
+         memory_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

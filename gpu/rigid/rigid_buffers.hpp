@@ -50,6 +50,9 @@ class RigidBuffers {
   DeviceBuffer<core::RigidState> before_;
   DeviceBuffer<core::RigidState> after_;
   DeviceBuffer<core::ContactPose> free_end_;
+  DeviceBuffer<PackedPusher> pushers_;
+  DeviceBuffer<unsigned long long> old_push_;
+  DeviceBuffer<unsigned long long> push_;
   DeviceBuffer<float> reach_m_;
   DeviceBuffer<float> fall_m_;
   DeviceBuffer<std::uint32_t> pushed_m_;

@@ -12,6 +12,7 @@
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/motion_reach.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "core/method/rigid/soft_settings.hpp"
@@ -64,6 +65,12 @@ struct alignas(16) BodyColors {
   std::uint32_t taken_high = 0;  // bit c: color 32 + c
   std::uint32_t next = 0;        // the least color from 64 on that is free
   std::uint32_t colored = 0;     // how many of its patches have a color
+};
+
+// What a pair needs of a body to say what it does to the other one: core::Pusher.
+struct alignas(16) PackedPusher {
+  PackedVec3 drift;   // w: what turning adds
+  PackedVec3 pushed;  // w: who drives it, as a word
 };
 
 // core::SolverBody in words of 16 bytes; those that sweeps over patches read come first, those that they write before
@@ -135,6 +142,9 @@ struct RigidFrameView {
   core::RigidState* after = nullptr;
   // Of detection, as core::RigidBodies has them.
   core::ContactPose* free_end = nullptr;
+  PackedPusher* pushers = nullptr;
+  const unsigned long long* old_push = nullptr;  // core::PushWord, from the step before
+  unsigned long long* push = nullptr;            // for the next step
   float* reach_m = nullptr;
   float* fall_m = nullptr;
   std::uint32_t* pushed_m = nullptr;  // as a word: the reach of the neighbor that reaches farthest
