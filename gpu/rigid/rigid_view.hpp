@@ -53,8 +53,8 @@ struct PatchMemory {
 struct alignas(16) PatchRank {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
-  std::uint32_t color = 0;
-  std::uint32_t unused = 0;
+  std::uint32_t body_a = 0;
+  std::uint32_t body_b = 0;  // or a face
 };
 constexpr std::uint32_t kNotMoved = 0xFFFFFFFFU;
 constexpr std::uint32_t kUncolored = 0xFFFFFFFFU;
@@ -103,7 +103,6 @@ struct RigidCounts {
   std::uint32_t bounces = 0;     // 1: a patch has restitution
   std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
-  std::uint32_t uncolored[3] = {};  // in turns, a round each
   // What all threads bring together, in turns (team_sums.cuh).
   std::uint32_t largest[4][2] = {};
   unsigned long long sums[4] = {};
@@ -157,6 +156,7 @@ struct RigidFrameView {
   AppendView<core::Pair> confirmed;
   AppendView<core::ContactPatch> patches;  // those of one pair follow each other
   PatchRank* ranks = nullptr;              // [patches]
+  std::uint32_t* colors = nullptr;         // [patches]
   BodyColors* coloring = nullptr;          // [bodies]
   std::uint32_t color_capacity = 0;
   std::uint32_t* color_count = nullptr;   // [colors]

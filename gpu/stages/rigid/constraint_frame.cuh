@@ -21,7 +21,10 @@ __device__ inline void run_constraints(const RigidFrameView& f) {
   rank_patches(grid, f);
   grid.sync();
   color_patches(grid, f);
+  grid.sync();
   if (f.counts->colors > f.color_capacity) return;
+  count_colors(grid, f);
+  grid.sync();
   if (is_first) place_colors(f);
   grid.sync();
   if (f.counts->places > f.place_capacity) return;

@@ -61,6 +61,7 @@ __device__ inline int step_kind(const RigidFrameView& f) {
 template <typename Team>
 __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
+  bool bounces = false;
   for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
     if (f.patch_at[place] == kUncolored) continue;
     const core::ContactPatch patch = f.patches.items[f.patch_at[place]];
@@ -75,9 +76,11 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     c.b = b;
     core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
     recall(f, soft, patch, c);
-    if (surface.restitution > 0.0F) atomicMax(&f.counts->bounces, 1U);
+    bounces = bounces || surface.restitution > 0.0F;
     store_constraint(TileSlot(f.constraints, place), c, across);
   }
+  __syncwarp();
+  if (__any_sync(kFullWarp, bounces) && lane() == 0) atomicMax(&f.counts->bounces, 1U);
 }
 
 template <typename Team>

@@ -49,6 +49,10 @@ __device__ inline void run_place(const RigidFrameView& f) {
       coordinate = max(coordinate, max(as_ordered(fabsf(box.min[axis])), as_ordered(fabsf(box.max[axis]))));
     }
   }
+  __syncwarp();
+  side = warp_max(side);
+  coordinate = warp_max(coordinate);
+  if (lane() != 0) return;
   if (side != 0) atomicMax(&f.counts->largest_side, side);
   if (coordinate != 0) atomicMax(&f.counts->largest_coordinate, coordinate);
 }
