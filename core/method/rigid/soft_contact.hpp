@@ -67,6 +67,7 @@ BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, 
 
 // The impulses of the substep before.
 BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
+  if (has_turned_far(a) || has_turned_far(b)) set_masses(c, a, b);
   PatchMotion m = motion_of(a, b);
   for (int k = 0; k < c.count; ++k) {
     PatchPoint& p = c.points[k];
@@ -170,6 +171,7 @@ BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const S
 // One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
 // is the next substep's. Returns the largest change of a point's speed, m/s.
 BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+  if (has_turned_far(a) || has_turned_far(b)) set_masses(c, a, b);
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
   for (int k = 0; k < c.count; ++k) {

@@ -38,7 +38,8 @@ void SoftSolver::follow_direction() {
   std::uint64_t units = 0;
   for (const float part : of_patches_) units += sum.units(part);
   const float change = sum.value(units);
-  const float share = last_change_ > 0.0F && change <= last_change_ ? change / last_change_ : 0.0F;
+  if (!(last_change_ > 0.0F)) first_change_ = change;
+  const float share = core::share_of_direction(first_change_, last_change_, change);
   last_change_ = change;
   work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
     core::follow(c, ways_[work_.index_of(c)], a, b, share);
