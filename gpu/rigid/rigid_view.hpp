@@ -12,6 +12,7 @@
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/motion_reach.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "core/method/rigid/soft_settings.hpp"
@@ -66,9 +67,15 @@ struct alignas(16) BodyColors {
   std::uint32_t colored = 0;     // how many of its patches have a color
 };
 
+// What a pair needs of a body to say what it does to the other one: core::Pusher.
+struct alignas(16) PackedPusher {
+  PackedVec3 drift;   // w: what turning adds
+  PackedVec3 pushed;  // w: who drives it, as a word
+};
+
 // core::SolverBody in words of 16 bytes; those that sweeps over patches read come first, those that they write before
-// all others.
-struct alignas(16) PackedSolverBody {
+// all others: 32 bytes, which is how much memory is read at least.
+struct alignas(128) PackedSolverBody {
   PackedVec3 v;                 // w: inverse mass
   PackedVec3 angular_momentum;  // w: xx of the inverse inertia
   PackedVec3 inertia;           // yy zz xy, w: xz
@@ -77,8 +84,11 @@ struct alignas(16) PackedSolverBody {
   core::Quat q;
   core::Quat q_rest;
 };
-static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 112,
+static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 128,
               "read and written in words of 16 bytes");
+
+// Whose barriers the solver's kernel has: all its blocks'. A cluster's is the fastest.
+enum class SolveTeamKind : std::uint8_t { kGrid, kCluster };
 
 // Counts of one frame; all are what was demanded. A new frame's place kernel sets them to zero.
 struct RigidCounts {
@@ -93,10 +103,9 @@ struct RigidCounts {
   std::uint32_t bounces = 0;     // 1: a patch has restitution
   std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
-  std::uint32_t arrived = 0;        // of PartialGridTeam
   std::uint32_t uncolored[3] = {};  // in turns, a round each
-  // What all threads bring together, in turns (solve_sums.cuh).
-  std::uint32_t largest[4] = {};
+  // What all threads bring together, in turns (team_sums.cuh).
+  std::uint32_t largest[4][2] = {};
   unsigned long long sums[4] = {};
 };
 
@@ -133,6 +142,9 @@ struct RigidFrameView {
   core::RigidState* after = nullptr;
   // Of detection, as core::RigidBodies has them.
   core::ContactPose* free_end = nullptr;
+  PackedPusher* pushers = nullptr;
+  const unsigned long long* old_push = nullptr;  // core::PushWord, from the step before
+  unsigned long long* push = nullptr;            // for the next step
   float* reach_m = nullptr;
   float* fall_m = nullptr;
   std::uint32_t* pushed_m = nullptr;  // as a word: the reach of the neighbor that reaches farthest
@@ -152,9 +164,15 @@ struct RigidFrameView {
   std::uint32_t* color_cursor = nullptr;  // [colors]
   std::uint32_t* patch_at = nullptr;      // [places] kUncolored in a gap
   std::uint64_t place_capacity = 0;
-  float* constraints = nullptr;        // constraint_tiles.cuh
+  PackedVec3* constraints = nullptr;  // constraint_tiles.cuh
+  float* changes = nullptr;           // [places] J, of the last sweep (core::squared_change)
+  // [2 * patches] In the lists of each moved body its patches' places by color: 2 * place, + 1 where it is body B.
+  std::uint32_t* by_color = nullptr;
+  SolveTeamKind solve_team = SolveTeamKind::kGrid;
   PackedSolverBody* bodies = nullptr;  // [bodies + 1]; the last one stands for every face: it never moves
-  core::Vec3* impulses = nullptr;      // [4 * patches] N s on A, of the whole step
+  // [bodies + 1] While contacts bounce: the sweep that has to visit the body's patches, of all of the step.
+  std::uint32_t* stirred = nullptr;
+  core::Vec3* impulses = nullptr;  // [4 * patches] N s on A, of the whole step
   PatchMemory old_memory;
   PatchMemory memory;
 

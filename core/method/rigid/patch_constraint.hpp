@@ -127,6 +127,17 @@ BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const Sol
   return c;
 }
 
+// work(k) for every point. The length is fixed, so that a GPU's compiler unrolls the loop and keeps points in
+// registers.
+template <typename Work>
+BROADSIDE_HD void each_point(const PatchConstraint& c, const Work& work) {
+#if defined(__CUDACC__)
+#pragma unroll
+#endif
+  for (int k = 0; k < kManifoldPoints; ++k)
+    if (k < c.count) work(k);
+}
+
 // The two bodies of a patch while it is solved: velocities at hand, and what their angular momenta have gained.
 struct PatchMotion {
   Vec3 v_a;
@@ -168,6 +179,34 @@ BROADSIDE_HD void store(const PatchMotion& m, SolverBody& a, SolverBody& b) {
   }
 }
 
+// The impulse on A, N s, of what acts along the normal and the tangents.
+BROADSIDE_HD Vec3 impulse_of(const PatchConstraint& c, float normal, float tangent_1, float tangent_2) {
+  return (normal * c.normal + tangent_1 * c.tangent_1) + tangent_2 * c.tangent_2;
+}
+
+// What impulses that are known beforehand do to one body of a patch: the same as push and store do to it.
+struct BodyGain {
+  Vec3 v;
+  Vec3 gain;
+
+  BROADSIDE_HD explicit BodyGain(const SolverBody& body) : v(body.v) {}
+  // On A.
+  BROADSIDE_HD void add_to_a(const SolverBody& a, Vec3 arm_a, Vec3 impulse) {
+    v = v + a.inverse_mass * impulse;
+    gain = gain + cross(arm_a, impulse);
+  }
+  // Of the impulse on A, on B.
+  BROADSIDE_HD void add_to_b(const SolverBody& b, Vec3 arm_b, Vec3 impulse) {
+    v = v - b.inverse_mass * impulse;
+    gain = gain - cross(arm_b, impulse);
+  }
+  BROADSIDE_HD void store(SolverBody& body) const {
+    if (!is_moved(body)) return;
+    body.v = v;
+    body.angular_momentum = body.angular_momentum + gain;
+  }
+};
+
 // The gap now: that of the start, and how far the bodies moved along the normal since.
 BROADSIDE_HD float gap_now(const PatchConstraint& c, const PatchPoint& p, const SolverBody& a, const SolverBody& b) {
   const Vec3 moved_a = a.moved + cross(a.turned, p.arm_a);
@@ -177,7 +216,7 @@ BROADSIDE_HD float gap_now(const PatchConstraint& c, const PatchPoint& p, const 
 
 // N s on A, of the whole step.
 BROADSIDE_HD Vec3 total_impulse(const PatchConstraint& c, const PatchPoint& p) {
-  return (p.normal_total * c.normal + p.tangent_total_1 * c.tangent_1) + p.tangent_total_2 * c.tangent_2;
+  return impulse_of(c, p.normal_total, p.tangent_total_1, p.tangent_total_2);
 }
 
 }  // namespace broadside::core

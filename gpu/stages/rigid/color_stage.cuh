@@ -111,11 +111,26 @@ __device__ inline void place_colors(const RigidFrameView& f) {
   f.counts->places = next;
 }
 
+// Enters a patch's place in the list of one of its bodies, which is in the order of colors: no two of a body's patches
+// have the same.
+__device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body, std::uint32_t color,
+                                     std::uint32_t place, std::uint32_t side) {
+  if (!is_moved(f, body)) return;
+  const std::uint32_t begin = f.memory.begin[body];
+  std::uint32_t before = 0;
+  for (std::uint32_t k = 0; k < f.memory.count[body]; ++k)
+    if (f.ranks[f.memory.entries[begin + k].patch].color < color) ++before;
+  f.by_color[begin + before] = 2 * place + side;
+}
+
 template <typename Team>
 __device__ void place_patches(const Team& team, const RigidFrameView& f) {
   for (std::uint64_t k = team.rank(); k < f.counts->patches; k += team.size()) {
     const std::uint32_t color = f.ranks[k].color;
-    f.patch_at[f.color_begin[color] + atomicAdd(&f.color_cursor[color], 1U)] = static_cast<std::uint32_t>(k);
+    const std::uint32_t place = f.color_begin[color] + atomicAdd(&f.color_cursor[color], 1U);
+    f.patch_at[place] = static_cast<std::uint32_t>(k);
+    list_by_color(f, f.patches.items[k].a, color, place, 0);
+    list_by_color(f, f.patches.items[k].b, color, place, 1);
   }
   for (std::uint64_t color = team.rank(); color < f.counts->colors; color += team.size())
     for (std::uint32_t place = f.color_begin[color] + f.color_count[color]; place < f.color_begin[color + 1]; ++place)

@@ -14,9 +14,13 @@ namespace broadside::gpu {
 
 template <typename Team>
 __device__ void begin_bodies(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size())
+  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
     store_body(f.bodies[i], core::solver_body(f.before[i], f.mass[i]));
-  if (team.rank() == 0) store_body(f.bodies[f.body_count], core::SolverBody{});
+    f.stirred[i] = 0;
+  }
+  if (team.rank() != 0) return;
+  store_body(f.bodies[f.body_count], core::SolverBody{});
+  f.stirred[f.body_count] = 0;
 }
 
 // Where these bodies' points of the step before have this feature: the first of them, patch by patch; or nowhere.
@@ -72,13 +76,13 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
     recall(f, soft, patch, c);
     if (surface.restitution > 0.0F) atomicMax(&f.counts->bounces, 1U);
-    store_constraint(TileSlot(f.constraints, place), c);
+    store_constraint(TileSlot(f.constraints, place), c, across);
   }
 }
 
 template <typename Team>
 __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size())
+  for (std::uint64_t i = team.spread_rank(); i < f.body_count; i += team.size())
     f.after[i] = core::state_after(load_body(f.bodies[i]), f.before[i]);
 }
 
@@ -87,23 +91,27 @@ template <typename Team>
 __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
   const float per_s = 1.0F / soft.dt_s;
-  for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
+  for (std::uint64_t place = team.spread_rank(); place < f.counts->places; place += team.size()) {
     const std::uint32_t patch = f.patch_at[place];
     if (patch == kUncolored) continue;
     const TileSlot slot(f.constraints, place);
-    core::PatchConstraint c = load_bodies_and_points(slot);
-    load_tangents(slot, c);
+    core::PatchConstraint c;
+    load_bodies(slot, c);
+    load_directions(slot, c);
     load_impulses(slot, c);
     load_totals(slot, c);
-    for (int k = 0; k < core::kManifoldPoints; ++k) {
-      const std::uint64_t at = 4 * std::uint64_t{patch} + static_cast<std::uint64_t>(k);
-      f.memory.feature[at] = k < c.count ? f.patches.items[patch].manifold.points[k].feature : 0;
-      if (k >= c.count) continue;
+    const std::uint64_t first = std::uint64_t{kFourPoints} * patch;
+#pragma unroll
+    for (std::uint32_t k = 0; k < kFourPoints; ++k)
+      f.memory.feature[first + k] =
+          static_cast<int>(k) < c.count ? f.patches.items[patch].manifold.points[k].feature : 0;
+    core::each_point(c, [&](int k) {
       const core::PatchPoint& p = c.points[k];
+      const std::uint64_t at = first + static_cast<std::uint64_t>(k);
       f.impulses[at] = core::total_impulse(c, p);
       const core::Vec3 friction = p.tangent_impulse_1 * c.tangent_1 + p.tangent_impulse_2 * c.tangent_2;
       f.memory.impulse[at] = {per_s * friction, per_s * p.normal_impulse};
-    }
+    });
   }
 }
 

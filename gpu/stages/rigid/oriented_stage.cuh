@@ -20,6 +20,21 @@ __device__ inline bool levels_meet(const RigidFrameView& f, core::Pair pair) {
   return core::is_confirmed(f.levels, *a.nodes, *b.nodes, pose, tests);
 }
 
+__device__ inline core::Pusher pusher_of(const RigidFrameView& f, std::uint32_t body) {
+  const PackedPusher p = f.pushers[body];
+  return {f.before[body].x,           p.drift.v, p.pushed.v, p.drift.w, f.mass[body].inverse_mass, body,
+          __float_as_uint(p.pushed.w)};
+}
+
+// What candidates may do to each other in the next step.
+__device__ inline void note_pushes(const RigidFrameView& f, core::Pair pair) {
+  const core::Pusher a = pusher_of(f, pair.i);
+  const core::Pusher b = pusher_of(f, pair.j);
+  const float restitution = max(f.material[pair.i].restitution, f.material[pair.j].restitution);
+  if (const unsigned long long push = core::push_by(a, b, restitution); push != 0) atomicMax(&f.push[pair.i], push);
+  if (const unsigned long long push = core::push_by(b, a, restitution); push != 0) atomicMax(&f.push[pair.j], push);
+}
+
 // Of all n^2 ordered pairs, where no broad phase came before: false for what is no pair.
 __device__ inline bool pair_of_all(const RigidFrameView& f, std::uint64_t k, core::Pair& pair) {
   pair = {static_cast<std::uint32_t>(k / f.body_count), static_cast<std::uint32_t>(k % f.body_count)};
@@ -39,6 +54,7 @@ __device__ void confirm_pairs(const Team& team, const RigidFrameView& f) {
     bool is_pair = k < n;
     if (is_pair && f.has_broad) pair = f.pairs[k];
     if (is_pair && !f.has_broad) is_pair = pair_of_all(f, k, pair);
+    if (is_pair) note_pushes(f, pair);
     const bool meets = is_pair && levels_meet(f, pair);
     const std::uint64_t place = warp_append_one(meets, &f.counts->confirmed);
     if (!meets || place >= f.confirmed.capacity) continue;

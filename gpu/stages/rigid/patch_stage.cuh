@@ -37,12 +37,15 @@ __device__ inline void touch_bodies(const RigidFrameView& f, core::Pair pair) {
   const core::ContactPath path_a = path_of(f, pair.i);
   const core::ContactPath path_b = path_of(f, pair.j);
   const float reach_m = f.reach_m[pair.i] + f.reach_m[pair.j];
-  const float near_m = f.fall_m[pair.i] + f.fall_m[pair.j];
+  const core::Vec3 pushed_a = f.pushers[pair.i].pushed.v;
+  const core::Vec3 pushed_b = f.pushers[pair.j].pushed.v;
   core::Manifold found[core::kPatchesOfPair];
   const int count = core::make_manifolds(a, path_a.start, b, path_b.start, reach_m, found);
   int kept = 0;
   for (int k = 0; k < count; ++k)
-    if (!core::passes_by(found[k], a, path_a, b, path_b, reach_m, near_m)) found[kept++] = found[k];
+    if (!core::passes_by(found[k], a, path_a, b, path_b, reach_m,
+                         core::near_m(found[k].normal, f.fall_m[pair.i], pushed_a, f.fall_m[pair.j], pushed_b)))
+      found[kept++] = found[k];
   add_patches(f, pair.i, pair.j, found, kept);
 }
 

@@ -21,10 +21,7 @@ __device__ inline core::RigidWrench wrench_of(const RigidFrameView& f, std::uint
 // A thread a body; a launch of its own, without a barrier.
 __device__ inline void run_place(const RigidFrameView& f) {
   const GridPlaces grid;
-  if (grid.rank() == 0) {
-    f.counts->arrived = 0;
-    f.outcome->begin_ns = now_ns();
-  }
+  if (grid.rank() == 0) f.outcome->begin_ns = now_ns();
   std::uint32_t side = 0;
   std::uint32_t coordinate = 0;
   for (std::uint64_t k = grid.rank(); k < f.body_count; k += grid.size()) {
@@ -35,9 +32,14 @@ __device__ inline void run_place(const RigidFrameView& f) {
     const core::RigidWrench wrench = wrench_of(f, i);
     const core::FreeMotion motion = core::free_motion(s, mass, shape.balls, f.gravity_m_s2, wrench, f.dt_s);
     const core::Box shape_box = core::turned_box(shape.contact, shape.vertices, s.x, s.q);
-    const core::Box box = core::swept_box(shape_box, motion);
+    const core::PushWord push = f.old_push[i];
+    const std::uint32_t pusher = core::pusher_of(push);
+    const core::Vec3 pushed = core::pushed_way(push, motion.drift, f.dt_s * f.before[pusher].v);
+    const core::Box box = core::pushed_box(core::swept_box(shape_box, motion), pushed);
+    f.pushers[i] = {{motion.drift, motion.swing_m}, {pushed, __uint_as_float(pusher)}};
+    f.push[i] = 0;
     f.free_end[i] = core::free_end(s, mass, f.gravity_m_s2, wrench, f.dt_s);
-    f.reach_m[i] = motion.reach_m();
+    f.reach_m[i] = motion.reach_m() + core::length(pushed);
     f.fall_m[i] = core::length(motion.fall);
     f.pushed_m[i] = 0;
     f.shape_boxes[i] = shape_box;

@@ -42,7 +42,9 @@ void SoftSolver::follow_direction() {
   const float share = core::share_of_direction(first_change_, last_change_, change);
   last_change_ = change;
   work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-    core::follow(c, ways_[work_.index_of(c)], a, b, share);
+    core::PatchWay& way = ways_[work_.index_of(c)];
+    core::push_along(c, way, a, b, share);
+    core::follow_impulses(c, way, share);
   });
 }
 

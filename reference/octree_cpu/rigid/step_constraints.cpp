@@ -33,6 +33,8 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
   bodies_.resize(states.size() + 1);
   bodies_.back() = {};
   each_body([&](std::size_t i) { bodies_[i] = core::solver_body(states[i], step.masses[i]); });
+  stirred_.assign(bodies_.size(), 0);
+  sweep_ = 0;
   coloring_.color(patches, step.masses);
   constraints_.resize(patches.size());
   std::atomic<bool> bouncing = false;
@@ -72,30 +74,53 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
   });
 }
 
-void StepConstraints::bounce(const core::SoftStep& numbers) {
-  if (!may_bounce_) return;
+// Patches of one color, and patches in any order, may stir the same body that never moves, and bodies that bounce may
+// be stirred by several threads at once with the same number.
+void StepConstraints::stir(const PatchConstraint& c, std::uint32_t sweep) {
+  for (const std::uint32_t body : {c.a, c.b})
+    if (core::is_moved(bodies_[body])) std::atomic_ref(stirred_[body]).store(sweep, std::memory_order_relaxed);
+}
+
+bool StepConstraints::is_stirred(const PatchConstraint& c) const {
+  return stirred_[c.a] >= sweep_ || stirred_[c.b] >= sweep_;
+}
+
+float StepConstraints::largest_of_patches() const {
+  return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
+}
+
+float StepConstraints::stir_what_bounces(const core::SoftStep& numbers) {
   of_patches_.assign(constraints_.size(), 0.0F);
   each_patch([&](const PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
     of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
+    if (of_patches_[index_of(c)] > 0.0F) stir(c, sweep_);
   });
-  const auto largest = [&] {
-    return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
-  };
-  const float done = core::kBounceDone * largest();
+  return largest_of_patches();
+}
+
+void StepConstraints::bounce(const core::SoftStep& numbers) {
+  if (!may_bounce_) return;
+  sweep_ += 2;  // above what was stirred by the last sweep before
+  const float fastest = stir_what_bounces(numbers);
+  const float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
   // A share of what stopped them is given back, so that is to be known well.
-  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
+  float largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++sweep_) {
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-      of_patches_[index_of(c)] = core::relax_patch(c, a, b, numbers);
+      float& change = of_patches_[index_of(c)] = is_stirred(c) ? core::relax_patch(c, a, b, numbers) : 0.0F;
+      if (change > done) stir(c, sweep_ + 1);
     });
-  each_patch([&](PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
-    core::note_stopping(c);
-    of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
-  });
-  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
+    largest = largest_of_patches();
+  }
+  each_patch([](PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) { core::note_stopping(c); });
+  largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
       of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
     });
+    largest = largest_of_patches();
+  }
 }
 
 }  // namespace broadside::reference

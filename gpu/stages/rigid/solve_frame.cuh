@@ -1,0 +1,28 @@
+// The end of a frame of turning bodies: contacts are solved while the bodies move.
+#pragma once
+
+#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/rigid/constraint_stage.cuh"
+#include "gpu/stages/rigid/frame_end.cuh"
+#include "gpu/stages/rigid/solve_stage.cuh"
+#include "gpu/stages/rigid/solve_team.cuh"
+
+namespace broadside::gpu {
+
+__device__ __forceinline__ void run_solve(const RigidFrameView& f) {
+  const SolveTeam team(f.solve_team, f.barrier);
+  const bool is_first = team.rank() == 0;
+  mark(f, is_first, core::Stage::kResponse);  // TRIAL
+  const bool is_aborted = lacks_room(f);
+  if (!is_aborted) {
+    run_substeps(team, f);
+    finish_bodies(team, f);
+    finish_patches(team, f);
+  }
+  team.sync();
+  if (!is_first) return;
+  mark(f, true, core::Stage::kFaces);  // TRIAL
+  tell_host(f, is_aborted);
+}
+
+}  // namespace broadside::gpu
