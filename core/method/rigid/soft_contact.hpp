@@ -29,6 +29,7 @@ struct SoftStep {
   // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
   // friction holds, from the first substep on.
   float settle_m_s = 0.0F;
+  float least_done_m_s = 0.0F;  // changes of speed below this are none to sweep on for
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
   float gravity_m_s2 = 0.0F;
 };
@@ -46,6 +47,12 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
   s.mass_scale = a2 * a3;
   s.impulse_scale = a3;
   return s;
+}
+
+// Of sweeps: the last one changes no point's speed by more. fastest_m_s: of all points.
+BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, float fastest_m_s) {
+  const float of_fastest = done_share * fastest_m_s;
+  return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
 }
 
 // Before anything else of a substep: how fast the points come.

@@ -55,7 +55,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   work_.each_patch([&](const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
     of_patches_[work_.index_of(c)] = core::fastest_point(c, a, b);
   });
-  const float done = settings_.done * largest_of_patches();
+  const float done = core::done_m_s(numbers, settings_.done, largest_of_patches());
   work_.each_patch_by_color([](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::warm_start(c, a, b); });
   for (std::uint32_t k = 1;; ++k) {
     work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
