@@ -2,6 +2,7 @@
 // shared by bodies of one shape.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "core/method/rigid/turned_box.hpp"
+#include "core/pair.hpp"
 #include "core/result.hpp"
 #include "core/scene/body_octree.hpp"
 #include "core/scene/contact_shapes.hpp"
@@ -28,6 +30,9 @@ struct RigidShape {
   NodeBoxes nodes;       // from the center of mass, body axes
   BodyOctree octree;     // of the vertices of a hull or mesh, mesh coordinates; else none
   ShapeBalls balls;
+  // Of the ball inside; of a hull or mesh, whose inside nobody knows, a quarter of half of its box's shortest side,
+  // which is less than most ears and legs.
+  float half_thickness_m = 0.0F;
 
   [[nodiscard]] VertexTreeView vertices() const {
     return {octree.boxes.data() + kLevelOffset[1], octree.boxes.data() + kLevelOffset[2], octree.leaf_begin.data(),
@@ -66,6 +71,12 @@ struct RigidBodies {
   [[nodiscard]] Vec3 origin(std::uint32_t body) const { return mesh_origin(mass[body], state[body]); }
   [[nodiscard]] RigidWrench wrench_of(std::uint32_t body) const {
     return wrench.empty() ? RigidWrench{} : wrench[body];
+  }
+  // Half of the least one.
+  [[nodiscard]] float thickness_m(std::uint32_t body) const { return shapes[shape[body]].half_thickness_m; }
+  // The same of the thinner of both.
+  [[nodiscard]] float thinner_m(Pair pair) const {
+    return std::min(thickness_m(pair.i), thickness_m(pair.j));
   }
   // As another body may feel it.
   [[nodiscard]] Pusher pusher(std::uint32_t body) const {

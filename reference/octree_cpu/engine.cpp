@@ -18,8 +18,8 @@
 namespace broadside::reference {
 namespace {
 
-const std::array<core::SettingRow, 9>& settings_table() {
-  static const std::array<core::SettingRow, 9> kTable{{
+const std::array<core::SettingRow, 10>& settings_table() {
+  static const std::array<core::SettingRow, 10> kTable{{
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
@@ -44,6 +44,11 @@ const std::array<core::SettingRow, 9>& settings_table() {
        {"scaled", "fixed"},
        "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
        "v_threshold_m_s"},
+      {"sweep",
+       "off",
+       {"off", "fast"},
+       "bodies that turn: fast = those that move farther in a step than they are thick stop before they pass through "
+       "others"},
   }};
   return kTable;
 }
@@ -83,6 +88,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
     return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
   };
   turning.declaration = core::rigid_declaration(soft);
+  turning.sweeps_fast = settings.text("sweep") == "fast";
   turning.threads = threads;
 
   core::Engine engine;

@@ -39,6 +39,13 @@ BROADSIDE_HD float squared_change(const PatchConstraint& c, const PatchWay& way)
   return sum;
 }
 
+// How much of the last direction is added, by the squared changes of the first sweep of a substep, the one before and
+// this one; those that were not yet are 0. None where changes grow, nor where they are larger than at first: friction
+// makes sweeps that do not shrink an energy, and directions may then lead on and on.
+BROADSIDE_HD constexpr float share_of_direction(float first_change, float last_change, float change) {
+  return last_change > 0.0F && change <= last_change && change <= first_change ? change / last_change : 0.0F;
+}
+
 // How far a step along the last direction changes a point's impulses.
 struct PointStep {
   float normal = 0.0F;

@@ -29,6 +29,7 @@ struct SoftStep {
   // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
   // friction holds, from the first substep on.
   float settle_m_s = 0.0F;
+  float least_done_m_s = 0.0F;  // changes of speed below this are none to sweep on for
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
   float gravity_m_s2 = 0.0F;
 };
@@ -46,6 +47,12 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
   s.mass_scale = a2 * a3;
   s.impulse_scale = a3;
   return s;
+}
+
+// Of sweeps: the last one changes no point's speed by more. fastest_m_s: of all points.
+BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, float fastest_m_s) {
+  const float of_fastest = done_share * fastest_m_s;
+  return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
 }
 
 // Before anything else of a substep: how fast the points come.
@@ -173,6 +180,8 @@ BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const S
 // One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
 // is the next substep's. Returns the largest change of a point's speed, m/s.
 BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+  // Bodies turn where they move alone, so masses that are right here are so until they move again.
+  if (has_turned_far(a) || has_turned_far(b)) set_masses(c, a, b);
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
   each_point(c, [&](int k) {

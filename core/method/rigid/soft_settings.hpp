@@ -25,8 +25,11 @@ struct SoftSettings {
   float even_masses = 64.0F;
   // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
   std::uint32_t sweeps = 12;
-  // A sweep is the last one that changes no point's speed by more than this share of the fastest.
+  // A sweep is the last one that changes no point's speed by more than this share of the fastest, or by more than this
+  // share of what gravity gives in a substep: where all rests, the fastest is no faster than that, and one point of a
+  // thousand kept everybody sweeping.
   float done = 0x1p-10F;
+  float done_of_gravity = 0x1p-5F;
   float omega_dt = 6.0F;
   float damping = 1.0F;
   PatchLimits limits{0x1p-16F, 0.0F};
@@ -58,6 +61,7 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   const float gravity = length(gravity_m_s2);
   SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
   step.gravity_m_s2 = gravity;
+  step.least_done_m_s = settings.done_of_gravity * gravity * step.dt_s;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
   return step;

@@ -18,7 +18,9 @@ namespace broadside::reference {
 
 class PatchStage {
  public:
-  void load(const core::Scene& scene);
+  // sweeps_fast: whether bodies that move farther than they are thick are followed on their way, to see whether they
+  // touch.
+  void load(const core::Scene& scene, bool sweeps_fast);
   // confirmed: sorted pairs.
   void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
   // After touch_bodies. patches: of both stages, sorted by (a, b): of a body first those with bodies, then those with
@@ -33,6 +35,9 @@ class PatchStage {
 
   void find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
 
+  [[nodiscard]] bool is_passing(const core::RigidBodies& bodies, core::Pair pair, const core::Manifold& found) const;
+
+  bool sweeps_fast_ = false;
   core::Box domain_;
   std::array<core::ContactShape, core::kFaceCount> face_shapes_;
   std::array<core::ContactPose, core::kFaceCount> face_poses_;

@@ -40,7 +40,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   patches_.clear();
   points_.clear();
   level_stage_.reset_counts();
-  patch_stage_.load(scene);
+  patch_stage_.load(scene, options_.sweeps_fast);
+  sweep_stage_.load(scene, bodies_, options_.make_broad_phase);
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
   threads_->arena.execute([&] { place(scene.dt_s); });
@@ -66,6 +67,8 @@ core::Status RigidPipeline::run_stages(float dt_s) {
   touch_faces();
   clock.lap(core::Stage::kFaces);
   respond(dt_s);
+  if (options_.sweeps_fast)
+    if (core::Status s = stop_short(); !s) return s;
   tell_points();
   clock.lap(core::Stage::kResponse);
   ++steps_;
@@ -127,6 +130,10 @@ void RigidPipeline::respond(float dt_s) {
   solver_->advance(bodies_.state, patches_, step);
 }
 
+core::Status RigidPipeline::stop_short() {
+  return sweep_stage_.stop_short(bodies_);
+}
+
 // Of what touched or was pushed. Patches are sorted, so the points are.
 void RigidPipeline::tell_points() {
   points_.clear();
@@ -154,6 +161,7 @@ std::vector<core::Counter> RigidPipeline::counters() const {
   counters.push_back({"level stage: pairs tested", level_stage_.pairs_tested()});
   counters.push_back({"level stage: box tests", level_stage_.box_tests()});
   counters.push_back({"contact patches", patch_stage_.patches_made()});
+  if (options_.sweeps_fast) counters.push_back({"sweep: bodies stopped short", sweep_stage_.stopped()});
   return counters;
 }
 

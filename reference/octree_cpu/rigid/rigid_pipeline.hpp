@@ -20,6 +20,7 @@
 #include "reference/octree_cpu/rigid/contact_solver.hpp"
 #include "reference/octree_cpu/rigid/oriented_level_stage.hpp"
 #include "reference/octree_cpu/rigid/patch_stage.hpp"
+#include "reference/octree_cpu/rigid/sweep_stage.hpp"
 
 namespace broadside::reference {
 
@@ -29,6 +30,7 @@ struct RigidPipelineOptions {
   core::Levels levels = core::Levels::kC;
   std::function<std::unique_ptr<ContactSolver>(const core::Scene&)> make_solver;
   core::Declaration declaration;  // of these stages with this solver
+  bool sweeps_fast = false;       // bodies that move farther than they are thick stop before they pass through others
   int threads = 0;                // 0 = all
 };
 
@@ -57,6 +59,8 @@ class RigidPipeline : public core::Dynamics {
   virtual void touch_bodies();
   virtual void touch_faces();
   virtual void respond(float dt_s);
+  // Where fast bodies are swept.
+  virtual core::Status stop_short();
   virtual void tell_points();
   // The last word on what is recorded.
   virtual void record(core::FrameRecord&) {}
@@ -64,6 +68,7 @@ class RigidPipeline : public core::Dynamics {
   const core::Scene* scene_ = nullptr;
   core::RigidBodies bodies_;
   PatchStage patch_stage_;
+  SweepStage sweep_stage_;
   core::PairSet candidates_;
   std::vector<core::Pair> confirmed_;
   std::vector<core::ContactPatch> patches_;

@@ -38,7 +38,8 @@ void SoftSolver::follow_direction() {
   std::uint64_t units = 0;
   for (const float part : of_patches_) units += sum.units(part);
   const float change = sum.value(units);
-  const float share = last_change_ > 0.0F && change <= last_change_ ? change / last_change_ : 0.0F;
+  if (!(last_change_ > 0.0F)) first_change_ = change;
+  const float share = core::share_of_direction(first_change_, last_change_, change);
   last_change_ = change;
   work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
     core::PatchWay& way = ways_[work_.index_of(c)];
@@ -54,7 +55,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   work_.each_patch([&](const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
     of_patches_[work_.index_of(c)] = core::fastest_point(c, a, b);
   });
-  const float done = settings_.done * largest_of_patches();
+  const float done = core::done_m_s(numbers, settings_.done, largest_of_patches());
   work_.each_patch_by_color([](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::warm_start(c, a, b); });
   for (std::uint32_t k = 1;; ++k) {
     work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
