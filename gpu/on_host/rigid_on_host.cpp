@@ -38,7 +38,7 @@ core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shap
   return core::Done{};
 }
 
-core::Status launch_contacts(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+core::Status launch_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
   on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts(frame); });
   return core::Done{};
 }

@@ -6,7 +6,7 @@
 #include "core/method/coloring.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/rigid/patch_stage.cuh"
+#include "gpu/stages/rigid/contact_body.cuh"
 
 namespace broadside::gpu {
 

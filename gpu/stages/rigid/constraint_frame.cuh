@@ -6,6 +6,7 @@
 #include "gpu/stages/rigid/color_stage.cuh"
 #include "gpu/stages/rigid/constraint_stage.cuh"
 #include "gpu/stages/rigid/frame_end.cuh"
+#include "gpu/stages/rigid/list_stage.cuh"
 
 namespace broadside::gpu {
 

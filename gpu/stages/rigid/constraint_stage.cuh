@@ -7,21 +7,10 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
-#include "gpu/stages/rigid/patch_stage.cuh"
+#include "gpu/stages/rigid/contact_body.cuh"
 #include "gpu/stages/rigid/solver_bodies.cuh"
 
 namespace broadside::gpu {
-
-template <typename Team>
-__device__ void begin_bodies(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
-    store_body(f.bodies[i], core::solver_body(f.before[i], f.mass[i]));
-    f.stirred[i] = 0;
-  }
-  if (team.rank() != 0) return;
-  store_body(f.bodies[f.body_count], core::SolverBody{});
-  f.stirred[f.body_count] = 0;
-}
 
 // Where these bodies' points of the step before have this feature: the first of them, patch by patch; or nowhere.
 constexpr std::uint32_t kForgotten = 0xFFFFFFFFU;
