@@ -201,11 +201,11 @@ void RigidPipeline::Impl::fill() {
   pairs_view.outcome = broad_outcome.device(0);
 }
 
-// As many blocks as a color of the frame before has patches, or half of the bodies: fewer have a faster barrier. A
-// cluster's is the fastest, so its threads may have some patches of a color one after the other. Returns the blocks.
+// A block for so many bodies as it has threads: the first color of a heap has about a patch a body, the others have
+// fewer, and more blocks have a slower barrier. A cluster's is the fastest, so its threads may have some patches of a
+// color one after the other. Returns the blocks.
 std::uint32_t RigidPipeline::Impl::choose_solve_team() {
-  const std::uint64_t of_color = last.patches / std::max(1U, last.colors);
-  const std::uint64_t width = std::max<std::uint64_t>(of_color, (view.body_count + 1) / 2);
+  const std::uint64_t width = view.body_count;
   const std::uint64_t wanted = (width + solve_shape.grid.threads - 1) / solve_shape.grid.threads;
   const bool is_cluster = options.may_cluster && solve_shape.cluster_blocks > 1 &&
                           wanted <= kMostTurnsOfCluster * solve_shape.cluster_blocks;

@@ -10,7 +10,7 @@
 namespace broadside::gpu {
 
 __device__ __forceinline__ void run_solve(const RigidFrameView& f) {
-  const SolveTeam team(f.solve_team, f.barrier);
+  const SolveTeam team(f);
   const bool is_first = team.rank() == 0;
   mark(f, is_first, core::Stage::kResponse);  // TRIAL
   const bool is_aborted = lacks_room(f);
