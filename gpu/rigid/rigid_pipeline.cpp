@@ -180,7 +180,7 @@ void RigidPipeline::Impl::fill() {
   buffers.fill(view);
   view.dt_s = dt_s;
   for (std::uint32_t kind = 0; kind < 2; ++kind) {
-    view.substeps[kind] = (kind + 1) * view.solver.substeps;
+    view.substeps[kind] = core::substeps_of(view.solver, kind == 1);
     view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
   }
   view.pairs = pairs.data();

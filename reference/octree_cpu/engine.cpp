@@ -18,8 +18,8 @@
 namespace broadside::reference {
 namespace {
 
-const std::array<core::SettingRow, 10>& settings_table() {
-  static const std::array<core::SettingRow, 10> kTable{{
+const std::array<core::SettingRow, 11>& settings_table() {
+  static const std::array<core::SettingRow, 11> kTable{{
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
@@ -44,6 +44,10 @@ const std::array<core::SettingRow, 10>& settings_table() {
        {"scaled", "fixed"},
        "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
        "v_threshold_m_s"},
+      {"sleep",
+       "off",
+       {"off", "on"},
+       "bodies that turn: on = those that stand still together stop being solved until something awake touches them"},
       {"sweep",
        "off",
        {"off", "fast"},
@@ -88,6 +92,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
     return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
   };
   turning.declaration = core::rigid_declaration(soft);
+  turning.sleeps = settings.text("sleep") == "on";
   turning.sweeps_fast = settings.text("sweep") == "fast";
   turning.threads = threads;
 
@@ -100,8 +105,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.declaration = core::method_declaration();
   engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning),
                                                        core::refuse_method_settings("octree-cpu", settings));
-  engine.equivalence = [soft, build = engine.build, workers = worker_count(settings.number("threads"))](
-                           const core::Scene& scene) { return rigid_card(scene, soft, build, workers); };
+  engine.equivalence = [soft, sleeps = settings.text("sleep") == "on", build = engine.build, workers = worker_count(settings.number("threads"))](
+                           const core::Scene& scene) { return rigid_card(scene, soft, sleeps, build, workers); };
   return engine;
 }
 

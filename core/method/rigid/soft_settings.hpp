@@ -19,8 +19,8 @@ struct PatchLimits {
 
 // core/method/rigid/SOLVERS.md has the measurements that the defaults were chosen by.
 struct SoftSettings {
-  // Of a step; twice as many where bodies that touch have masses further apart than even_masses: what a contact yields
-  // grows with the mass on it, and falls with the square of the substep.
+  // Of a step; kUnevenFactor times as many where bodies that touch have masses further apart than even_masses: what a
+  // contact yields grows with the mass on it, and falls with the square of the substep.
   std::uint32_t substeps = 4;
   float even_masses = 64.0F;
   // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
@@ -51,9 +51,16 @@ struct MostOfStep {
   std::uint32_t applications = 0;
 };
 
+// A small cube under one a thousand times as heavy was pushed into the floor by half its side with twice as many.
+inline constexpr std::uint32_t kUnevenFactor = 4;
+
+BROADSIDE_HD constexpr std::uint32_t substeps_of(const SoftSettings& settings, bool is_uneven) {
+  return is_uneven ? kUnevenFactor * settings.substeps : settings.substeps;
+}
+
 inline MostOfStep most_of_step(const SoftSettings& settings) {
   // The start from the last impulse, sweeps with a step along the direction between two, relaxation and rebound.
-  return {2 * settings.substeps, 1 + (2 * settings.sweeps - 1) + 1 + 1};
+  return {substeps_of(settings, true), 1 + (2 * settings.sweeps - 1) + 1 + 1};
 }
 
 inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {

@@ -72,9 +72,12 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
   return core::passes_by(found, a.contact, path_a, b.contact, path_b, bodies.reach_m[i] + bodies.reach_m[j], near_m);
 }
 
-void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
+void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
+                              std::span<const std::uint8_t> asleep) {
+  const auto is_idle = [&](std::uint32_t i) { return asleep[i] != 0 || bodies.is_static[i] != 0; };
   fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
     const auto [i, j] = confirmed[k];
+    if (is_idle(i) && is_idle(j)) return;
     core::Manifold found[core::kPatchesOfPair];
     const int count = core::make_manifolds(bodies.shapes[bodies.shape[i]].contact, bodies.pose(i),
                                            bodies.shapes[bodies.shape[j]].contact, bodies.pose(j),
@@ -96,11 +99,11 @@ void PatchStage::find_pushed_reach(const core::RigidBodies& bodies, std::span<co
 }
 
 void PatchStage::touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
-                             std::vector<ContactPatch>& patches) {
+                             std::span<const std::uint8_t> asleep, std::vector<ContactPatch>& patches) {
   find_pushed_reach(bodies, confirmed);
   fill_in_order(bodies.count(), kBodiesOfBlock, face_blocks_, of_faces_, [&](std::size_t k, Block& block) {
     const auto i = static_cast<std::uint32_t>(k);
-    if (bodies.is_static[i] != 0) return;
+    if (bodies.is_static[i] != 0 || asleep[i] != 0) return;
     const core::Box& box = bodies.shape_boxes[i];
     const float reach_m = pushed_reach_m_[i];
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {

@@ -21,12 +21,15 @@ class PatchStage {
   // sweeps_fast: whether bodies that move farther than they are thick are followed on their way, to see whether they
   // touch.
   void load(const core::Scene& scene, bool sweeps_fast);
-  // confirmed: sorted pairs.
-  void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
+  // confirmed: sorted pairs. asleep: by body; pairs that nobody awake is in are left out.
+  void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
+                    std::span<const std::uint8_t> asleep);
   // After touch_bodies. patches: of both stages, sorted by (a, b): of a body first those with bodies, then those with
-  // faces. Static bodies touch no face.
+  // faces. Static bodies touch no face, and who sleeps is left out.
   void touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
-                   std::vector<core::ContactPatch>& patches);
+                   std::span<const std::uint8_t> asleep, std::vector<core::ContactPatch>& patches);
+  // Of pairs, after touch_bodies.
+  [[nodiscard]] std::span<const core::ContactPatch> of_bodies() const { return of_pairs_; }
   // Since load.
   [[nodiscard]] std::uint64_t patches_made() const { return patches_made_; }
 

@@ -89,7 +89,7 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                          const RigidStep& step) {
   const bool is_uneven = largest_mass_ratio(patches, step.masses) > settings_.even_masses;
-  const std::uint32_t substeps = is_uneven ? 2 * settings_.substeps : settings_.substeps;
+  const std::uint32_t substeps = core::substeps_of(settings_, is_uneven);
   const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, substeps);
   work_.begin(states, patches, step, numbers.dt_s, settings_.limits);
   for (std::uint32_t k = 0; k < substeps; ++k) substep(step, numbers);

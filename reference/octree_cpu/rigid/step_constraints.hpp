@@ -63,6 +63,8 @@ class StepConstraints {
   void bounce(const core::SoftStep& numbers);
 
  private:
+  [[nodiscard]] std::span<const core::ContactPatch> awake_of(std::span<const core::ContactPatch> patches,
+                                                             std::span<const std::uint8_t> asleep);
   void recall(const core::ContactPatch& patch, core::PatchConstraint& c) const;
   // The fastest approach of what bounces, whose bodies are stirred.
   float stir_what_bounces(const core::SoftStep& numbers);
@@ -70,6 +72,16 @@ class StepConstraints {
   [[nodiscard]] bool is_stirred(const core::PatchConstraint& c) const;
   [[nodiscard]] float largest_of_patches() const;
 
+  // Of patches as given, those of bodies that are awake: all, where nobody sleeps.
+  std::vector<core::ContactPatch> awake_patches_;
+  std::vector<std::uint32_t> awake_;  // their indices
+  // The others: what those gave in the step before, and left for the next one.
+  struct AsleepPatch {
+    std::uint32_t patch;
+    PatchImpulses given;
+    std::array<RememberedPoint, core::kManifoldPoints> remembered;
+  };
+  std::vector<AsleepPatch> asleep_;
   PatchColoring coloring_;
   ImpulseMemory memory_;
   std::vector<core::SolverBody> bodies_;            // the last one stands for every face: it never moves
