@@ -10,7 +10,10 @@ namespace broadside::gpu {
 class SolveTeam : public GridPlaces {
  public:
   __device__ explicit SolveTeam(const RigidFrameView& f)
-      : colors_(f.counts->colors), alone_from_(colors_), kind_(f.solve_team), barrier_(f.barrier) {
+      : colors_(min(f.counts->colors, f.color_capacity)),  // an aborted frame may have more
+        alone_from_(colors_),
+        kind_(f.solve_team),
+        barrier_(f.barrier) {
     while (alone_from_ > 0 && f.color_count[alone_from_ - 1] <= blockDim.x) --alone_from_;
   }
 
