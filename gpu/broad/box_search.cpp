@@ -1,6 +1,7 @@
 #include "gpu/broad/box_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace broadside::gpu {
 namespace {
@@ -10,6 +11,11 @@ constexpr std::uint64_t kPairsPerBox = 8;
 
 }  // namespace
 
+std::uint64_t BoxSearch::first_room(const PairFinderOptions& options) const {
+  const std::uint64_t expected = std::max(kLeastPairs, kPairsPerBox * count_);
+  return options.pairs_at_once == 0 ? expected : std::min(options.pairs_at_once, expected);
+}
+
 core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& options) {
   start_ = options.start(facts);
   count_ = facts.count;
@@ -18,9 +24,10 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   BROADSIDE_TRY(counters_.reserve(1, "counters"));
   BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
   BROADSIDE_TRY(barrier_.fill_bytes(0));
-  BROADSIDE_TRY(pairs_.reserve(std::max(kLeastPairs, kPairsPerBox * count_), "pairs"));
-  auto shape =
-      pairs_launch_shape(start_, count_, static_cast<std::uint32_t>(grid_buckets(count_)), options.least_for_bins);
+  BROADSIDE_TRY(pairs_.reserve(first_room(options), "pairs"));
+  const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
+  auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, options.least_for_bins)
+                                                 : pairs_launch_shape(start_, count_, buckets, options.least_for_bins);
   if (!shape.ok()) return shape.error();
   shape_ = shape.value();
   BROADSIDE_TRY(broad_.load(start_, facts, options.hash_cell_m, options.variant, shape_.bins, shape_.sort.blocks));
@@ -38,6 +45,17 @@ core::Result<PackedBox*> BoxSearch::room_for(std::size_t boxes) {
   return boxes_.data();
 }
 
+core::Result<PackedBox*> BoxSearch::move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream) {
+  if (boxes <= boxes_.capacity()) return boxes_.data();
+  DeviceBuffer<PackedBox> larger;
+  BROADSIDE_TRY(larger.reserve(boxes, "boxes"));
+  if (kept != 0) BROADSIDE_TRY(copy_on_device(larger.data(), boxes_.data(), kept * sizeof(PackedBox), stream));
+  BROADSIDE_TRY(wait_for_stream(stream, "moving boxes"));
+  boxes_ = std::move(larger);
+  view_.boxes = boxes_.data();
+  return boxes_.data();
+}
+
 core::Status BoxSearch::load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new) {
   if (is_new || facts.count != count_ || options.start(facts) != start_) BROADSIDE_TRY(reserve(facts, options));
   broad_.refit(facts);
@@ -52,7 +70,7 @@ core::Status BoxSearch::load(const SearchedBoxes& boxes, const PairFinderOptions
     if (!shape.ok()) return shape.error();
     settle_shape_ = shape.value();
     BROADSIDE_TRY(given_.upload(boxes.given(), "boxes as given"));
-    BROADSIDE_TRY(settled_.reserve(std::max(kLeastPairs, kPairsPerBox * count_), "pairs"));
+    BROADSIDE_TRY(settled_.reserve(first_room(options), "pairs"));
     settle_.given = given_.data();
     settle_.owned = boxes.owned();
     settle_.counters = view_.counters;
@@ -62,15 +80,31 @@ core::Status BoxSearch::load(const SearchedBoxes& boxes, const PairFinderOptions
   return boxes_.upload(boxes.searched(), "boxes");
 }
 
-core::Status BoxSearch::launch(StreamHandle stream) {
+void BoxSearch::fill_view() {
   broad_.fill(view_.broad);
   broad_.fill(view_.bulk);
   view_.pairs = {pairs_.data(), pairs_.capacity()};
-  BROADSIDE_TRY(launch_pairs(view_, shape_, stream));
+}
+
+core::Status BoxSearch::launch_share(const NamedPairsView& share, StreamHandle stream) {
+  fill_view();
+  NamedPairsView own = share;
+  own.search = view_;
+  BROADSIDE_TRY(launch_named_pairs(own, shape_, stream));
+  return settle(stream);
+}
+
+core::Status BoxSearch::settle(StreamHandle stream) {
   if (!is_settled()) return core::Done{};
   settle_.found = view_.pairs;
   settle_.pairs = {settled_.data(), settled_.capacity()};
   return launch_settle(settle_, settle_shape_, stream);
+}
+
+core::Status BoxSearch::launch(StreamHandle stream) {
+  fill_view();
+  BROADSIDE_TRY(launch_pairs(view_, shape_, stream));
+  return settle(stream);
 }
 
 core::Status BoxSearch::grow() {

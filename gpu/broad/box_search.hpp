@@ -7,6 +7,7 @@
 
 #include "core/pair.hpp"
 #include "gpu/broad/broad_buffers.hpp"
+#include "gpu/broad/named_pairs_view.hpp"
 #include "gpu/broad/pair_finder_options.hpp"
 #include "gpu/broad/searched_boxes.hpp"
 #include "gpu/broad/settle_view.hpp"
@@ -32,14 +33,26 @@ class BoxSearch {
   core::Result<PackedBox*> room_for(std::size_t boxes);
   core::Status load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new);
 
+  // With another place for them: the first `kept` boxes are there too.
+  core::Result<PackedBox*> move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream);
+
   core::Status launch(StreamHandle stream);
+  // Where the options say that there are shares. `share`: names, places, and whether the boxes are in order already.
+  core::Status launch_share(const NamedPairsView& share, StreamHandle stream);
+  [[nodiscard]] bool can_share() const { return start_ == Start::kBulk; }
+  [[nodiscard]] std::uint32_t box_count() const { return count_; }
+  [[nodiscard]] std::uint32_t multiprocessors() const { return shape_.search.multiprocessors; }
+  // After a search of shares: what it left on the device.
+  [[nodiscard]] const PairsView& view() const { return view_; }
   // After the stream was waited for: whether pairs were lost; grow then makes room for them.
   [[nodiscard]] bool is_aborted() const { return outcome_[0].counters.is_aborted != 0; }
   core::Status grow();
+  void forget_abort() { outcome_[0].counters.is_aborted = 0; }
   // What the search tests, where somebody asked.
   core::Status count_work(WorkCounter& work, StreamHandle stream);
 
   [[nodiscard]] FoundPairs found() const;
+  [[nodiscard]] std::uint64_t room_for_pairs() const { return pairs_.capacity(); }
   // The pairs of the last launch, behind those that are there.
   core::Status append_pairs(std::vector<core::Pair>& to) const;
 
@@ -52,6 +65,9 @@ class BoxSearch {
  private:
   [[nodiscard]] bool is_settled() const { return settle_.given != nullptr; }
   core::Status reserve(const BoxFacts& facts, const PairFinderOptions& options);
+  [[nodiscard]] std::uint64_t first_room(const PairFinderOptions& options) const;
+  void fill_view();
+  core::Status settle(StreamHandle stream);
 
   PairsShape shape_;
   LaunchShape settle_shape_;

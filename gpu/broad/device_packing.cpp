@@ -4,6 +4,20 @@
 
 namespace broadside::gpu {
 
+BoxFacts facts_of(const BoxMeasure& measure, std::uint32_t count) {
+  BoxFacts facts;
+  facts.count = count;
+  if (count == 0) return facts;
+  facts.largest_side_m = from_ordered_bits(measure.largest_side);
+  facts.coordinate_range_m = from_ordered_bits(measure.coordinate_range);
+  for (int k = 0; k < 3; ++k) {
+    facts.domain.min[k] = from_ordered_bits(measure.low[k]);
+    facts.domain.max[k] = from_ordered_bits(measure.high[k]);
+  }
+  facts.low_corner = facts.domain.min;
+  return facts;
+}
+
 // Copies of the host go their own way: they are waited for before the stream's work begins.
 core::Status DevicePacking::reserve(std::span<const std::uint8_t> is_static) {
   const BoxMeasure of_none[2];
@@ -33,19 +47,8 @@ core::Result<BoxFacts> DevicePacking::pack(const core::DeviceBoxes& given, std::
   BROADSIDE_TRY(launch_pack(view, stream.get()));
   BROADSIDE_TRY(start_copy_to_host(&measured_[0], measure, sizeof *measure, stream.get()));
   BROADSIDE_TRY(stream.wait("packing boxes"));
-  BoxFacts facts;
-  facts.count = view.count;
-  if (given.count == 0) return facts;
-  const BoxMeasure& m = measured_[0];
-  if (m.first_bad < given.count) return bad_box(m.first_bad);
-  facts.largest_side_m = from_ordered_bits(m.largest_side);
-  facts.coordinate_range_m = from_ordered_bits(m.coordinate_range);
-  for (int k = 0; k < 3; ++k) {
-    facts.domain.min[k] = from_ordered_bits(m.low[k]);
-    facts.domain.max[k] = from_ordered_bits(m.high[k]);
-  }
-  facts.low_corner = facts.domain.min;
-  return facts;
+  if (measured_[0].first_bad < given.count) return bad_box(measured_[0].first_bad);
+  return facts_of(measured_[0], view.count);
 }
 
 }  // namespace broadside::gpu

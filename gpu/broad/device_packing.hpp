@@ -14,6 +14,9 @@
 
 namespace broadside::gpu {
 
+// Of sound boxes.
+BoxFacts facts_of(const BoxMeasure& measure, std::uint32_t count);
+
 class DevicePacking {
  public:
   // Before the first boxes with these flags.

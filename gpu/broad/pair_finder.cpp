@@ -5,21 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "gpu/broad/apart_search.hpp"
 #include "gpu/broad/box_search.hpp"
+#include "gpu/broad/dealt_boxes.hpp"
 #include "gpu/broad/device_packing.hpp"
-#include "gpu/broad/pack_view.hpp"
+#include "gpu/broad/pair_chunks.hpp"
+#include "gpu/runtime/device_choice.hpp"
 
 namespace broadside::gpu {
-namespace {
 
 using core::Box;
-
-core::Error another_count(std::size_t given, std::size_t loaded) {
-  return {"update was given " + std::to_string(given) + " boxes after a load of " + std::to_string(loaded),
-          "broad phase on the GPU", "load again when the number of boxes changes"};
-}
-
-}  // namespace
 
 struct PairFinder::Impl {
   PairFinderOptions options;
@@ -32,6 +27,10 @@ struct PairFinder::Impl {
   // The first `active`, in their order; the others keep their memory for another plan.
   std::vector<std::unique_ptr<BoxSearch>> searches;
   std::size_t active = 0;
+  ApartSearch apart;
+  bool may_be_apart = false;
+  bool is_apart = false;  // in the place of the searches
+  std::uint64_t chunked_pairs = 0;
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
   WorkCounter work;
@@ -44,11 +43,17 @@ struct PairFinder::Impl {
   core::Status place_on_device(const core::DeviceBoxes& given, bool is_new);
   core::Status load_search(std::size_t k, bool is_new);
   BoxSearch& search(std::size_t k);
+  core::Status launch();
+  core::Result<bool> grow();
+  [[nodiscard]] std::vector<FoundPairs> found() const;
   core::Status join();
+  core::Status for_each_chunk(const ChunkConsumer& take);
+  [[nodiscard]] bool is_chunked() const { return options.pairs_at_once != 0; }
 };
 
 PairFinder::PairFinder(const PairFinderOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->options = options;
+  impl_->options.has_shares = options.has_shares || options.pairs_at_once != 0;
 }
 PairFinder::~PairFinder() = default;
 
@@ -59,9 +64,12 @@ core::BroadPhaseTraits PairFinder::traits() const {
 }
 
 core::Status PairFinder::Impl::start(std::span<const std::uint8_t> flags) {
+  BROADSIDE_TRY(check_box_limit(flags.size()));
   is_static.assign(flags.begin(), flags.end());
   packing.start();
   launches = bytes_to_device = 0;
+  may_be_apart = !is_chunked() && options.may_have_passes() && is_worth_keeping_apart(is_static, options);
+  if (may_be_apart) apart.start(is_static, options);
   BROADSIDE_TRY(stream.create());
   return work.reset();
 }
@@ -83,6 +91,13 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
   if (options.may_have_passes())
     plan = core::plan_passes(given, boxes.facts().coordinate_range_m,
                              std::max(options.least_for_grid, options.least_for_passes));
+  is_apart = false;
+  if (may_be_apart && plan.is_plain()) {
+    auto can_be = apart.load(given, stream);
+    if (!can_be.ok()) return can_be.error();
+    is_apart = can_be.value();
+    if (is_apart) return core::Done{};
+  }
   active = std::max<std::size_t>(1, plan.passes.size());
   if (plan.is_plain()) return load_search(0, is_new);
   for (std::size_t k = 0; k < active; ++k) {
@@ -97,6 +112,7 @@ core::Status PairFinder::Impl::place_on_device(const core::DeviceBoxes& given, b
     return core::Error{"it takes boxes from the host alone", "spatial hash on the GPU",
                        "take octree-gpu, or copy the boxes to the host"};
   plan = {};
+  is_apart = false;
   active = 1;
   auto room = search(0).room_for(given.count);
   if (!room.ok()) return room.error();
@@ -125,40 +141,94 @@ core::Status PairFinder::update_on_device(const core::DeviceBoxes& boxes) {
   return impl_->place_on_device(boxes, false);
 }
 
+core::Status PairFinder::Impl::launch() {
+  if (is_apart) {
+    launches += apart.launches();
+    return apart.launch(stream.get());
+  }
+  for (std::size_t k = 0; k < active; ++k) {
+    launches += searches[k]->launches();
+    BROADSIDE_TRY(searches[k]->launch(stream.get()));
+  }
+  return core::Done{};
+}
+
+// Whether there was too little room; now there is enough.
+core::Result<bool> PairFinder::Impl::grow() {
+  bool had_too_little = false;
+  const auto grow_one = [&](auto& search) -> core::Status {
+    if (!search.is_aborted()) return core::Done{};
+    had_too_little = true;
+    return search.grow();
+  };
+  if (is_apart) BROADSIDE_TRY(grow_one(apart));
+  if (!is_apart)
+    for (std::size_t k = 0; k < active; ++k) BROADSIDE_TRY(grow_one(*searches[k]));
+  return had_too_little;
+}
+
+std::vector<FoundPairs> PairFinder::Impl::found() const {
+  if (is_apart) return {apart.found()};
+  std::vector<FoundPairs> all_found;
+  for (std::size_t k = 0; k < active; ++k) all_found.push_back(searches[k]->found());
+  return all_found;
+}
+
+core::Status PairFinder::Impl::for_each_chunk(const ChunkConsumer& take) {
+  for (std::size_t k = 0; k < active; ++k) BROADSIDE_TRY(gpu::for_each_chunk(*searches[k], stream, take, launches));
+  return core::Done{};
+}
+
 core::Status PairFinder::find() {
   Impl& d = *impl_;
   d.is_joined = false;
+  if (d.is_chunked()) {
+    d.chunked_pairs = 0;
+    BROADSIDE_TRY(d.timer.start(d.stream.get()));
+    BROADSIDE_TRY(d.for_each_chunk([&d](const FoundPairs& chunk) -> core::Status {
+      d.chunked_pairs += chunk.count;
+      return core::Done{};
+    }));
+    BROADSIDE_TRY(d.timer.stop(d.stream.get()));
+    return d.stream.wait("finding pairs");
+  }
   for (bool is_complete = false; !is_complete;) {
     BROADSIDE_TRY(d.timer.start(d.stream.get()));
-    for (std::size_t k = 0; k < d.active; ++k) {
-      d.launches += d.searches[k]->launches();
-      BROADSIDE_TRY(d.searches[k]->launch(d.stream.get()));
-    }
+    BROADSIDE_TRY(d.launch());
     BROADSIDE_TRY(d.timer.stop(d.stream.get()));
     BROADSIDE_TRY(d.stream.wait("finding pairs"));
-    is_complete = true;
-    for (std::size_t k = 0; k < d.active; ++k) {
-      if (!d.searches[k]->is_aborted()) continue;
-      is_complete = false;
-      BROADSIDE_TRY(d.searches[k]->grow());
-    }
+    auto had_too_little = d.grow();
+    if (!had_too_little.ok()) return had_too_little.error();
+    is_complete = !had_too_little.value();
   }
-  for (std::size_t k = 0; k < d.active; ++k) BROADSIDE_TRY(d.searches[k]->count_work(d.work, d.stream.get()));
+  if (!d.is_apart)
+    for (std::size_t k = 0; k < d.active; ++k) BROADSIDE_TRY(d.searches[k]->count_work(d.work, d.stream.get()));
+  return core::Done{};
+}
+
+core::Status PairFinder::hand_on(const Consumer& take) {
+  Impl& d = *impl_;
+  auto device = current_device();
+  if (!device.ok()) return device.error();
+  const auto hand = [&](const FoundPairs& chunk) { return take({chunk.data, chunk.count, device.value()}); };
+  if (d.is_chunked()) return d.for_each_chunk(hand);
+  BROADSIDE_TRY(find());
+  for (const FoundPairs& own : d.found()) BROADSIDE_TRY(hand(own));
   return core::Done{};
 }
 
 // One search's pairs are where they are; those of several are copied behind each other.
 core::Status PairFinder::Impl::join() {
   if (is_joined) return core::Done{};
+  const std::vector<FoundPairs> each = found();
   all = {};
-  if (active == 1) all = searches[0]->found();
-  if (active > 1) {
-    for (std::size_t k = 0; k < active; ++k) all.count += searches[k]->found().count;
+  if (each.size() == 1) all = each[0];
+  if (each.size() > 1) {
+    for (const FoundPairs& own : each) all.count += own.count;
     BROADSIDE_TRY(joined.reserve(all.count, "pairs"));
     all.data = joined.data();
     core::Pair* to = joined.data();
-    for (std::size_t k = 0; k < active; ++k) {
-      const FoundPairs own = searches[k]->found();
+    for (const FoundPairs& own : each) {
       if (own.count != 0) BROADSIDE_TRY(copy_on_device(to, own.data, own.count * sizeof(core::Pair), stream.get()));
       to += own.count;
     }
@@ -171,13 +241,24 @@ core::Status PairFinder::Impl::join() {
 core::Result<core::DevicePairs> PairFinder::pairs_on_device() const {
   auto device = current_device();
   if (!device.ok()) return device.error();
+  if (impl_->is_chunked())
+    return core::Error{"pairs are handed on in chunks, and are nowhere together", "broad phase on the GPU",
+                       "take them by hand_on, or leave out pairs_at_once"};
   BROADSIDE_TRY(impl_->join());
   return core::DevicePairs{impl_->all.data, impl_->all.count, device.value()};
 }
 
 core::Result<core::PairSet> PairFinder::read_back() {
   core::PairSet set;
-  for (std::size_t k = 0; k < impl_->active; ++k) BROADSIDE_TRY(impl_->searches[k]->append_pairs(set.pairs));
+  const auto append = [&set](const FoundPairs& from) -> core::Status {
+    const std::size_t before = set.pairs.size();
+    set.pairs.resize(before + from.count);
+    if (from.count == 0) return core::Done{};
+    return copy_to_host(set.pairs.data() + before, from.data, from.count * sizeof(core::Pair));
+  };
+  if (impl_->is_chunked()) BROADSIDE_TRY(impl_->for_each_chunk(append));
+  if (!impl_->is_chunked())
+    for (const FoundPairs& own : impl_->found()) BROADSIDE_TRY(append(own));
   std::sort(set.pairs.begin(), set.pairs.end());
   set.demanded = set.raw = set.pairs.size();
   return set;
@@ -185,10 +266,15 @@ core::Result<core::PairSet> PairFinder::read_back() {
 
 std::vector<core::Counter> PairFinder::counters() const {
   const Impl& d = *impl_;
-  std::uint64_t bytes = d.joined.bytes();
+  std::uint64_t bytes = d.joined.bytes() + d.apart.bytes();
   for (const auto& search : d.searches) bytes += search->bytes();
-  std::vector<core::Counter> counters{
-      {"launches", d.launches}, {"bytes to the device", d.bytes_to_device}, {"device bytes", bytes}};
+  std::vector<core::Counter> counters{{"launches", d.launches},
+                                      {"bytes to the device", d.bytes_to_device + d.apart.bytes_to_device()},
+                                      {"device bytes", bytes}};
+  if (d.is_apart) {
+    counters.push_back({"broad: static tables built", d.apart.static_builds()});
+    counters.push_back({"broad: static boxes kept", d.apart.static_boxes_kept()});
+  }
   d.work.tell(counters);
   return counters;
 }
@@ -198,6 +284,7 @@ void PairFinder::count_work() {
 }
 
 std::string PairFinder::path() const {
+  if (impl_->is_apart) return "static boxes in a table that is kept, moving ones in a table of each frame";
   return core::words_of(impl_->plan);
 }
 
@@ -208,8 +295,7 @@ const core::PassPlan& PairFinder::plan() const {
 FindTime PairFinder::find_time() const {
   FindTime time;
   time.whole_s = impl_->timer.elapsed_s();
-  for (std::size_t s = 0; s < impl_->active; ++s) {
-    const Outcome& outcome = impl_->searches[s]->outcome();
+  const auto add = [&time](const Outcome& outcome) {
     const auto seconds = [&outcome](FindStep step) {
       const auto k = static_cast<std::size_t>(step);
       const unsigned long long begin_ns = k == 0 ? outcome.begin_ns : outcome.stage_end_ns[k - 1];
@@ -219,7 +305,10 @@ FindTime PairFinder::find_time() const {
     time.place_s += seconds(FindStep::kPlace);
     time.scatter_s += seconds(FindStep::kScatter);
     time.find_s += seconds(FindStep::kSearch);
-  }
+  };
+  if (impl_->is_apart) add(impl_->apart.outcome());
+  if (!impl_->is_apart)
+    for (std::size_t k = 0; k < impl_->active; ++k) add(impl_->searches[k]->outcome());
   return time;
 }
 

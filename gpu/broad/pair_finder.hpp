@@ -7,6 +7,7 @@
 
 #include "core/engine/broad_phase.hpp"
 #include "core/engine/device_boxes.hpp"
+#include "core/engine/pair_chunks.hpp"
 #include "core/engine/search_path.hpp"
 #include "core/engine/work_counting.hpp"
 #include "core/method/box_passes.hpp"
@@ -28,6 +29,7 @@ struct FindTime {
 // read_back() copies and sorts them. Boxes that are not finite, or have min > max, are refused.
 class PairFinder final : public core::BroadPhase,
                          public core::TakesDeviceBoxes,
+                         public core::HandsPairsOn,
                          public core::CountsWork,
                          public core::TellsPath {
  public:
@@ -43,7 +45,9 @@ class PairFinder final : public core::BroadPhase,
   core::Status update_on_device(const core::DeviceBoxes& boxes) override;
   [[nodiscard]] core::Result<core::DevicePairs> pairs_on_device() const override;
   core::Status find() override;
+  // With pairs_at_once: find() counts, and read_back() searches again and gathers all in the host's memory.
   core::Result<core::PairSet> read_back() override;
+  core::Status hand_on(const Consumer& take) override;
   // Launches, bytes that load and update copied to the device, and bytes of device memory; where it was asked to count
   // work, box tests and nodes visited. The same on every GPU.
   [[nodiscard]] std::vector<core::Counter> counters() const override;

@@ -5,7 +5,6 @@
 #include <string>
 
 namespace broadside::gpu {
-namespace {
 
 using core::Box;
 
@@ -15,47 +14,57 @@ bool is_sound(const Box& box) {
   return true;
 }
 
-}  // namespace
-
 core::Error bad_box(std::size_t place) {
   return {"a box has min > max, or is NaN or infinite", "box " + std::to_string(place),
           "give finite boxes with min <= max"};
 }
 
-void SearchedBoxes::start() {
-  searched_.clear();
-  given_.clear();
-  facts_ = {};
-  bounds_ = core::empty_box();
-  owned_ = 0;
+core::Error another_count(std::size_t given, std::size_t loaded) {
+  return {"update was given " + std::to_string(given) + " boxes after a load of " + std::to_string(loaded),
+          "broad phase on the GPU", "load again when the number of boxes changes"};
 }
 
-void SearchedBoxes::add(const Box& box, bool is_static) {
+void FactsOfBoxes::add(const Box& box) {
   for (int k = 0; k < 3; ++k) {
     facts_.largest_side_m = std::max(facts_.largest_side_m, box.max[k] - box.min[k]);
     facts_.coordinate_range_m = std::max({facts_.coordinate_range_m, std::abs(box.min[k]), std::abs(box.max[k])});
   }
   bounds_ = core::grown(core::grown(bounds_, box.min), box.max);
-  searched_.push_back(pack(box, facts_.count++, is_static ? 1U : 0U));
+  ++facts_.count;
 }
 
-void SearchedBoxes::finish() {
-  if (facts_.count == 0) return;
-  facts_.low_corner = bounds_.min;
-  facts_.domain = bounds_;
+BoxFacts FactsOfBoxes::all() const {
+  BoxFacts facts = facts_;
+  if (facts.count == 0) return facts;
+  facts.low_corner = bounds_.min;
+  facts.domain = bounds_;
+  return facts;
+}
+
+void SearchedBoxes::start() {
+  searched_.clear();
+  given_.clear();
+  facts_of_all_ = {};
+  owned_ = 0;
+}
+
+void SearchedBoxes::add(const Box& box, bool is_static) {
+  facts_of_all_.add(box);
+  searched_.push_back(pack(box, static_cast<std::uint32_t>(searched_.size()), is_static ? 1U : 0U));
 }
 
 core::Status SearchedBoxes::take(std::span<const Box> boxes, std::span<const std::uint8_t> is_static,
                                  const PairFinderOptions& options) {
   start();
   searched_.reserve(boxes.size());
+  std::uint64_t hash_entries = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (!is_sound(boxes[i])) return bad_box(i);
     add(boxes[i], is_static[i] != 0);
-    if (options.broad == Broad::kHash)
-      facts_.hash_entries += hash_cells_of(boxes[i].max - boxes[i].min, options.hash_cell_m);
+    if (options.broad == Broad::kHash) hash_entries += hash_cells_of(boxes[i].max - boxes[i].min, options.hash_cell_m);
   }
-  finish();
+  facts_ = facts_of_all_.all();
+  facts_.hash_entries = hash_entries;
   return core::Done{};
 }
 
@@ -69,7 +78,7 @@ void SearchedBoxes::take(std::span<const Box> boxes, std::span<const std::uint8_
     add(pass.map(boxes[i]), is_static[i] != 0);
     given_.push_back(pack(boxes[i], static_cast<std::uint32_t>(i), group << 1U | (is_static[i] != 0 ? 1U : 0U)));
   }
-  finish();
+  facts_ = facts_of_all_.all();
 }
 
 }  // namespace broadside::gpu

@@ -16,6 +16,21 @@ namespace broadside::gpu {
 
 // Of a box that is not finite or has min > max.
 core::Error bad_box(std::size_t place);
+// Of an update with more or fewer boxes than were loaded.
+core::Error another_count(std::size_t given, std::size_t loaded);
+
+bool is_sound(const core::Box& box);
+
+// What is known of boxes once all were added.
+class FactsOfBoxes {
+ public:
+  void add(const core::Box& box);
+  [[nodiscard]] BoxFacts all() const;
+
+ private:
+  BoxFacts facts_;
+  core::Box bounds_ = core::empty_box();
+};
 
 class SearchedBoxes {
  public:
@@ -35,12 +50,11 @@ class SearchedBoxes {
  private:
   void start();
   void add(const core::Box& box, bool is_static);
-  void finish();
 
   std::vector<PackedBox> searched_;
   std::vector<PackedBox> given_;
+  FactsOfBoxes facts_of_all_;
   BoxFacts facts_;
-  core::Box bounds_;
   std::uint32_t owned_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // What a pipeline tells of a frame: its digest, and copies that are under way while later frames are computed.
-#include "gpu/broad/pack_view.hpp"
 #include "gpu/frame/pipeline_parts.hpp"
+#include "gpu/runtime/device_choice.hpp"
 
 namespace broadside::gpu {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gpu/broad/pack_view.hpp"
+#include "gpu/runtime/device_choice.hpp"
 
 namespace broadside::gpu {
 namespace {
