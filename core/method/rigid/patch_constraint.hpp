@@ -62,6 +62,16 @@ BROADSIDE_HD void each_point(const PatchConstraint& c, const Work& work) {
     if (k < c.count) work(k);
 }
 
+// The same from the last one to the first.
+template <typename Work>
+BROADSIDE_HD void each_point_back(const PatchConstraint& c, const Work& work) {
+#if defined(__CUDACC__)
+#pragma unroll
+#endif
+  for (int k = kManifoldPoints - 1; k >= 0; --k)
+    if (k < c.count) work(k);
+}
+
 // A unit vector across the unit vector n: along the axis that n is farthest from, less its part along n.
 BROADSIDE_HD Vec3 unit_across(Vec3 n) {
   const float x = n.x < 0.0F ? -n.x : n.x;
@@ -208,9 +218,9 @@ struct BodyGain {
 };
 
 // How far the end of an arm went while its body turned by this vector, rad: sine and 1 - cosine by their series, which
-// are off by a hundredth at 2.4 rad and are not followed farther. A thousandth of a radian is small enough for the first
-// order. Without the second one a corner that swings past the lowest point of its circle went on down: small cubes that
-// spin under heavy ones were pushed into the floor, and out of it again with energy.
+// are off by a hundredth at 2.4 rad and are not followed farther. A thousandth of a radian is small enough for the
+// first order. Without the second one a corner that swings past the lowest point of its circle went on down: small
+// cubes that spin under heavy ones were pushed into the floor, and out of it again with energy.
 BROADSIDE_HD Vec3 swung(Vec3 turned, Vec3 arm) {
   const Vec3 first = cross(turned, arm);
   const float squared = dot(turned, turned);
