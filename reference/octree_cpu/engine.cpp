@@ -105,8 +105,10 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.declaration = core::method_declaration();
   engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning),
                                                        core::refuse_method_settings("octree-cpu", settings));
-  engine.equivalence = [soft, sleeps = settings.text("sleep") == "on", build = engine.build, workers = worker_count(settings.number("threads"))](
-                           const core::Scene& scene) { return rigid_card(scene, soft, sleeps, build, workers); };
+  engine.equivalence = [soft, sleeps = settings.text("sleep") == "on", build = engine.build,
+                        workers = worker_count(settings.number("threads"))](const core::Scene& scene) {
+    return rigid_card(scene, soft, sleeps, build, workers);
+  };
   return engine;
 }
 

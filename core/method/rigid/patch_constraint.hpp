@@ -208,9 +208,9 @@ struct BodyGain {
 };
 
 // How far the end of an arm went while its body turned by this vector, rad: sine and 1 - cosine by their series, which
-// are off by a hundredth at 2.4 rad and are not followed farther. A thousandth of a radian is small enough for the first
-// order. Without the second one a corner that swings past the lowest point of its circle went on down: small cubes that
-// spin under heavy ones were pushed into the floor, and out of it again with energy.
+// are off by a hundredth at 2.4 rad and are not followed farther. A thousandth of a radian is small enough for the
+// first order. Without the second one a corner that swings past the lowest point of its circle went on down: small
+// cubes that spin under heavy ones were pushed into the floor, and out of it again with energy.
 BROADSIDE_HD Vec3 swung(Vec3 turned, Vec3 arm) {
   const Vec3 first = cross(turned, arm);
   const float squared = dot(turned, turned);

@@ -29,7 +29,7 @@ struct SoftStep {
   // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
   // friction holds, from the first substep on.
   float settle_m_s = 0.0F;
-  float least_done_m_s = 0.0F;  // changes of speed below this are none to sweep on for
+  float least_done_m_s = 0.0F;   // changes of speed below this are none to sweep on for
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
   float gravity_m_s2 = 0.0F;
 };
