@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uint32_t kThreads = 64;
 constexpr std::uint32_t kBlocks = 2;
+// Of the solver: so few that some colors of a small heap have more patches.
+constexpr std::uint32_t kSolveThreads = 32;
 
 std::uint64_t seed() {
   const char* text = std::getenv("BROADSIDE_ON_HOST_SEED");
@@ -30,7 +32,7 @@ core::Result<LaunchShape> constraint_launch_shape() {
 }
 
 core::Result<SolveShape> solve_launch_shape() {
-  return SolveShape{{kThreads, kBlocks, 0, kBlocks}, kBlocks};
+  return SolveShape{{kSolveThreads, kBlocks, 0, kBlocks}, kBlocks};
 }
 
 core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
@@ -38,7 +40,7 @@ core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shap
   return core::Done{};
 }
 
-core::Status launch_contacts(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+core::Status launch_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
   on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts(frame); });
   return core::Done{};
 }
@@ -49,7 +51,7 @@ core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& 
 }
 
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle /*stream*/) {
-  on_host::run({{blocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_solve(frame); });
+  on_host::run({{blocks}, {kSolveThreads}, seed()}, 0, [&](unsigned char*) { run_solve(frame); });
   return core::Done{};
 }
 

@@ -1,5 +1,6 @@
-// The kernel of a frame of turning bodies that finds their patches of contact: slow to compile, for all shapes meet here.
-#include "gpu/rigid/rigid_kernel.hpp"
+// The kernel of a frame of turning bodies that finds their patches of contact: slow to compile, for all shapes meet
+// here.
+#include "gpu/rigid/contact_launch.hpp"
 #include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/kernel_launch.cuh"
 #include "gpu/stages/rigid/contact_frame.cuh"
@@ -12,7 +13,7 @@ constexpr std::uint32_t kThreads = 256;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
-    contact_kernel(const __grid_constant__ RigidFrameView frame) {
+    contact_kernel(const __grid_constant__ ContactView frame) {
   run_contacts(frame);
 }
 
@@ -29,7 +30,7 @@ core::Result<LaunchShape> contact_launch_shape() {
   return shape;
 }
 
-core::Status launch_contacts(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream) {
+core::Status launch_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream) {
   return launch(contact_kernel, frame, shape, stream);
 }
 

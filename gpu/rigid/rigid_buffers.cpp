@@ -53,6 +53,7 @@ std::uint64_t RigidBuffers::Memory::bytes() const {
 core::Status RigidBuffers::reserve_patches(std::size_t patches) {
   BROADSIDE_TRY(patches_.reserve(patches, "contacts"));
   BROADSIDE_TRY(ranks_.reserve(patches, "contacts"));
+  BROADSIDE_TRY(patch_colors_.reserve(patches, "contacts"));
   BROADSIDE_TRY(impulses_.reserve(4 * patches, "contacts"));
   BROADSIDE_TRY(by_color_.reserve(2 * patches, "contacts"));
   return memory_.reserve_patches(patches);
@@ -105,8 +106,9 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
 
 // The two memories change places, and grow when it is their turn.
 std::size_t RigidBuffers::patch_room() const {
-  return std::min({patches_.capacity(), ranks_.capacity(), impulses_.capacity() / 4, by_color_.capacity() / 2,
-                   memory_.entries.capacity() / 2, memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4});
+  return std::min({patches_.capacity(), ranks_.capacity(), patch_colors_.capacity(), impulses_.capacity() / 4,
+                   by_color_.capacity() / 2, memory_.entries.capacity() / 2, memory_.feature.capacity() / 4,
+                   memory_.impulse.capacity() / 4});
 }
 
 core::Status RigidBuffers::grow(const RigidCounts& demanded) {
@@ -139,6 +141,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.patches = {patches_.data(), patch_room()};
   view.ranks = ranks_.data();
+  view.colors = patch_colors_.data();
   view.coloring = coloring_.data();
   view.color_capacity = static_cast<std::uint32_t>(colors_);
   view.color_count = color_count_.data();
@@ -161,10 +164,10 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 std::uint64_t RigidBuffers::bytes() const {
   return before_.bytes() + after_.bytes() + free_end_.bytes() + pushers_.bytes() + old_push_.bytes() + push_.bytes() +
          reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() + shape_boxes_.bytes() + boxes_.bytes() +
-         confirmed_.bytes() + patches_.bytes() + ranks_.bytes() + coloring_.bytes() + color_count_.bytes() +
-         color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() + constraints_.bytes() + changes_.bytes() +
-         by_color_.bytes() + bodies_.bytes() + stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() +
-         memory_.bytes() + counts_.bytes() + barrier_.bytes();
+         confirmed_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
+         color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
+         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + stirred_.bytes() +
+         impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -61,6 +61,7 @@ class RigidBuffers {
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<core::ContactPatch> patches_;
   DeviceBuffer<PatchRank> ranks_;
+  DeviceBuffer<std::uint32_t> patch_colors_;
   DeviceBuffer<BodyColors> coloring_;
   DeviceBuffer<std::uint32_t> color_count_;
   DeviceBuffer<std::uint32_t> color_begin_;

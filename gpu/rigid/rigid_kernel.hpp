@@ -9,6 +9,7 @@
 #include "core/pair.hpp"
 #include "core/result.hpp"
 #include "gpu/frame/frame_kernel.hpp"
+#include "gpu/rigid/contact_launch.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/runtime/device_runtime.hpp"
 
@@ -18,7 +19,6 @@ namespace broadside::gpu {
 // none has the registers of another. One that finds that the frame is aborted does nothing, except that the last tells
 // the host.
 
-core::Result<LaunchShape> contact_launch_shape();
 core::Result<LaunchShape> constraint_launch_shape();
 
 // How the solver's kernel fits this GPU.
@@ -30,8 +30,6 @@ core::Result<SolveShape> solve_launch_shape();
 
 // Boxes, before the broad phase. shape: contact_launch_shape's.
 core::Status launch_place(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
-// Levels and patches of contact.
-core::Status launch_contacts(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 // Colors and constraints.
 core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 // The substeps. blocks: at most those of the shape, for frame.solve_team.

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <string>
 #include <utility>
@@ -201,20 +200,15 @@ void RigidPipeline::Impl::fill() {
   pairs_view.outcome = broad_outcome.device(0);
 }
 
-// As many blocks as a color of the frame before has patches, or half of the bodies: fewer have a faster barrier. A
-// cluster's is the fastest, so its threads may have some patches of a color one after the other. Returns the blocks.
+// A block for so many bodies as it has threads: the first color of a heap has about a patch a body, the others have
+// fewer, and more blocks have a slower barrier. A cluster's is the fastest, so its threads may have some patches of a
+// color one after the other. Returns the blocks.
 std::uint32_t RigidPipeline::Impl::choose_solve_team() {
-  const std::uint64_t of_color = last.patches / std::max(1U, last.colors);
-  const std::uint64_t width = std::max<std::uint64_t>(of_color, (view.body_count + 1) / 2);
-  const std::uint64_t wanted = (width + solve_shape.grid.threads - 1) / solve_shape.grid.threads;
+  const std::uint64_t threads = solve_shape.grid.threads;
+  const std::uint64_t wanted = (view.body_count + threads - 1) / threads;
   const bool is_cluster = options.may_cluster && solve_shape.cluster_blocks > 1 &&
                           wanted <= kMostTurnsOfCluster * solve_shape.cluster_blocks;
   view.solve_team = is_cluster ? SolveTeamKind::kCluster : SolveTeamKind::kGrid;
-  if (const char* trial = std::getenv("BROADSIDE_TRIAL")) {  // TRIAL
-    view.solve_team = trial[0] == 'c' ? SolveTeamKind::kCluster : SolveTeamKind::kGrid;
-    return std::min<std::uint32_t>(std::atoi(trial + 1),
-                                   trial[0] == 'c' ? solve_shape.cluster_blocks : solve_shape.grid.blocks);
-  }
   const std::uint64_t most = is_cluster ? solve_shape.cluster_blocks : solve_shape.grid.blocks;
   return static_cast<std::uint32_t>(std::min(std::bit_ceil(wanted), most));
 }
@@ -223,7 +217,10 @@ core::Status RigidPipeline::Impl::launch_all() {
   fill();
   const std::uint32_t solve_blocks = choose_solve_team();
   BROADSIDE_TRY(launch_place(view, contact_shape, stream));
-  if (has_broad()) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
+  // Without cells, which the first frame's boxes give, a box would look for partners in billions of them. The others
+  // find that the boxes are too large, and the frame is repeated.
+  const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
+  if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
   BROADSIDE_TRY(launch_contacts(view, contact_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
   BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));

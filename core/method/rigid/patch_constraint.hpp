@@ -51,6 +51,17 @@ struct PatchConstraint {
   PatchPoint points[kManifoldPoints];
 };
 
+// work(k) for every point. The length is fixed, so that a GPU's compiler unrolls the loop and keeps points in
+// registers.
+template <typename Work>
+BROADSIDE_HD void each_point(const PatchConstraint& c, const Work& work) {
+#if defined(__CUDACC__)
+#pragma unroll
+#endif
+  for (int k = 0; k < kManifoldPoints; ++k)
+    if (k < c.count) work(k);
+}
+
 // A unit vector across the unit vector n: along the axis that n is farthest from, less its part along n.
 BROADSIDE_HD Vec3 unit_across(Vec3 n) {
   const float x = n.x < 0.0F ? -n.x : n.x;
@@ -71,11 +82,11 @@ BROADSIDE_HD float mobility(const SolverBody& body, Vec3 arm, Vec3 d1, Vec3 d2) 
 BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   float of_a = 0.0F;
   float of_b = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     const PatchPoint& p = c.points[k];
     of_a = dot(p.arm_a, p.arm_a) > of_a ? dot(p.arm_a, p.arm_a) : of_a;
     of_b = dot(p.arm_b, p.arm_b) > of_b ? dot(p.arm_b, p.arm_b) : of_b;
-  }
+  });
   if (!is_moved(a)) return sqrtf(of_b);
   if (!is_moved(b)) return sqrtf(of_a);
   return sqrtf(of_a < of_b ? of_a : of_b);
@@ -83,7 +94,7 @@ BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const
 
 // How much of an impulse each point takes to change its speed, as its bodies are turned now.
 BROADSIDE_HD void set_masses(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
     const auto entry = [&](Vec3 d1, Vec3 d2) { return mobility(a, p.arm_a, d1, d2) + mobility(b, p.arm_b, d1, d2); };
     p.normal_mass = 1.0F / entry(c.normal, c.normal);
@@ -97,7 +108,7 @@ BROADSIDE_HD void set_masses(PatchConstraint& c, const SolverBody& a, const Solv
     p.stick_mass_12 = -inverse * k12;
     const float half = 0.5F * (k11 - k22);
     p.slide_mass = 1.0F / (0.5F * (k11 + k22) + sqrtf(half * half + k12 * k12));
-  }
+  });
 }
 
 // Whether a body has turned so far in the step that these are no longer those of its start, rad: a slender one that
@@ -117,25 +128,14 @@ BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const Sol
   c.tangent_2 = cross(c.normal, c.tangent_1);
   c.surface = surface;
   c.count = manifold.count;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
     p.arm_a = manifold.points[k].point;
     p.arm_b = manifold.points[k].point - center_b_from_a;
     p.gap_m = manifold.points[k].gap_m;
-  }
+  });
   set_masses(c, a, b);
   return c;
-}
-
-// work(k) for every point. The length is fixed, so that a GPU's compiler unrolls the loop and keeps points in
-// registers.
-template <typename Work>
-BROADSIDE_HD void each_point(const PatchConstraint& c, const Work& work) {
-#if defined(__CUDACC__)
-#pragma unroll
-#endif
-  for (int k = 0; k < kManifoldPoints; ++k)
-    if (k < c.count) work(k);
 }
 
 // The two bodies of a patch while it is solved: velocities at hand, and what their angular momenta have gained.

@@ -32,35 +32,51 @@ __device__ __forceinline__ void with_bodies(const RigidFrameView& f, const core:
   store_velocity(f.bodies[c.b], b);
 }
 
+// A thread's places of one color.
+struct ColorTurn {
+  std::uint64_t place = 0;
+  std::uint64_t end = 0;
+  std::uint64_t step = 0;
+};
+
+// Every sweep deals places out alike.
+__device__ __forceinline__ ColorTurn turn_of(const SolveTeam& team, const RigidFrameView& f, std::uint32_t color) {
+  const bool is_alone = color >= team.alone_from();
+  if (color >= team.colors() || (is_alone && blockIdx.x != 0)) return {};
+  const std::uint64_t begin = f.color_begin[color];
+  return {begin + (is_alone ? threadIdx.x : team.spread_rank()), begin + f.color_count[color],
+          is_alone ? blockDim.x : team.size()};
+}
+
 // work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. load(slot) gives
 // what work needs of the constraint. The first constraint of a color is loaded while the thread waits for the others:
-// nobody but this thread writes it during a sweep, because every sweep deals constraints out alike.
+// nobody but this thread writes it during a sweep.
 template <typename Load, typename Work>
 __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, const Load& load,
                                                     const Work& work) {
-  const std::uint32_t colors = f.counts->colors;
-  if (colors == 0) return;
-  const std::uint64_t first = team.spread_rank();
-  std::uint64_t place = first;  // the first color begins at place 0
-  std::uint64_t end = f.color_count[0];
   decltype(load(TileSlot(nullptr, 0))) loaded;
-  if (place < end) loaded = load(TileSlot(f.constraints, place));
+  ColorTurn turn = turn_of(team, f, 0);
+  const auto load_first = [&] {
+    if (turn.place < turn.end) loaded = load(TileSlot(f.constraints, turn.place));
+  };
+  load_first();
   for (std::uint32_t color = 1;; ++color) {
-    // Asked for now, used behind this color's work.
-    const bool is_last = color == colors;
-    const std::uint64_t next_begin = is_last ? 0 : f.color_begin[color];
-    const std::uint64_t next_count = is_last ? 0 : f.color_count[color];
-    while (place < end) {
-      work(TileSlot(f.constraints, place), place, loaded);
-      place += team.size();
-      if (place < end) loaded = load(TileSlot(f.constraints, place));
+    const ColorTurn next = turn_of(team, f, color);  // asked for now, used behind this color's work
+    while (turn.place < turn.end) {
+      work(TileSlot(f.constraints, turn.place), turn.place, loaded);
+      turn.place += turn.step;
+      load_first();
     }
-    if (is_last) return;
-    place = next_begin + first;
-    end = next_begin + next_count;
-    team.sync([&] {
-      if (place < end) loaded = load(TileSlot(f.constraints, place));
-    });
+    if (color >= team.colors()) return;
+    turn = next;
+    if (color <= team.alone_from()) {
+      team.sync(load_first);
+    } else if (blockIdx.x == 0) {
+      load_first();
+      __syncthreads();
+    } else {
+      return;
+    }
   }
 }
 

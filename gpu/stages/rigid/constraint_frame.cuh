@@ -6,6 +6,7 @@
 #include "gpu/stages/rigid/color_stage.cuh"
 #include "gpu/stages/rigid/constraint_stage.cuh"
 #include "gpu/stages/rigid/frame_end.cuh"
+#include "gpu/stages/rigid/list_stage.cuh"
 
 namespace broadside::gpu {
 
@@ -21,7 +22,10 @@ __device__ inline void run_constraints(const RigidFrameView& f) {
   rank_patches(grid, f);
   grid.sync();
   color_patches(grid, f);
+  grid.sync();
   if (f.counts->colors > f.color_capacity) return;
+  count_colors(grid, f);
+  grid.sync();
   if (is_first) place_colors(f);
   grid.sync();
   if (f.counts->places > f.place_capacity) return;

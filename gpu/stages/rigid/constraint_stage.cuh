@@ -7,21 +7,10 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
-#include "gpu/stages/rigid/patch_stage.cuh"
+#include "gpu/stages/rigid/contact_body.cuh"
 #include "gpu/stages/rigid/solver_bodies.cuh"
 
 namespace broadside::gpu {
-
-template <typename Team>
-__device__ void begin_bodies(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {
-    store_body(f.bodies[i], core::solver_body(f.before[i], f.mass[i]));
-    f.stirred[i] = 0;
-  }
-  if (team.rank() != 0) return;
-  store_body(f.bodies[f.body_count], core::SolverBody{});
-  f.stirred[f.body_count] = 0;
-}
 
 // Where these bodies' points of the step before have this feature: the first of them, patch by patch; or nowhere.
 constexpr std::uint32_t kForgotten = 0xFFFFFFFFU;
@@ -61,6 +50,7 @@ __device__ inline int step_kind(const RigidFrameView& f) {
 template <typename Team>
 __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
+  bool bounces = false;
   for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
     if (f.patch_at[place] == kUncolored) continue;
     const core::ContactPatch patch = f.patches.items[f.patch_at[place]];
@@ -75,9 +65,11 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     c.b = b;
     core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
     recall(f, soft, patch, c);
-    if (surface.restitution > 0.0F) atomicMax(&f.counts->bounces, 1U);
+    bounces = bounces || surface.restitution > 0.0F;
     store_constraint(TileSlot(f.constraints, place), c, across);
   }
+  __syncwarp();
+  if (__any_sync(kFullWarp, bounces) && lane() == 0) atomicMax(&f.counts->bounces, 1U);
 }
 
 template <typename Team>

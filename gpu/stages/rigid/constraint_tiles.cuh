@@ -80,6 +80,15 @@ __device__ __forceinline__ void load_masses(const TileSlot& slot, core::PatchCon
   }
 }
 
+// The slide masses are stored with the impulses.
+__device__ __forceinline__ void store_masses(const TileSlot& slot, const core::PatchConstraint& c) {
+  core::each_point(c, [&](int k) {
+    const core::PatchPoint& p = c.points[k];
+    slot.at(kMasses + static_cast<std::uint32_t>(k)) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12},
+                                                        p.stick_mass_22};
+  });
+}
+
 // A point that slides has the sign of its slide mass, which is positive, turned over.
 __device__ __forceinline__ void load_impulses(const TileSlot& slot, core::PatchConstraint& c) {
 #pragma unroll

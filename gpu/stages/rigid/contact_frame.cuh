@@ -2,21 +2,18 @@
 // reference/octree_cpu/rigid/rigid_pipeline.cpp.
 #pragma once
 
-#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/rigid/constraint_stage.cuh"
-#include "gpu/stages/rigid/frame_end.cuh"
+#include "gpu/stages/rigid/frame_marks.cuh"
 #include "gpu/stages/rigid/oriented_stage.cuh"
 #include "gpu/stages/rigid/patch_stage.cuh"
 
 namespace broadside::gpu {
 
-__device__ inline void run_contacts(const RigidFrameView& f) {
+__device__ inline void run_contacts(const ContactView& f) {
   const GridTeam grid(f.barrier);
   mark(f, grid.rank() == 0, core::Stage::kBroad);
   if (lacks_pairs(f)) return;
-  for (std::uint64_t i = grid.rank(); i < f.body_count; i += grid.size()) f.memory.count[i] = 0;
-  begin_bodies(grid, f);
   confirm_pairs(grid, f);
   grid.sync();
   mark(f, grid.rank() == 0, core::Stage::kConfirm);

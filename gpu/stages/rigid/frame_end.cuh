@@ -1,20 +1,11 @@
-// What the kernels of a frame of turning bodies tell the host, and whether the frame is aborted.
+// What a frame of turning bodies tells the host, and whether it is aborted.
 #pragma once
 
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
+#include "gpu/stages/rigid/frame_marks.cuh"
 
 namespace broadside::gpu {
-
-__device__ inline void mark(const RigidFrameView& f, bool is_first, core::Stage ended) {
-  if (is_first) f.outcome->stage_end_ns[static_cast<std::size_t>(ended)] = now_ns();
-}
-
-// The broad phase aborted, or its cells were made for smaller boxes.
-__device__ inline bool lacks_pairs(const RigidFrameView& f) {
-  return f.counts->largest_side > f.side_limit || f.counts->largest_coordinate > f.coordinate_limit ||
-         (f.has_broad && f.broad_counters->is_aborted != 0);
-}
 
 // The frame stops: a count is above its room. Counts of kernels to come are zero.
 __device__ inline bool lacks_room(const RigidFrameView& f) {

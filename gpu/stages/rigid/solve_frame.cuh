@@ -10,9 +10,8 @@
 namespace broadside::gpu {
 
 __device__ __forceinline__ void run_solve(const RigidFrameView& f) {
-  const SolveTeam team(f.solve_team, f.barrier);
+  const SolveTeam team(f);
   const bool is_first = team.rank() == 0;
-  mark(f, is_first, core::Stage::kResponse);  // TRIAL
   const bool is_aborted = lacks_room(f);
   if (!is_aborted) {
     run_substeps(team, f);
@@ -21,7 +20,9 @@ __device__ __forceinline__ void run_solve(const RigidFrameView& f) {
   }
   team.sync();
   if (!is_first) return;
-  mark(f, true, core::Stage::kFaces);  // TRIAL
+  // Faces were touched, and are solved, with all other contacts.
+  mark(f, true, core::Stage::kResponse);
+  mark(f, true, core::Stage::kFaces);
   tell_host(f, is_aborted);
 }
 

@@ -90,6 +90,7 @@ __device__ __forceinline__ float sum_of_changes(const SolveTeam& team, const Rig
 
 __device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                                  float done) {
+  float first_change = 0.0F;
   float last_change = 0.0F;
   float share = 0.0F;
   for (std::uint32_t k = 1;; ++k) {
@@ -99,7 +100,8 @@ __device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const Ri
     const float largest_speed = largest_of_turn(team, solve);
     if (k >= f.solver.sweeps || largest_speed <= done) return;
     const float change = sum_of_changes(team, f, solve, largest_change);
-    share = last_change > 0.0F && change <= last_change ? change / last_change : 0.0F;
+    if (!(last_change > 0.0F)) first_change = change;
+    share = core::share_of_direction(first_change, last_change, change);
     last_change = change;
     each_body(team, f, [&](std::uint32_t i) {
       core::SolverBody body = load_moving(f.bodies[i]);
@@ -162,7 +164,7 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
   });
   team.sync();
   if (solve.has_way) {
-    sweep_until_done(team, f, solve, f.solver.done * fastest);
+    sweep_until_done(team, f, solve, core::done_m_s(solve.soft, f.solver.done, fastest));
   } else {
     sweep_once(team, f, solve.soft);
     team.sync();

@@ -9,7 +9,18 @@ namespace broadside::gpu {
 // One class for both, because the sweeps are long to compile.
 class SolveTeam : public GridPlaces {
  public:
-  __device__ SolveTeam(SolveTeamKind kind, unsigned long long* barrier) : kind_(kind), barrier_(barrier) {}
+  __device__ explicit SolveTeam(const RigidFrameView& f)
+      : colors_(min(f.counts->colors, f.color_capacity)),  // an aborted frame may have more
+        alone_from_(colors_),
+        kind_(f.solve_team),
+        barrier_(f.barrier) {
+    while (alone_from_ > 0 && f.color_count[alone_from_ - 1] <= blockDim.x) --alone_from_;
+  }
+
+  [[nodiscard]] __device__ std::uint32_t colors() const { return colors_; }
+  // The last colors, from this one on, have a patch for each thread of the first block or fewer: it solves them alone.
+  // Most colors of a loose heap are such.
+  [[nodiscard]] __device__ std::uint32_t alone_from() const { return alone_from_; }
 
   __device__ void sync() const {
     sync([] {});
@@ -30,6 +41,8 @@ class SolveTeam : public GridPlaces {
   }
 
  private:
+  std::uint32_t colors_;
+  std::uint32_t alone_from_;
   SolveTeamKind kind_;
   mutable GridBarrier barrier_;
 };

@@ -83,8 +83,10 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         return loaded;
       },
       [&](const TileSlot& slot, std::uint64_t /*place*/, LoadedPatch& loaded) {
-        with_bodies(f, loaded.c,
-                    [&](core::SolverBody& a, core::SolverBody& b) { (void)core::relax_patch(loaded.c, a, b, soft); });
+        with_bodies(f, loaded.c, [&](core::SolverBody& a, core::SolverBody& b) {
+          (void)core::relax_patch(loaded.c, a, b, soft);
+          if (core::has_turned_far(a) || core::has_turned_far(b)) store_masses(slot, loaded.c);
+        });
         store_impulses(slot, loaded.c);
       });
 }

@@ -93,6 +93,13 @@ TEST(RigidOnHost, EveryStartAndLevel) {
   EXPECT_GT(compare("freefall:cube:40[rigid=1]", 40, options), 0U);
 }
 
+// A first frame that searched cells of no size did not end where a box lies across a coordinate of 0: some of these do.
+TEST(RigidOnHost, TheFirstFrameSearchesNoCells) {
+  RigidPipelineOptions options;
+  options.least_for_grid = 2;
+  compare("freefall:cube:250[rigid=1]", 3, options);
+}
+
 // Threads of the kernel in another order each round.
 TEST(RigidOnHost, NoOrderOfThreadsShows) {
   for (const char* seed : {"1", "2", "3"}) {
