@@ -163,9 +163,9 @@ struct SceneRow {
   Scene (*make)();
 };
 constexpr std::array kScenes{
-    SceneRow{"rigid-mixed", mixed},     SceneRow{"rigid-stack", stack},    SceneRow{"rigid-overlap", overlap},
-    SceneRow{"rigid-offset", offset},   SceneRow{"rigid-fast", fast},      SceneRow{"rigid-blade", blade},
-    SceneRow{"rigid-million", million}, SceneRow{"rigid-bounce", bounce},  SceneRow{"rigid-flight", flight},
+    SceneRow{"rigid-mixed", mixed},     SceneRow{"rigid-stack", stack},     SceneRow{"rigid-overlap", overlap},
+    SceneRow{"rigid-offset", offset},   SceneRow{"rigid-fast", fast},       SceneRow{"rigid-blade", blade},
+    SceneRow{"rigid-million", million}, SceneRow{"rigid-bounce", bounce},   SceneRow{"rigid-flight", flight},
     SceneRow{"rigid-slide", slide},     SceneRow{"rigid-spin-up", spin_up}, SceneRow{"rigid-nap", nap}};
 
 }  // namespace

@@ -75,9 +75,7 @@ struct RigidBodies {
   // Half of the least one.
   [[nodiscard]] float thickness_m(std::uint32_t body) const { return shapes[shape[body]].half_thickness_m; }
   // The same of the thinner of both.
-  [[nodiscard]] float thinner_m(Pair pair) const {
-    return std::min(thickness_m(pair.i), thickness_m(pair.j));
-  }
+  [[nodiscard]] float thinner_m(Pair pair) const { return std::min(thickness_m(pair.i), thickness_m(pair.j)); }
   // As another body may feel it.
   [[nodiscard]] Pusher pusher(std::uint32_t body) const {
     return {detected[body].x, drift[body], pushed[body], swing_m[body], mass[body].inverse_mass, body, pushed_by[body]};

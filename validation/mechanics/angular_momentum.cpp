@@ -14,8 +14,7 @@ class AngularMomentum final : public Validator {
  public:
   explicit AngularMomentum(const Subject& subject)
       : detects_at_start_(subject.header.declaration.text("detection_at") == "start"),
-        accumulations_(subject.header.declaration.number("iterations") *
-                       subject.header.declaration.number("substeps")),
+        accumulations_(subject.header.declaration.number("iterations") * subject.header.declaration.number("substeps")),
         sleep_speed_m_s_(subject.header.declaration.number("sleep_speed_m_s")) {}
 
   void look(const Evidence& evidence) override {

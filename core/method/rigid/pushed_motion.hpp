@@ -12,8 +12,7 @@
 #include "core/attributes.hpp"
 #include "core/math/box.hpp"
 #include "core/math/vec3.hpp"
-#include "core/method/rigid/motion_reach.hpp"
-#include "core/method/rigid/rigid_state.hpp"
+#include "core/method/rigid/cross.hpp"
 
 namespace broadside::core {
 

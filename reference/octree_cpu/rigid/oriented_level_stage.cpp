@@ -57,8 +57,7 @@ void OrientedLevelStage::confirm(core::RigidBodies& bodies, core::Levels levels,
     if (keep_[k] != 0) confirmed.push_back(candidates[k]);
 }
 
-void OrientedLevelStage::confirm_all(core::RigidBodies& bodies, core::Levels levels,
-                                     std::vector<Pair>& confirmed) {
+void OrientedLevelStage::confirm_all(core::RigidBodies& bodies, core::Levels levels, std::vector<Pair>& confirmed) {
   const std::uint32_t n = bodies.count();
   rows_.resize(n);
   // One row per body. Rows are joined in order, so the result is sorted whatever thread made which row.

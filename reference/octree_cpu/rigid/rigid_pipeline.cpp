@@ -171,16 +171,14 @@ void RigidPipeline::keep_sleeping_patches() {
   awake.swap(patches_);
   std::erase_if(last_patches_, [&](const core::ContactPatch& p) { return !is_asleep(p); });
   patches_.reserve(awake.size() + last_patches_.size());
-  std::merge(awake.begin(), awake.end(), last_patches_.begin(), last_patches_.end(), std::back_inserter(patches_),
-             [](const core::ContactPatch& p, const core::ContactPatch& q) {
-               return p.a != q.a ? p.a < q.a : p.b < q.b;
-             });
+  std::merge(
+      awake.begin(), awake.end(), last_patches_.begin(), last_patches_.end(), std::back_inserter(patches_),
+      [](const core::ContactPatch& p, const core::ContactPatch& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 }
 
 void RigidPipeline::respond(float dt_s) {
-  const RigidStep step{bodies_.mass,          bodies_.material,     bodies_.wrench,
-                       scene_->face_material, scene_->gravity_m_s2, dt_s,
-                       sleepers_.asleep()};
+  const RigidStep step{bodies_.mass, bodies_.material,  bodies_.wrench, scene_->face_material, scene_->gravity_m_s2,
+                       dt_s,         sleepers_.asleep()};
   solver_->advance(bodies_.state, patches_, step);
 }
 

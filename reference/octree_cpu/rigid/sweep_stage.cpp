@@ -117,10 +117,9 @@ void SweepStage::shorten_at_faces(const core::RigidBodies& bodies, std::uint32_t
 
 void SweepStage::shorten(const core::RigidBodies& bodies, Pair pair) {
   const float thinner_m = bodies.thinner_m(pair);
-  const float share =
-      core::clear_share(bodies.shapes[bodies.shape[pair.i]].contact, way(bodies, pair.i),
-                        bodies.shapes[bodies.shape[pair.j]].contact, way(bodies, pair.j),
-                        core::swept_depth_m(thinner_m), core::swept_done_m(thinner_m));
+  const float share = core::clear_share(bodies.shapes[bodies.shape[pair.i]].contact, way(bodies, pair.i),
+                                        bodies.shapes[bodies.shape[pair.j]].contact, way(bodies, pair.j),
+                                        core::swept_depth_m(thinner_m), core::swept_done_m(thinner_m));
   if (!(share < 1.0F)) return;
   for (const std::uint32_t body : {pair.i, pair.j})
     lower(next_parts_[body], static_cast<std::uint32_t>(share * static_cast<float>(parts_[body])));

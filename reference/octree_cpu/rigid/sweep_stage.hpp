@@ -43,11 +43,11 @@ class SweepStage {
   std::array<core::ContactPose, core::kFaceCount> face_poses_;
   MakeBroadPhase make_broad_phase_;
   std::unique_ptr<core::BroadPhase> broad_phase_;  // from the first step on in which a body is fast
-  float thinnest_m_ = 0.0F;       // half of the least thickness of all bodies
-  std::vector<core::Box> boxes_;  // of the whole way
+  float thinnest_m_ = 0.0F;                        // half of the least thickness of all bodies
+  std::vector<core::Box> boxes_;                   // of the whole way
   std::vector<core::Pair> pairs_;
   std::vector<std::uint32_t> at_faces_;  // bodies whose ways lead to a face of the domain
-  std::vector<std::uint32_t> parts_;  // by body: of its way, that it may go
+  std::vector<std::uint32_t> parts_;     // by body: of its way, that it may go
   std::vector<std::uint32_t> next_parts_;
   std::vector<std::uint8_t> is_changed_;
   std::uint64_t stopped_ = 0;
