@@ -147,15 +147,31 @@ class ContestMatrix(unittest.TestCase):
         verdicts = [{"validator": v, "outcome": o, "kind": "mechanics"}
                     for v, o in (("rest", "fail"), ("momentum", "pass"), ("passage", "not applicable"))]
         rows = {"cells.json": [{"stamp": stamp, "state": "recorded", "trace_file": "/of/this/run/a.h5"},
-                               {"stamp": {**stamp, "scene_name": "b"}, "state": "crashed", "trace_file": ""}],
+                               {"stamp": {**stamp, "scene_name": "b"}, "state": "crashed", "trace_file": ""},
+                               {"stamp": {**stamp, "scene_name": "a@1/960"}, "state": "crashed", "trace_file": ""}],
                 "verdicts.json": [{"trace_file": "/of/this/run/a.h5", "verdicts": verdicts}]}
         with tempfile.TemporaryDirectory() as folder:
             for name, content in rows.items():
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     json.dump({"rows": content}, file)
-            subprocess.run([sys.executable, self.KEEP, folder, "--to", folder], check=True)
-            with open(os.path.join(folder, "README.md"), encoding="utf-8") as file:
+            tables = {"stands.csv": "scene,mine[k=1]\na,0.016666668\nc,at none\n",
+                      "passages.csv": 'scene,"moves a step, m",mine[k=1]\nfast: b,0.41666667,through\n',
+                      "passage_fast__b.svg": "<svg/>"}
+            for name, text in tables.items():
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            kept = os.path.join(folder, "kept")
+            os.mkdir(kept)
+            subprocess.run([sys.executable, self.KEEP, folder, "--to", kept], check=True)
+            self.assertEqual(["README.md", "matrix.json", "passage_fast__b.svg"], sorted(os.listdir(kept)))
+            with open(os.path.join(kept, "README.md"), encoding="utf-8") as file:
                 page = file.read()
+            self.assertIn("| a | 1/60 |", page)
+            self.assertIn("| c | at none |", page)
+            self.assertIn("![fast: b](passage_fast__b.svg)", page)
+            self.assertIn("| fast: b | 0.417 | through |", page)
+            self.assertNotIn("a@1/960", page, "other steps are in the table of steps")
+            folder = kept
             with open(os.path.join(folder, "matrix.json"), encoding="utf-8") as file:
                 self.assertNotIn("/of/this/run", file.read())
         self.assertIn("| a | rest |", page)
