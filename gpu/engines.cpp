@@ -1,53 +1,41 @@
 #include "gpu/engines.hpp"
 
-#include <array>
+#include <span>
+#include <vector>
 
+#include "core/method/method_settings.hpp"
 #include "gpu/engines_on_cuda.hpp"
 
 namespace broadside::gpu {
 namespace {
 
 // The keys and values of octree-cpu, but for its threads; and what its broad phase has on devices.
-const std::array<core::SettingRow, 11>& octree_settings() {
-  static const std::array<core::SettingRow, 11> kTable{{
+std::span<const core::SettingRow> octree_settings() {
+  static const std::vector<core::SettingRow> rows{
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
        "where candidates come from: tree = the fast octree; kept = the same, and of boxes alone keeping what still "
        "holds between frames; octree = P-Alg 1; brute = the levels' published start"},
-      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
-      {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
-      {"variant",
-       "sound",
-       {"sound", "printed-E1", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7",
-        "printed-E8"},
-       "a printed, wrong form of the paper to run instead"},
-      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
-      {"contact",
-       "conjugate",
-       {"conjugate", "soft-step"},
-       "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"},
-      {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"},
-      {"thresholds",
-       "scaled",
-       {"scaled", "fixed"},
-       "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
-       "v_threshold_m_s"},
+      core::levels_setting(),
+      core::solver_setting(),
+      core::variant_setting(),
+      core::vertex_stage_setting(),
+      core::contact_setting(),
+      core::substeps_setting(),
+      core::thresholds_setting(),
       {"pairs_at_once", "0", {}, "boxes alone: room on the device for so many pairs, found in chunks; 0 = for all"},
       {"parts", "0", {}, "boxes alone: ranges of space, searched each on a device; 0 = one for each device"},
       {"devices", "1", {}, "boxes alone: GPUs that share them; 0 = all that there are"},
-  }};
-  return kTable;
+  };
+  return rows;
 }
 
 // Those of hash-cpu, but for its threads.
-const std::array<core::SettingRow, 3>& hash_settings() {
-  static const std::array<core::SettingRow, 3> kTable{{
-      {"cell_mm", "0", {}, "edge of a cell in mm; 0 = the scene's hash_cell_m, and 250 for boxes alone"},
-      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
-      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
-  }};
-  return kTable;
+std::span<const core::SettingRow> hash_settings() {
+  static const std::vector<core::SettingRow> rows{core::cell_setting(), core::levels_setting(),
+                                                  core::vertex_stage_setting()};
+  return rows;
 }
 
 }  // namespace

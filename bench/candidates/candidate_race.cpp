@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/engines.hpp"
-#include "bench/plugin_engines.hpp"
+#include "bench/process/broad_phase_cell.hpp"
 #include "core/continuous/feature_candidates.hpp"
 #include "core/mesh/load_mesh.hpp"
 #include "datasets/motions/motions.hpp"
@@ -25,17 +24,9 @@ double seconds_since(Clock::time_point start) {
 
 core::Result<std::vector<core::Pair>> pairs_by(const CellSpec& cell, const std::vector<core::Box>& boxes,
                                                double& seconds) {
-  const std::string reason = why_absent(*cell.row);
-  if (!reason.empty())
-    return core::Error{"not measured: " + reason, std::string(cell.row->id), "leave it out", core::Exit::kMissing};
-  auto settings = core::Settings::parse(cell.row->id, cell.row->settings, cell.settings);
-  if (!settings) return settings.error();
-  auto engine = cell.row->create(settings.value());
+  auto engine = make_broad_phase_of(cell);
   if (!engine) return engine.error();
   core::BroadPhase* broad = engine.value().broad_phase.get();
-  if (broad == nullptr)
-    return core::Error{"it offers no broad phase with these settings", std::string(cell.row->id),
-                       "see 'broadside list engines'"};
   const std::vector<std::uint8_t> is_static(boxes.size());
   const auto start = Clock::now();
   if (core::Status s = broad->load(boxes, is_static); !s) return s.error();
@@ -80,29 +71,16 @@ core::Result<CandidateRow> row_of_json(const std::string& text) {
 }
 
 core::Result<CandidateRow> row_of_child(const MotionSource& source, const CellSpec& cell, const ChildLimits& limits) {
-  std::vector<std::string> args{"candidates", source.start,  "--engine", engine_argument(*cell.row),
-                                "--json",     "--in-process"};
-  if (!source.end.empty()) args.insert(args.begin() + 2, {"--to", source.end});
-  for (const auto& [key, value] : cell.settings) {
-    args.emplace_back("--set");
-    args.push_back(key + "=" + value);
-  }
-  append_memory_limit(args, limits);
-  auto ended = run_self(args, limits, Keeps::kOutputAndErrors);
-  if (!ended) return ended.error();
-  if (ended.value().is_interrupted) return core::Error{"interrupted", "candidates", "", core::Exit::kMissing};
-  if (ended.value().is_good) return row_of_json(ended.value().output);
-  if (ended.value().exit_code == static_cast<int>(core::Exit::kBadInput)) {
-    std::string_view line = ended.value().last_line;
-    constexpr std::string_view kName = "broadside: ";
-    if (line.starts_with(kName)) line.remove_prefix(kName.size());
-    return core::Error{std::string(line)};
-  }
+  std::vector<std::string> args{"candidates", source.start};
+  if (!source.end.empty()) args.insert(args.end(), {"--to", source.end});
+  auto answer = ask_child(std::move(args), cell, limits);
+  if (!answer) return answer.error();
+  if (answer.value().absent.empty()) return row_of_json(answer.value().output);
   CandidateRow row;
   row.label = label_of(cell);
-  row.absent = ended.value().words;
-  row.verdict = class_of(ended.value());
-  row.repeat = command_line(args);
+  row.absent = std::move(answer.value().absent);
+  row.verdict = std::move(answer.value().verdict);
+  row.repeat = std::move(answer.value().repeat);
   return row;
 }
 
@@ -139,7 +117,7 @@ core::Result<std::vector<CandidateRow>> race_candidates(const MotionSource& sour
   const continuous::SurfaceFeatures features = continuous::features_of(surface.value());
   std::vector<CandidateRow> rows;
   for (const CellSpec& cell : cells) {
-    const bool is_apart = (cell.row->runs_in_child || limits.are_asked) && !here && why_absent(*cell.row).empty();
+    const bool is_apart = !here && runs_apart(cell, limits);
     auto row = is_apart ? row_of_child(source, cell, limits) : row_of(cell, surface.value(), features);
     if (!row) return row.error();
     rows.push_back(std::move(row).value());

@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/engines.hpp"
-#include "bench/plugin_engines.hpp"
+#include "bench/process/broad_phase_cell.hpp"
 #include "bench/process/interrupt.hpp"
 #include "bench/timing/parted_frame.hpp"
 #include "core/engine/search_path.hpp"
@@ -74,17 +73,9 @@ core::Status run_parted_frame(core::BroadPhase& broad, const std::vector<core::B
 
 core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell, std::uint32_t frames,
                            std::uint32_t parts) {
-  const std::string reason = why_absent(*cell.row);
-  if (!reason.empty())
-    return core::Error{"not measured: " + reason, std::string(cell.row->id), "leave it out", core::Exit::kMissing};
-  auto settings = core::Settings::parse(cell.row->id, cell.row->settings, cell.settings);
-  if (!settings) return settings.error();
-  auto engine = cell.row->create(settings.value());
+  auto engine = make_broad_phase_of(cell);
   if (!engine) return engine.error();
   core::BroadPhase* broad = engine.value().broad_phase.get();
-  if (broad == nullptr)
-    return core::Error{"it offers no broad phase with these settings", std::string(cell.row->id),
-                       "see 'broadside list engines'"};
   auto made = datasets::make_box_stream(stream_name);
   if (!made) return made.error();
   datasets::BoxStream& stream = made.value();
@@ -159,11 +150,7 @@ core::Result<RaceRow> row_of_json(const std::string& text) {
 
 core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& cell, std::uint32_t frames,
                                     std::uint32_t parts, const ChildLimits& limits) {
-  std::vector<std::string> args{"pairs", stream, "--engine", engine_argument(*cell.row), "--json", "--in-process"};
-  for (const auto& [key, value] : cell.settings) {
-    args.emplace_back("--set");
-    args.push_back(key + "=" + value);
-  }
+  std::vector<std::string> args{"pairs", stream};
   if (frames > 0) {
     args.emplace_back("--frames");
     args.push_back(std::to_string(frames));
@@ -172,22 +159,14 @@ core::Result<RaceRow> race_in_child(const std::string& stream, const CellSpec& c
     args.emplace_back("--parts");
     args.push_back(std::to_string(parts));
   }
-  append_memory_limit(args, limits);
-  auto ended = run_self(args, limits, Keeps::kOutputAndErrors);
-  if (!ended) return ended.error();
-  if (ended.value().is_interrupted) return pairs_interrupted();
-  if (ended.value().is_good) return row_of_json(ended.value().output);
-  if (ended.value().exit_code == static_cast<int>(core::Exit::kBadInput)) {
-    std::string_view line = ended.value().last_line;
-    constexpr std::string_view kName = "broadside: ";
-    if (line.starts_with(kName)) line.remove_prefix(kName.size());
-    return core::Error{std::string(line)};
-  }
+  auto answer = ask_child(std::move(args), cell, limits);
+  if (!answer) return answer.error();
+  if (answer.value().absent.empty()) return row_of_json(answer.value().output);
   RaceRow row;
   row.label = label_of(cell);
-  row.absent = ended.value().words;
-  row.verdict = class_of(ended.value());
-  row.repeat = command_line(args);
+  row.absent = std::move(answer.value().absent);
+  row.verdict = std::move(answer.value().verdict);
+  row.repeat = std::move(answer.value().repeat);
   return row;
 }
 
@@ -198,7 +177,7 @@ core::Result<std::vector<RaceRow>> race_boxes(const std::string& stream, const s
                                               bool here) {
   std::vector<RaceRow> rows;
   for (const CellSpec& cell : cells) {
-    const bool is_apart = (cell.row->runs_in_child || limits.are_asked) && !here && why_absent(*cell.row).empty();
+    const bool is_apart = !here && runs_apart(cell, limits);
     auto row = is_apart ? race_in_child(stream, cell, frames, parts, limits) : race(stream, cell, frames, parts);
     if (!row) return row.error();
     rows.push_back(std::move(row).value());

@@ -1,10 +1,12 @@
 #include <oneapi/tbb/version.h>
 
-#include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/method/method_settings.hpp"
 #include "core/method/rigid/refuse_method_settings.hpp"
 #include "core/method/rigid/rigid_declaration.hpp"
 #include "core/method/rigid/rigid_settings.hpp"
@@ -18,34 +20,23 @@
 namespace broadside::reference {
 namespace {
 
-const std::array<core::SettingRow, 9>& settings_table() {
-  static const std::array<core::SettingRow, 9> kTable{{
+std::span<const core::SettingRow> settings_table() {
+  static const std::vector<core::SettingRow> rows{
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
        "where candidates come from: tree = the fast octree; kept = the same, keeping what still holds between frames; "
        "octree = P-Alg 1; brute = the levels' published start"},
-      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
-      {"solver", "colored", {"colored", "jacobi", "printed-E8"}, "order in which contacts are resolved"},
+      core::levels_setting(),
+      core::solver_setting(),
       {"threads", "0", {}, "threads; 0 = all. Does not change a bit of the result"},
-      {"variant",
-       "sound",
-       {"sound", "printed-E1", "printed-E2", "printed-E3", "printed-E4", "printed-E5", "printed-E6", "printed-E7",
-        "printed-E8"},
-       "a printed, wrong form of the paper to run instead"},
-      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
-      {"contact",
-       "conjugate",
-       {"conjugate", "soft-step"},
-       "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"},
-      {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"},
-      {"thresholds",
-       "scaled",
-       {"scaled", "fixed"},
-       "bodies that turn: slop and bounce speed by size, gravity and step, or fixed = the scene's delta_m and "
-       "v_threshold_m_s"},
-  }};
-  return kTable;
+      core::variant_setting(),
+      core::vertex_stage_setting(),
+      core::contact_setting(),
+      core::substeps_setting(),
+      core::thresholds_setting(),
+  };
+  return rows;
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {

@@ -1,11 +1,13 @@
 // The engine `hash-cpu`: the spatial hash, and the pipeline's later stages behind it.
 #include <oneapi/tbb/version.h>
 
-#include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/method/method_settings.hpp"
 #include "core/parameters.hpp"
 #include "reference/engines.hpp"
 #include "reference/octree_cpu/pipeline.hpp"
@@ -18,12 +20,8 @@ namespace {
 constexpr std::string_view kId = "hash-cpu";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 4> rows{{
-      {"cell_mm", "0", {}, "edge of a cell in mm; 0 = the scene's hash_cell_m, and 250 for boxes alone"},
-      {"levels", "C", {"flat", "level1", "A", "B", "C"}, "body-octree levels tested, as in P-Tables 5 and 6"},
-      threads_setting(),
-      {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"},
-  }};
+  static const std::vector<core::SettingRow> rows{core::cell_setting(), core::levels_setting(), threads_setting(),
+                                                  core::vertex_stage_setting()};
   return rows;
 }
 

@@ -61,6 +61,8 @@ inline pid_t start_program(const ScratchFolder& folder, const std::vector<std::s
   if (child != 0) return child;
   dup2(open(out.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDERR_FILENO);
+  // Beside many other tests an interpreter may take longer than ten seconds to start.
+  setenv("BROADSIDE_HELLO_LIMIT_S", "120", 0);
   execv(argv[0], argv.data());
   _exit(127);
 }
