@@ -25,7 +25,7 @@ namespace {
 using core::Error;
 using core::Result;
 
-// 24 bytes a box: 2.4 GB, which machines for such sets have many times over.
+// 24 bytes a box: 24 GB, which machines for such sets have several times over.
 constexpr std::uint32_t kMaxBoxes = 1'000'000'000;
 // Part of the set's definition: long enough for a coherent engine to settle.
 constexpr std::uint32_t kMovingFrames = 100;
