@@ -9,13 +9,14 @@
 namespace broadside::gpu {
 namespace {
 
-// The keys and values of octree-cpu, but for its threads and for what it keeps between frames.
+// The keys and values of octree-cpu, but for its threads; and what its broad phase has on devices.
 std::span<const core::SettingRow> octree_settings() {
   static const std::vector<core::SettingRow> rows{
       {"broad",
        "tree",
-       {"tree", "octree", "brute"},
-       "where candidates come from: tree = the fast octree; octree = P-Alg 1; brute = the levels' published start"},
+       {"tree", "kept", "octree", "brute"},
+       "where candidates come from: tree = the fast octree; kept = the same, and of boxes alone keeping what still "
+       "holds between frames; octree = P-Alg 1; brute = the levels' published start"},
       core::levels_setting(),
       core::solver_setting(),
       core::variant_setting(),
@@ -23,6 +24,9 @@ std::span<const core::SettingRow> octree_settings() {
       core::contact_setting(),
       core::substeps_setting(),
       core::thresholds_setting(),
+      {"pairs_at_once", "0", {}, "boxes alone: room on the device for so many pairs, found in chunks; 0 = for all"},
+      {"parts", "0", {}, "boxes alone: ranges of space, searched each on a device; 0 = one for each device"},
+      {"devices", "1", {}, "boxes alone: GPUs that share them; 0 = all that there are"},
   };
   return rows;
 }

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/method/rigid/refuse_method_settings.hpp"
+#include "gpu/broad/kept_finder.hpp"
 #include "gpu/broad/pair_finder.hpp"
+#include "gpu/broad/spread_finder.hpp"
 #include "gpu/engines_on_cuda.hpp"
 #include "gpu/frame/pipeline.hpp"
 #include "gpu/pipeline_by_motion.hpp"
@@ -18,7 +20,8 @@ std::string version_text(int version) {
 }
 
 core::Result<core::Engine> engine_of(std::string_view id, std::string_view twin_of, const core::Settings& settings,
-                                     std::unique_ptr<core::Dynamics> dynamics, const PairFinderOptions& alone) {
+                                     std::unique_ptr<core::Dynamics> dynamics,
+                                     std::unique_ptr<core::BroadPhase> alone) {
   if (const std::string why = gpu_absent(); !why.empty())
     return core::Error{why, std::string(id), "run on a machine with an NVIDIA GPU", core::Exit::kMissing};
   core::Engine engine;
@@ -26,9 +29,33 @@ core::Result<core::Engine> engine_of(std::string_view id, std::string_view twin_
   engine.build = "Broadside, float32, CUDA " + version_text(CUDART_VERSION) + ", " + device_name();
   engine.settings = settings;
   engine.declaration = core::method_declaration(twin_of);
-  engine.broad_phase = std::make_unique<PairFinder>(alone);
+  engine.broad_phase = std::move(alone);
   engine.dynamics = std::move(dynamics);
   return engine;
+}
+
+// Of boxes alone.
+core::Result<std::unique_ptr<core::BroadPhase>> broad_phase_of(const core::Settings& settings,
+                                                               const PairFinderOptions& options) {
+  const bool is_kept = settings.text("broad") == "kept";
+  const SpreadOptions spread{static_cast<std::uint32_t>(settings.number("parts")),
+                             static_cast<std::uint32_t>(settings.number("devices"))};
+  PairFinderOptions own = options;
+  own.pairs_at_once = settings.number("pairs_at_once");
+  const bool is_spread = spread.parts > 1 || spread.devices != 1;
+  const bool is_fast = settings.text("broad") == "tree" && options.variant == core::Variant::kSound;
+  if ((is_spread && own.pairs_at_once != 0) || (!is_fast && (is_spread || own.pairs_at_once != 0)))
+    return core::Error{"pairs_at_once, and parts or devices, do not go together, nor with broad=" +
+                           settings.text("broad") + ",variant=" + settings.text("variant"),
+                       "octree-gpu", "give one of them, with broad=tree and variant=sound"};
+  std::unique_ptr<core::BroadPhase> made;
+  if (is_spread)
+    made = std::make_unique<SpreadFinder>(spread);
+  else if (is_kept)
+    made = std::make_unique<KeptFinder>(own);
+  else
+    made = std::make_unique<PairFinder>(own);
+  return made;
 }
 
 }  // namespace
@@ -60,7 +87,9 @@ core::Result<core::Engine> create_octree_gpu(const core::Settings& settings) {
   turning.has_fixed_thresholds = settings.text("thresholds") == "fixed";
   auto dynamics = std::make_unique<PipelineByMotion>(options, turning, "octree-cpu",
                                                      core::refuse_method_settings("octree-gpu", settings));
-  return engine_of("octree-gpu", "octree-cpu", settings, std::move(dynamics), {options.broad, options.variant});
+  auto alone = broad_phase_of(settings, {options.broad, options.variant});
+  if (!alone.ok()) return alone.error();
+  return engine_of("octree-gpu", "octree-cpu", settings, std::move(dynamics), std::move(alone).value());
 }
 
 core::Result<core::Engine> create_hash_gpu(const core::Settings& settings) {
@@ -71,7 +100,7 @@ core::Result<core::Engine> create_hash_gpu(const core::Settings& settings) {
   options.has_vertex_stage = settings.text("vertex_stage") == "on";
   const float alone_m = options.hash_cell_m > 0.0F ? options.hash_cell_m : core::Parameters{}.hash_cell_m;
   return engine_of("hash-gpu", "hash-cpu", settings, std::make_unique<Pipeline>(options),
-                   {Broad::kHash, core::Variant::kSound, alone_m});
+                   std::make_unique<PairFinder>(PairFinderOptions{Broad::kHash, core::Variant::kSound, alone_m}));
 }
 
 std::string device_name() {

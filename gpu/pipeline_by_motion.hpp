@@ -8,6 +8,7 @@
 #include "core/engine/chosen_by_scene.hpp"
 #include "core/engine/dynamics.hpp"
 #include "core/engine/frame_copies.hpp"
+#include "core/engine/frame_on_device.hpp"
 #include "core/engine/runs_ahead.hpp"
 #include "core/engine/work_counting.hpp"
 #include "gpu/frame/pipeline.hpp"
@@ -18,6 +19,7 @@ namespace broadside::gpu {
 class PipelineByMotion final : public core::Dynamics,
                                public core::RunsAhead,
                                public core::FrameCopies,
+                               public core::FrameOnDevice,
                                public core::CountsWork,
                                public core::ChosenByScene {
  public:
@@ -36,6 +38,9 @@ class PipelineByMotion final : public core::Dynamics,
   // Frames of turning bodies are copied at once, and wait here.
   core::Status start_copy(core::RecordLevel level) override;
   core::Status finish_copy(core::FrameRecord& frame) override;
+  [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override {
+    return is_turning() ? turning_.frame_on_device() : translating_.frame_on_device();
+  }
   void count_work() override { translating_.count_work(); }
   [[nodiscard]] std::uint32_t groups() const override { return now_->groups(); }
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override { return now_->stage_times(); }

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <numeric>
+#include <optional>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "bench/build_facts.hpp"
@@ -121,6 +125,102 @@ core::Status run_cell(const fs::path& folder, const ManifestCell& cell) {
   return core::Done{};
 }
 
+// What threads that do the groups of a manifest share: each takes the next one in order until there is none.
+class Workers {
+ public:
+  Workers(const fs::path& folder, const Manifest& manifest, const Selection& selection, const TellGroup& tell,
+          OpenJob* job)
+      : folder_(folder),
+        manifest_(manifest),
+        selection_(selection),
+        tell_(tell),
+        job_(job),
+        groups_(groups_of(manifest)),
+        order_(groups_.size()) {
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    if (job_ == nullptr) return;
+    std::vector<double> ranks(groups_.size());
+    for (std::size_t place = 0; place < groups_.size(); ++place)
+      ranks[place] = job_->rank_of(first_of(place), groups_[place].size());
+    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
+  }
+
+  // Until no group is left, an interrupt, or an error of any thread.
+  void work() {
+    for (std::size_t k = next_++; k < order_.size() && !is_interrupted() && !has_failed_; k = next_++)
+      if (selection_.includes(order_[k], groups_[order_[k]])) do_group(order_[k]);
+  }
+
+  [[nodiscard]] core::Result<Tally> result() const {
+    return error_ ? core::Result<Tally>(*error_) : core::Result<Tally>(tally_);
+  }
+
+ private:
+  void do_group(std::size_t place) {
+    const std::span<const ManifestCell> group = groups_[place];
+    const std::size_t first = first_of(place);
+    const auto lock = CellLock::take(folder_ / "cells" / (group.front().turns + ".lock"));
+    // Counted after taking the lock, so that cells which another process finished meanwhile are counted.
+    const std::uint32_t before = finished(group);
+    const auto missing = static_cast<std::uint32_t>(group.size()) - before;
+    Tally own;
+    own.there = before;
+    if (missing == 0) return add(own, nullptr);
+    if (!lock) {
+      own.busy = missing;
+      const GroupEnd end{group, "busy", 0.0, first};
+      return add(own, &end);
+    }
+    const auto start = Clock::now();
+    const core::Status ended = job_ != nullptr ? job_->do_group(first, group.size()) : run_cell(folder_, group.front());
+    if (!ended) return fail(ended.error());
+    own.done = finished(group) - before;
+    own.unfinished = missing - own.done;
+    const GroupEnd end{group, own.done == missing ? "done" : "unfinished",
+                       std::chrono::duration<double>(Clock::now() - start).count(), first};
+    add(own, &end);
+  }
+
+  void add(const Tally& own, const GroupEnd* end) {
+    const std::lock_guard guard(mutex_);
+    tally_.done += own.done;
+    tally_.there += own.there;
+    tally_.busy += own.busy;
+    tally_.unfinished += own.unfinished;
+    if (end != nullptr) tell_(*end);
+  }
+
+  void fail(const core::Error& error) {
+    const std::lock_guard guard(mutex_);
+    if (!error_) error_ = error;
+    has_failed_ = true;
+  }
+
+  [[nodiscard]] std::size_t first_of(std::size_t place) const {
+    return static_cast<std::size_t>(groups_[place].data() - manifest_.cells.data());
+  }
+
+  [[nodiscard]] std::uint32_t finished(std::span<const ManifestCell> cells) const {
+    return static_cast<std::uint32_t>(std::count_if(cells.begin(), cells.end(), [this](const ManifestCell& c) {
+      std::error_code ignored;
+      return fs::exists(cell_folder(folder_, c.id), ignored);
+    }));
+  }
+
+  const fs::path& folder_;
+  const Manifest& manifest_;
+  const Selection& selection_;
+  const TellGroup& tell_;
+  OpenJob* job_;
+  std::vector<std::span<const ManifestCell>> groups_;
+  std::vector<std::size_t> order_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> has_failed_ = false;
+  std::mutex mutex_;  // of what follows, and of tell_
+  Tally tally_;
+  std::optional<core::Error> error_;
+};
+
 }  // namespace
 
 core::Result<Selection> Selection::of_shard(const std::string& text) {
@@ -140,7 +240,8 @@ bool Selection::includes(std::size_t place, std::span<const ManifestCell> group)
   return std::any_of(group.begin(), group.end(), [&](const ManifestCell& c) { return c.id == id; });
 }
 
-core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection, const TellGroup& tell) {
+core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection, const TellGroup& tell,
+                              std::uint32_t at_once) {
   auto read = read_manifest(folder);
   if (!read) return read.error();
   const Manifest& manifest = read.value();
@@ -161,51 +262,13 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
     job = std::move(opened).value();
   }
 
-  const auto finished = [&](std::span<const ManifestCell> cells) {
-    return static_cast<std::uint32_t>(std::count_if(cells.begin(), cells.end(), [&](const ManifestCell& c) {
-      std::error_code ignored;
-      return fs::exists(cell_folder(folder, c.id), ignored);
-    }));
-  };
-  Tally tally;
-  const auto groups = groups_of(manifest);
-  const auto first_of = [&](std::size_t place) {
-    return static_cast<std::size_t>(groups[place].data() - manifest.cells.data());
-  };
-  std::vector<std::size_t> order(groups.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (job) {
-    std::vector<double> ranks(groups.size());
-    for (std::size_t place = 0; place < groups.size(); ++place)
-      ranks[place] = job->rank_of(first_of(place), groups[place].size());
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
-  }
-  for (const std::size_t place : order) {
-    if (is_interrupted()) break;
-    const std::span<const ManifestCell> group = groups[place];
-    if (!selection.includes(place, group)) continue;
-    const std::size_t first = first_of(place);
-    const auto lock = CellLock::take(folder / "cells" / (group.front().turns + ".lock"));
-    // Counted after taking the lock, so that cells which another process finished meanwhile are counted.
-    const std::uint32_t before = finished(group);
-    const auto missing = static_cast<std::uint32_t>(group.size()) - before;
-    tally.there += before;
-    if (missing == 0) continue;
-    const auto start = Clock::now();
-    if (!lock) {
-      tally.busy += missing;
-      tell({group, "busy", 0.0, first});
-      continue;
-    }
-    const core::Status ended = job ? job->do_group(first, group.size()) : run_cell(folder, group.front());
-    if (!ended) return ended.error();
-    const std::uint32_t done = finished(group) - before;
-    tally.done += done;
-    tally.unfinished += missing - done;
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    tell({group, done == missing ? "done" : "unfinished", seconds, first});
-  }
-  return tally;
+  Workers workers(folder, manifest, selection, tell, job.get());
+  // Cells that are done by child processes wait for them: a thread each.
+  std::vector<std::thread> threads;
+  for (std::uint32_t k = 1; k < at_once && !job; ++k) threads.emplace_back([&workers] { workers.work(); });
+  workers.work();
+  for (std::thread& thread : threads) thread.join();
+  return workers.result();
 }
 
 }  // namespace broadside::bench::campaign

@@ -42,7 +42,9 @@ using TellGroup = std::function<void(const GroupEnd&)>;
 // A cell is recorded and judged, and timed where its work says so, by this program in child processes with the cell's
 // time limit each; its folder appears whole or not at all. An engine that crashes or hangs is a result, and finishes
 // its cell; a harness that was killed or ran out of disk is not. Groups of a job are done as the job says, in the order
-// of their ranks. Errors: no manifest, another build, an unknown id.
-core::Result<Tally> run_cells(const std::filesystem::path& folder, const Selection& selection, const TellGroup& tell);
+// of their ranks. `at_once` cells are in work at a time, those of a job one by one; `tell` is called by one thread at a
+// time. Errors: no manifest, another build, an unknown id.
+core::Result<Tally> run_cells(const std::filesystem::path& folder, const Selection& selection, const TellGroup& tell,
+                              std::uint32_t at_once = 1);
 
 }  // namespace broadside::bench::campaign

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,6 +16,8 @@
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/contest/contest_document.hpp"
+#include "bench/contest/missing_engines.hpp"
+#include "bench/fetched/fetched_engines.hpp"
 #include "bench/process/interrupt.hpp"
 #include "bench/record/run_plan.hpp"
 
@@ -27,7 +30,9 @@ using contest::ContestRequest;
 struct ContestArguments {
   ContestRequest request;
   std::string out = "out/contest";
+  std::uint32_t jobs = 1;  // cells at a time
   bool only_reports = false;
+  bool installs = false;
 };
 
 std::string command_of(const ContestArguments& a) {
@@ -35,6 +40,7 @@ std::string command_of(const ContestArguments& a) {
   for (const std::string& engine : a.request.engines) text += " --engine '" + engine + "'";
   for (const std::string& scene : a.request.scenes) text += " --scene '" + scene + "'";
   if (a.request.has_largest_heaps) text += " --heaps";
+  if (a.jobs > 1) text += fmt::format(" --jobs {}", a.jobs);
   return text + fmt::format(" --repetitions {} --out {}", a.request.repetitions, a.out);
 }
 
@@ -82,14 +88,39 @@ core::Exit exit_of_contest(const contest::ContestTable& table, std::uint32_t mis
   return missing > 0 ? core::Exit::kMissing : core::Exit::kGood;
 }
 
+bool ask_terminal(const std::string& question) {
+  if (isatty(STDIN_FILENO) == 0 || isatty(STDERR_FILENO) == 0) return false;
+  fmt::print(stderr, "{} [y/N] ", question);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+// Packages of npm, by fetch_engine; `yes` agrees to everything.
+contest::InstallPath npm_path(bool yes) {
+  contest::InstallPath path;
+  for (const core::EngineRow& row : fetched_engine_rows()) path.ids.emplace_back(row.id);
+  path.agrees = [yes](const std::string& question) { return yes || ask_terminal(question); };
+  path.install = [](std::string_view id) {
+    return fetch_engine(id, [id](std::string_view step) { fmt::print(stderr, "{}: {}\n", id, step); });
+  };
+  return path;
+}
+
 core::Exit run_contest(const ContestArguments& a) {
   const fs::path folder = a.out;
   if (core::Status s = prepare_folder(folder); !s) return complain(s.error());
   auto entrants = contest::entrants_of(a.request);
   if (!entrants) return complain(entrants.error());
+  if (!a.only_reports && contest::install_missing(entrants.value(), npm_path(a.installs)) > 0) {
+    entrants = contest::entrants_of(a.request);
+    if (!entrants) return complain(entrants.error());
+  }
   for (const contest::Entrant& e : entrants.value())
     if (!e.absent.empty()) fmt::print("{}: {}\n", e.engine, e.absent);
-  if (core::Status s = plan_into(folder, a.request); !s) return complain(s.error());
+  // A page of cells that another machine or another build did is made of the manifest that they were done from.
+  if (!a.only_reports || !fs::exists(folder / "manifest.json"))
+    if (core::Status s = plan_into(folder, a.request); !s) return complain(s.error());
   auto manifest = campaign::read_manifest(folder);
   if (!manifest) return complain(manifest.error());
   const std::size_t all = manifest.value().cells.size();
@@ -100,7 +131,7 @@ core::Exit run_contest(const ContestArguments& a) {
       done += end.cells.size();
       show_progress(done, all, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), end);
     };
-    auto tally = campaign::run_cells(folder, {}, tell);
+    auto tally = campaign::run_cells(folder, {}, tell, a.jobs);
     if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\n");
     if (!tally) return complain(tally.error());
   }
@@ -111,6 +142,7 @@ core::Exit run_contest(const ContestArguments& a) {
   auto steps = own_steps(a.request);
   if (!steps) return complain(steps.error());
   contest::ContestTable table = contest::contest_table(rows.value(), entrants.value(), steps.value());
+  table.cells_at_once = a.jobs;
   auto with_energy = contest::scenes_with_energy(a.request);
   if (!with_energy) return complain(with_energy.error());
   if (core::Status s = contest::read_energy(table, folder, with_energy.value()); !s) return complain(s.error());
@@ -145,7 +177,13 @@ void add_contest(CLI::App& program, core::Exit& exit) {
   command->add_option("--time-limit", a->request.time_limit_s, "Seconds of each part of a cell")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
+  command
+      ->add_option("--jobs", a->jobs,
+                   "Cells at a time: the times of more than one are those of a busy machine, and the page says so")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
   command->add_flag("--heaps", a->request.has_largest_heaps, "A heap of 10,000 boxes too: an hour more on two cores");
+  command->add_flag("--yes", a->installs, "Install missing engines of npm without asking; no terminal, no question");
   command->add_flag("--only-report", a->only_reports, "Run nothing: make the page of the cells that are there");
   command->add_option("--out", a->out, "Folder for cells and page; a second call goes on in it")->capture_default_str();
   command->footer(

@@ -234,6 +234,7 @@ Document contest_document(const ContestTable& table, const std::string& command)
   add_stability(document, table);
   add_stacks(document, table);
   add_heaps(document, table);
+  add_passages(document, table);
   add_determinism(document, table);
   add_broken_laws(document, table);
   add_tunings(document, table);

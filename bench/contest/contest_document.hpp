@@ -19,6 +19,7 @@ void add_error_against_cost(Document& document, const ContestTable& table);
 void add_energy_over_time(Document& document, const ContestTable& table);
 void add_stability(Document& document, const ContestTable& table);
 void add_stacks(Document& document, const ContestTable& table);
+void add_passages(Document& document, const ContestTable& table);
 void add_heaps(Document& document, const ContestTable& table);
 void add_determinism(Document& document, const ContestTable& table);
 void add_tunings(Document& document, const ContestTable& table);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "bench/cell/cell_spec.hpp"
 #include "bench/cell/scene_arguments.hpp"
+#include "bench/contest/passage_courses.hpp"
 #include "bench/contest/tunings.hpp"
 #include "bench/engines.hpp"
 #include "core/nearest_name.hpp"
@@ -84,6 +86,25 @@ std::string step_text(double dt_s) {
 std::string with_threads(const std::string& engine, const std::string& threads) {
   if (engine.ends_with(']')) return engine.substr(0, engine.size() - 1) + ",threads=" + threads + "]";
   return engine + "[threads=" + threads + "]";
+}
+
+// What is not in the campaign yet. They are judged and not timed: what an impact costs says the scene's own step.
+void add_passages(campaign::CampaignFile& campaign, const std::vector<Entrant>& entrants, double time_limit_s) {
+  std::set<std::pair<std::string, std::string>> there;
+  for (const campaign::CellWork& work : campaign.cells) there.emplace(work.scene, work.engine);
+  for (const PassageCourse& course : passage_courses())
+    for (const PassageRun& run : course.runs)
+      for (const Entrant& entrant : entrants) {
+        if (!entrant.absent.empty() || is_recommended(entrant.engine)) continue;
+        if (there.count({run.scene, entrant.engine}) > 0) continue;
+        campaign::CellWork work;
+        work.scene = run.scene;
+        work.engine = entrant.engine;
+        work.repetitions = 0;
+        work.stand_in = true;
+        work.time_limit_s = time_limit_s;
+        campaign.cells.push_back(std::move(work));
+      }
 }
 
 core::Status complete(Entrant& entrant) {
@@ -193,6 +214,7 @@ core::Result<campaign::CampaignFile> contest_campaign(const ContestRequest& requ
       }
     }
   }
+  if (request.scenes.empty()) add_passages(campaign, entrants.value(), request.time_limit_s);
   return campaign;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/cell/step_suffix.hpp"
+#include "bench/contest/passage_courses.hpp"
 
 namespace broadside::bench::contest {
 namespace {
@@ -14,11 +15,34 @@ namespace {
 constexpr auto kRecorded = core::CellState::kRecorded;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-SceneTable& table_of(ContestTable& table, const std::string& scene) {
-  for (SceneTable& s : table.scenes)
+SceneTable& table_of(std::vector<SceneTable>& scenes, const std::string& scene) {
+  for (SceneTable& s : scenes)
     if (s.scene == scene) return s;
-  table.scenes.push_back({scene, {}, {}});
-  return table.scenes.back();
+  scenes.push_back({scene, {}, {}});
+  return scenes.back();
+}
+
+// Runs of passages that are no scenes of the contest.
+std::set<std::string> fast_scenes(const std::map<std::string, double>& scenes) {
+  std::set<std::string> names;
+  for (const PassageCourse& course : passage_courses())
+    for (const PassageRun& run : course.runs)
+      if (const std::string name = name_and_step(run.scene).first; scenes.count(name) == 0) names.insert(name);
+  return names;
+}
+
+std::string_view passage_word(core::Outcome outcome) {
+  switch (outcome) {
+    case core::Outcome::kPass:
+      return "held";
+    case core::Outcome::kFail:
+      return "through";
+    case core::Outcome::kInconclusive:
+      return "undecided";
+    case core::Outcome::kNotApplicable:
+      break;
+  }
+  return "nothing met";
 }
 
 double median(std::vector<double> values) {
@@ -50,6 +74,10 @@ void add_verdicts(Entry& entry, const core::CellVerdicts& judged) {
       entry.rest = v.measured;
       entry.rest_unit = v.unit;
       entry.stands = v.outcome == core::Outcome::kPass;
+    }
+    if (v.validator == "passage") {
+      entry.passage = passage_word(v.outcome);
+      entry.passage_words = v.explanation;
     }
     if (v.validator == "penetration" && applied) entry.deepest_m = v.measured;
   }
@@ -91,9 +119,10 @@ ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>
                            const std::map<std::string, double>& steps_s) {
   ContestTable table;
   table.entrants = entrants;
+  const std::set<std::string> fast = fast_scenes(steps_s);
   for (const core::Cell& cell : rows.cells) {
     const auto [scene, step] = name_and_step(cell.stamp.scene_name);
-    SceneTable& place = table_of(table, scene);
+    SceneTable& place = table_of(fast.count(scene) > 0 ? table.fast_scenes : table.scenes, scene);
     if (std::find(place.steps.begin(), place.steps.end(), step) == place.steps.end()) place.steps.push_back(step);
     const std::string label = cell.stamp.label();
     Entry entry;
@@ -127,26 +156,6 @@ ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>
     place.entries[label][step] = std::move(entry);
   }
   return table;
-}
-
-core::Status read_energy(ContestTable& table, const std::filesystem::path& folder,
-                         const std::vector<std::string>& scenes) {
-  // More than a curve of a page's width can show.
-  constexpr std::size_t kMostFrames = 240;
-  for (SceneTable& scene : table.scenes) {
-    if (std::find(scenes.begin(), scenes.end(), scene.scene) == scenes.end()) continue;
-    for (const Entrant& e : table.entrants) {
-      const Entry* entry = own_entry(scene, e.engine);
-      if (entry == nullptr || entry->trace_file.empty()) continue;
-      const std::filesystem::path file = folder / entry->trace_file;
-      std::error_code failed;
-      if (!std::filesystem::exists(file, failed)) continue;
-      auto curve = energy_curve(file, kMostFrames);
-      if (!curve) return curve.error();
-      scene.energy[e.engine] = std::move(curve).value();
-    }
-  }
-  return core::Done{};
 }
 
 const Entry* own_entry(const SceneTable& scene, const std::string& engine) {

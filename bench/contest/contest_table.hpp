@@ -1,6 +1,7 @@
 // Rows of a contest's cells as one table: scenes x engines x steps.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -26,6 +27,8 @@ struct Entry {
   double rest = 0.0;  // what rest measured; NaN where it did not apply
   std::string rest_unit;
   double deepest_m = 0.0;  // what penetration measured; NaN likewise
+  std::string passage;  // what the law passage found: "held", "through", "undecided", "nothing met"; empty = not judged
+  std::string passage_words;
   std::string trace_file;
   std::uint64_t last_digest = 0;  // of the last recorded frame
   // Against the scene's closed answer; NaN where it has none or the law did not apply.
@@ -49,6 +52,8 @@ struct SceneTable {
 struct ContestTable {
   std::vector<Entrant> entrants;  // columns; absent ones too
   std::vector<SceneTable> scenes;
+  std::vector<SceneTable> fast_scenes;                                     // of passage_courses() alone
+  std::uint32_t cells_at_once = 1;                                         // while they were timed
   std::map<std::string, std::map<std::string, std::string>> declarations;  // by label
   std::map<std::string, std::string> builds;                               // by label
 };
@@ -60,7 +65,8 @@ std::pair<std::string, std::string> name_and_step(const std::string& scene_name)
 ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>& entrants,
                            const std::map<std::string, double>& steps_s);
 
-// Reads the traces of these scenes at their own steps, in this folder. A trace that is gone is left out.
+// Reads the traces of these scenes at their own steps, in this folder, and keeps the curves in FOLDER/energy.json: a
+// trace that is gone has the curve that was kept of it, or none.
 core::Status read_energy(ContestTable& table, const std::filesystem::path& folder,
                          const std::vector<std::string>& scenes);
 

@@ -73,7 +73,11 @@ void add_error_against_cost(Document& document, const ContestTable& table) {
       "Each mark is one step of an engine on a scene with a closed answer: the error that is largest against "
       "its limit, and what the engine's steps cost. Engines that run under Node are dashed: their verdicts "
       "count, their speeds do not, because WebAssembly is not the library's own code. A broken law strikes no "
-      "mark here; the table of verdicts says which are broken."});
+      "mark here; the table of verdicts says which are broken." +
+      (table.cells_at_once > 1
+           ? fmt::format(" Of the cells {} ran at a time, so these times are those of a busy machine.",
+                         table.cells_at_once)
+           : std::string())});
   for (Block& figure : figures) document.blocks.push_back(std::move(figure));
 }
 

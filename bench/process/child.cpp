@@ -1,5 +1,6 @@
 #include "bench/process/child.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -94,8 +95,9 @@ struct Pipe {
   int to = -1;
 
   bool open() {
+    // A child of another thread must not keep this pipe open. dup2 gives the child's own streams without that flag.
     std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) return false;
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) return false;
     from = ends[0];
     to = ends[1];
     return true;

@@ -25,10 +25,4 @@ core::Status launch_pack(const PackView& view, StreamHandle stream) {
   return cuda_status(cudaGetLastError(), "launching the packing of boxes");
 }
 
-core::Result<int> current_device() {
-  int device = 0;
-  BROADSIDE_CUDA_TRY(cudaGetDevice(&device));
-  return device;
-}
-
 }  // namespace broadside::gpu

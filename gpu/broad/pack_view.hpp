@@ -40,7 +40,5 @@ struct PackView {
 
 // Asynchronous.
 core::Status launch_pack(const PackView& view, StreamHandle stream);
-// The device on which launches of this thread run.
-core::Result<int> current_device();
 
 }  // namespace broadside::gpu

@@ -1,71 +1,59 @@
 #include "gpu/broad/pair_finder.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "gpu/broad/pack_view.hpp"
-#include "gpu/frame/frame_kernel.hpp"
-#include "gpu/runtime/device_buffer.hpp"
-#include "gpu/runtime/host_side.hpp"
-#include "gpu/work/work_counter.hpp"
+#include "gpu/broad/apart_search.hpp"
+#include "gpu/broad/box_search.hpp"
+#include "gpu/broad/dealt_boxes.hpp"
+#include "gpu/broad/device_packing.hpp"
+#include "gpu/broad/pair_chunks.hpp"
+#include "gpu/runtime/device_choice.hpp"
 
 namespace broadside::gpu {
-namespace {
 
 using core::Box;
-
-// Some eight overlaps a box in the densest scenes of the campaign; a frame that finds more is found again.
-constexpr std::uint64_t kPairsPerBox = 8;
-
-core::Error bad_box(std::size_t place) {
-  return {"a box has min > max, or is NaN or infinite", "box " + std::to_string(place),
-          "give finite boxes with min <= max"};
-}
-
-core::Error another_count(std::size_t given, std::size_t loaded) {
-  return {"update was given " + std::to_string(given) + " boxes after a load of " + std::to_string(loaded),
-          "broad phase on the GPU", "load again when the number of boxes changes"};
-}
-
-}  // namespace
 
 struct PairFinder::Impl {
   PairFinderOptions options;
   Stream stream;
   StreamTimer timer;
-  Mapped<Outcome, 1> outcome;
-  PairsShape launch;
-  PairsView view;
-  BoxFacts facts;
   std::vector<std::uint8_t> is_static;
-  std::vector<PackedBox> packed;
-  Counters counts;
+  core::PassPlan plan;
+  SearchedBoxes boxes;
+  DevicePacking packing;
+  // The first `active`, in their order; the others keep their memory for another plan.
+  std::vector<std::unique_ptr<BoxSearch>> searches;
+  std::size_t active = 0;
+  ApartSearch apart;
+  bool may_be_apart = false;
+  bool is_apart = false;  // in the place of the searches
+  std::uint64_t chunked_pairs = 0;
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
-  DeviceBuffer<PackedBox> boxes;
-  DeviceBuffer<std::uint8_t> flags;   // is_static, where boxes come from the device
-  DeviceBuffer<BoxMeasure> measures;  // that of no box, which each packing begins with, and that of the last boxes
-  Mapped<BoxMeasure, 1> measured;
-  bool has_flags = false;  // and the measure of no box
-  StreamMark written;
-  BroadBuffers broad;
   WorkCounter work;
-  DeviceBuffer<core::Pair> pairs;
-  DeviceBuffer<Counters> counters;
-  DeviceBuffer<unsigned long long> barrier;
+  DeviceBuffer<core::Pair> joined;  // the pairs of several searches
+  FoundPairs all;                   // once somebody asked for them together
+  bool is_joined = false;
 
-  [[nodiscard]] Start start() const;
-  core::Status reserve();
-  core::Status pack_boxes(std::span<const Box> given);
-  core::Status upload();
-  core::Status reserve_packing();
-  core::Status pack_on_device(const core::DeviceBoxes& given);
+  core::Status start(std::span<const std::uint8_t> flags);
+  core::Status place(std::span<const Box> given, bool is_new);
+  core::Status place_on_device(const core::DeviceBoxes& given, bool is_new);
+  core::Status load_search(std::size_t k, bool is_new);
+  BoxSearch& search(std::size_t k);
+  core::Status launch();
+  core::Result<bool> grow();
+  [[nodiscard]] std::vector<FoundPairs> found() const;
+  core::Status join();
+  core::Status for_each_chunk(const ChunkConsumer& take);
+  [[nodiscard]] bool is_chunked() const { return options.pairs_at_once != 0; }
 };
 
 PairFinder::PairFinder(const PairFinderOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->options = options;
+  impl_->options.has_shares = options.has_shares || options.pairs_at_once != 0;
 }
 PairFinder::~PairFinder() = default;
 
@@ -75,185 +63,202 @@ core::BroadPhaseTraits PairFinder::traits() const {
   return traits;
 }
 
-Start PairFinder::Impl::start() const {
-  if (options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7) return Start::kOctree;
-  if (options.broad == Broad::kOctree) return Start::kOctree;
-  if (options.broad == Broad::kHash) return Start::kHash;
-  if (options.broad != Broad::kTree || is_static.size() < options.least_for_grid || !fits_grid(facts))
-    return Start::kTiles;
-  return is_static.size() < options.least_for_bulk ? Start::kGrid : Start::kBulk;
-}
-
-core::Status PairFinder::Impl::reserve() {
-  const std::size_t count = is_static.size();
+core::Status PairFinder::Impl::start(std::span<const std::uint8_t> flags) {
+  BROADSIDE_TRY(check_box_limit(flags.size()));
+  is_static.assign(flags.begin(), flags.end());
+  packing.start();
+  launches = bytes_to_device = 0;
+  may_be_apart = !is_chunked() && options.may_have_passes() && is_worth_keeping_apart(is_static, options);
+  if (may_be_apart) apart.start(is_static, options);
   BROADSIDE_TRY(stream.create());
-  BROADSIDE_TRY(outcome.allocate());
-  BROADSIDE_TRY(boxes.reserve(count, "boxes"));
-  BROADSIDE_TRY(counters.reserve(1, "counters"));
-  BROADSIDE_TRY(barrier.reserve(1, "barrier"));
-  BROADSIDE_TRY(barrier.fill_bytes(0));
-  BROADSIDE_TRY(work.reset());
-  BROADSIDE_TRY(pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBox * count), "pairs"));
-  auto shape =
-      pairs_launch_shape(start(), facts.count, static_cast<std::uint32_t>(grid_buckets(count)), options.least_for_bins);
-  if (!shape.ok()) return shape.error();
-  launch = shape.value();
-  BROADSIDE_TRY(broad.load(start(), facts, options.hash_cell_m, options.variant, launch.bins, launch.sort.blocks));
-  view.box_count = static_cast<std::uint32_t>(count);
-  view.boxes = boxes.data();
-  view.counters = counters.data();
-  view.barrier = barrier.data();
-  view.outcome = outcome.device(0);
-  return wait_for_device("clearing the broad phase");
+  return work.reset();
 }
 
-// Checks and packs, and learns what the cells' sizes depend on.
-core::Status PairFinder::Impl::pack_boxes(std::span<const Box> given) {
-  packed.resize(given.size());
-  facts = {};
-  facts.count = static_cast<std::uint32_t>(given.size());
-  Box bounds = core::empty_box();
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    const Box& box = given[i];
-    for (int k = 0; k < 3; ++k) {
-      if (!(std::isfinite(box.min[k]) && std::isfinite(box.max[k]) && box.min[k] <= box.max[k])) return bad_box(i);
-      facts.largest_side_m = std::max(facts.largest_side_m, box.max[k] - box.min[k]);
-      facts.coordinate_range_m = std::max({facts.coordinate_range_m, std::abs(box.min[k]), std::abs(box.max[k])});
-    }
-    bounds = core::grown(core::grown(bounds, box.min), box.max);
-    if (options.broad == Broad::kHash) facts.hash_entries += hash_cells_of(box.max - box.min, options.hash_cell_m);
-    packed[i] = pack(box, static_cast<std::uint32_t>(i), is_static[i] != 0 ? 1U : 0U);
+BoxSearch& PairFinder::Impl::search(std::size_t k) {
+  if (searches.size() <= k) searches.push_back(std::make_unique<BoxSearch>());
+  return *searches[k];
+}
+
+core::Status PairFinder::Impl::load_search(std::size_t k, bool is_new) {
+  bytes_to_device += (boxes.searched().size() + boxes.given().size()) * sizeof(PackedBox);
+  return search(k).load(boxes, options, is_new);
+}
+
+core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
+  // Also where there are passes: it refuses what is no box.
+  BROADSIDE_TRY(boxes.take(given, is_static, options));
+  plan = {};
+  if (options.may_have_passes())
+    plan = core::plan_passes(given, boxes.facts().coordinate_range_m,
+                             std::max(options.least_for_grid, options.least_for_passes));
+  is_apart = false;
+  if (may_be_apart && plan.is_plain()) {
+    auto can_be = apart.load(given, stream);
+    if (!can_be.ok()) return can_be.error();
+    is_apart = can_be.value();
+    if (is_apart) return core::Done{};
   }
-  if (!given.empty()) {
-    facts.low_corner = bounds.min;
-    facts.domain = bounds;
+  active = std::max<std::size_t>(1, plan.passes.size());
+  if (plan.is_plain()) return load_search(0, is_new);
+  for (std::size_t k = 0; k < active; ++k) {
+    boxes.take(given, is_static, plan, plan.passes[k]);
+    BROADSIDE_TRY(load_search(k, is_new));
   }
   return core::Done{};
 }
 
-core::Status PairFinder::Impl::upload() {
-  bytes_to_device += packed.size() * sizeof(PackedBox);
-  return boxes.upload(packed, "boxes");
-}
-
-core::Status PairFinder::load(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
-  Impl& d = *impl_;
-  d.is_static.assign(is_static.begin(), is_static.end());
-  d.has_flags = false;
-  BROADSIDE_TRY(d.pack_boxes(boxes));
-  BROADSIDE_TRY(d.reserve());
-  d.launches = d.bytes_to_device = 0;
-  return d.upload();
-}
-
-core::Status PairFinder::update(std::span<const Box> boxes) {
-  Impl& d = *impl_;
-  if (boxes.size() != d.is_static.size()) return another_count(boxes.size(), d.is_static.size());
-  const Start before = d.start();
-  BROADSIDE_TRY(d.pack_boxes(boxes));
-  if (d.start() != before) BROADSIDE_TRY(d.reserve());
-  d.broad.refit(d.facts);
-  return d.upload();
-}
-
-// Copies of the host go their own way: they are waited for before the stream's work begins.
-core::Status PairFinder::Impl::reserve_packing() {
-  const BoxMeasure of_none[2];
-  BROADSIDE_TRY(flags.upload(is_static, "flags of static boxes"));
-  BROADSIDE_TRY(measures.upload(of_none, "measures of boxes"));
-  BROADSIDE_TRY(measured.allocate());
-  BROADSIDE_TRY(wait_for_device("copying flags of static boxes"));
-  has_flags = true;
-  return core::Done{};
-}
-
-// As pack_boxes and upload, of boxes that the host never sees.
-core::Status PairFinder::Impl::pack_on_device(const core::DeviceBoxes& given) {
+core::Status PairFinder::Impl::place_on_device(const core::DeviceBoxes& given, bool is_new) {
   if (options.broad == Broad::kHash)
     return core::Error{"it takes boxes from the host alone", "spatial hash on the GPU",
                        "take octree-gpu, or copy the boxes to the host"};
-  if (!has_flags) BROADSIDE_TRY(reserve_packing());
-  if (given.count != 0 && given.is_behind_stream) {
-    BROADSIDE_TRY(written.set(static_cast<StreamHandle>(given.stream)));
-    BROADSIDE_TRY(written.hold_back(stream.get()));
-  }
-  BoxMeasure* const measure = measures.data() + 1;
-  BROADSIDE_TRY(copy_on_device(measure, measures.data(), sizeof *measure, stream.get()));
-  PackView pack;
-  pack.count = static_cast<std::uint32_t>(given.count);
-  pack.given = given.data;
-  pack.is_static = flags.data();
-  pack.packed = boxes.data();
-  pack.measure = measure;
-  BROADSIDE_TRY(launch_pack(pack, stream.get()));
-  BROADSIDE_TRY(start_copy_to_host(&measured[0], measure, sizeof *measure, stream.get()));
-  BROADSIDE_TRY(stream.wait("packing boxes"));
-  facts = {};
-  facts.count = pack.count;
-  if (given.count == 0) return core::Done{};
-  const BoxMeasure& m = measured[0];
-  if (m.first_bad < given.count) return bad_box(m.first_bad);
-  facts.largest_side_m = from_ordered_bits(m.largest_side);
-  facts.coordinate_range_m = from_ordered_bits(m.coordinate_range);
-  for (int k = 0; k < 3; ++k) {
-    facts.domain.min[k] = from_ordered_bits(m.low[k]);
-    facts.domain.max[k] = from_ordered_bits(m.high[k]);
-  }
-  facts.low_corner = facts.domain.min;
-  return core::Done{};
+  plan = {};
+  is_apart = false;
+  active = 1;
+  auto room = search(0).room_for(given.count);
+  if (!room.ok()) return room.error();
+  auto facts = packing.pack(given, is_static, room.value(), stream);
+  if (!facts.ok()) return facts.error();
+  return search(0).load_packed(facts.value(), options, is_new);
+}
+
+core::Status PairFinder::load(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
+  BROADSIDE_TRY(impl_->start(is_static));
+  return impl_->place(boxes, true);
+}
+
+core::Status PairFinder::update(std::span<const Box> boxes) {
+  if (boxes.size() != impl_->is_static.size()) return another_count(boxes.size(), impl_->is_static.size());
+  return impl_->place(boxes, false);
 }
 
 core::Status PairFinder::load_on_device(const core::DeviceBoxes& boxes, std::span<const std::uint8_t> is_static) {
-  Impl& d = *impl_;
-  d.is_static.assign(is_static.begin(), is_static.end());
-  d.has_flags = false;
-  BROADSIDE_TRY(d.stream.create());
-  BROADSIDE_TRY(d.boxes.reserve(boxes.count, "boxes"));
-  BROADSIDE_TRY(d.pack_on_device(boxes));
-  BROADSIDE_TRY(d.reserve());
-  d.launches = d.bytes_to_device = 0;
-  return core::Done{};
+  BROADSIDE_TRY(impl_->start(is_static));
+  return impl_->place_on_device(boxes, true);
 }
 
 core::Status PairFinder::update_on_device(const core::DeviceBoxes& boxes) {
+  if (boxes.count != impl_->is_static.size()) return another_count(boxes.count, impl_->is_static.size());
+  return impl_->place_on_device(boxes, false);
+}
+
+core::Status PairFinder::Impl::launch() {
+  if (is_apart) {
+    launches += apart.launches();
+    return apart.launch(stream.get());
+  }
+  for (std::size_t k = 0; k < active; ++k) {
+    launches += searches[k]->launches();
+    BROADSIDE_TRY(searches[k]->launch(stream.get()));
+  }
+  return core::Done{};
+}
+
+// Whether there was too little room; now there is enough.
+core::Result<bool> PairFinder::Impl::grow() {
+  bool had_too_little = false;
+  const auto grow_one = [&](auto& search) -> core::Status {
+    if (!search.is_aborted()) return core::Done{};
+    had_too_little = true;
+    return search.grow();
+  };
+  if (is_apart) BROADSIDE_TRY(grow_one(apart));
+  if (!is_apart)
+    for (std::size_t k = 0; k < active; ++k) BROADSIDE_TRY(grow_one(*searches[k]));
+  return had_too_little;
+}
+
+std::vector<FoundPairs> PairFinder::Impl::found() const {
+  if (is_apart) return {apart.found()};
+  std::vector<FoundPairs> all_found;
+  for (std::size_t k = 0; k < active; ++k) all_found.push_back(searches[k]->found());
+  return all_found;
+}
+
+core::Status PairFinder::Impl::for_each_chunk(const ChunkConsumer& take) {
+  for (std::size_t k = 0; k < active; ++k) BROADSIDE_TRY(gpu::for_each_chunk(*searches[k], stream, take, launches));
+  return core::Done{};
+}
+
+core::Status PairFinder::find() {
   Impl& d = *impl_;
-  if (boxes.count != d.is_static.size()) return another_count(boxes.count, d.is_static.size());
-  const Start before = d.start();
-  BROADSIDE_TRY(d.pack_on_device(boxes));
-  if (d.start() != before) BROADSIDE_TRY(d.reserve());
-  d.broad.refit(d.facts);
+  d.is_joined = false;
+  if (d.is_chunked()) {
+    d.chunked_pairs = 0;
+    BROADSIDE_TRY(d.timer.start(d.stream.get()));
+    BROADSIDE_TRY(d.for_each_chunk([&d](const FoundPairs& chunk) -> core::Status {
+      d.chunked_pairs += chunk.count;
+      return core::Done{};
+    }));
+    BROADSIDE_TRY(d.timer.stop(d.stream.get()));
+    return d.stream.wait("finding pairs");
+  }
+  for (bool is_complete = false; !is_complete;) {
+    BROADSIDE_TRY(d.timer.start(d.stream.get()));
+    BROADSIDE_TRY(d.launch());
+    BROADSIDE_TRY(d.timer.stop(d.stream.get()));
+    BROADSIDE_TRY(d.stream.wait("finding pairs"));
+    auto had_too_little = d.grow();
+    if (!had_too_little.ok()) return had_too_little.error();
+    is_complete = !had_too_little.value();
+  }
+  if (!d.is_apart)
+    for (std::size_t k = 0; k < d.active; ++k) BROADSIDE_TRY(d.searches[k]->count_work(d.work, d.stream.get()));
+  return core::Done{};
+}
+
+core::Status PairFinder::hand_on(const Consumer& take) {
+  Impl& d = *impl_;
+  auto device = current_device();
+  if (!device.ok()) return device.error();
+  const auto hand = [&](const FoundPairs& chunk) { return take({chunk.data, chunk.count, device.value()}); };
+  if (d.is_chunked()) return d.for_each_chunk(hand);
+  BROADSIDE_TRY(find());
+  for (const FoundPairs& own : d.found()) BROADSIDE_TRY(hand(own));
+  return core::Done{};
+}
+
+// One search's pairs are where they are; those of several are copied behind each other.
+core::Status PairFinder::Impl::join() {
+  if (is_joined) return core::Done{};
+  const std::vector<FoundPairs> each = found();
+  all = {};
+  if (each.size() == 1) all = each[0];
+  if (each.size() > 1) {
+    for (const FoundPairs& own : each) all.count += own.count;
+    BROADSIDE_TRY(joined.reserve(all.count, "pairs"));
+    all.data = joined.data();
+    core::Pair* to = joined.data();
+    for (const FoundPairs& own : each) {
+      if (own.count != 0) BROADSIDE_TRY(copy_on_device(to, own.data, own.count * sizeof(core::Pair), stream.get()));
+      to += own.count;
+    }
+    BROADSIDE_TRY(stream.wait("joining pairs"));
+  }
+  is_joined = true;
   return core::Done{};
 }
 
 core::Result<core::DevicePairs> PairFinder::pairs_on_device() const {
   auto device = current_device();
   if (!device.ok()) return device.error();
-  return core::DevicePairs{impl_->pairs.data(), impl_->counts.pairs, device.value()};
-}
-
-core::Status PairFinder::find() {
-  Impl& d = *impl_;
-  for (;;) {
-    d.broad.fill(d.view.broad);
-    d.broad.fill(d.view.bulk);
-    d.view.pairs = {d.pairs.data(), d.pairs.capacity()};
-    BROADSIDE_TRY(d.timer.start(d.stream.get()));
-    d.launches += d.launch.bins != 0 ? 2 : 1;
-    BROADSIDE_TRY(launch_pairs(d.view, d.launch, d.stream.get()));
-    BROADSIDE_TRY(d.timer.stop(d.stream.get()));
-    BROADSIDE_TRY(d.stream.wait("finding pairs"));
-    d.counts = d.outcome[0].counters;
-    if (d.counts.is_aborted == 0)
-      return d.work.count_broad({d.view.broad, d.view.bulk, d.view.boxes, d.view.box_count, d.view.counters},
-                                d.launch.search.multiprocessors, d.stream.get());
-    BROADSIDE_TRY(d.broad.grow(d.counts));
-    BROADSIDE_TRY(d.pairs.reserve(d.counts.pairs, "pairs"));
-  }
+  if (impl_->is_chunked())
+    return core::Error{"pairs are handed on in chunks, and are nowhere together", "broad phase on the GPU",
+                       "take them by hand_on, or leave out pairs_at_once"};
+  BROADSIDE_TRY(impl_->join());
+  return core::DevicePairs{impl_->all.data, impl_->all.count, device.value()};
 }
 
 core::Result<core::PairSet> PairFinder::read_back() {
   core::PairSet set;
-  BROADSIDE_TRY(impl_->pairs.download(set.pairs, impl_->counts.pairs));
+  const auto append = [&set](const FoundPairs& from) -> core::Status {
+    const std::size_t before = set.pairs.size();
+    set.pairs.resize(before + from.count);
+    if (from.count == 0) return core::Done{};
+    return copy_to_host(set.pairs.data() + before, from.data, from.count * sizeof(core::Pair));
+  };
+  if (impl_->is_chunked()) BROADSIDE_TRY(impl_->for_each_chunk(append));
+  if (!impl_->is_chunked())
+    for (const FoundPairs& own : impl_->found()) BROADSIDE_TRY(append(own));
   std::sort(set.pairs.begin(), set.pairs.end());
   set.demanded = set.raw = set.pairs.size();
   return set;
@@ -261,9 +266,15 @@ core::Result<core::PairSet> PairFinder::read_back() {
 
 std::vector<core::Counter> PairFinder::counters() const {
   const Impl& d = *impl_;
+  std::uint64_t bytes = d.joined.bytes() + d.apart.bytes();
+  for (const auto& search : d.searches) bytes += search->bytes();
   std::vector<core::Counter> counters{{"launches", d.launches},
-                                      {"bytes to the device", d.bytes_to_device},
-                                      {"device bytes", d.boxes.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+                                      {"bytes to the device", d.bytes_to_device + d.apart.bytes_to_device()},
+                                      {"device bytes", bytes}};
+  if (d.is_apart) {
+    counters.push_back({"broad: static tables built", d.apart.static_builds()});
+    counters.push_back({"broad: static boxes kept", d.apart.static_boxes_kept()});
+  }
   d.work.tell(counters);
   return counters;
 }
@@ -272,15 +283,33 @@ void PairFinder::count_work() {
   impl_->work.ask();
 }
 
+std::string PairFinder::path() const {
+  if (impl_->is_apart) return "static boxes in a table that is kept, moving ones in a table of each frame";
+  return core::words_of(impl_->plan);
+}
+
+const core::PassPlan& PairFinder::plan() const {
+  return impl_->plan;
+}
+
 FindTime PairFinder::find_time() const {
-  const Outcome& outcome = impl_->outcome[0];
-  const auto seconds = [&outcome](FindStep step) {
-    const auto k = static_cast<std::size_t>(step);
-    const unsigned long long begin_ns = k == 0 ? outcome.begin_ns : outcome.stage_end_ns[k - 1];
-    return static_cast<double>(outcome.stage_end_ns[k] - begin_ns) * 1e-9;
+  FindTime time;
+  time.whole_s = impl_->timer.elapsed_s();
+  const auto add = [&time](const Outcome& outcome) {
+    const auto seconds = [&outcome](FindStep step) {
+      const auto k = static_cast<std::size_t>(step);
+      const unsigned long long begin_ns = k == 0 ? outcome.begin_ns : outcome.stage_end_ns[k - 1];
+      return static_cast<double>(outcome.stage_end_ns[k] - begin_ns) * 1e-9;
+    };
+    time.count_s += seconds(FindStep::kCount);
+    time.place_s += seconds(FindStep::kPlace);
+    time.scatter_s += seconds(FindStep::kScatter);
+    time.find_s += seconds(FindStep::kSearch);
   };
-  return {impl_->timer.elapsed_s(), seconds(FindStep::kCount), seconds(FindStep::kPlace), seconds(FindStep::kScatter),
-          seconds(FindStep::kSearch)};
+  if (impl_->is_apart) add(impl_->apart.outcome());
+  if (!impl_->is_apart)
+    for (std::size_t k = 0; k < impl_->active; ++k) add(impl_->searches[k]->outcome());
+  return time;
 }
 
 }  // namespace broadside::gpu

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "gpu/broad/named_pairs_view.hpp"
 #include "gpu/runtime/kernel_launch.cuh"
 #include "gpu/stages/pairs_only/bulk_launch.cuh"
 #include "gpu/stages/pairs_only/pairs.cuh"
@@ -50,9 +51,13 @@ core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, st
   return shape;
 }
 
+core::Status launch_sort(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
+  return launch(sort_kernel, view, shape.sort, stream);
+}
+
 core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
   if (view.broad.start != Start::kBulk) return launch(pairs_kernel<false>, view, shape.search, stream);
-  if (shape.bins != 0) BROADSIDE_TRY(launch(sort_kernel, view, shape.sort, stream));
+  if (shape.bins != 0) BROADSIDE_TRY(launch_sort(view, shape, stream));
   return launch(pairs_kernel<true>, view, shape.search, stream);
 }
 

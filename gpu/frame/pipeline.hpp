@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/engine/device_states.hpp"
 #include "core/engine/dynamics.hpp"
 #include "core/engine/frame_copies.hpp"
+#include "core/engine/frame_on_device.hpp"
 #include "core/engine/runs_ahead.hpp"
 #include "core/engine/work_counting.hpp"
 #include "core/method/levels.hpp"
@@ -42,7 +42,7 @@ struct MemoryUse {
 class Pipeline final : public core::Dynamics,
                        public core::RunsAhead,
                        public core::FrameCopies,
-                       public core::StatesOnDevice,
+                       public core::FrameOnDevice,
                        public core::CountsWork {
  public:
   explicit Pipeline(const PipelineOptions& options);
@@ -55,7 +55,7 @@ class Pipeline final : public core::Dynamics,
   // turned out too small.
   core::Status run(float dt_s, std::uint64_t steps, const StepDone& step_done) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
-  [[nodiscard]] core::Result<core::DeviceStates> states_on_device() const override;
+  [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override;
   core::Status start_copy(core::RecordLevel level) override;
   core::Status finish_copy(core::FrameRecord& frame) override;
   [[nodiscard]] std::uint32_t groups() const override;

@@ -1,6 +1,6 @@
 // What a pipeline tells of a frame: its digest, and copies that are under way while later frames are computed.
-#include "gpu/broad/pack_view.hpp"
 #include "gpu/frame/pipeline_parts.hpp"
+#include "gpu/runtime/device_choice.hpp"
 
 namespace broadside::gpu {
 
@@ -32,21 +32,19 @@ core::Status Pipeline::read_back(core::FrameRecord& frame, core::RecordLevel lev
   return finish_copy(frame);
 }
 
-core::Result<core::DeviceStates> Pipeline::states_on_device() const {
+core::Result<core::DeviceFrame> Pipeline::frame_on_device() {
   const Impl& d = *impl_;
   if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
   auto device = current_device();
   if (!device.ok()) return device.error();
   const StateView state = d.buffers.state().view();
-  core::DeviceStates states;
-  states.position = &state.position->v.x;
-  states.velocity = &state.velocity->v.x;
-  states.row_bytes = sizeof(PackedVec3);
-  states.bodies = d.scene->bodies.size();
-  states.pairs = d.buffers.pairs().data();
-  states.pair_count = d.last.pairs;
-  states.device = device.value();
-  return states;
+  const std::uint64_t bodies = d.scene->bodies.size();
+  core::DeviceFrame frame;
+  frame.columns = {{"body/position", state.position, bodies, 3, sizeof(PackedVec3), true},
+                   {"body/velocity", state.velocity, bodies, 3, sizeof(PackedVec3), true},
+                   {"pairs/pairs", d.buffers.pairs().data(), d.last.pairs, 2, sizeof(core::Pair), false}};
+  frame.device = device.value();
+  return frame;
 }
 
 core::Status Pipeline::start_copy(core::RecordLevel level) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "gpu/broad/named_pairs_view.hpp"
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/stages/digest.cuh"
 #include "gpu/stages/grid_frame.cuh"
@@ -64,10 +65,13 @@ core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, st
   return shape;
 }
 
-core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle /*stream*/) {
-  if (shape.bins != 0)
-    on_host::run(launch_of(shape.sort), shape.sort.shared_bytes,
-                 [&](unsigned char* shared) { run_sort(view, shared); });
+core::Status launch_sort(const PairsView& view, const PairsShape& shape, StreamHandle /*stream*/) {
+  on_host::run(launch_of(shape.sort), shape.sort.shared_bytes, [&](unsigned char* shared) { run_sort(view, shared); });
+  return core::Done{};
+}
+
+core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
+  if (shape.bins != 0) BROADSIDE_TRY(launch_sort(view, shape, stream));
   on_host::run(launch_of(shape.search), shape.search.shared_bytes, [&](unsigned char* shared) {
     if (view.broad.start == Start::kBulk)
       run_pairs<true>(view, shared);

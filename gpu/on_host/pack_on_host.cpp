@@ -8,8 +8,4 @@ core::Status launch_pack(const PackView& view, StreamHandle /*stream*/) {
   return core::Done{};
 }
 
-core::Result<int> current_device() {
-  return 0;
-}
-
 }  // namespace broadside::gpu

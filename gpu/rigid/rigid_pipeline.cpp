@@ -14,6 +14,7 @@
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/rigid/rigid_read_back.hpp"
 #include "gpu/rigid/rigid_scene.hpp"
+#include "gpu/rigid/told_frame.hpp"
 #include "gpu/runtime/host_side.hpp"
 
 namespace broadside::gpu {
@@ -36,6 +37,7 @@ struct RigidPipeline::Impl {
   BoxFacts facts;
   RigidFrameView view;
   PairsView pairs_view;
+  ToldFrame told;
   RigidCounts last;
   std::uint64_t last_pairs = 0;
   std::array<core::StageTime, core::kStageCount> times{};
@@ -52,6 +54,8 @@ struct RigidPipeline::Impl {
   void fill();
   core::Status launch_all();
   core::Result<bool> is_kept();
+  // The frame is kept, so what it came to is what the next one starts from.
+  [[nodiscard]] RigidLeft left() const { return {bodies, buffers, pairs, steps == 0 ? 0 : last_pairs, last}; }
   void take_frame();
 };
 
@@ -245,12 +249,17 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame = {};
   frame.step = d.steps;
   frame.time_s = static_cast<double>(d.steps) * static_cast<double>(d.dt_s);
-  // The frame is kept, so what it came to is what the next one starts from.
-  const RigidLeft left{d.bodies, d.buffers, d.pairs, d.steps == 0 ? 0 : d.last_pairs, d.last};
+  const RigidLeft left = d.left();
   auto digest = rigid_digest_of(left, d.launch, d.stream);
   if (!digest.ok()) return digest.error();
   frame.digest = digest.value();
   return level == core::RecordLevel::kFull ? read_back_rigid(left, frame) : core::Status(core::Done{});
+}
+
+core::Result<core::DeviceFrame> RigidPipeline::frame_on_device() {
+  Impl& d = *impl_;
+  if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
+  return d.told.tell(d.left(), d.stream);
 }
 
 std::uint32_t RigidPipeline::groups() const {

@@ -8,6 +8,7 @@
 
 #include "core/engine/declaration.hpp"
 #include "core/engine/dynamics.hpp"
+#include "core/engine/frame_on_device.hpp"
 #include "core/method/levels.hpp"
 #include "core/method/rigid/rigid_settings.hpp"
 #include "gpu/broad/broad_buffers.hpp"
@@ -23,7 +24,7 @@ struct RigidPipelineOptions {
 };
 
 // Uses the current CUDA device; not thread-safe.
-class RigidPipeline final : public core::Dynamics {
+class RigidPipeline final : public core::Dynamics, public core::FrameOnDevice {
  public:
   explicit RigidPipeline(const RigidPipelineOptions& options);
   ~RigidPipeline() override;
@@ -34,6 +35,7 @@ class RigidPipeline final : public core::Dynamics {
   // phase turned out too small. Synchronizes. An error when a body has left the finite numbers.
   core::Status step(float dt_s) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
+  [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override;
   [[nodiscard]] std::uint32_t groups() const override;
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override;
   [[nodiscard]] std::vector<core::Counter> counters() const override;

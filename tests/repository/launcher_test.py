@@ -32,7 +32,8 @@ class Launcher(unittest.TestCase):
         self.tree, self.programs, self.played = scratch / "tree", scratch / "programs", scratch / "played"
         for folder in (self.tree / "cmake", self.programs, self.played):
             folder.mkdir(parents=True)
-        for name in ("broadside", "CMakePresets.json", "cmake/packages.txt", "cmake/packages_python.txt"):
+        for name in ("broadside", "CMakePresets.json", "cmake/packages.txt", "cmake/packages_python.txt",
+                     "cmake/packages_contest.txt"):
             shutil.copy(ROOT / name, self.tree / name)
         for name, body in MACHINE.items():
             script = self.programs / name
@@ -79,6 +80,22 @@ class Launcher(unittest.TestCase):
         self.assertIn("--target python_wheel", " ".join(self.called("cmake --build")))
         self.assertEqual(4, answer.returncode, "the cmake of this test makes no wheel")
         self.assertIn("the build made no wheel", answer.stderr)
+
+    def test_contest_installs_its_own_engines_where_somebody_agrees(self):
+        (self.played / "missing").write_text("libdart-dev\nlibsimbody-dev\n", encoding="utf-8")
+        answer = self.call("contest")
+        self.assertEqual((0, "ran contest\n"), (answer.returncode, answer.stdout), answer.stderr)
+        self.assertIn("absent from the contest: libdart-dev libsimbody-dev; --yes installs them", answer.stderr)
+        self.assertEqual([], self.called("apt-get"), "nobody was there to agree")
+        self.assertEqual([], self.call("demo").stderr.splitlines(), "other calls do without")
+        for arguments in (("contest", "--help"), ("contest", "--engines", "plain-rigid"), ("contest", "--only-report")):
+            self.assertEqual("", self.call(*arguments).stderr, arguments)
+        self.assertIn("libdart-dev", self.call("contest", "--engines", "dart-world").stderr)
+        answer = self.call("contest", "--yes")
+        self.assertEqual((0, "ran contest --yes\n"), (answer.returncode, answer.stdout), answer.stderr)
+        self.assertIn("installing 2 packages", answer.stderr)
+        self.assertTrue(self.called("cmake --fresh"), "CMake looks for what came")
+        self.assertEqual("", self.call("contest").stderr)
 
     def test_only_the_tests_and_build_itself_build_more_than_the_program(self):
         for arguments, target in ((("demo",), "broadside"), (("list", "engines"), "broadside"), (("test",), "all"), (("build",), "all")):

@@ -1,4 +1,4 @@
-"""cmake/packages.txt, or cmake/packages_python.txt, names a package for everything that CMake is told to find."""
+"""cmake/packages.txt, or one of the tables beside it, names a package for everything that CMake is told to find."""
 
 import re
 
@@ -7,7 +7,8 @@ MODULE = re.compile(r"^\s*pkg_check_modules\(\s*\w+\s+(?:REQUIRED\s+|IMPORTED_TA
 # Threads comes with the compiler. CUDA comes from its vendor, and the build does without it.
 WITHOUT_PACKAGE = {"Threads", "CUDAToolkit"}
 TABLE = "cmake/packages.txt"
-TABLES = (TABLE, "cmake/packages_python.txt")  # the second: what only the Python package needs
+# Those beside it: what only the Python package, and what only some engines of the contest need.
+TABLES = (TABLE, "cmake/packages_python.txt", "cmake/packages_contest.txt")
 COLUMNS = ("debian-12", "ubuntu-24.04", "for")
 
 

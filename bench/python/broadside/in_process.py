@@ -98,14 +98,16 @@ class Dynamics:
         self._held.step(count)
 
     def read_on_device(self) -> dict[str, DeviceRows]:
-        """States and pairs of a GPU engine where they lie, until its next step: body/position and body/velocity [n, 3]
-        float32, pairs/pairs [rows, 2] in no order. Complete for every stream.
+        """States, pairs and points of a GPU engine where they lie, until its next step; complete for every stream.
+
+        By the names of a trace's columns: body/position and body/velocity [n, 3] float32 and pairs/pairs [rows, 2] always;
+        where bodies turn also body/orientation [n, 4], body/angular_velocity, confirmed/pairs and point/* (point/gap,
+        point/a, point/b and point/feature are [rows, 1]). Bodies are in the scene's order, pairs and points in none.
         """
-        facts = self._held.states_on_device()
-        place, row_bytes, bodies = (CUDA, facts["device"]), facts["row_bytes"], (facts["bodies"], 3)
-        return {"body/position": DeviceRows(facts["position"], bodies, "float32", place, self._held, row_bytes),
-                "body/velocity": DeviceRows(facts["velocity"], bodies, "float32", place, self._held, row_bytes),
-                "pairs/pairs": DeviceRows(facts["pairs"], (facts["pair_count"], 2), "uint32", place, self._held)}
+        columns, device = self._held.frame_on_device()
+        return {path: DeviceRows(address, (rows, width), "float32" if is_float else "uint32", (CUDA, device), self._held,
+                                 row_bytes)
+                for path, address, rows, width, row_bytes, is_float in columns}
 
     def read(self) -> State:
         """The State after the last step; its arrays stay as they are when the engine goes on."""

@@ -14,7 +14,7 @@
 #include "bench/python/native/make_engine.hpp"
 #include "bench/python/native/module.hpp"
 #include "bench/python/native/raise.hpp"
-#include "core/engine/device_states.hpp"
+#include "core/engine/frame_on_device.hpp"
 
 namespace py = pybind11;
 
@@ -46,22 +46,19 @@ class HeldDynamics {
     for (std::uint64_t k = 0; k < count; ++k, ++steps_) take(engine_.dynamics->step(scene_.scene->dt_s));
   }
 
-  // Where the states lie on the device that it runs on: addresses, bytes from row to row, counts, device.
-  py::dict states_on_device() {
-    const auto* const there = dynamic_cast<const core::StatesOnDevice*>(engine_.dynamics.get());
+  // Columns of the frame on the device that it runs on: path, address, rows, numbers of a row, bytes from row to row,
+  // whether they are floats; and the device.
+  py::tuple frame_on_device() {
+    auto* const there = dynamic_cast<core::FrameOnDevice*>(engine_.dynamics.get());
     if (there == nullptr)
       throw Raised({"its states are in the host's memory", engine_.id, "read() gives them without a copy"});
     const std::lock_guard lock(mutex_);
-    const core::DeviceStates states = take(there->states_on_device());
-    py::dict facts;
-    facts["position"] = reinterpret_cast<std::uint64_t>(states.position);
-    facts["velocity"] = reinterpret_cast<std::uint64_t>(states.velocity);
-    facts["pairs"] = reinterpret_cast<std::uint64_t>(states.pairs);
-    facts["row_bytes"] = states.row_bytes;
-    facts["bodies"] = states.bodies;
-    facts["pair_count"] = states.pair_count;
-    facts["device"] = states.device;
-    return facts;
+    const core::DeviceFrame frame = take(there->frame_on_device());
+    py::list columns;
+    for (const core::DeviceColumn& c : frame.columns)
+      columns.append(py::make_tuple(std::string(c.path), reinterpret_cast<std::uint64_t>(c.data), c.rows, c.width,
+                                    c.row_bytes, c.is_float));
+    return py::make_tuple(columns, frame.device);
   }
 
   std::shared_ptr<HeldFrame> read() {
@@ -114,7 +111,7 @@ void add_engines(py::module_& module) {
       .def_property_readonly("steps_done", &HeldDynamics::steps_done)
       .def_property_readonly("scene", &HeldDynamics::scene)
       .def("step", &HeldDynamics::step, py::arg("count") = 1)
-      .def("states_on_device", &HeldDynamics::states_on_device)
+      .def("frame_on_device", &HeldDynamics::frame_on_device)
       .def("read", &HeldDynamics::read);
   module.def("engine_rows", engine_rows);
 }

@@ -28,13 +28,21 @@ struct BulkNotes {
   std::uint32_t hit[kHits][32];  // what each lane has found: its entry, then its body; kUnsure: look closely
 };
 
+// Pairs are of the search's own numbers of boxes; named_pairs.cuh has others.
+struct OwnNumbers {
+  __device__ bool keeps(std::uint32_t /*a*/, std::uint32_t /*b*/) const { return true; }
+  __device__ core::Pair pair_of(bool /*is_pair*/, std::uint32_t a, std::uint32_t b) const {
+    return core::make_pair_of(a, b);
+  }
+};
+
 // A lane's search for the partners of one box after the other. Every call is by the whole warp.
-template <typename Work>
+template <typename Work, typename Names = OwnNumbers>
 class BulkSearch {
  public:
   __device__ BulkSearch(const BulkView& g, const PackedBox* boxes, BulkNotes& notes, AppendView<core::Pair> out,
-                        unsigned long long* demanded)
-      : g_(g), boxes_(boxes), notes_(notes), queue_(notes.queue, out, demanded) {}
+                        unsigned long long* demanded, Names names = {})
+      : g_(g), boxes_(boxes), notes_(notes), names_(names), queue_(notes.queue, out, demanded) {}
 
   // The box at this place of the entries.
   __device__ void find_partners(std::uint32_t place, bool has_box, LevelMarks marks) {
@@ -206,7 +214,8 @@ class BulkSearch {
     }
     for (std::uint32_t k = 0; __any_sync(kFullWarp, k < hits_); ++k) {
       const std::uint32_t other = k < hits_ ? notes_.hit[k][lane()] : BulkNotes::kUnsure;
-      queue_.push((other & BulkNotes::kUnsure) == 0, core::make_pair_of(body_, other));
+      const bool is_pair = (other & BulkNotes::kUnsure) == 0 && names_.keeps(body_, other);
+      queue_.push(is_pair, names_.pair_of(is_pair, body_, other));
     }
     hits_ = settled_ = 0;
   }
@@ -214,6 +223,7 @@ class BulkSearch {
   const BulkView& g_;
   const PackedBox* boxes_;
   BulkNotes& notes_;
+  Names names_;
   WarpQueue queue_;
   Work work_;
   CellCorner fine_min_;
@@ -228,14 +238,22 @@ class BulkSearch {
   std::uint32_t settled_ = 0;  // of them
 };
 
+// A share of the boxes, by their places among the entries.
+struct BulkSlice {
+  std::uint64_t first = 0;
+  std::uint64_t end = 0;
+};
+
 // Warps take boxes as they are done with others: of a crowd one box has many partners, outside of it few. `g.turns` is
 // zero before.
-template <typename Team>
-__device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count,
-                          BulkNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded) {
+template <typename Team, typename Names = OwnNumbers>
+__device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* boxes, BulkSlice slice,
+                          BulkNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded,
+                          Names names = {}) {
   const volatile std::uint32_t* known = g.levels;
   const LevelMarks marks{known[0], known[1]};
-  BulkSearch<Uncounted> search(g, boxes, notes, out, demanded);
+  BulkSearch<Uncounted, Names> search(g, boxes, notes, out, demanded, names);
+  const std::uint64_t count = slice.end - slice.first;
   // Of few boxes a warp takes fewer than it has lanes: it is done when the slowest of them is.
   const std::uint64_t warps = warp_count(team);
   std::uint32_t width = 32;
@@ -249,7 +267,7 @@ __device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* 
     if (lane() == 0) next = (warps + atomicAdd(g.turns, 1U)) * width * turns;
     for (std::uint32_t k = 0; k < turns; ++k) {
       const std::uint64_t place = first + k * width + lane();
-      search.find_partners(static_cast<std::uint32_t>(place), lane() < width && place < count, marks);
+      search.find_partners(static_cast<std::uint32_t>(slice.first + place), lane() < width && place < count, marks);
     }
     first = __shfl_sync(kFullWarp, next, 0);
   }

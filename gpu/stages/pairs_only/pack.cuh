@@ -34,6 +34,17 @@ __device__ inline void add_largest(std::uint32_t* to, std::uint32_t value) {
   if (threadIdx.x % 32 == 0) atomicMax(to, largest);
 }
 
+// What one thread has noted, to that of all.
+__device__ inline void add_measure(const BoxMeasure& own, BoxMeasure& all) {
+  add_least(&all.first_bad, own.first_bad);
+  add_largest(&all.largest_side, own.largest_side);
+  add_largest(&all.coordinate_range, own.coordinate_range);
+  for (int k = 0; k < 3; ++k) {
+    add_least(&all.low[k], own.low[k]);
+    add_largest(&all.high[k], own.high[k]);
+  }
+}
+
 __device__ inline void run_pack(const PackView& view) {
   const GridPlaces grid;
   BoxMeasure own;
@@ -44,14 +55,7 @@ __device__ inline void run_pack(const PackView& view) {
     note_box(box, place, own);
     view.packed[i] = pack(box, place, view.is_static[i] != 0 ? 1U : 0U);
   }
-  BoxMeasure& all = *view.measure;
-  add_least(&all.first_bad, own.first_bad);
-  add_largest(&all.largest_side, own.largest_side);
-  add_largest(&all.coordinate_range, own.coordinate_range);
-  for (int k = 0; k < 3; ++k) {
-    add_least(&all.low[k], own.low[k]);
-    add_largest(&all.high[k], own.high[k]);
-  }
+  add_measure(own, *view.measure);
 }
 
 }  // namespace broadside::gpu

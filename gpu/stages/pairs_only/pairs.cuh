@@ -54,7 +54,7 @@ __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
       grid.sync();
     }
     mark_end(grid, view.outcome, FindStep::kScatter);
-    bulk_find(grid, bulk, view.boxes, view.box_count, scratch.notes, view.pairs, &view.counters->pairs);
+    bulk_find(grid, bulk, view.boxes, {0, view.box_count}, scratch.notes, view.pairs, &view.counters->pairs);
   } else {
     has_room = find_candidates(grid, view.broad, view.boxes, view.box_count, view.pairs, view.counters, scratch.queue,
                                view.outcome);

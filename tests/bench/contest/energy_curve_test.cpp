@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "bench/contest/contest_table.hpp"
 #include "core/trace/trace_writer.hpp"
 #include "datasets/scenes.hpp"
 #include "reference/plain_rigid/engine.hpp"
@@ -15,17 +18,16 @@ namespace {
 
 using bench::contest::EnergyCurve;
 
-// plain-rigid on this scene; with changed states where the test says so.
+// A trace of plain-rigid on this scene; with changed states where the test says so.
 template <typename Change>
-EnergyCurve curve_of(const core::Scene& scene, std::size_t most_frames, const Change& change) {
-  const Folder folder;
+void record(const core::Scene& scene, const std::filesystem::path& file, const Change& change) {
   reference::plain::PlainWorld engine({});
   EXPECT_TRUE(engine.load(scene).ok());
   core::TraceHeader header;
   header.scene = scene;
   header.stamp.scene_digest = core::scene_digest(scene);
   header.groups = core::bit(core::Group::kBodies) | core::bit(core::Group::kWideBodies);
-  auto writer = core::TraceWriter::create(folder / "t.h5", header);
+  auto writer = core::TraceWriter::create(file, header);
   EXPECT_TRUE(writer.ok());
   for (std::uint32_t k = 0; k < scene.frames; ++k) {
     core::FrameRecord frame;
@@ -35,6 +37,12 @@ EnergyCurve curve_of(const core::Scene& scene, std::size_t most_frames, const Ch
     EXPECT_TRUE(writer.value().append(frame).ok());
   }
   EXPECT_TRUE(writer.value().finish().ok());
+}
+
+template <typename Change>
+EnergyCurve curve_of(const core::Scene& scene, std::size_t most_frames, const Change& change) {
+  const Folder folder;
+  record(scene, folder / "t.h5", change);
   auto curve = bench::contest::energy_curve(folder / "t.h5", most_frames);
   EXPECT_TRUE(curve.ok()) << curve.error().line();
   return curve.ok() ? curve.value() : EnergyCurve{};
@@ -71,6 +79,31 @@ TEST(EnergyCurve, AWrenchAddsItsWork) {
   const EnergyCurve curve = curve_of(scene, 10, kAsItIs);
   EXPECT_GT(curve.gained_j.back(), 0.1);
   EXPECT_TRUE(std::is_sorted(curve.gained_j.begin(), curve.gained_j.end()));
+}
+
+// Cells may be kept without their traces, which are large.
+TEST(EnergyCurve, IsKeptWhereTheTraceIsNot) {
+  const Folder folder;
+  record(datasets::make_scene("rigid:spin-up[frames=240]").value(), folder / "t.h5", kAsItIs);
+  bench::contest::ContestTable table;
+  table.entrants = {{"mine", ""}};
+  table.scenes = {{.scene = "rigid:spin-up"}};
+  table.scenes[0].entries["mine"][""].trace_file = "t.h5";
+  ASSERT_TRUE(bench::contest::read_energy(table, folder / "", {"rigid:spin-up"}));
+  const EnergyCurve read = table.scenes[0].energy.at("mine");
+  ASSERT_GT(read.time_s.size(), 100U);
+  std::filesystem::remove(folder / "t.h5");
+  for (int times = 0; times < 2; ++times) {  // the curve that was kept is kept again
+    table.scenes[0].energy.clear();
+    ASSERT_TRUE(bench::contest::read_energy(table, folder / "", {"rigid:spin-up"}));
+    ASSERT_EQ(table.scenes[0].energy.count("mine"), 1U);
+    EXPECT_EQ(table.scenes[0].energy.at("mine").time_s, read.time_s);
+    EXPECT_EQ(table.scenes[0].energy.at("mine").gained_j, read.gained_j);
+  }
+  std::filesystem::remove(folder / "energy.json");
+  table.scenes[0].energy.clear();
+  ASSERT_TRUE(bench::contest::read_energy(table, folder / "", {"rigid:spin-up"}));
+  EXPECT_TRUE(table.scenes[0].energy.empty());
 }
 
 TEST(EnergyCurve, WhatIsNoTraceIsAnError) {

@@ -173,18 +173,27 @@ def test_boxes_and_pairs_stay_on_the_gpu(count):
 
 
 @on_gpu
-def test_states_stay_on_the_gpu():
-    world = broadside.Dynamics("octree-gpu", "freefall:sphere:50")
+@pytest.mark.parametrize("scene", ["freefall:sphere:50", "freefall:cube:50[rigid=1]"])
+def test_frames_stay_on_the_gpu(scene):
+    world = broadside.Dynamics("octree-gpu", scene)
     memory = DriverMemory(np.zeros(1, np.uint32))
+
+    def rows_of(column, dtype):
+        facts = column.__cuda_array_interface__
+        packed = memory.read(facts["data"][0], (facts["shape"][0], facts["strides"][0] // 4), dtype)
+        return packed[:, :facts["shape"][1]]
+
     for _ in range(3):
         world.step(20)
         there, state = world.read_on_device(), world.read()
-        for path in ("body/position", "body/velocity"):
-            facts = there[path].__cuda_array_interface__
-            packed = memory.read(facts["data"][0], (facts["shape"][0], facts["strides"][0] // 4), np.float32)
-            assert np.array_equal(packed[:, :3], state[path])
-        pairs = there["pairs/pairs"].__cuda_array_interface__
-        assert np.array_equal(in_order(memory.read(pairs["data"][0], pairs["shape"])), state["pairs/pairs"])
+        for path in there:
+            if path.startswith("body/"):
+                assert np.array_equal(rows_of(there[path], np.float32), state[path]), path
+        assert np.array_equal(in_order(rows_of(there["pairs/pairs"], np.uint32)), state["pairs/pairs"])
+        assert ("point/gap" in there) == ("rigid" in scene)
+        if "point/gap" in there:
+            assert np.array_equal(np.sort(rows_of(there["point/gap"], np.float32)[:, 0]), np.sort(state["point/gap"]))
+    assert "point/gap" not in there or len(there["point/gap"]) > 0
 
 
 @on_gpu

@@ -1,0 +1,127 @@
+// A set spread over devices against one of them that has it all: the same boxes, already on the devices, part by part.
+// Prints one JSON line a set and number of parts: medians over the repetitions, ms, by the host's clock.
+//   broadside_gpu_spread REPETITIONS N[,N]... KIND[,KIND]...      e.g. broadside_gpu_spread 10 10000000,100000000
+//   uniform
+// Of each set first one device's share of the boxes on one device, for weak scaling; then all on one, for the digest
+// and strong scaling; then all on all devices. KIND may be mesh:NAME: copies of a mesh, of about N boxes together.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/engine/space_parts.hpp"
+#include "datasets/box_streams/box_stream.hpp"
+#include "gpu/broad/spread_finder.hpp"
+#include "gpu/engines_on_cuda.hpp"
+#include "gpu/runtime/device_choice.hpp"
+
+namespace broadside::bench {
+namespace {
+
+using core::Box;
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+bool complain(const core::Error& error) {
+  std::fprintf(stderr, "%s\n", error.line().c_str());
+  return false;
+}
+
+std::vector<std::string> list_of(const std::string& text) {
+  std::vector<std::string> items;
+  std::stringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');) items.push_back(item);
+  return items;
+}
+
+core::Result<std::vector<Box>> boxes_of(const std::string& kind, std::uint64_t n) {
+  std::string spec = "boxes:" + kind + ":" + std::to_string(n);
+  if (kind.starts_with("mesh:")) {
+    auto one = datasets::make_box_stream("boxes:" + kind);
+    if (!one) return one.error();
+    spec = "boxes:" + kind + ":" + std::to_string(std::max<std::uint64_t>(1, n / one.value().boxes.size()));
+  }
+  auto made = datasets::make_box_stream(spec);
+  if (!made) return made.error();
+  return std::move(made.value().boxes);
+}
+
+// In the order of the parts in which they begin, so that numbers part by part are those of the set.
+core::SpaceCut put_part_by_part(std::vector<Box>& boxes, std::uint32_t parts) {
+  core::SpaceCut cut = core::cut_space(boxes, parts);
+  std::stable_sort(boxes.begin(), boxes.end(), [&cut](const Box& a, const Box& b) {
+    return cut.part_at(a.min[cut.axis]) < cut.part_at(b.min[cut.axis]);
+  });
+  return cut;
+}
+
+// False: what could not be found was said. `cut`: of one part or of all.
+bool race(const char* what, const std::string& kind, const std::vector<Box>& boxes, const core::SpaceCut& cut,
+          int repetitions) {
+  const std::vector<std::uint8_t> is_static(boxes.size());
+  gpu::SpreadFinder finder({cut.parts(), cut.parts()});
+  if (core::Status s = finder.load_cut(boxes, is_static, cut); !s) return complain(s.error());
+  std::vector<double> whole, borders, exchange, search;
+  // The first ones let arrays grow.
+  for (int k = -3; k < repetitions; ++k) {
+    if (core::Status s = finder.find(); !s) return complain(s.error());
+    if (k < 0) continue;
+    const gpu::SpreadTime t = finder.time();
+    whole.push_back(t.whole_s() * 1e3), borders.push_back(t.borders_s * 1e3);
+    exchange.push_back(t.exchange_s * 1e3), search.push_back(t.search_s * 1e3);
+  }
+  auto digest = finder.digest();
+  if (!digest) return complain(digest.error());
+  const auto [least, most] = std::minmax_element(whole.begin(), whole.end());
+  const auto counters = finder.counters();
+  std::printf(
+      "{\"what\": \"%s\", \"boxes\": \"%s\", \"n\": %zu, \"parts\": %u, \"pairs\": %llu, \"digest\": \"0x%016llx\", "
+      "\"ms\": %.4f, \"least_ms\": %.4f, \"most_ms\": %.4f, \"borders_ms\": %.4f, \"exchange_ms\": %.4f, "
+      "\"search_ms\": %.4f, \"bytes_between\": %llu, \"bytes_needed\": %llu, \"device_bytes\": %llu}\n",
+      what, kind.c_str(), boxes.size(), cut.parts(), static_cast<unsigned long long>(finder.pair_count()),
+      static_cast<unsigned long long>(digest.value()), median(whole), *least, *most, median(borders), median(exchange),
+      median(search), static_cast<unsigned long long>(counters[0].count / (repetitions + 3U)),
+      static_cast<unsigned long long>(counters[1].count / (repetitions + 3U)),
+      static_cast<unsigned long long>(counters[2].count));
+  std::fflush(stdout);
+  return true;
+}
+
+bool race_kind(const std::string& kind, std::uint64_t n, std::uint32_t devices, int repetitions) {
+  auto made = boxes_of(kind, n);
+  if (!made) return complain(made.error());
+  std::vector<Box>& boxes = made.value();
+  const core::SpaceCut cut = put_part_by_part(boxes, devices);
+  bool is_good = race("one", kind, boxes, {}, repetitions);
+  if (devices > 1) is_good = race("all", kind, boxes, cut, repetitions) && is_good;
+  return is_good;
+}
+
+}  // namespace
+}  // namespace broadside::bench
+
+int main(int count, char** given) {
+  using namespace broadside;
+  if (const std::string why = gpu::gpu_absent(); !why.empty()) return std::fprintf(stderr, "%s\n", why.c_str()), 3;
+  if (count != 4) return std::fprintf(stderr, "usage: broadside_gpu_spread REPETITIONS N[,N]... KIND[,KIND]...\n"), 2;
+  const int repetitions = std::max(1, std::atoi(given[1]));
+  auto devices = gpu::device_count();
+  if (!devices) return bench::complain(devices.error()), 4;
+  const auto all = static_cast<std::uint32_t>(devices.value());
+  bool is_good = true;
+  for (const std::string& kind : bench::list_of(given[3])) {
+    for (const std::string& n : bench::list_of(given[2])) {
+      const std::uint64_t boxes = std::strtoull(n.c_str(), nullptr, 10);
+      // What one device has when all have this many: weak scaling.
+      if (all > 1) is_good = bench::race_kind(kind, boxes / all, 1, repetitions) && is_good;
+      is_good = bench::race_kind(kind, boxes, all, repetitions) && is_good;
+    }
+  }
+  return is_good ? 0 : 1;
+}

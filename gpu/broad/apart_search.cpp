@@ -1,0 +1,118 @@
+#include "gpu/broad/apart_search.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace broadside::gpu {
+namespace {
+
+using core::Box;
+
+// A moving box looks at so many cells of a level along an axis at most: some 4,000 rows of them.
+constexpr float kMostCells = 64.0F;
+
+}  // namespace
+
+bool is_worth_keeping_apart(std::span<const std::uint8_t> is_static, const PairFinderOptions& options) {
+  if (options.broad != Broad::kTree || is_static.size() < options.least_for_apart) return false;
+  const auto standing = static_cast<std::size_t>(
+      std::count_if(is_static.begin(), is_static.end(), [](std::uint8_t flag) { return flag != 0; }));
+  return 8 * standing >= is_static.size() && standing < is_static.size();
+}
+
+void ApartSearch::start(std::span<const std::uint8_t> is_static, const PairFinderOptions& options) {
+  options_ = options;
+  options_.has_shares = true;
+  standing_ids_.clear();
+  moving_ids_.clear();
+  for (std::uint32_t i = 0; i < is_static.size(); ++i) (is_static[i] != 0 ? standing_ids_ : moving_ids_).push_back(i);
+  has_table_ = false;
+  static_builds_ = static_boxes_kept_ = bytes_to_device_ = 0;
+}
+
+core::Result<bool> ApartSearch::load_standing(std::span<const Box> boxes, const Stream& stream) {
+  const auto is_as_before = [&] {
+    for (std::size_t k = 0; k < standing_ids_.size(); ++k)
+      if (!(boxes[standing_ids_[k]] == standing_boxes_[k])) return false;
+    return true;
+  };
+  if (has_table_ && is_as_before()) {
+    static_boxes_kept_ += standing_ids_.size();
+    return true;
+  }
+  has_table_ = false;
+  packed_.clear();
+  standing_boxes_.clear();
+  FactsOfBoxes facts;
+  for (const std::uint32_t id : standing_ids_) {
+    facts.add(boxes[id]);
+    packed_.push_back(pack(boxes[id], id, 1U));
+    standing_boxes_.push_back(boxes[id]);
+  }
+  if (!fits_grid(facts.all())) return false;
+  auto room = standing_.room_for(packed_.size());
+  if (!room.ok()) return room.error();
+  BROADSIDE_TRY(copy_to_device(room.value(), packed_.data(), packed_.size() * sizeof(PackedBox)));
+  bytes_to_device_ += packed_.size() * sizeof(PackedBox);
+  PairFinderOptions none_found = options_;
+  none_found.pairs_at_once = 1;
+  BROADSIDE_TRY(standing_.load_packed(facts.all(), none_found, true));
+  // No box looks for partners: they are put in order alone.
+  BROADSIDE_TRY(standing_.launch_share({}, stream.get()));
+  BROADSIDE_TRY(stream.wait("putting static boxes in order"));
+  const BulkView& table = standing_.view().bulk;
+  std::uint32_t levels = 0;
+  BROADSIDE_TRY(copy_to_host(&levels, table.levels, sizeof levels));
+  finest_cell_m_ = std::ldexp(table.cell_m, 1 - static_cast<int>(std::bit_width(levels)));
+  ++static_builds_;
+  has_table_ = true;
+  return true;
+}
+
+core::Result<bool> ApartSearch::load_moving(std::span<const Box> boxes) {
+  packed_.clear();
+  FactsOfBoxes facts;
+  for (const std::uint32_t id : moving_ids_) {
+    facts.add(boxes[id]);
+    packed_.push_back(pack(boxes[id], id, 0U));
+  }
+  if (!fits_grid(facts.all()) || facts.all().largest_side_m > kMostCells * finest_cell_m_) return false;
+  auto room = moving_.room_for(packed_.size());
+  if (!room.ok()) return room.error();
+  BROADSIDE_TRY(copy_to_device(room.value(), packed_.data(), packed_.size() * sizeof(PackedBox)));
+  bytes_to_device_ += packed_.size() * sizeof(PackedBox);
+  BROADSIDE_TRY(moving_.load_packed(facts.all(), options_, false));
+  return true;
+}
+
+core::Result<bool> ApartSearch::load(std::span<const Box> boxes, const Stream& stream) {
+  auto is_good = load_standing(boxes, stream);
+  if (!is_good.ok() || !is_good.value() || !has_moving()) return is_good;
+  is_good = load_moving(boxes);
+  if (!is_good.ok() || !is_good.value()) return is_good;
+  auto shape = cross_launch_shape();
+  if (!shape.ok()) return shape.error();
+  cross_shape_ = shape.value();
+  return true;
+}
+
+core::Status ApartSearch::launch(StreamHandle stream) {
+  NamedPairsView share;
+  share.names.first_told = 0;
+  share.end_place = moving_ids_.size();
+  BROADSIDE_TRY(moving_.launch_share(share, stream));
+  const PairsView& moving = moving_.view();
+  cross_.standing = standing_.view().bulk;
+  cross_.standing_boxes = standing_.view().boxes;
+  cross_.moving_boxes = moving.boxes;
+  cross_.order = moving.bulk.entries;
+  cross_.count = moving.box_count;
+  cross_.pairs = moving.pairs;
+  cross_.counters = moving.counters;
+  cross_.barrier = moving.barrier;
+  cross_.outcome = moving.outcome;
+  return launch_cross(cross_, cross_shape_, stream);
+}
+
+}  // namespace broadside::gpu

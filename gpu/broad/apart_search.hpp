@@ -1,0 +1,61 @@
+// Static and moving boxes apart: static ones are put in order once, and their table stays for as long as they are the
+// same, which the host looks at in every update. Moving boxes look for partners among themselves and in it. Two static
+// boxes are never tested.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/broad/box_search.hpp"
+#include "gpu/broad/cross_view.hpp"
+
+namespace broadside::gpu {
+
+// Whether it is worth while: there are enough boxes, and an eighth of them is static.
+bool is_worth_keeping_apart(std::span<const std::uint8_t> is_static, const PairFinderOptions& options);
+
+class ApartSearch {
+ public:
+  // Before the first boxes with these flags.
+  void start(std::span<const std::uint8_t> is_static, const PairFinderOptions& options);
+  // Sound boxes. False: some moving box would cover too many cells of the smallest static ones, or one is longer than
+  // any cell; the set is to be searched together.
+  core::Result<bool> load(std::span<const core::Box> boxes, const Stream& stream);
+
+  core::Status launch(StreamHandle stream);
+  // After the stream was waited for: whether pairs were lost; grow then makes room for them.
+  [[nodiscard]] bool is_aborted() const { return has_moving() && moving_.is_aborted(); }
+  core::Status grow() { return moving_.grow(); }
+  [[nodiscard]] FoundPairs found() const { return has_moving() ? moving_.found() : FoundPairs{}; }
+
+  [[nodiscard]] const Outcome& outcome() const { return moving_.outcome(); }
+  [[nodiscard]] std::uint64_t launches() const { return moving_.launches() + 1; }
+  [[nodiscard]] std::uint64_t bytes() const { return standing_.bytes() + moving_.bytes(); }
+  // Since start.
+  [[nodiscard]] std::uint64_t static_builds() const { return static_builds_; }
+  [[nodiscard]] std::uint64_t static_boxes_kept() const { return static_boxes_kept_; }
+  [[nodiscard]] std::uint64_t bytes_to_device() const { return bytes_to_device_; }
+
+ private:
+  [[nodiscard]] bool has_moving() const { return !moving_ids_.empty(); }
+  core::Result<bool> load_standing(std::span<const core::Box> boxes, const Stream& stream);
+  core::Result<bool> load_moving(std::span<const core::Box> boxes);
+
+  PairFinderOptions options_;
+  std::vector<std::uint32_t> standing_ids_;
+  std::vector<std::uint32_t> moving_ids_;
+  std::vector<core::Box> standing_boxes_;  // as the table has them
+  std::vector<PackedBox> packed_;
+  BoxSearch standing_;
+  BoxSearch moving_;
+  CrossView cross_;
+  LaunchShape cross_shape_;
+  bool has_table_ = false;
+  float finest_cell_m_ = 0.0F;  // of those that have static boxes
+  std::uint64_t static_builds_ = 0;
+  std::uint64_t static_boxes_kept_ = 0;
+  std::uint64_t bytes_to_device_ = 0;
+};
+
+}  // namespace broadside::gpu

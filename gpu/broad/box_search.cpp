@@ -1,0 +1,136 @@
+#include "gpu/broad/box_search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace broadside::gpu {
+namespace {
+
+// Some eight overlaps a box in the densest scenes of the campaign; a frame that finds more is found again.
+constexpr std::uint64_t kPairsPerBox = 8;
+
+}  // namespace
+
+std::uint64_t BoxSearch::first_room(const PairFinderOptions& options) const {
+  const std::uint64_t expected = std::max(kLeastPairs, kPairsPerBox * count_);
+  return options.pairs_at_once == 0 ? expected : std::min(options.pairs_at_once, expected);
+}
+
+core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& options) {
+  start_ = options.start(facts);
+  count_ = facts.count;
+  BROADSIDE_TRY(outcome_.allocate());
+  BROADSIDE_TRY(boxes_.reserve(count_, "boxes"));
+  BROADSIDE_TRY(counters_.reserve(1, "counters"));
+  BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
+  BROADSIDE_TRY(barrier_.fill_bytes(0));
+  BROADSIDE_TRY(pairs_.reserve(first_room(options), "pairs"));
+  const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
+  auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, options.least_for_bins)
+                                                 : pairs_launch_shape(start_, count_, buckets, options.least_for_bins);
+  if (!shape.ok()) return shape.error();
+  shape_ = shape.value();
+  BROADSIDE_TRY(broad_.load(start_, facts, options.hash_cell_m, options.variant, shape_.bins, shape_.sort.blocks));
+  view_ = {};
+  view_.box_count = count_;
+  view_.boxes = boxes_.data();
+  view_.counters = counters_.data();
+  view_.barrier = barrier_.data();
+  view_.outcome = outcome_.device(0);
+  return wait_for_device("clearing the broad phase");
+}
+
+core::Result<PackedBox*> BoxSearch::room_for(std::size_t boxes) {
+  BROADSIDE_TRY(boxes_.reserve(boxes, "boxes"));
+  return boxes_.data();
+}
+
+core::Result<PackedBox*> BoxSearch::move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream) {
+  if (boxes <= boxes_.capacity()) return boxes_.data();
+  DeviceBuffer<PackedBox> larger;
+  BROADSIDE_TRY(larger.reserve(boxes, "boxes"));
+  if (kept != 0) BROADSIDE_TRY(copy_on_device(larger.data(), boxes_.data(), kept * sizeof(PackedBox), stream));
+  BROADSIDE_TRY(wait_for_stream(stream, "moving boxes"));
+  boxes_ = std::move(larger);
+  view_.boxes = boxes_.data();
+  return boxes_.data();
+}
+
+core::Status BoxSearch::load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new) {
+  if (is_new || facts.count != count_ || options.start(facts) != start_) BROADSIDE_TRY(reserve(facts, options));
+  broad_.refit(facts);
+  settle_ = {};
+  return core::Done{};
+}
+
+core::Status BoxSearch::load(const SearchedBoxes& boxes, const PairFinderOptions& options, bool is_new) {
+  BROADSIDE_TRY(load_packed(boxes.facts(), options, is_new));
+  if (!boxes.given().empty()) {
+    auto shape = settle_launch_shape();
+    if (!shape.ok()) return shape.error();
+    settle_shape_ = shape.value();
+    BROADSIDE_TRY(given_.upload(boxes.given(), "boxes as given"));
+    BROADSIDE_TRY(settled_.reserve(first_room(options), "pairs"));
+    settle_.given = given_.data();
+    settle_.owned = boxes.owned();
+    settle_.counters = view_.counters;
+    settle_.barrier = view_.barrier;
+    settle_.outcome = view_.outcome;
+  }
+  return boxes_.upload(boxes.searched(), "boxes");
+}
+
+void BoxSearch::fill_view() {
+  broad_.fill(view_.broad);
+  broad_.fill(view_.bulk);
+  view_.pairs = {pairs_.data(), pairs_.capacity()};
+}
+
+core::Status BoxSearch::launch_share(const NamedPairsView& share, StreamHandle stream) {
+  fill_view();
+  NamedPairsView own = share;
+  own.search = view_;
+  BROADSIDE_TRY(launch_named_pairs(own, shape_, stream));
+  return settle(stream);
+}
+
+core::Status BoxSearch::settle(StreamHandle stream) {
+  if (!is_settled()) return core::Done{};
+  settle_.found = view_.pairs;
+  settle_.pairs = {settled_.data(), settled_.capacity()};
+  return launch_settle(settle_, settle_shape_, stream);
+}
+
+core::Status BoxSearch::launch(StreamHandle stream) {
+  fill_view();
+  BROADSIDE_TRY(launch_pairs(view_, shape_, stream));
+  return settle(stream);
+}
+
+core::Status BoxSearch::grow() {
+  const Counters& demanded = outcome_[0].counters;
+  BROADSIDE_TRY(broad_.grow(demanded));
+  BROADSIDE_TRY(pairs_.reserve(demanded.pairs, "pairs"));
+  if (is_settled()) BROADSIDE_TRY(settled_.reserve(demanded.confirmed, "pairs"));
+  return core::Done{};
+}
+
+core::Status BoxSearch::count_work(WorkCounter& work, StreamHandle stream) {
+  return work.count_broad({view_.broad, view_.bulk, view_.boxes, view_.box_count, view_.counters},
+                          shape_.search.multiprocessors, stream);
+}
+
+FoundPairs BoxSearch::found() const {
+  const Counters& counts = outcome_[0].counters;
+  return is_settled() ? FoundPairs{settled_.data(), counts.confirmed} : FoundPairs{pairs_.data(), counts.pairs};
+}
+
+core::Status BoxSearch::append_pairs(std::vector<core::Pair>& to) const {
+  const FoundPairs from = found();
+  const std::size_t before = to.size();
+  to.resize(before + from.count);
+  if (from.count == 0) return core::Done{};
+  return copy_to_host(to.data() + before, from.data, from.count * sizeof(core::Pair));
+}
+
+}  // namespace broadside::gpu

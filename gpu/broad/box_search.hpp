@@ -1,0 +1,88 @@
+// One search for pairs on the device: its memory, its launches and what they left. A broad phase alone is one of these,
+// or where core/method/box_passes.hpp says so, one for each pass.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/pair.hpp"
+#include "gpu/broad/broad_buffers.hpp"
+#include "gpu/broad/named_pairs_view.hpp"
+#include "gpu/broad/pair_finder_options.hpp"
+#include "gpu/broad/searched_boxes.hpp"
+#include "gpu/broad/settle_view.hpp"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/runtime/device_buffer.hpp"
+#include "gpu/runtime/host_side.hpp"
+#include "gpu/work/work_counter.hpp"
+
+namespace broadside::gpu {
+
+// What the last launches found, on the device.
+struct FoundPairs {
+  const core::Pair* data = nullptr;
+  std::uint64_t count = 0;
+};
+
+class BoxSearch {
+ public:
+  // Memory for these boxes, and the boxes on the device. `is_new`: forget what a set before has left.
+  core::Status load(const SearchedBoxes& boxes, const PairFinderOptions& options, bool is_new);
+
+  // The same for boxes that are packed on the device: first where to, then what they are.
+  core::Result<PackedBox*> room_for(std::size_t boxes);
+  core::Status load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new);
+
+  // With another place for them: the first `kept` boxes are there too.
+  core::Result<PackedBox*> move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream);
+
+  core::Status launch(StreamHandle stream);
+  // Where the options say that there are shares. `share`: names, places, and whether the boxes are in order already.
+  core::Status launch_share(const NamedPairsView& share, StreamHandle stream);
+  [[nodiscard]] bool can_share() const { return start_ == Start::kBulk; }
+  [[nodiscard]] std::uint32_t box_count() const { return count_; }
+  [[nodiscard]] std::uint32_t multiprocessors() const { return shape_.search.multiprocessors; }
+  // After a search of shares: what it left on the device.
+  [[nodiscard]] const PairsView& view() const { return view_; }
+  // After the stream was waited for: whether pairs were lost; grow then makes room for them.
+  [[nodiscard]] bool is_aborted() const { return outcome_[0].counters.is_aborted != 0; }
+  core::Status grow();
+  void forget_abort() { outcome_[0].counters.is_aborted = 0; }
+  // What the search tests, where somebody asked.
+  core::Status count_work(WorkCounter& work, StreamHandle stream);
+
+  [[nodiscard]] FoundPairs found() const;
+  [[nodiscard]] std::uint64_t room_for_pairs() const { return pairs_.capacity(); }
+  // The pairs of the last launch, behind those that are there.
+  core::Status append_pairs(std::vector<core::Pair>& to) const;
+
+  [[nodiscard]] const Outcome& outcome() const { return outcome_[0]; }
+  [[nodiscard]] std::uint64_t launches() const { return (shape_.bins != 0 ? 2U : 1U) + (is_settled() ? 1U : 0U); }
+  [[nodiscard]] std::uint64_t bytes() const {
+    return boxes_.bytes() + given_.bytes() + broad_.bytes() + pairs_.bytes() + settled_.bytes();
+  }
+
+ private:
+  [[nodiscard]] bool is_settled() const { return settle_.given != nullptr; }
+  core::Status reserve(const BoxFacts& facts, const PairFinderOptions& options);
+  [[nodiscard]] std::uint64_t first_room(const PairFinderOptions& options) const;
+  void fill_view();
+  core::Status settle(StreamHandle stream);
+
+  PairsShape shape_;
+  LaunchShape settle_shape_;
+  PairsView view_;
+  SettleView settle_;
+  Start start_ = Start::kNone;
+  std::uint32_t count_ = 0;
+  Mapped<Outcome, 1> outcome_;
+  BroadBuffers broad_;
+  DeviceBuffer<PackedBox> boxes_;
+  DeviceBuffer<PackedBox> given_;
+  DeviceBuffer<core::Pair> pairs_;
+  DeviceBuffer<core::Pair> settled_;
+  DeviceBuffer<Counters> counters_;
+  DeviceBuffer<unsigned long long> barrier_;
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,26 @@
+#include "gpu/runtime/kernel_launch.cuh"
+#include "gpu/stages/pairs_only/cross_search.cuh"
+
+namespace broadside::gpu {
+namespace {
+
+constexpr std::uint32_t kThreads = 512;
+
+__global__ void __launch_bounds__(kThreads, 2) cross_kernel(const __grid_constant__ CrossView view) {
+  extern __shared__ __align__(16) unsigned char shared[];
+  run_cross(view, shared);
+}
+
+}  // namespace
+
+core::Result<LaunchShape> cross_launch_shape() {
+  LaunchShape shape{kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), 0};
+  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(cross_kernel), shape));
+  return shape;
+}
+
+core::Status launch_cross(const CrossView& view, const LaunchShape& shape, StreamHandle stream) {
+  return launch(cross_kernel, view, shape, stream);
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,33 @@
+// The launch that finds the pairs of moving boxes with standing ones, whose table stays from frame to frame.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pair.hpp"
+#include "core/result.hpp"
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/broad/bulk_view.hpp"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/runtime/device_runtime.hpp"
+#include "gpu/scene/packed_box.hpp"
+
+namespace broadside::gpu {
+
+struct CrossView {
+  BulkView standing;                          // in order
+  const PackedBox* standing_boxes = nullptr;  // low_tag = the caller's number, as of the others
+  const PackedBox* moving_boxes = nullptr;
+  const BulkEntry* order = nullptr;  // of the moving ones: neighbors in space side by side
+  std::uint32_t count = 0;           // of them
+  // Behind what is there: the pairs that the moving ones have among each other.
+  AppendView<core::Pair> pairs;
+  Counters* counters = nullptr;
+  unsigned long long* barrier = nullptr;
+  Outcome* outcome = nullptr;
+};
+
+core::Result<LaunchShape> cross_launch_shape();
+// Asynchronous.
+core::Status launch_cross(const CrossView& view, const LaunchShape& shape, StreamHandle stream);
+
+}  // namespace broadside::gpu

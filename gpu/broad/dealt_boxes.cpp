@@ -1,0 +1,59 @@
+#include "gpu/broad/dealt_boxes.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "gpu/broad/searched_boxes.hpp"
+
+namespace broadside::gpu {
+
+core::Status check_box_limit(std::uint64_t boxes) {
+  if (boxes <= kMostBoxes) return core::Done{};
+  return core::Error{
+      std::to_string(boxes) + " boxes are more than the " + std::to_string(kMostBoxes) + " that one search can number",
+      "broad phase on the GPU", "search the set in parts: pairs --parts P", core::Exit::kMissing};
+}
+
+core::Status DealtBoxes::take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
+                              const core::SpaceCut& cut) {
+  std::vector<FactsOfBoxes> of_part(cut.parts());
+  std::vector<std::uint32_t> count(cut.parts());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (!is_sound(boxes[i])) return bad_box(i);
+    const std::uint32_t part = cut.part_at(boxes[i].min[cut.axis]);
+    ++count[part];
+    of_part[part].add(boxes[i]);
+  }
+  base_.assign(cut.parts() + 1, 0);
+  for (std::uint32_t part = 0; part < cut.parts(); ++part) base_[part + 1] = base_[part] + count[part];
+  packed_.resize(boxes.size());
+  given_.resize(boxes.size());
+  std::vector<std::uint32_t> next(base_.begin(), base_.end() - 1);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::uint32_t part = cut.part_at(boxes[i].min[cut.axis]);
+    const std::uint32_t number = next[part]++;
+    packed_[number] = pack(boxes[i], number - base_[part], is_static[i] != 0 ? 1U : 0U);
+    given_[number] = static_cast<std::uint32_t>(i);
+  }
+  facts_.clear();
+  BoxFacts all;
+  core::Box bounds = core::empty_box();
+  for (const FactsOfBoxes& part : of_part) {
+    facts_.push_back(part.all());
+    if (facts_.back().count == 0) continue;
+    all.largest_side_m = std::max(all.largest_side_m, facts_.back().largest_side_m);
+    all.coordinate_range_m = std::max(all.coordinate_range_m, facts_.back().coordinate_range_m);
+    bounds = core::grown(core::grown(bounds, facts_.back().domain.min), facts_.back().domain.max);
+  }
+  for (std::uint32_t part = 0; part < cut.parts(); ++part) {
+    BoxFacts& facts = facts_[part];
+    facts.largest_side_m = all.largest_side_m;
+    facts.coordinate_range_m = all.coordinate_range_m;
+    facts.low_corner = bounds.min;
+    // What reaches over a face begins at most its length before it.
+    if (part > 0) facts.low_corner[cut.axis] = std::max(bounds.min[cut.axis], cut.faces[part - 1] - all.largest_side_m);
+  }
+  return core::Done{};
+}
+
+}  // namespace broadside::gpu

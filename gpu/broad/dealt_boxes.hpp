@@ -1,0 +1,46 @@
+// A set of boxes dealt to parts of space, on the host: each to the part in which it begins, and numbered part by part.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/engine/space_parts.hpp"
+#include "core/math/box.hpp"
+#include "core/result.hpp"
+#include "gpu/broad/broad_buffers.hpp"
+#include "gpu/scene/packed_box.hpp"
+
+namespace broadside::gpu {
+
+// More boxes have numbers that the search of bulk pairs cannot hold beside a mark of one bit, in a table of 2^31
+// buckets.
+constexpr std::uint64_t kMostBoxes = 1ULL << 30U;
+// Exit code 3, with how many there are.
+core::Status check_box_limit(std::uint64_t boxes);
+
+class DealtBoxes {
+ public:
+  // An error names the first that is no box, by the caller's number.
+  core::Status take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
+                    const core::SpaceCut& cut);
+
+  [[nodiscard]] std::uint32_t parts() const { return static_cast<std::uint32_t>(facts_.size()); }
+  [[nodiscard]] std::span<const PackedBox> boxes(std::uint32_t part) const {
+    return std::span(packed_).subspan(base_[part], base_[part + 1] - base_[part]);
+  }
+  // The number of the part's first box.
+  [[nodiscard]] std::uint32_t base(std::uint32_t part) const { return base_[part]; }
+  // Of the boxes that begin in the part, but for the sizes, which are those of all boxes: any may reach into it.
+  [[nodiscard]] const BoxFacts& facts(std::uint32_t part) const { return facts_[part]; }
+  // The caller's number of a box.
+  [[nodiscard]] std::uint32_t given(std::uint32_t number) const { return given_[number]; }
+
+ private:
+  std::vector<PackedBox> packed_;
+  std::vector<std::uint32_t> base_;
+  std::vector<std::uint32_t> given_;
+  std::vector<BoxFacts> facts_;
+};
+
+}  // namespace broadside::gpu

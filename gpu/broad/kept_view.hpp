@@ -1,0 +1,48 @@
+// The launches of a broad phase that keeps pairs between frames: see kept_finder.hpp.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pair.hpp"
+#include "core/result.hpp"
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/broad/bulk_view.hpp"
+#include "gpu/broad/pack_view.hpp"
+#include "gpu/runtime/device_runtime.hpp"
+#include "gpu/scene/packed_box.hpp"
+
+namespace broadside::gpu {
+
+struct KeptCounts {
+  unsigned long long pairs = 0;
+  std::uint32_t left = 0;  // whether some box is not within its fat one
+};
+
+// Places are those of boxes among the entries of the last search, where neighbors in space lie side by side.
+struct KeptView {
+  std::uint32_t count = 0;
+  const PackedBox* now = nullptr;     // [count] this frame's boxes; low_tag = the box's number
+  PackedBox* fat = nullptr;           // [count] by number
+  BoxMeasure* measure = nullptr;      // of the fat ones
+  const BulkEntry* order = nullptr;   // [count] by place
+  PackedBox* fat_placed = nullptr;    // [count] by place
+  PackedBox* placed = nullptr;        // [count] this frame's, by place
+  std::uint32_t* place_of = nullptr;  // [count] by number
+  core::Pair* candidates = nullptr;
+  std::uint64_t candidate_count = 0;
+  AppendView<core::Pair> pairs;
+  KeptCounts* counts = nullptr;
+};
+
+// All asynchronous. `measure` as BoxMeasure{} before: fat boxes of this frame's.
+core::Status launch_fatten(const KeptView& view, StreamHandle stream);
+// After a search of the fat boxes: what lies at which place.
+core::Status launch_place(const KeptView& view, StreamHandle stream);
+// After that: the search's pairs become pairs of places.
+core::Status launch_renumber(const KeptView& view, StreamHandle stream);
+// Places this frame's boxes, and notes whether one left its fat box. Counts are zero before, as for the next.
+core::Status launch_within(const KeptView& view, StreamHandle stream);
+// Of the candidates, those whose boxes overlap in this frame.
+core::Status launch_test(const KeptView& view, StreamHandle stream);
+
+}  // namespace broadside::gpu

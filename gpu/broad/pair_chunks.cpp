@@ -1,0 +1,65 @@
+#include "gpu/broad/pair_chunks.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace broadside::gpu {
+namespace {
+
+// Of the first share; in the densest scenes of the campaign it fills half of a chunk.
+constexpr std::uint64_t kExpectedPairsPerBox = 16;
+// A chunk is aimed at being so full, since shares differ.
+constexpr double kAim = 0.75;
+constexpr double kMostGrowth = 4.0;
+
+// By what the last share of this width has found.
+std::uint64_t next_width(std::uint64_t width, std::uint64_t found, std::uint64_t room) {
+  const double wanted = kAim * static_cast<double>(room) / static_cast<double>(std::max<std::uint64_t>(found, 1));
+  return std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(static_cast<double>(width) * std::min(wanted, kMostGrowth)));
+}
+
+// Sets that have boxes beyond the cells of the grid are found at once.
+core::Status find_at_once(BoxSearch& search, const Stream& stream, const ChunkConsumer& take) {
+  do {
+    if (search.is_aborted()) BROADSIDE_TRY(search.grow());
+    BROADSIDE_TRY(search.launch(stream.get()));
+    BROADSIDE_TRY(stream.wait("finding pairs"));
+  } while (search.is_aborted());
+  return take(search.found());
+}
+
+}  // namespace
+
+core::Status for_each_chunk(BoxSearch& search, const Stream& stream, const ChunkConsumer& take,
+                            std::uint64_t& launches) {
+  search.forget_abort();
+  if (!search.can_share()) return ++launches, find_at_once(search, stream, take);
+  const std::uint64_t count = search.box_count();
+  const std::uint64_t room = search.room_for_pairs();
+  std::uint64_t width = std::max<std::uint64_t>(1, room / kExpectedPairsPerBox);
+  NamedPairsView share;
+  while (share.first_place < count) {
+    share.end_place = std::min(count, share.first_place + width);
+    ++launches;
+    BROADSIDE_TRY(search.launch_share(share, stream.get()));
+    BROADSIDE_TRY(stream.wait("finding a chunk of pairs"));
+    share.is_in_order = true;
+    const std::uint64_t found = search.outcome().counters.pairs;
+    const std::uint64_t searched = share.end_place - share.first_place;
+    if (search.is_aborted()) {
+      if (searched == 1)
+        return core::Error{
+            "one box alone has " + std::to_string(found) + " pairs, and a chunk has room for " + std::to_string(room),
+            "broad phase on the GPU", "give pairs_at_once of at least that many", core::Exit::kMissing};
+      width = std::min(next_width(searched, found, room), searched / 2);
+      continue;
+    }
+    BROADSIDE_TRY(take(search.found()));
+    share.first_place = share.end_place;
+    width = next_width(searched, found, room);
+  }
+  return core::Done{};
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,61 @@
+// The boxes of one search, packed on the host, and what the sizes of its cells depend on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/box.hpp"
+#include "core/method/box_passes.hpp"
+#include "core/result.hpp"
+#include "gpu/broad/pair_finder_options.hpp"
+#include "gpu/scene/packed_box.hpp"
+
+namespace broadside::gpu {
+
+// Of a box that is not finite or has min > max.
+core::Error bad_box(std::size_t place);
+// Of an update with more or fewer boxes than were loaded.
+core::Error another_count(std::size_t given, std::size_t loaded);
+
+bool is_sound(const core::Box& box);
+
+// What is known of boxes once all were added.
+class FactsOfBoxes {
+ public:
+  void add(const core::Box& box);
+  [[nodiscard]] BoxFacts all() const;
+
+ private:
+  BoxFacts facts_;
+  core::Box bounds_ = core::empty_box();
+};
+
+class SearchedBoxes {
+ public:
+  // All boxes as they are. An error names the first that is no box.
+  core::Status take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
+                    const PairFinderOptions& options);
+  // Those of a pass, in its coordinates. They are sound.
+  void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::PassPlan& plan,
+            const core::BoxPass& pass);
+
+  [[nodiscard]] const BoxFacts& facts() const { return facts_; }
+  [[nodiscard]] std::span<const PackedBox> searched() const { return searched_; }
+  // Empty where boxes are searched as they are; else as SettleView has them.
+  [[nodiscard]] std::span<const PackedBox> given() const { return given_; }
+  [[nodiscard]] std::uint32_t owned() const { return owned_; }
+
+ private:
+  void start();
+  void add(const core::Box& box, bool is_static);
+
+  std::vector<PackedBox> searched_;
+  std::vector<PackedBox> given_;
+  FactsOfBoxes facts_of_all_;
+  BoxFacts facts_;
+  std::uint32_t owned_ = 0;
+};
+
+}  // namespace broadside::gpu

@@ -1,0 +1,16 @@
+// Pairs of moving boxes with standing ones on fibers of the host: two blocks of two warps.
+#include "gpu/stages/pairs_only/cross_search.cuh"
+
+namespace broadside::gpu {
+
+core::Result<LaunchShape> cross_launch_shape() {
+  return LaunchShape{64, 2, 2 * static_cast<std::uint32_t>(sizeof(PairQueue)), 2};
+}
+
+core::Status launch_cross(const CrossView& view, const LaunchShape& shape, StreamHandle /*stream*/) {
+  on_host::run({{shape.blocks}, {shape.threads}, 0}, shape.shared_bytes,
+               [&](unsigned char* shared) { run_cross(view, shared); });
+  return core::Done{};
+}
+
+}  // namespace broadside::gpu

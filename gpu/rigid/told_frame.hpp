@@ -1,0 +1,25 @@
+// A frame of turning bodies as columns of the trace that lie on the device. Made when somebody asks.
+#pragma once
+
+#include <cstdint>
+
+#include "core/engine/frame_on_device.hpp"
+#include "gpu/rigid/rigid_read_back.hpp"
+#include "gpu/rigid/told_view.hpp"
+
+namespace broadside::gpu {
+
+class ToldFrame {
+ public:
+  // Valid until the next call, and as long as the buffers of what was left. Synchronizes.
+  core::Result<core::DeviceFrame> tell(const RigidLeft& left, StreamHandle stream);
+
+ private:
+  DeviceBuffer<ToldBody> bodies_;
+  DeviceBuffer<core::ContactPoint> points_;
+  DeviceBuffer<std::uint32_t> point_count_;
+  DeviceBuffer<core::RigidMass> mass_;
+  DeviceBuffer<core::Vec3> static_spin_;
+};
+
+}  // namespace broadside::gpu

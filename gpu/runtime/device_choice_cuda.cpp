@@ -1,0 +1,43 @@
+#include <cuda_runtime_api.h>
+
+#include "gpu/runtime/cuda_check.hpp"
+#include "gpu/runtime/device_choice.hpp"
+
+namespace broadside::gpu {
+
+core::Result<int> device_count() {
+  int count = 0;
+  BROADSIDE_CUDA_TRY(cudaGetDeviceCount(&count));
+  return count;
+}
+
+core::Result<int> current_device() {
+  int device = 0;
+  BROADSIDE_CUDA_TRY(cudaGetDevice(&device));
+  return device;
+}
+
+core::Status use_device(int device) {
+  return cuda_status(cudaSetDevice(device), "choosing a device");
+}
+
+core::Status let_reach(int device, int peer) {
+  if (device == peer) return core::Done{};
+  int can = 0;
+  BROADSIDE_CUDA_TRY(cudaDeviceCanAccessPeer(&can, device, peer));
+  if (can == 0) return core::Done{};
+  BROADSIDE_TRY(use_device(device));
+  const cudaError_t code = cudaDeviceEnablePeerAccess(peer, 0);
+  if (code == cudaErrorPeerAccessAlreadyEnabled) {
+    (void)cudaGetLastError();  // so that it does not fail the next call
+    return core::Done{};
+  }
+  return cuda_status(code, "reaching another device");
+}
+
+core::Status copy_between_devices(void* to, int to_device, const void* from, int from_device, std::size_t bytes,
+                                  StreamHandle stream) {
+  return cuda_status(cudaMemcpyPeerAsync(to, to_device, from, from_device, bytes, stream), "copying between devices");
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,86 @@
+// What a frame costs whose pairs are among those that were kept, and what keeps them: kernels without barriers.
+#pragma once
+
+#include "gpu/broad/kept_view.hpp"
+#include "gpu/stages/broad/pair_queue.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/pairs_only/pack.cuh"
+
+namespace broadside::gpu {
+
+// Of the mean side, on each side of a box. Boxes that move by a hundredth a frame stay within for six frames, and some
+// (1 + 1/8)^3 = 1.4 times as many pairs are candidates.
+constexpr float kFat = 0x1p-4F;
+
+__device__ inline void run_fatten(const KeptView& view) {
+  const GridPlaces grid;
+  BoxMeasure own;
+  for (std::uint64_t i = grid.rank(); i < view.count; i += grid.size()) {
+    const PackedBox now = view.now[i];
+    const core::Vec3 sides = now.max - now.min;
+    const float fat_m = kFat / 3.0F * ((sides.x + sides.y) + sides.z);
+    const core::Vec3 by{fat_m, fat_m, fat_m};
+    const core::Box fat{now.min - by, now.max + by};
+    note_box(fat, static_cast<std::uint32_t>(i), own);
+    view.fat[i] = pack(fat, now.low_tag, now.high_tag);
+  }
+  add_measure(own, *view.measure);
+}
+
+__device__ inline void run_place(const KeptView& view) {
+  const GridPlaces grid;
+  for (std::uint64_t k = grid.rank(); k < view.count; k += grid.size()) {
+    const std::uint32_t number = view.order[k].body;
+    view.fat_placed[k] = view.fat[number];
+    view.placed[k] = view.now[number];
+    view.place_of[number] = static_cast<std::uint32_t>(k);
+  }
+}
+
+__device__ inline void run_renumber(const KeptView& view) {
+  const GridPlaces grid;
+  for (std::uint64_t k = grid.rank(); k < view.candidate_count; k += grid.size()) {
+    const core::Pair p = view.candidates[k];
+    view.candidates[k] = {view.place_of[p.i], view.place_of[p.j]};
+  }
+}
+
+// A box that is no number is within nothing.
+__device__ inline bool is_within(const PackedBox& b, const PackedBox& fat) {
+  return fat.min.x <= b.min.x && fat.min.y <= b.min.y && fat.min.z <= b.min.z && b.max.x <= fat.max.x &&
+         b.max.y <= fat.max.y && b.max.z <= fat.max.z;
+}
+
+__device__ inline void run_within(const KeptView& view) {
+  const GridPlaces grid;
+  bool has_left = false;
+  for (std::uint64_t k = grid.rank(); k < view.count; k += grid.size()) {
+    const PackedBox box = view.now[view.order[k].body];
+    view.placed[k] = box;
+    has_left = has_left || !is_within(box, view.fat_placed[k]);
+  }
+  if (__any_sync(kFullWarp, has_left) && lane() == 0) view.counts->left = 1;
+}
+
+// `shared`: a PairQueue a warp.
+__device__ inline void run_test(const KeptView& view, unsigned char* shared) {
+  const GridPlaces grid;
+  WarpQueue queue(reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32], view.pairs, &view.counts->pairs);
+  const std::uint64_t rounds = (view.candidate_count + grid.size() - 1) / grid.size();
+  for (std::uint64_t round = 0; round < rounds; ++round) {
+    const std::uint64_t k = round * grid.size() + grid.rank();
+    bool is_pair = false;
+    core::Pair pair{};
+    if (k < view.candidate_count) {
+      const core::Pair p = view.candidates[k];
+      const PackedBox a = view.placed[p.i];
+      const PackedBox b = view.placed[p.j];
+      is_pair = core::overlaps(unpack(a), unpack(b));
+      pair = core::make_pair_of(a.low_tag, b.low_tag);
+    }
+    queue.push(is_pair, pair);
+  }
+  queue.flush();
+}
+
+}  // namespace broadside::gpu
