@@ -27,9 +27,9 @@ struct Pace {
 };
 constexpr std::array kPaces{Pace{1.0F / 60.0F, 90}, Pace{1.0F / 240.0F, 150}, Pace{1.0F / 1000.0F, 250}};
 
-std::array<std::span<const RigidMutant>, 5> mutants() {
-  return {reference::flight_mutants(), reference::touch_mutants(), reference::impulse_mutants(),
-          reference::telling_mutants(), reference::pipeline_mutants()};
+std::array<std::span<const RigidMutant>, 6> mutants() {
+  return {reference::flight_mutants(),  reference::touch_mutants(),    reference::impulse_mutants(),
+          reference::telling_mutants(), reference::pipeline_mutants(), reference::rest_mutants()};
 }
 std::array<std::span<const RigidTampering>, 3> tamperings() {
   return {rigid_state_tamperings(), rigid_point_tamperings(), rigid_declaration_tamperings()};

@@ -73,6 +73,15 @@ Scene stack() {
   return scene;
 }
 
+// A pile that sleeps before something falls on it.
+Scene nap() {
+  Scene scene = world("rigid-nap", 180, 1.0F / 60.0F);
+  scene.meshes = {box(1, 1, 1), ball(0.25)};
+  for (int k = 0; k < 3; ++k) add(scene, 0, {0, 0.5F + static_cast<float>(k), 0}, {}, 1.0F);
+  add(scene, 1, {0, 18, 0}, {}, 1.0F);
+  return scene;
+}
+
 Scene overlap() {
   Scene scene = world("rigid-overlap", 60, 1.0F / 240.0F);
   scene.meshes = {box(1, 1, 1)};
@@ -154,10 +163,10 @@ struct SceneRow {
   Scene (*make)();
 };
 constexpr std::array kScenes{
-    SceneRow{"rigid-mixed", mixed},     SceneRow{"rigid-stack", stack},    SceneRow{"rigid-overlap", overlap},
-    SceneRow{"rigid-offset", offset},   SceneRow{"rigid-fast", fast},      SceneRow{"rigid-blade", blade},
-    SceneRow{"rigid-million", million}, SceneRow{"rigid-bounce", bounce},  SceneRow{"rigid-flight", flight},
-    SceneRow{"rigid-slide", slide},     SceneRow{"rigid-spin-up", spin_up}};
+    SceneRow{"rigid-mixed", mixed},     SceneRow{"rigid-stack", stack},     SceneRow{"rigid-overlap", overlap},
+    SceneRow{"rigid-offset", offset},   SceneRow{"rigid-fast", fast},       SceneRow{"rigid-blade", blade},
+    SceneRow{"rigid-million", million}, SceneRow{"rigid-bounce", bounce},   SceneRow{"rigid-flight", flight},
+    SceneRow{"rigid-slide", slide},     SceneRow{"rigid-spin-up", spin_up}, SceneRow{"rigid-nap", nap}};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "core/method/rigid/point_digest.hpp"
 #include "core/scene/scene.hpp"
 #include "reference/octree_cpu/rigid/rigid_declaration.hpp"
+#include "reference/octree_cpu/rigid/rigid_pipeline.hpp"
 #include "reference/plain_rigid/engine.hpp"
 #include "validation/judge.hpp"
 
@@ -69,7 +70,10 @@ core::Result<Specimen> record_rigid_specimen(const core::Scene& scene, core::Dyn
 }
 
 core::Result<Specimen> record_turning_specimen(const core::Scene& scene, core::Dynamics& dynamics) {
-  auto specimen = record(scene, dynamics, {"octree-cpu", "", reference::rigid_declaration({})});
+  const auto* pipeline = dynamic_cast<const reference::RigidPipeline*>(&dynamics);
+  auto specimen = record(
+      scene, dynamics,
+      {"octree-cpu", "", pipeline != nullptr ? pipeline->declaration_for(scene) : reference::rigid_declaration({})});
   if (specimen) specimen.value().header.notes["digest"] = core::kDigestWithPoints;
   return specimen;
 }

@@ -52,7 +52,7 @@ std::string advice_for(const DeclarationKey& row, const std::string& text) {
 }  // namespace
 
 std::span<const DeclarationKey> declaration_keys() {
-  static const std::array<DeclarationKey, 17> kRows{{
+  static const std::array<DeclarationKey, 18> kRows{{
       {"method", kWord, "none", {"none", kMethodName}, "whether the laws of METHOD hold for it"},
       {"twin_of", kText, "", {}, "the engine whose results it repeats bit by bit: determinism"},
       {"motion", kWord, "rigid", {"translate", "rigid"}, "whether bodies may turn"},
@@ -84,6 +84,11 @@ std::span<const DeclarationKey> declaration_keys() {
        {"none", "velocity", "position"},
        "how depth is corrected: through velocities, through positions alone, or not: energy"},
       {"correction_rate", kNumber, "1", {}, "share of the depth that a step corrects, 0 to 1: energy"},
+      {"sleep_speed_m_s",
+       kNumber,
+       "0",
+       {},
+       "a body no point of which is faster may be stopped and held there, m/s; 0: none is: momentum, angular-momentum"},
       {"accuracy", kNumber, "0", {}, "relative error that a step's error control allows: energy"},
       {"precision",
        kWord,

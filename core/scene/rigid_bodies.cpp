@@ -99,6 +99,15 @@ float inner_ball_m(const ContactShape& s) {
   return std::max(0.0F, inner - off);
 }
 
+float half_thickness_m(const RigidShape& shape) {
+  constexpr float kOfMeshes = 0.25F;
+  if (shape.balls.inner_m > 0.0F) return shape.balls.inner_m;
+  const Box box = turned_box(shape.contact, shape.vertices(), {}, {});
+  float side = box.max[0] - box.min[0];
+  for (int k = 1; k < 3; ++k) side = std::min(side, box.max[k] - box.min[k]);
+  return kOfMeshes * 0.5F * side;
+}
+
 RigidShape shape_of(const ContactShape& contact, const Mesh& mesh) {
   RigidShape shape;
   shape.contact = contact;
@@ -108,6 +117,7 @@ RigidShape shape_of(const ContactShape& contact, const Mesh& mesh) {
                                                    : single_node_boxes(box_of(contact, shape.vertices()));
   shape.balls.outer_m = length(contact.center) + contact.size_m;
   shape.balls.inner_m = inner_ball_m(contact);
+  shape.half_thickness_m = half_thickness_m(shape);
   return shape;
 }
 
@@ -152,6 +162,11 @@ Result<RigidBodies> make_rigid_bodies(const Scene& scene) {
   add_wrenches(scene, bodies);
   bodies.detected = bodies.state;
   bodies.free_end.resize(bodies.state.size());
+  bodies.push.resize(bodies.state.size());
+  bodies.drift.resize(bodies.state.size());
+  bodies.swing_m.resize(bodies.state.size());
+  bodies.pushed.resize(bodies.state.size());
+  bodies.pushed_by.resize(bodies.state.size());
   bodies.reach_m.resize(bodies.state.size());
   bodies.fall_m.resize(bodies.state.size());
   bodies.shape_boxes.resize(bodies.state.size());

@@ -2,6 +2,7 @@
 // shared by bodies of one shape.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -11,9 +12,11 @@
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "core/method/rigid/turned_box.hpp"
+#include "core/pair.hpp"
 #include "core/result.hpp"
 #include "core/scene/body_octree.hpp"
 #include "core/scene/contact_shapes.hpp"
@@ -27,6 +30,9 @@ struct RigidShape {
   NodeBoxes nodes;       // from the center of mass, body axes
   BodyOctree octree;     // of the vertices of a hull or mesh, mesh coordinates; else none
   ShapeBalls balls;
+  // Of the ball inside; of a hull or mesh, whose inside nobody knows, a quarter of half of its box's shortest side,
+  // which is less than most ears and legs.
+  float half_thickness_m = 0.0F;
 
   [[nodiscard]] VertexTreeView vertices() const {
     return {octree.boxes.data() + kLevelOffset[1], octree.boxes.data() + kLevelOffset[2], octree.leaf_begin.data(),
@@ -44,10 +50,16 @@ struct RigidBodies {
   std::vector<std::uint32_t> shape;
   std::vector<RigidShape> shapes;
   ContactShapes contact_shapes;
-  // Of detection: the pose, where it leads to if nothing is touched, how far the body can come and how far it falls,
-  // the box of the shape, and a box that contains all of where it goes.
+  std::vector<PushWord> push;  // what the candidates of a step tell the next one
+  // Of detection: the pose, where it leads to if nothing is touched, by its velocity alone, and where others may drive
+  // the body; how far it can come and how far it falls, the box of the shape, and a box that contains all of where it
+  // goes.
   std::vector<RigidState> detected;
   std::vector<ContactPose> free_end;
+  std::vector<Vec3> drift;
+  std::vector<float> swing_m;
+  std::vector<Vec3> pushed;
+  std::vector<std::uint32_t> pushed_by;
   std::vector<float> reach_m;
   std::vector<float> fall_m;
   std::vector<Box> shape_boxes;
@@ -59,6 +71,14 @@ struct RigidBodies {
   [[nodiscard]] Vec3 origin(std::uint32_t body) const { return mesh_origin(mass[body], state[body]); }
   [[nodiscard]] RigidWrench wrench_of(std::uint32_t body) const {
     return wrench.empty() ? RigidWrench{} : wrench[body];
+  }
+  // Half of the least one.
+  [[nodiscard]] float thickness_m(std::uint32_t body) const { return shapes[shape[body]].half_thickness_m; }
+  // The same of the thinner of both.
+  [[nodiscard]] float thinner_m(Pair pair) const { return std::min(thickness_m(pair.i), thickness_m(pair.j)); }
+  // As another body may feel it.
+  [[nodiscard]] Pusher pusher(std::uint32_t body) const {
+    return {detected[body].x, drift[body], pushed[body], swing_m[body], mass[body].inverse_mass, body, pushed_by[body]};
   }
   [[nodiscard]] Vec3 spin(std::uint32_t body) const {
     return is_static[body] != 0 ? static_spin[body] : angular_velocity(mass[body], state[body]);

@@ -49,6 +49,9 @@ class GridBarrier {
     if (threadIdx.x == 0) *word_ += GridWord::share(blockIdx.x, gridDim.x);
     on_host::sync_grid();
   }
+  // Between the two a thread sees nothing of the others, so all of it may happen before they arrive.
+  void arrive() {}
+  void wait() { sync(); }
   unsigned long long sync_and_read(unsigned long long* /*in_block*/) {
     sync();
     const unsigned long long tally = *word_ & GridWord::kTally;
@@ -59,6 +62,10 @@ class GridBarrier {
 
  private:
   unsigned long long* word_;
+};
+struct ClusterBarrier {
+  static void arrive() {}
+  static void wait() { on_host::sync_grid(); }
 };
 inline void __syncthreads() {
   on_host::sync_block(false);
@@ -111,6 +118,10 @@ inline bool __any_sync(unsigned mask, bool value) {
 // Fibers never run side by side.
 inline unsigned __activemask() {
   return 1U << (threadIdx.x % 32);
+}
+inline std::uint32_t warp_max(std::uint32_t value) {
+  const std::uint64_t* all = on_host::exchange(value);
+  return static_cast<std::uint32_t>(*std::max_element(all, all + 32));
 }
 inline std::uint32_t warp_min(std::uint32_t value) {
   const std::uint64_t* all = on_host::exchange(value);

@@ -2,15 +2,19 @@
 #include <cstdlib>
 
 #include "gpu/rigid/rigid_kernel.hpp"
+#include "gpu/stages/rigid/constraint_frame.cuh"
+#include "gpu/stages/rigid/contact_frame.cuh"
 #include "gpu/stages/rigid/place_stage.cuh"
 #include "gpu/stages/rigid/rigid_digest.cuh"
-#include "gpu/stages/rigid/rigid_frame.cuh"
+#include "gpu/stages/rigid/solve_frame.cuh"
 
 namespace broadside::gpu {
 namespace {
 
 constexpr std::uint32_t kThreads = 64;
 constexpr std::uint32_t kBlocks = 2;
+// Of the solver: so few that some colors of a small heap have more patches.
+constexpr std::uint32_t kSolveThreads = 32;
 
 std::uint64_t seed() {
   const char* text = std::getenv("BROADSIDE_ON_HOST_SEED");
@@ -19,8 +23,16 @@ std::uint64_t seed() {
 
 }  // namespace
 
-core::Result<LaunchShape> rigid_launch_shape() {
+core::Result<LaunchShape> contact_launch_shape() {
   return LaunchShape{kThreads, kBlocks, 0, kBlocks};
+}
+
+core::Result<LaunchShape> constraint_launch_shape() {
+  return contact_launch_shape();
+}
+
+core::Result<SolveShape> solve_launch_shape() {
+  return SolveShape{{kSolveThreads, kBlocks, 0, kBlocks}, kBlocks};
 }
 
 core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
@@ -28,8 +40,18 @@ core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shap
   return core::Done{};
 }
 
-core::Status launch_rigid_frame(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_rigid_frame(frame); });
+core::Status launch_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts(frame); });
+  return core::Done{};
+}
+
+core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_constraints(frame); });
+  return core::Done{};
+}
+
+core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle /*stream*/) {
+  on_host::run({{blocks}, {kSolveThreads}, seed()}, 0, [&](unsigned char*) { run_solve(frame); });
   return core::Done{};
 }
 

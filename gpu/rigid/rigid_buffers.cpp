@@ -53,13 +53,16 @@ std::uint64_t RigidBuffers::Memory::bytes() const {
 core::Status RigidBuffers::reserve_patches(std::size_t patches) {
   BROADSIDE_TRY(patches_.reserve(patches, "contacts"));
   BROADSIDE_TRY(ranks_.reserve(patches, "contacts"));
+  BROADSIDE_TRY(patch_colors_.reserve(patches, "contacts"));
   BROADSIDE_TRY(impulses_.reserve(4 * patches, "contacts"));
+  BROADSIDE_TRY(by_color_.reserve(2 * patches, "contacts"));
   return memory_.reserve_patches(patches);
 }
 
 core::Status RigidBuffers::reserve_places(std::size_t places) {
   BROADSIDE_TRY(patch_at_.reserve(places, "contacts"));
-  return constraints_.reserve(constraint_floats(places), "contacts");
+  BROADSIDE_TRY(changes_.reserve(places, "contacts"));
+  return constraints_.reserve(constraint_words(places), "contacts");
 }
 
 core::Status RigidBuffers::reserve_colors(std::size_t colors) {
@@ -75,6 +78,10 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
   BROADSIDE_TRY(before_.upload(states, "bodies"));
   BROADSIDE_TRY(after_.upload(states, "bodies"));
   BROADSIDE_TRY(free_end_.reserve(n, "bodies"));
+  BROADSIDE_TRY(pushers_.reserve(n, "bodies"));
+  BROADSIDE_TRY(old_push_.reserve(n, "bodies"));
+  BROADSIDE_TRY(old_push_.fill_bytes(0));
+  BROADSIDE_TRY(push_.reserve(n, "bodies"));
   BROADSIDE_TRY(reach_m_.reserve(n, "bodies"));
   BROADSIDE_TRY(fall_m_.reserve(n, "bodies"));
   BROADSIDE_TRY(pushed_m_.reserve(n, "bodies"));
@@ -82,6 +89,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
   BROADSIDE_TRY(boxes_.reserve(n, "bodies"));
   BROADSIDE_TRY(coloring_.reserve(n, "bodies"));
   BROADSIDE_TRY(bodies_.reserve(n + 1, "bodies"));
+  BROADSIDE_TRY(stirred_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(old_memory_.reserve_bodies(n));
   BROADSIDE_TRY(memory_.reserve_bodies(n));
   BROADSIDE_TRY(confirmed_.reserve(std::max(kLeast, kPairsPerBody * n), "pairs"));
@@ -98,8 +106,9 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
 
 // The two memories change places, and grow when it is their turn.
 std::size_t RigidBuffers::patch_room() const {
-  return std::min({patches_.capacity(), ranks_.capacity(), impulses_.capacity() / 4, memory_.entries.capacity() / 2,
-                   memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4});
+  return std::min({patches_.capacity(), ranks_.capacity(), patch_colors_.capacity(), impulses_.capacity() / 4,
+                   by_color_.capacity() / 2, memory_.entries.capacity() / 2, memory_.feature.capacity() / 4,
+                   memory_.impulse.capacity() / 4});
 }
 
 core::Status RigidBuffers::grow(const RigidCounts& demanded) {
@@ -113,6 +122,7 @@ core::Status RigidBuffers::grow(const RigidCounts& demanded) {
 
 void RigidBuffers::advance() {
   before_.swap(after_);
+  old_push_.swap(push_);
   old_memory_.swap(memory_);
 }
 
@@ -120,6 +130,9 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.before = before_.data();
   view.after = after_.data();
   view.free_end = free_end_.data();
+  view.pushers = pushers_.data();
+  view.old_push = old_push_.data();
+  view.push = push_.data();
   view.reach_m = reach_m_.data();
   view.fall_m = fall_m_.data();
   view.pushed_m = pushed_m_.data();
@@ -128,6 +141,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.patches = {patches_.data(), patch_room()};
   view.ranks = ranks_.data();
+  view.colors = patch_colors_.data();
   view.coloring = coloring_.data();
   view.color_capacity = static_cast<std::uint32_t>(colors_);
   view.color_count = color_count_.data();
@@ -136,7 +150,10 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.patch_at = patch_at_.data();
   view.place_capacity = patch_at_.capacity();
   view.constraints = constraints_.data();
+  view.changes = changes_.data();
+  view.by_color = by_color_.data();
   view.bodies = bodies_.data();
+  view.stirred = stirred_.data();
   view.impulses = impulses_.data();
   view.old_memory = old_memory_.view();
   view.memory = memory_.view();
@@ -145,11 +162,12 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 }
 
 std::uint64_t RigidBuffers::bytes() const {
-  return before_.bytes() + after_.bytes() + free_end_.bytes() + reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() +
-         shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + patches_.bytes() + ranks_.bytes() +
-         coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
-         constraints_.bytes() + bodies_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() +
-         counts_.bytes() + barrier_.bytes();
+  return before_.bytes() + after_.bytes() + free_end_.bytes() + pushers_.bytes() + old_push_.bytes() + push_.bytes() +
+         reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() + shape_boxes_.bytes() + boxes_.bytes() +
+         confirmed_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
+         color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
+         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + stirred_.bytes() +
+         impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -50,6 +50,9 @@ class RigidBuffers {
   DeviceBuffer<core::RigidState> before_;
   DeviceBuffer<core::RigidState> after_;
   DeviceBuffer<core::ContactPose> free_end_;
+  DeviceBuffer<PackedPusher> pushers_;
+  DeviceBuffer<unsigned long long> old_push_;
+  DeviceBuffer<unsigned long long> push_;
   DeviceBuffer<float> reach_m_;
   DeviceBuffer<float> fall_m_;
   DeviceBuffer<std::uint32_t> pushed_m_;
@@ -58,13 +61,17 @@ class RigidBuffers {
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<core::ContactPatch> patches_;
   DeviceBuffer<PatchRank> ranks_;
+  DeviceBuffer<std::uint32_t> patch_colors_;
   DeviceBuffer<BodyColors> coloring_;
   DeviceBuffer<std::uint32_t> color_count_;
   DeviceBuffer<std::uint32_t> color_begin_;
   DeviceBuffer<std::uint32_t> color_cursor_;
   DeviceBuffer<std::uint32_t> patch_at_;
-  DeviceBuffer<float> constraints_;
+  DeviceBuffer<PackedVec3> constraints_;
+  DeviceBuffer<float> changes_;
+  DeviceBuffer<std::uint32_t> by_color_;
   DeviceBuffer<PackedSolverBody> bodies_;
+  DeviceBuffer<std::uint32_t> stirred_;
   DeviceBuffer<core::Vec3> impulses_;
   Memory old_memory_;
   Memory memory_;

@@ -1,4 +1,4 @@
-// Launches of frames of turning bodies, as plain functions: rigid_kernel.cu implements them on CUDA,
+// Launches of frames of turning bodies, as plain functions: the kernels of this folder implement them on CUDA,
 // on_host/rigid_on_host.cpp with fibers.
 #pragma once
 
@@ -9,17 +9,31 @@
 #include "core/pair.hpp"
 #include "core/result.hpp"
 #include "gpu/frame/frame_kernel.hpp"
+#include "gpu/rigid/contact_launch.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/runtime/device_runtime.hpp"
 
 namespace broadside::gpu {
 
-core::Result<LaunchShape> rigid_launch_shape();
+// A frame is four launches beside its broad phase; these are all asynchronous. Each is a kernel of its own, so that
+// none has the registers of another. One that finds that the frame is aborted does nothing, except that the last tells
+// the host.
 
-// Boxes, a launch before the broad phase. Asynchronous, as all of these.
+core::Result<LaunchShape> constraint_launch_shape();
+
+// How the solver's kernel fits this GPU.
+struct SolveShape {
+  LaunchShape grid;
+  std::uint32_t cluster_blocks = 1;  // of the largest cluster
+};
+core::Result<SolveShape> solve_launch_shape();
+
+// Boxes, before the broad phase. shape: contact_launch_shape's.
 core::Status launch_place(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
-// All the rest, behind the broad phase.
-core::Status launch_rigid_frame(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
+// Colors and constraints.
+core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
+// The substeps. blocks: at most those of the shape, for frame.solve_team.
+core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle stream);
 
 // What the last frame left. Adds to *digest.
 struct RigidDigestView {

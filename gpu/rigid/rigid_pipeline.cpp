@@ -33,7 +33,9 @@ struct RigidPipeline::Impl {
   Mapped<Outcome, 1> broad_outcome;
   Mapped<RigidOutcome, 1> outcome;
   PairsShape pairs_launch;
-  LaunchShape launch;
+  LaunchShape contact_shape;
+  LaunchShape constraint_shape;
+  SolveShape solve_shape;
   BoxFacts facts;
   RigidFrameView view;
   PairsView pairs_view;
@@ -52,6 +54,7 @@ struct RigidPipeline::Impl {
   core::Status load_broad();
   core::Status refit(const RigidCounts& counts);
   void fill();
+  std::uint32_t choose_solve_team();
   core::Status launch_all();
   core::Result<bool> is_kept();
   // The frame is kept, so what it came to is what the next one starts from.
@@ -66,6 +69,8 @@ namespace {
 constexpr float kRoomForSpeed = 1.25F;
 // Eight overlaps a body, and more when a frame finds more.
 constexpr std::uint64_t kPairsPerBody = 8;
+// Above so many turns of a cluster's threads a larger grid is sooner done, whose barrier takes longer.
+constexpr std::uint64_t kMostTurnsOfCluster = 2;
 
 std::uint32_t as_word(float v) {
   return std::bit_cast<std::uint32_t>(v);
@@ -142,9 +147,15 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.broad_barrier.fill_bytes(0));
   const std::size_t n = d.bodies.state.size();
   BROADSIDE_TRY(d.pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBody * n), "pairs"));
-  auto shape = rigid_launch_shape();
-  if (!shape.ok()) return shape.error();
-  d.launch = shape.value();
+  auto contact_shape = contact_launch_shape();
+  if (!contact_shape.ok()) return contact_shape.error();
+  d.contact_shape = contact_shape.value();
+  auto constraint_shape = constraint_launch_shape();
+  if (!constraint_shape.ok()) return constraint_shape.error();
+  d.constraint_shape = constraint_shape.value();
+  auto solve_shape = solve_launch_shape();
+  if (!solve_shape.ok()) return solve_shape.error();
+  d.solve_shape = solve_shape.value();
 
   d.facts = {};
   d.facts.count = static_cast<std::uint32_t>(n);
@@ -168,7 +179,7 @@ void RigidPipeline::Impl::fill() {
   buffers.fill(view);
   view.dt_s = dt_s;
   for (std::uint32_t kind = 0; kind < 2; ++kind) {
-    view.substeps[kind] = (kind + 1) * view.solver.substeps;
+    view.substeps[kind] = core::substeps_of(view.solver, kind == 1);
     view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
   }
   view.pairs = pairs.data();
@@ -189,11 +200,30 @@ void RigidPipeline::Impl::fill() {
   pairs_view.outcome = broad_outcome.device(0);
 }
 
+// A block for so many bodies as it has threads: the first color of a heap has about a patch a body, the others have
+// fewer, and more blocks have a slower barrier. A cluster's is the fastest, so its threads may have some patches of a
+// color one after the other. Returns the blocks.
+std::uint32_t RigidPipeline::Impl::choose_solve_team() {
+  const std::uint64_t threads = solve_shape.grid.threads;
+  const std::uint64_t wanted = (view.body_count + threads - 1) / threads;
+  const bool is_cluster = options.may_cluster && solve_shape.cluster_blocks > 1 &&
+                          wanted <= kMostTurnsOfCluster * solve_shape.cluster_blocks;
+  view.solve_team = is_cluster ? SolveTeamKind::kCluster : SolveTeamKind::kGrid;
+  const std::uint64_t most = is_cluster ? solve_shape.cluster_blocks : solve_shape.grid.blocks;
+  return static_cast<std::uint32_t>(std::min(std::bit_ceil(wanted), most));
+}
+
 core::Status RigidPipeline::Impl::launch_all() {
   fill();
-  BROADSIDE_TRY(launch_place(view, launch, stream));
-  if (has_broad()) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
-  BROADSIDE_TRY(launch_rigid_frame(view, launch, stream));
+  const std::uint32_t solve_blocks = choose_solve_team();
+  BROADSIDE_TRY(launch_place(view, contact_shape, stream));
+  // Without cells, which the first frame's boxes give, a box would look for partners in billions of them. The others
+  // find that the boxes are too large, and the frame is repeated.
+  const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
+  if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
+  BROADSIDE_TRY(launch_contacts(view, contact_shape, stream));
+  BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
+  BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
   return wait_for_stream(stream, "a frame");
 }
 
@@ -250,7 +280,7 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame.step = d.steps;
   frame.time_s = static_cast<double>(d.steps) * static_cast<double>(d.dt_s);
   const RigidLeft left = d.left();
-  auto digest = rigid_digest_of(left, d.launch, d.stream);
+  auto digest = rigid_digest_of(left, d.contact_shape, d.stream);
   if (!digest.ok()) return digest.error();
   frame.digest = digest.value();
   return level == core::RecordLevel::kFull ? read_back_rigid(left, frame) : core::Status(core::Done{});
@@ -277,7 +307,7 @@ std::span<const core::StageTime> RigidPipeline::stage_times() const {
 
 std::vector<core::Counter> RigidPipeline::counters() const {
   const Impl& d = *impl_;
-  return {{"launches", 3 * (d.steps + d.repeats)},
+  return {{"launches", 5 * (d.steps + d.repeats)},
           {"level stage: pairs tested", d.pairs_tested},
           {"contact patches", d.patches_made},
           {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes()}};

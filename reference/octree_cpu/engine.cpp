@@ -35,6 +35,15 @@ std::span<const core::SettingRow> settings_table() {
       core::contact_setting(),
       core::substeps_setting(),
       core::thresholds_setting(),
+      {"sleep",
+       "off",
+       {"off", "on"},
+       "bodies that turn: on = those that stand still together stop being solved until something awake touches them"},
+      {"sweep",
+       "off",
+       {"off", "fast"},
+       "bodies that turn: fast = those that move farther in a step than they are thick stop before they pass through "
+       "others"},
   };
   return rows;
 }
@@ -74,6 +83,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
     return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
   };
   turning.declaration = core::rigid_declaration(soft);
+  turning.sleeps = settings.text("sleep") == "on";
+  turning.sweeps_fast = settings.text("sweep") == "fast";
   turning.threads = threads;
 
   core::Engine engine;
@@ -85,8 +96,10 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.declaration = core::method_declaration();
   engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning),
                                                        core::refuse_method_settings("octree-cpu", settings));
-  engine.equivalence = [soft, build = engine.build, workers = worker_count(settings.number("threads"))](
-                           const core::Scene& scene) { return rigid_card(scene, soft, build, workers); };
+  engine.equivalence = [soft, sleeps = settings.text("sleep") == "on", build = engine.build,
+                        workers = worker_count(settings.number("threads"))](const core::Scene& scene) {
+    return rigid_card(scene, soft, sleeps, build, workers);
+  };
   return engine;
 }
 

@@ -24,7 +24,7 @@ core::Status PipelineByMotion::load(const core::Scene& scene) {
 }
 
 core::Declaration PipelineByMotion::declaration_for(const core::Scene& scene) const {
-  return turns(scene) ? turning_.declaration() : core::method_declaration();
+  return turns(scene) ? turning_.declaration_for(scene) : core::method_declaration();
 }
 
 std::uint32_t PipelineByMotion::groups_for(const core::Scene& scene) const {

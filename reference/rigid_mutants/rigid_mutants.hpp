@@ -30,6 +30,8 @@ std::span<const RigidMutant> impulse_mutants();  // impulses and friction
 std::span<const RigidMutant> telling_mutants();  // right motion, told wrongly
 // A fifth, of octree-cpu where bodies turn: each of its stages is broken at least once.
 std::span<const RigidMutant> pipeline_mutants();
+// A sixth, of its stages that are off by default: sleep, and the sweep of fast bodies.
+std::span<const RigidMutant> rest_mutants();
 
 std::unique_ptr<core::Dynamics> make_rigid_mutant(const RigidMutant& mutant, std::uint64_t run);
 

@@ -10,9 +10,11 @@
 namespace broadside::reference {
 namespace {
 
-// octree-cpu's, as its settings are where none is given.
-RigidPipelineOptions usual_options() {
+// octree-cpu's, as its settings are where none but these is given.
+RigidPipelineOptions options_of(const TurningStages& stages) {
   RigidPipelineOptions options;
+  options.sleeps = stages.sleeps;
+  options.sweeps_fast = stages.sweeps_fast;
   options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };
   options.make_solver = [](const core::Scene&) { return make_contact_solver({}); };
   options.declaration = rigid_declaration({});
@@ -32,7 +34,7 @@ std::uint64_t digest_of(const core::FrameRecord& f) {
 }  // namespace
 
 StagedPipeline::StagedPipeline(const TurningStages& stages, std::uint64_t run)
-    : RigidPipeline(usual_options()), stages_(stages), run_(run) {}
+    : RigidPipeline(options_of(stages)), stages_(stages), run_(run) {}
 
 core::Status StagedPipeline::load(const core::Scene& scene) {
   last_told = {};
@@ -62,6 +64,18 @@ void StagedPipeline::touch_faces() {
 
 void StagedPipeline::respond(float dt_s) {
   stages_.respond != nullptr ? stages_.respond(*this, dt_s) : sound_respond(dt_s);
+}
+
+void StagedPipeline::wake() {
+  stages_.wake != nullptr ? stages_.wake(*this) : sound_wake();
+}
+
+void StagedPipeline::fall_asleep(float dt_s) {
+  stages_.fall_asleep != nullptr ? stages_.fall_asleep(*this, dt_s) : sound_fall_asleep(dt_s);
+}
+
+core::Status StagedPipeline::stop_short() {
+  return stages_.stop_short != nullptr ? stages_.stop_short(*this) : sound_stop_short();
 }
 
 void StagedPipeline::tell_points() {

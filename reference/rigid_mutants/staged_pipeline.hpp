@@ -19,8 +19,14 @@ struct TurningStages {
   void (*touch_faces)(StagedPipeline&) = nullptr;
   void (*respond)(StagedPipeline&, float dt_s) = nullptr;
   void (*tell_points)(StagedPipeline&) = nullptr;
+  void (*wake)(StagedPipeline&) = nullptr;
+  void (*fall_asleep)(StagedPipeline&, float dt_s) = nullptr;
+  core::Status (*stop_short)(StagedPipeline&) = nullptr;
   // Changes what is recorded of the frame, and nothing else.
   void (*tell)(StagedPipeline&, core::FrameRecord&) = nullptr;
+  // Settings that are off by default.
+  bool sleeps = false;
+  bool sweeps_fast = false;
 };
 
 // With default stages: octree-cpu of scenes whose bodies turn, bit for bit.
@@ -42,12 +48,16 @@ class StagedPipeline final : public RigidPipeline {
   void sound_touch_bodies() { RigidPipeline::touch_bodies(); }
   void sound_touch_faces() { RigidPipeline::touch_faces(); }
   void sound_respond(float dt_s) { RigidPipeline::respond(dt_s); }
+  void sound_wake() { RigidPipeline::wake(); }
+  void sound_fall_asleep(float dt_s) { RigidPipeline::fall_asleep(dt_s); }
+  core::Status sound_stop_short() { return RigidPipeline::stop_short(); }
   void sound_tell_points() { RigidPipeline::tell_points(); }
   using RigidPipeline::bodies_;
   using RigidPipeline::candidates_;
   using RigidPipeline::confirmed_;
   using RigidPipeline::patches_;
   using RigidPipeline::points_;
+  using RigidPipeline::sleepers_;
   // Of the frame that was told before, and of the step that was placed before: for stages that lag.
   core::FrameRecord last_told;
   std::vector<core::Box> last_boxes;
@@ -59,6 +69,9 @@ class StagedPipeline final : public RigidPipeline {
   void touch_bodies() override;
   void touch_faces() override;
   void respond(float dt_s) override;
+  void wake() override;
+  void fall_asleep(float dt_s) override;
+  core::Status stop_short() override;
   void tell_points() override;
   void record(core::FrameRecord& frame) override;
 

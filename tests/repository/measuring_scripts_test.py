@@ -212,6 +212,35 @@ class GpuPage(unittest.TestCase):
             with open(out, encoding="utf-8") as made, open(os.path.join(GPU, "MEASURED.md"), encoding="utf-8") as kept:
                 self.assertEqual(made.read(), kept.read(), "run gpu/measured and commit gpu/MEASURED.md")
 
+    def test_sets_on_several_gpus_are_compared_with_one(self):
+        machine = ("name, driver_version, clocks.max.sm [MHz]\nA GPU, 1.2, 1980 MHz\nA GPU, 1.2, 1980 MHz\n"
+                   "\tGPU0\tGPU1\nGPU0\t X \tNV18\nGPU1\tNV18\t X\n")
+        row = {"boxes": "heaps", "pairs": 8, "digest": "0x1", "borders_ms": 0.1, "exchange_ms": 0.0, "search_ms": 0.9,
+               "bytes_between": 3200000, "bytes_needed": 2800000}
+        rows = [{**row, "what": "one", "n": 50, "parts": 1, "ms": 0.75},
+                {**row, "what": "one", "n": 100, "parts": 1, "ms": 1.5},
+                {**row, "what": "all", "n": 100, "parts": 2, "ms": 1.0}]
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (("rows", "\n".join(map(json.dumps, rows)) + "\na remark"), ("machine", machine)):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            out = os.path.join(folder, "of_spread.json")
+            command = [sys.executable, os.path.join(GPU, "spread"), "--rows", os.path.join(folder, "rows"), "--machine",
+                       os.path.join(folder, "machine"), out]
+            self.assertEqual(subprocess.run(command, check=False).returncode, 0)
+            with open(out, encoding="utf-8") as file:
+                result = json.load(file)
+            rows[2]["digest"] = "0x2"
+            with open(os.path.join(folder, "rows"), "w", encoding="utf-8") as file:
+                file.write("\n".join(map(json.dumps, rows)))
+            self.assertEqual(subprocess.run(command, check=False).returncode, 1, "digests differ")
+        self.assertEqual((len(result["gpus"]), result["gpus"][1]["clocks.max.sm"], result["links"]),
+                         (2, "1980 MHz", ["NV18"]))
+        page = self.page_of({"card_spread.json": result})
+        self.assertIn("| heaps | 100 | 8 | 1.5 | 1 | 75 % | 75 % | 0.1 | 0 | 0.9 | 3.20 (2.80) | yes |", page)
+        result["rows"][2]["digest"] = "0x2"
+        self.assertIn("| 3.20 (2.80) | NO |", self.page_of({"card_spread.json": result}))
+
     def test_a_figure_stands_beside_its_gpu_its_date_and_its_command(self):
         row = {"scene": "freefall:bunny:50", "label": "tree", "fps_median": 64390.0, "fps_least": 64000.0,
                "fps_most": 65000.0, "fps_last_quarter": 64215.0, "frames": 3000, "repetitions": 5,

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
+#include "validation/mechanics/sleeping.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -13,8 +14,8 @@ class AngularMomentum final : public Validator {
  public:
   explicit AngularMomentum(const Subject& subject)
       : detects_at_start_(subject.header.declaration.text("detection_at") == "start"),
-        accumulations_(subject.header.declaration.number("iterations") *
-                       subject.header.declaration.number("substeps")) {}
+        accumulations_(subject.header.declaration.number("iterations") * subject.header.declaration.number("substeps")),
+        sleep_speed_m_s_(subject.header.declaration.number("sleep_speed_m_s")) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
@@ -69,7 +70,8 @@ class AngularMomentum final : public Validator {
                         (length(b.before.angular_momentum) + length(b.after.angular_momentum)) / f.least_moment;
     const double scale = f.largest_moment * spin + scale_[i];
     const double limit = gyroscopic + slack_[i] + m.rounding_of(40 + 2 * accumulations_ * points_[i]) * scale +
-                         rounding(4) * scale_[i] + kSubnormal + m.h * b.torque_slack;
+                         rounding(4) * scale_[i] + kSubnormal + m.h * b.torque_slack +
+                         f.largest_moment / f.reach_m * slack_of_sleep_m_s(b, f, sleep_speed_m_s_);
     tally_.check(
         length(change - moment_[i]), {limit, "N m s", kOrigin}, Where::body(m.step, i, "bodies.angular_velocity"), [&] {
           return "dL = " + vector_text(change) + " N m s, sum (p - x) x J = " + vector_text(moment_[i]) + " N m s";
@@ -77,9 +79,11 @@ class AngularMomentum final : public Validator {
   }
 
   static constexpr std::string_view kOrigin =
-      "h |w x L| before and after, |J_t| times the gap, |J| times how far point and center move, and rounding";
+      "h |w x L| before and after, |J_t| times the gap, |J| times how far point and center move, twice the declared "
+      "speed of sleep of a body that stands still, and rounding";
   bool detects_at_start_;
   double accumulations_;
+  double sleep_speed_m_s_;
   std::vector<Vec3d> moment_;
   std::vector<double> slack_;
   std::vector<double> scale_;

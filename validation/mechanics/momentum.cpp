@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "validation/mechanics/motion.hpp"
+#include "validation/mechanics/sleeping.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -26,7 +27,8 @@ class Momentum final : public Validator {
   explicit Momentum(const Subject& subject)
       : header_(subject.header),
         has_points_(has_impulses(header_)),
-        accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")) {}
+        accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")),
+        sleep_speed_m_s_(header_.declaration.number("sleep_speed_m_s")) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
@@ -66,7 +68,8 @@ class Momentum final : public Validator {
       const double applied = given_[i].points + (b.is_alone ? 0.0 : kPointsOfAPatch);
       // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
       const double limit = m.rounding_of(kOfAxes + 2 * accumulations_ * applied) * f.mass_kg * speed +
-                           rounding(4) * given_[i].magnitude + kSubnormal + f.mass_kg * m.h * b.acceleration_slack;
+                           rounding(4) * given_[i].magnitude + kSubnormal + f.mass_kg * m.h * b.acceleration_slack +
+                           f.mass_kg * slack_of_sleep_m_s(b, f, sleep_speed_m_s_);
       tally_.check(
           length(change - expected), {limit, "N s", kOfBodies}, Where::body(m.step, i, "bodies.velocity"),
           [&] { return "m dv = " + vector_text(change) + " N s, m g h + sum J = " + vector_text(expected) + " N s"; });
@@ -109,11 +112,13 @@ class Momentum final : public Validator {
   }
 
   static constexpr std::string_view kOfBodies =
-      "rounding: one addition an application, impulses recorded in float32; for the exact solve nothing else";
+      "rounding: one addition an application, impulses recorded in float32; twice the declared speed of sleep of a body "
+      "that stands still; for the exact solve nothing else";
   static constexpr std::string_view kOfSets = "rounding: one addition an application";
   const core::TraceHeader& header_;
   bool has_points_;
   double accumulations_;
+  double sleep_speed_m_s_;
   std::vector<Given> given_;
   std::vector<Vec3d> change_;
   std::vector<Vec3d> expected_;

@@ -19,44 +19,73 @@ struct PatchWay {
 };
 
 BROADSIDE_HD void note_impulses(const PatchConstraint& c, PatchWay& way) {
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     way.before[k][0] = c.points[k].normal_impulse;
     way.before[k][1] = c.points[k].tangent_impulse_1;
     way.before[k][2] = c.points[k].tangent_impulse_2;
-  }
+  });
 }
 
 // The square of what the sweep changed, in the mobilities of the points, J.
 BROADSIDE_HD float squared_change(const PatchConstraint& c, const PatchWay& way) {
   float sum = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     const PatchPoint& p = c.points[k];
     const float n = p.normal_impulse - way.before[k][0];
     const float t1 = p.tangent_impulse_1 - way.before[k][1];
     const float t2 = p.tangent_impulse_2 - way.before[k][2];
     sum += ((n * n + t1 * t1) + t2 * t2) / p.normal_mass;
-  }
+  });
   return sum;
 }
 
-// Goes on along the last direction by `share` of it, and turns the direction to what the sweep changed.
-BROADSIDE_HD void follow(PatchConstraint& c, PatchWay& way, SolverBody& a, SolverBody& b, float share) {
-  PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) {
+// How much of the last direction is added, by the squared changes of the first sweep of a substep, the one before and
+// this one; those that were not yet are 0. None where changes grow, nor where they are larger than at first: friction
+// makes sweeps that do not shrink an energy, and directions may then lead on and on.
+BROADSIDE_HD constexpr float share_of_direction(float first_change, float last_change, float change) {
+  return last_change > 0.0F && change <= last_change && change <= first_change ? change / last_change : 0.0F;
+}
+
+// How far a step along the last direction changes a point's impulses.
+struct PointStep {
+  float normal = 0.0F;
+  float tangent_1 = 0.0F;
+  float tangent_2 = 0.0F;
+};
+
+BROADSIDE_HD PointStep step_along(const float (&way)[3], float share) {
+  return {share * way[0], share * way[1], share * way[2]};
+}
+
+// Goes on along the last direction by `share` of it, and turns the direction to what the sweep changed. The impulses
+// alone: what that does to the bodies is push_along's.
+BROADSIDE_HD void follow_impulses(PatchConstraint& c, PatchWay& way, float share) {
+  each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
-    const float step[3] = {p.normal_impulse - way.before[k][0], p.tangent_impulse_1 - way.before[k][1],
-                           p.tangent_impulse_2 - way.before[k][2]};
-    float more[3];
-    for (int i = 0; i < 3; ++i) {
-      more[i] = share * way.way[k][i];
-      way.way[k][i] = more[i] + step[i];
-    }
-    p.normal_impulse += more[0];
-    p.tangent_impulse_1 += more[1];
-    p.tangent_impulse_2 += more[2];
-    push(m, a, b, p, (more[0] * c.normal + more[1] * c.tangent_1) + more[2] * c.tangent_2);
-  }
-  store(m, a, b);
+    const float changed[3] = {p.normal_impulse - way.before[k][0], p.tangent_impulse_1 - way.before[k][1],
+                              p.tangent_impulse_2 - way.before[k][2]};
+    const PointStep more = step_along(way.way[k], share);
+    way.way[k][0] = more.normal + changed[0];
+    way.way[k][1] = more.tangent_1 + changed[1];
+    way.way[k][2] = more.tangent_2 + changed[2];
+    p.normal_impulse += more.normal;
+    p.tangent_impulse_1 += more.tangent_1;
+    p.tangent_impulse_2 += more.tangent_2;
+  });
+}
+
+// What the step along the direction does to the bodies. Before follow_impulses turns it.
+BROADSIDE_HD void push_along(const PatchConstraint& c, const PatchWay& way, SolverBody& a, SolverBody& b, float share) {
+  BodyGain of_a(a);
+  BodyGain of_b(b);
+  each_point(c, [&](int k) {
+    const PointStep more = step_along(way.way[k], share);
+    const Vec3 impulse = impulse_of(c, more.normal, more.tangent_1, more.tangent_2);
+    of_a.add_to_a(a, c.points[k].arm_a, impulse);
+    of_b.add_to_b(b, c.points[k].arm_b, impulse);
+  });
+  of_a.store(a);
+  of_b.store(b);
 }
 
 }  // namespace broadside::core

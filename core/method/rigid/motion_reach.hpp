@@ -41,15 +41,17 @@ BROADSIDE_HD FreeMotion free_motion(const RigidState& s, const RigidMass& mass, 
   return m;
 }
 
-// The box of all that a shape with this box may fill within the step: where it is, drifts to and falls to. Grown by
-// more than the sums round.
+// The box of all that a shape with this box may fill within this step and the next: where it is, drifts to and falls
+// to. The next one too, so that who is going to be struck is known in time (pushed_motion.hpp). Grown by more than the
+// sums round.
 BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m) {
   Box swept;
   for (int k = 0; k < 3; ++k) {
     const float drift = m.drift[k];
     const float fallen = drift + m.fall[k];
-    const float low = fminf(fminf(drift, fallen), 0.0F);
-    const float high = fmaxf(fmaxf(drift, fallen), 0.0F);
+    const float next = fallen + (fallen + m.fall[k]);
+    const float low = fminf(fminf(fminf(drift, fallen), next), 0.0F);
+    const float high = fmaxf(fmaxf(fmaxf(drift, fallen), next), 0.0F);
     const float pad = m.swing_m + 0x1p-22F * (fmaxf(fabsf(box.min[k]), fabsf(box.max[k])) + (high - low));
     swept.min[k] = (box.min[k] + low) - pad;
     swept.max[k] = (box.max[k] + high) + pad;

@@ -29,6 +29,7 @@ struct SoftStep {
   // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
   // friction holds, from the first substep on.
   float settle_m_s = 0.0F;
+  float least_done_m_s = 0.0F;   // changes of speed below this are none to sweep on for
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
   float gravity_m_s2 = 0.0F;
 };
@@ -48,33 +49,42 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
   return s;
 }
 
+// Of sweeps: the last one changes no point's speed by more. fastest_m_s: of all points.
+BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, float fastest_m_s) {
+  const float of_fastest = done_share * fastest_m_s;
+  return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
+}
+
 // Before anything else of a substep: how fast the points come.
 BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   const PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k]));
+  each_point(c, [&](int k) { c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k])); });
 }
 
 // The largest speed of a point relative to the other body, m/s.
 BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   const PatchMotion m = motion_of(a, b);
   float squared = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     const Vec3 v = relative_velocity(m, c.points[k]);
     squared = dot(v, v) > squared ? dot(v, v) : squared;
-  }
+  });
   return sqrtf(squared);
 }
 
 // The impulses of the substep before.
 BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
-  PatchMotion m = motion_of(a, b);
-  for (int k = 0; k < c.count; ++k) {
+  BodyGain of_a(a);
+  BodyGain of_b(b);
+  each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
     p.slides = false;
-    push(m, a, b, p,
-         (p.normal_impulse * c.normal + p.tangent_impulse_1 * c.tangent_1) + p.tangent_impulse_2 * c.tangent_2);
-  }
-  store(m, a, b);
+    const Vec3 impulse = impulse_of(c, p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2);
+    of_a.add_to_a(a, p.arm_a, impulse);
+    of_b.add_to_b(b, p.arm_b, impulse);
+  });
+  of_a.store(a);
+  of_b.store(b);
 }
 
 // Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
@@ -120,10 +130,10 @@ BROADSIDE_HD float solve_friction(const PatchConstraint& c, PatchPoint& p, Patch
 
 BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const SolverBody& a, const SolverBody& b) {
   float largest = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     const float size = solve_friction(c, c.points[k], m, a, b);
     largest = size > largest ? size : largest;
-  }
+  });
   return largest;
 }
 
@@ -140,7 +150,7 @@ BROADSIDE_HD float fastest_push(const PatchConstraint& c, const PatchPoint& p, f
 BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
     const float speed = dot(c.normal, relative_velocity(m, p));
@@ -156,7 +166,7 @@ BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
     }
     const float size = add_normal_impulse(c, p, m, a, b, change);
     largest = size > largest ? size : largest;
-  }
+  });
   const float size = solve_frictions(c, m, a, b);
   store(m, a, b);
   return size > largest ? size : largest;
@@ -170,18 +180,20 @@ BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const S
 // One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
 // is the next substep's. Returns the largest change of a point's speed, m/s.
 BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
+  // Bodies turn where they move alone, so masses that are right here are so until they move again.
+  if (has_turned_far(a) || has_turned_far(b)) set_masses(c, a, b);
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
-    if (gap > 0.0F && !(p.normal_impulse > 0.0F)) continue;
+    if (gap > 0.0F && !(p.normal_impulse > 0.0F)) return;
     // What bounces has been met, wherever its neighbors left it.
     const float may_close = gap > 0.0F && !bounces(c, p, step) ? gap * step.per_dt_s : 0.0F;
     const float speed = dot(c.normal, relative_velocity(m, p)) + may_close;
     const float size = add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
     largest = size > largest ? size : largest;
-  }
+  });
   const float size = solve_frictions(c, m, a, b);
   store(m, a, b);
   return size > largest ? size : largest;
@@ -190,8 +202,9 @@ BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b,
 // The fastest approach of the patch's points that bounce, m/s; 0 = none does.
 BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step) {
   float fastest = 0.0F;
-  for (int k = 0; k < c.count; ++k)
+  each_point(c, [&](int k) {
     if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
+  });
   return fastest;
 }
 
@@ -207,7 +220,7 @@ inline constexpr float kBounceDone = 0x1p-10F;
 
 // Before a bounce: the impulse that stopped each point.
 BROADSIDE_HD void note_stopping(PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) c.points[k].stopping_impulse = c.points[k].normal_impulse;
+  each_point(c, [&](int k) { c.points[k].stopping_impulse = c.points[k].normal_impulse; });
 }
 
 // Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
@@ -219,20 +232,23 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   float largest = 0.0F;
   // Of the patch together: how its points share what stopped it is often open.
   float room = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     const PatchPoint& p = c.points[k];
     if (bounces(c, p, step)) room += (1.0F + c.surface.restitution) * p.stopping_impulse - p.normal_impulse;
-  }
-  for (int k = 0; k < kSweepsOfBounce * c.count; ++k) {
-    const int at = k % c.count;
-    PatchPoint& p = c.points[(k / c.count) % 2 == 0 ? at : c.count - 1 - at];
-    if (!bounces(c, p, step)) continue;
+  });
+  const auto visit = [&](int k) {
+    PatchPoint& p = c.points[k];
+    if (!bounces(c, p, step)) return;
     const float speed = dot(c.normal, relative_velocity(m, p));
     const float wish = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
     const float before = p.normal_impulse;
     const float size = add_normal_impulse(c, p, m, a, b, wish < room ? wish : room);
     room -= p.normal_impulse - before;
     largest = size > largest ? size : largest;
+  };
+  for (int k = 0; k < kSweepsOfBounce; k += 2) {
+    each_point(c, visit);
+    each_point_back(c, visit);
   }
   const float size = solve_frictions(c, m, a, b);
   store(m, a, b);
@@ -241,13 +257,13 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
 
 // Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
 BROADSIDE_HD void add_to_totals(PatchConstraint& c, const SoftStep& step) {
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;
     p.tangent_total_2 = p.tangent_total_2 + p.tangent_impulse_2;
     if (bounces(c, p, step)) p.normal_impulse = p.tangent_impulse_1 = p.tangent_impulse_2 = 0.0F;
-  }
+  });
 }
 
 }  // namespace broadside::core

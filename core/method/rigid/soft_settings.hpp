@@ -19,14 +19,17 @@ struct PatchLimits {
 
 // core/method/rigid/SOLVERS.md has the measurements that the defaults were chosen by.
 struct SoftSettings {
-  // Of a step; twice as many where bodies that touch have masses further apart than even_masses: what a contact yields
-  // grows with the mass on it, and falls with the square of the substep.
+  // Of a step; kUnevenFactor times as many where bodies that touch have masses further apart than even_masses: what a
+  // contact yields grows with the mass on it, and falls with the square of the substep.
   std::uint32_t substeps = 4;
   float even_masses = 64.0F;
   // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
   std::uint32_t sweeps = 12;
-  // A sweep is the last one that changes no point's speed by more than this share of the fastest.
+  // A sweep is the last one that changes no point's speed by more than this share of the fastest, or by more than this
+  // share of what gravity gives in a substep: where all rests, the fastest is no faster than that, and one point of a
+  // thousand kept everybody sweeping.
   float done = 0x1p-10F;
+  float done_of_gravity = 0x1p-5F;
   float omega_dt = 6.0F;
   float damping = 1.0F;
   PatchLimits limits{0x1p-16F, 0.0F};
@@ -48,9 +51,16 @@ struct MostOfStep {
   std::uint32_t applications = 0;
 };
 
+// A small cube under one a thousand times as heavy was pushed into the floor by half its side with twice as many.
+inline constexpr std::uint32_t kUnevenFactor = 4;
+
+BROADSIDE_HD constexpr std::uint32_t substeps_of(const SoftSettings& settings, bool is_uneven) {
+  return is_uneven ? kUnevenFactor * settings.substeps : settings.substeps;
+}
+
 inline MostOfStep most_of_step(const SoftSettings& settings) {
   // The start from the last impulse, sweeps with a step along the direction between two, relaxation and rebound.
-  return {2 * settings.substeps, 1 + (2 * settings.sweeps - 1) + 1 + 1};
+  return {substeps_of(settings, true), 1 + (2 * settings.sweeps - 1) + 1 + 1};
 }
 
 inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {
@@ -58,6 +68,7 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   const float gravity = length(gravity_m_s2);
   SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
   step.gravity_m_s2 = gravity;
+  step.least_done_m_s = settings.done_of_gravity * gravity * step.dt_s;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
   return step;

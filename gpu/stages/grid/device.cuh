@@ -48,7 +48,17 @@ class GridBarrier {
 
   // Waits for all blocks; what any thread wrote before is visible to all threads after. By all threads.
   __device__ void sync() { arrive_and_wait_for_all(nullptr); }
-  // The same, and returns the tally. `in_block`: in the block's shared memory, for this alone.
+  // The same in two parts: between them a thread may do what no other thread has to see, and needs to see nothing of
+  // theirs.
+  __device__ void arrive() {
+    __syncthreads();
+    if (threadIdx.x == 0) count_arrival();
+  }
+  __device__ void wait() {
+    if (threadIdx.x == 0) wait_for_all();
+    __syncthreads();
+  }
+  // As sync, and returns the tally. `in_block`: in the block's shared memory, for this alone.
   __device__ unsigned long long sync_and_read(unsigned long long* in_block) {
     arrive_and_wait_for_all(in_block);
     return *in_block;
@@ -58,20 +68,43 @@ class GridBarrier {
   __device__ __forceinline__ void arrive_and_wait_for_all(unsigned long long* tally) {
     __syncthreads();
     if (threadIdx.x == 0) {
-      const unsigned long long share = GridWord::share(blockIdx.x, gridDim.x);
-      asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
-      unsigned long long now = 0;
-      do {
-        asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
-      } while (((now ^ seen_) & GridWord::kFlipped) == 0);
-      seen_ = now;
-      if (tally != nullptr) *tally = now & GridWord::kTally;
+      count_arrival();
+      wait_for_all();
+      if (tally != nullptr) *tally = seen_ & GridWord::kTally;
     }
     __syncthreads();
+  }
+  __device__ __forceinline__ void count_arrival() {
+    const unsigned long long share = GridWord::share(blockIdx.x, gridDim.x);
+    asm volatile("red.release.gpu.global.add.u64 [%0], %1;" ::"l"(word_), "l"(share) : "memory");
+  }
+  __device__ __forceinline__ void wait_for_all() {
+    unsigned long long now = 0;
+    do {
+      asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(word_) : "memory");
+    } while (((now ^ seen_) & GridWord::kFlipped) == 0);
+    seen_ = now;
   }
 
   unsigned long long* word_;
   unsigned long long seen_ = 0;
+};
+
+// The barrier of a launch that is one cluster of blocks, in two parts, as GridBarrier's. Compute capability 9 and
+// later.
+struct ClusterBarrier {
+  __device__ static void arrive() {
+    __syncwarp();
+#if __CUDA_ARCH__ >= 900
+    cuda::ptx::barrier_cluster_arrive(cuda::ptx::sem_release);
+#endif
+  }
+  __device__ static void wait() {
+#if __CUDA_ARCH__ >= 900
+    cuda::ptx::barrier_cluster_wait(cuda::ptx::sem_acquire);
+#endif
+    __syncwarp();
+  }
 };
 
 // Adds to a word of global memory by the first lane of a whole warp, and returns to it what was there; 0 to others.
@@ -207,6 +240,15 @@ __device__ inline std::uint32_t clamped_sums(std::uint32_t a, std::uint32_t b, s
 
 __device__ inline unsigned long long now_ns() {
   return cuda::ptx::get_sreg_globaltimer();
+}
+
+__device__ inline std::uint32_t warp_max(std::uint32_t value) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_max_sync(0xFFFFFFFFU, value);
+#else
+  for (unsigned step = 16; step > 0; step /= 2) value = max(value, __shfl_xor_sync(0xFFFFFFFFU, value, step));
+  return value;
+#endif
 }
 
 __device__ inline std::uint32_t warp_min(std::uint32_t value) {

@@ -6,7 +6,7 @@
 #include "core/method/coloring.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/rigid/patch_stage.cuh"
+#include "gpu/stages/rigid/contact_body.cuh"
 
 namespace broadside::gpu {
 
@@ -26,16 +26,19 @@ __device__ inline std::uint32_t rank_among(const RigidFrameView& f, std::uint32_
 
 template <typename Team>
 __device__ void rank_patches(const Team& team, const RigidFrameView& f) {
+  float ratio = 1.0F;
   for (std::uint64_t k = team.rank(); k < f.counts->patches; k += team.size()) {
     const std::uint32_t a = f.patches.items[k].a;
     const std::uint32_t b = f.patches.items[k].b;
     const std::uint64_t priority = core::color_priority({a, b});
     const auto patch = static_cast<std::uint32_t>(k);
-    if (!core::is_face(b))
-      atomicMax(&f.counts->mass_ratio,
-                __float_as_uint(core::mass_ratio(f.mass[a].inverse_mass, f.mass[b].inverse_mass)));
-    f.ranks[k] = {rank_among(f, a, patch, priority), rank_among(f, b, patch, priority), kUncolored, 0};
+    if (!core::is_face(b)) ratio = fmaxf(ratio, core::mass_ratio(f.mass[a].inverse_mass, f.mass[b].inverse_mass));
+    f.ranks[k] = {rank_among(f, a, patch, priority), rank_among(f, b, patch, priority), a, b};
+    f.colors[k] = kUncolored;
   }
+  __syncwarp();
+  const std::uint32_t largest = warp_max(__float_as_uint(ratio));
+  if (lane() == 0) atomicMax(&f.counts->mass_ratio, largest);
 }
 
 constexpr std::uint32_t kFewColors = 64;
@@ -58,14 +61,11 @@ __device__ inline void take_color(const RigidFrameView& f, std::uint32_t body, s
   GridWords::store_whole(reinterpret_cast<uint4*>(f.coloring + body), colors);
 }
 
-// Whether its turn has come, and it has a color now.
-__device__ inline bool try_color(const RigidFrameView& f, std::uint64_t k) {
-  PatchRank& own = f.ranks[k];
-  const std::uint32_t a = f.patches.items[k].a;
-  const std::uint32_t b = f.patches.items[k].b;
-  const uint4 of_a = colors_of(f, a, own.a);
-  const uint4 of_b = colors_of(f, b, own.b);
-  if (of_a.w != own.a || of_b.w != own.b) return false;
+// Its color if its turn has come, else kUncolored.
+__device__ inline std::uint32_t try_color(const RigidFrameView& f, const PatchRank& own) {
+  const uint4 of_a = colors_of(f, own.body_a, own.a);
+  const uint4 of_b = colors_of(f, own.body_b, own.b);
+  if (of_a.w != own.a || of_b.w != own.b) return kUncolored;
   const unsigned low = of_a.x | of_b.x;
   const unsigned high = of_a.y | of_b.y;
   std::uint32_t color = kFewColors;
@@ -75,27 +75,57 @@ __device__ inline bool try_color(const RigidFrameView& f, std::uint64_t k) {
     color = 32 + static_cast<std::uint32_t>(__ffs(static_cast<int>(~high)) - 1);
   else
     color = max(kFewColors, max(of_a.z, of_b.z));
-  take_color(f, a, own.a, of_a, color);
-  take_color(f, b, own.b, of_b, color);
-  own.color = color;
-  if (color < f.color_capacity) atomicAdd(&f.color_count[color], 1U);
-  atomicMax(&f.counts->colors, color + 1);
-  return true;
+  take_color(f, own.body_a, own.a, of_a, color);
+  take_color(f, own.body_b, own.b, of_b, color);
+  return color;
 }
 
-// Rounds until all have a color; a patch waits for the earlier ones of its bodies alone.
+// A patch waits for the earlier ones of its bodies alone: what a body's word says is of one moment, so there is no
+// barrier. All blocks are resident, and the first patch of all waits for none: so all get a color.
 template <typename Team>
 __device__ void color_patches(const Team& team, const RigidFrameView& f) {
   const std::uint64_t patches = f.counts->patches;
-  for (std::uint32_t round = 0;; ++round) {
-    // The next round's count is cleared while nobody reads or writes it.
-    if (team.rank() == 0) f.counts->uncolored[(round + 1) % 3] = 0;
-    std::uint32_t left = 0;
-    for (std::uint64_t k = team.rank(); k < patches; k += team.size())
-      if (f.ranks[k].color == kUncolored && !try_color(f, k)) ++left;
-    if (left != 0) atomicAdd(&f.counts->uncolored[round % 3], left);
-    team.sync();
-    if (f.counts->uncolored[round % 3] == 0) return;
+  std::uint32_t colors = 0;
+  for (bool is_done = false; !is_done;) {
+    is_done = true;
+    for (std::uint64_t k = team.rank(); k < patches; k += team.size()) {
+      if (f.colors[k] != kUncolored) continue;
+      const std::uint32_t color = try_color(f, f.ranks[k]);
+      f.colors[k] = color;
+      if (color == kUncolored)
+        is_done = false;
+      else
+        colors = max(colors, color + 1);
+    }
+    if (!is_done) relax();
+  }
+  __syncwarp();
+  colors = warp_max(colors);
+  if (lane() == 0 && colors != 0) atomicMax(&f.counts->colors, colors);
+}
+
+// work(color, lanes) for each color that lanes of a warp have, called by all lanes. A lane
+// without a patch has kUncolored.
+template <typename Work>
+__device__ void each_color_of_warp(std::uint32_t color, const Work& work) {
+  unsigned left = __ballot_sync(kFullWarp, color != kUncolored);
+  while (left != 0) {
+    const std::uint32_t now = __shfl_sync(kFullWarp, color, static_cast<unsigned>(__ffs(static_cast<int>(left)) - 1));
+    const unsigned lanes = __ballot_sync(kFullWarp, color == now);
+    work(now, lanes);
+    left &= ~lanes;
+  }
+}
+
+// Behind a barrier: how many patches each color has.
+template <typename Team>
+__device__ void count_colors(const Team& team, const RigidFrameView& f) {
+  const std::uint64_t patches = f.counts->patches;
+  for (std::uint64_t of_warp = team.rank() - lane(); of_warp < patches; of_warp += team.size()) {
+    const std::uint64_t k = of_warp + lane();
+    each_color_of_warp(k < patches ? f.colors[k] : kUncolored, [&](std::uint32_t color, unsigned lanes) {
+      if (lane() == 0) atomicAdd(&f.color_count[color], static_cast<std::uint32_t>(__popc(lanes)));
+    });
   }
 }
 
@@ -111,11 +141,33 @@ __device__ inline void place_colors(const RigidFrameView& f) {
   f.counts->places = next;
 }
 
+// Enters a patch's place in the list of one of its bodies, which is in the order of colors: no two of a body's patches
+// have the same.
+__device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body, std::uint32_t color,
+                                     std::uint32_t place, std::uint32_t side) {
+  if (!is_moved(f, body)) return;
+  const std::uint32_t begin = f.memory.begin[body];
+  std::uint32_t before = 0;
+  for (std::uint32_t k = 0; k < f.memory.count[body]; ++k)
+    if (f.colors[f.memory.entries[begin + k].patch] < color) ++before;
+  f.by_color[begin + before] = 2 * place + side;
+}
+
 template <typename Team>
 __device__ void place_patches(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t k = team.rank(); k < f.counts->patches; k += team.size()) {
-    const std::uint32_t color = f.ranks[k].color;
-    f.patch_at[f.color_begin[color] + atomicAdd(&f.color_cursor[color], 1U)] = static_cast<std::uint32_t>(k);
+  const std::uint64_t patches = f.counts->patches;
+  for (std::uint64_t of_warp = team.rank() - lane(); of_warp < patches; of_warp += team.size()) {
+    const std::uint64_t k = of_warp + lane();
+    const std::uint32_t own = k < patches ? f.colors[k] : kUncolored;
+    std::uint32_t place = 0;
+    each_color_of_warp(own, [&](std::uint32_t color, unsigned lanes) {
+      const std::uint32_t at = f.color_begin[color] + place_in_warp(lanes, &f.color_cursor[color]);
+      if (own == color) place = at;
+    });
+    if (own == kUncolored) continue;
+    f.patch_at[place] = static_cast<std::uint32_t>(k);
+    list_by_color(f, f.ranks[k].body_a, own, place, 0);
+    list_by_color(f, f.ranks[k].body_b, own, place, 1);
   }
   for (std::uint64_t color = team.rank(); color < f.counts->colors; color += team.size())
     for (std::uint32_t place = f.color_begin[color] + f.color_count[color]; place < f.color_begin[color + 1]; ++place)

@@ -1,5 +1,5 @@
-// Where the words of constraints are: in tiles of 32 constraints, word by word, so that the lanes of a warp load
-// neighboring words.
+// Where the numbers of constraints are: in words of 16 bytes, in tiles of 32 constraints, word by word. So the lanes of
+// a warp load neighboring words, and a sweep loads what it reads and no more.
 #pragma once
 
 #include <cstdint>
@@ -8,41 +8,32 @@
 
 namespace broadside::gpu {
 
-// Words of a constraint, and of each of its points.
 enum ConstraintWord : std::uint32_t {
-  kBodyA,
-  kBodyB,
-  kPointCount,
-  kNormal,
-  kTangent1 = kNormal + 3,
-  kTangent2 = kTangent1 + 3,
-  kSurface = kTangent2 + 3,
-  kSlop = kSurface + 3,
-  kFastestPush,
-  kPoints,
+  // What no sweep changes.
+  kPatchBodies,                             // body A and the number of points, body B, slop, fastest push
+  kNormal,                                  // w: static friction
+  kTangent,                                 // the first tangent; w: kinetic friction
+  kAcross,                                  // from A's center of mass to B's; w: restitution
+  kArms,                                    // [points] from A's center of mass; w: gap
+  kMasses = kArms + core::kManifoldPoints,  // [points] normal mass, stick masses 11, 12, 22
+  // What every sweep changes.
+  kImpulses = kMasses + core::kManifoldPoints,  // [points] normal, tangents 1 and 2, of the substep; w: slide mass
+  // By point: x y z w.
+  kApproaches = kImpulses + core::kManifoldPoints,
+  kStoppings,
+  kTotals,                // [3] as impulses
+  kBefore = kTotals + 3,  // [3] of core::PatchWay
+  kWays = kBefore + 3,    // [3] of core::PatchWay
+  kConstraintWords = kWays + 3,
 };
-enum PointWord : std::uint32_t {
-  kArmA,
-  kArmB = kArmA + 3,
-  kGap = kArmB + 3,
-  kNormalMass,
-  kStick11,
-  kStick12,
-  kStick22,
-  kSlideMass,
-  kImpulses,  // normal, tangent 1 and 2, of the substep
-  kSlides = kImpulses + 3,
-  kApproach,
-  kStopping,
-  kTotals,                // as kImpulses
-  kBefore = kTotals + 3,  // of core::PatchWay
-  kWay = kBefore + 3,
-  kPointWords = kWay + 3,
-};
-constexpr std::uint32_t kConstraintWords = kPoints + core::kManifoldPoints * kPointWords;
 constexpr std::uint32_t kTile = 32;
+constexpr std::uint32_t kWordBytes = 16;
 
-constexpr std::uint64_t constraint_floats(std::uint64_t places) {
+// A body's index and the number of points share 4 bytes.
+constexpr std::uint32_t kCountShift = 29;
+static_assert(core::kManifoldPoints == 4, "the points of a patch are the four parts of a word");
+
+constexpr std::uint64_t constraint_words(std::uint64_t places) {
   return (places + kTile - 1) / kTile * kTile * kConstraintWords;
 }
 

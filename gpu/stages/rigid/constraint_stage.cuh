@@ -7,17 +7,10 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
-#include "gpu/stages/rigid/patch_stage.cuh"
+#include "gpu/stages/rigid/contact_body.cuh"
 #include "gpu/stages/rigid/solver_bodies.cuh"
 
 namespace broadside::gpu {
-
-template <typename Team>
-__device__ void begin_bodies(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size())
-    store_body(f.bodies[i], core::solver_body(f.before[i], f.mass[i]));
-  if (team.rank() == 0) store_body(f.bodies[f.body_count], core::SolverBody{});
-}
 
 // Where these bodies' points of the step before have this feature: the first of them, patch by patch; or nowhere.
 constexpr std::uint32_t kForgotten = 0xFFFFFFFFU;
@@ -57,6 +50,7 @@ __device__ inline int step_kind(const RigidFrameView& f) {
 template <typename Team>
 __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
+  bool bounces = false;
   for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
     if (f.patch_at[place] == kUncolored) continue;
     const core::ContactPatch patch = f.patches.items[f.patch_at[place]];
@@ -71,14 +65,16 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     c.b = b;
     core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
     recall(f, soft, patch, c);
-    if (surface.restitution > 0.0F) atomicMax(&f.counts->bounces, 1U);
-    store_constraint(TileSlot(f.constraints, place), c);
+    bounces = bounces || surface.restitution > 0.0F;
+    store_constraint(TileSlot(f.constraints, place), c, across);
   }
+  __syncwarp();
+  if (__any_sync(kFullWarp, bounces) && lane() == 0) atomicMax(&f.counts->bounces, 1U);
 }
 
 template <typename Team>
 __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size())
+  for (std::uint64_t i = team.spread_rank(); i < f.body_count; i += team.size())
     f.after[i] = core::state_after(load_body(f.bodies[i]), f.before[i]);
 }
 
@@ -87,23 +83,27 @@ template <typename Team>
 __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
   const float per_s = 1.0F / soft.dt_s;
-  for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
+  for (std::uint64_t place = team.spread_rank(); place < f.counts->places; place += team.size()) {
     const std::uint32_t patch = f.patch_at[place];
     if (patch == kUncolored) continue;
     const TileSlot slot(f.constraints, place);
-    core::PatchConstraint c = load_bodies_and_points(slot);
-    load_tangents(slot, c);
+    core::PatchConstraint c;
+    load_bodies(slot, c);
+    load_directions(slot, c);
     load_impulses(slot, c);
     load_totals(slot, c);
-    for (int k = 0; k < core::kManifoldPoints; ++k) {
-      const std::uint64_t at = 4 * std::uint64_t{patch} + static_cast<std::uint64_t>(k);
-      f.memory.feature[at] = k < c.count ? f.patches.items[patch].manifold.points[k].feature : 0;
-      if (k >= c.count) continue;
+    const std::uint64_t first = std::uint64_t{kFourPoints} * patch;
+#pragma unroll
+    for (std::uint32_t k = 0; k < kFourPoints; ++k)
+      f.memory.feature[first + k] =
+          static_cast<int>(k) < c.count ? f.patches.items[patch].manifold.points[k].feature : 0;
+    core::each_point(c, [&](int k) {
       const core::PatchPoint& p = c.points[k];
+      const std::uint64_t at = first + static_cast<std::uint64_t>(k);
       f.impulses[at] = core::total_impulse(c, p);
       const core::Vec3 friction = p.tangent_impulse_1 * c.tangent_1 + p.tangent_impulse_2 * c.tangent_2;
       f.memory.impulse[at] = {per_s * friction, per_s * p.normal_impulse};
-    }
+    });
   }
 }
 

@@ -1,172 +1,216 @@
-// Constraints of patches in memory, part by part.
+// Constraints of patches in memory, part by part. All four points are loaded, whether the patch has them or not: a load
+// that waits for the number of points comes later than one too many.
 #pragma once
 
 #include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
+#include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/rigid/constraint_layout.hpp"
 
 namespace broadside::gpu {
 
+constexpr std::uint32_t kFourPoints = core::kManifoldPoints;
+
 // The constraint at one place.
 class TileSlot {
  public:
-  __device__ TileSlot(float* constraints, std::uint64_t place)
+  __device__ TileSlot(PackedVec3* constraints, std::uint64_t place)
       : first_(constraints + place / kTile * (kTile * kConstraintWords) + place % kTile) {}
 
-  __device__ float& at(std::uint32_t word) const { return first_[word * kTile]; }
-  __device__ float& at(int point, std::uint32_t word) const {
-    return at(kPoints + static_cast<std::uint32_t>(point) * kPointWords + word);
+  __device__ PackedVec3& at(std::uint32_t word) const { return first_[word * kTile]; }
+  // One of four numbers that lie in a word of their own.
+  __device__ void load_each(std::uint32_t word, float (&numbers)[kFourPoints]) const {
+    const PackedVec3 w = at(word);
+    numbers[0] = w.v.x;
+    numbers[1] = w.v.y;
+    numbers[2] = w.v.z;
+    numbers[3] = w.w;
   }
-  __device__ core::Vec3 vector(std::uint32_t word) const { return {at(word), at(word + 1), at(word + 2)}; }
-  __device__ core::Vec3 vector(int point, std::uint32_t word) const {
-    return vector(kPoints + static_cast<std::uint32_t>(point) * kPointWords + word);
-  }
-  __device__ void put(std::uint32_t word, core::Vec3 v) const {
-    at(word) = v.x;
-    at(word + 1) = v.y;
-    at(word + 2) = v.z;
-  }
-  __device__ void put(int point, std::uint32_t word, core::Vec3 v) const {
-    put(kPoints + static_cast<std::uint32_t>(point) * kPointWords + word, v);
+  __device__ void store_each(std::uint32_t word, const float (&numbers)[kFourPoints]) const {
+    at(word) = {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
   }
 
  private:
-  float* first_;
+  PackedVec3* first_;
 };
 
-// What no sweep changes, without what only friction or only a bounce needs.
-__device__ inline core::PatchConstraint load_bodies_and_points(const TileSlot& slot) {
-  core::PatchConstraint c;
-  c.a = __float_as_uint(slot.at(kBodyA));
-  c.b = __float_as_uint(slot.at(kBodyB));
-  c.count = static_cast<int>(__float_as_uint(slot.at(kPointCount)));
-  c.normal = slot.vector(kNormal);
-  for (int k = 0; k < c.count; ++k) {
-    c.points[k].arm_a = slot.vector(k, kArmA);
-    c.points[k].arm_b = slot.vector(k, kArmB);
+// Which bodies, where their points are, and what is to be done there.
+__device__ __forceinline__ void load_bodies(const TileSlot& slot, core::PatchConstraint& c) {
+  const PackedVec3 bodies = slot.at(kPatchBodies);
+  const std::uint32_t packed = __float_as_uint(bodies.v.x);
+  c.a = packed & ((1U << kCountShift) - 1U);
+  c.count = static_cast<int>(packed >> kCountShift);
+  c.b = __float_as_uint(bodies.v.y);
+  c.slop_m = bodies.v.z;
+  c.fastest_push_m_s = bodies.w;
+}
+
+// Directions, and the surface that lies in the same words.
+__device__ __forceinline__ core::Vec3 load_directions(const TileSlot& slot, core::PatchConstraint& c) {
+  const PackedVec3 normal = slot.at(kNormal);
+  const PackedVec3 tangent = slot.at(kTangent);
+  const PackedVec3 across = slot.at(kAcross);
+  c.normal = normal.v;
+  c.tangent_1 = tangent.v;
+  c.tangent_2 = core::cross(normal.v, tangent.v);
+  c.surface = {normal.w, tangent.w, across.w};
+  return across.v;
+}
+
+// across: from load_directions. The second arm is the same difference as when the constraint was made.
+__device__ __forceinline__ void load_arms(const TileSlot& slot, core::Vec3 across, core::PatchConstraint& c) {
+#pragma unroll
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) {
+    const PackedVec3 arm = slot.at(kArms + k);
+    c.points[k].arm_a = arm.v;
+    c.points[k].arm_b = arm.v - across;
+    c.points[k].gap_m = arm.w;
   }
+}
+
+__device__ __forceinline__ void load_masses(const TileSlot& slot, core::PatchConstraint& c) {
+#pragma unroll
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) {
+    const PackedVec3 masses = slot.at(kMasses + k);
+    c.points[k].normal_mass = masses.v.x;
+    c.points[k].stick_mass_11 = masses.v.y;
+    c.points[k].stick_mass_12 = masses.v.z;
+    c.points[k].stick_mass_22 = masses.w;
+  }
+}
+
+// The slide masses are stored with the impulses.
+__device__ __forceinline__ void store_masses(const TileSlot& slot, const core::PatchConstraint& c) {
+  core::each_point(c, [&](int k) {
+    const core::PatchPoint& p = c.points[k];
+    slot.at(kMasses + static_cast<std::uint32_t>(k)) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12},
+                                                        p.stick_mass_22};
+  });
+}
+
+// A point that slides has the sign of its slide mass, which is positive, turned over.
+__device__ __forceinline__ void load_impulses(const TileSlot& slot, core::PatchConstraint& c) {
+#pragma unroll
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) {
+    const PackedVec3 impulse = slot.at(kImpulses + k);
+    core::PatchPoint& p = c.points[k];
+    p.normal_impulse = impulse.v.x;
+    p.tangent_impulse_1 = impulse.v.y;
+    p.tangent_impulse_2 = impulse.v.z;
+    p.slides = (__float_as_uint(impulse.w) & 0x80000000U) != 0;
+    p.slide_mass = __uint_as_float(__float_as_uint(impulse.w) & 0x7FFFFFFFU);
+  }
+}
+
+__device__ __forceinline__ void store_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
+  core::each_point(c, [&](int k) {
+    const core::PatchPoint& p = c.points[k];
+    const std::uint32_t sign = p.slides ? 0x80000000U : 0U;
+    slot.at(kImpulses + static_cast<std::uint32_t>(k)) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2},
+                                                          __uint_as_float(__float_as_uint(p.slide_mass) | sign)};
+  });
+}
+
+// What a sweep reads.
+__device__ __forceinline__ core::PatchConstraint load_for_sweep(const TileSlot& slot) {
+  core::PatchConstraint c;
+  load_bodies(slot, c);
+  const core::Vec3 across = load_directions(slot, c);
+  load_arms(slot, across, c);
+  load_masses(slot, c);
+  load_impulses(slot, c);
   return c;
 }
 
-__device__ inline void load_tangents(const TileSlot& slot, core::PatchConstraint& c) {
-  c.tangent_1 = slot.vector(kTangent1);
-  c.tangent_2 = slot.vector(kTangent2);
+__device__ __forceinline__ void load_approach(const TileSlot& slot, core::PatchConstraint& c) {
+  float all[kFourPoints];
+  slot.load_each(kApproaches, all);
+#pragma unroll
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) c.points[k].approach_m_s = all[k];
 }
 
-__device__ inline void load_surface_and_masses(const TileSlot& slot, core::PatchConstraint& c) {
-  c.surface = {slot.at(kSurface), slot.at(kSurface + 1), slot.at(kSurface + 2)};
-  c.slop_m = slot.at(kSlop);
-  c.fastest_push_m_s = slot.at(kFastestPush);
-  for (int k = 0; k < c.count; ++k) {
-    core::PatchPoint& p = c.points[k];
-    p.gap_m = slot.at(k, kGap);
-    p.normal_mass = slot.at(k, kNormalMass);
-    p.stick_mass_11 = slot.at(k, kStick11);
-    p.stick_mass_12 = slot.at(k, kStick12);
-    p.stick_mass_22 = slot.at(k, kStick22);
-    p.slide_mass = slot.at(k, kSlideMass);
+__device__ __forceinline__ void store_approach(const TileSlot& slot, const core::PatchConstraint& c) {
+  float all[kFourPoints] = {};
+  core::each_point(c, [&](int k) { all[k] = c.points[k].approach_m_s; });
+  slot.store_each(kApproaches, all);
+}
+
+__device__ __forceinline__ void load_stopping(const TileSlot& slot, core::PatchConstraint& c) {
+  float all[kFourPoints];
+  slot.load_each(kStoppings, all);
+#pragma unroll
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) c.points[k].stopping_impulse = all[k];
+}
+
+__device__ __forceinline__ void store_stopping(const TileSlot& slot, const core::PatchConstraint& c) {
+  float all[kFourPoints] = {};
+  core::each_point(c, [&](int k) { all[k] = c.points[k].stopping_impulse; });
+  slot.store_each(kStoppings, all);
+}
+
+__device__ __forceinline__ void load_totals(const TileSlot& slot, core::PatchConstraint& c) {
+  float all[3][kFourPoints];
+#pragma unroll
+  for (std::uint32_t i = 0; i < 3; ++i) slot.load_each(kTotals + i, all[i]);
+#pragma unroll
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) {
+    c.points[k].normal_total = all[0][k];
+    c.points[k].tangent_total_1 = all[1][k];
+    c.points[k].tangent_total_2 = all[2][k];
   }
 }
 
-__device__ inline void load_impulses(const TileSlot& slot, core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) {
-    core::PatchPoint& p = c.points[k];
-    p.normal_impulse = slot.at(k, kImpulses);
-    p.tangent_impulse_1 = slot.at(k, kImpulses + 1);
-    p.tangent_impulse_2 = slot.at(k, kImpulses + 2);
-    p.slides = slot.at(k, kSlides) != 0.0F;
+__device__ __forceinline__ void store_totals(const TileSlot& slot, const core::PatchConstraint& c) {
+  float all[3][kFourPoints] = {};
+  core::each_point(c, [&](int k) {
+    all[0][k] = c.points[k].normal_total;
+    all[1][k] = c.points[k].tangent_total_1;
+    all[2][k] = c.points[k].tangent_total_2;
+  });
+#pragma unroll
+  for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, all[i]);
+}
+
+// Three numbers of each point: `word` is kBefore or kWays.
+__device__ __forceinline__ void load_triples(const TileSlot& slot, std::uint32_t word,
+                                             float (&triples)[kFourPoints][3]) {
+#pragma unroll
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    float all[kFourPoints];
+    slot.load_each(word + i, all);
+#pragma unroll
+    for (std::uint32_t k = 0; k < kFourPoints; ++k) triples[k][i] = all[k];
   }
 }
 
-__device__ inline void store_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) {
+__device__ __forceinline__ void store_triples(const TileSlot& slot, std::uint32_t word,
+                                              const float (&triples)[kFourPoints][3]) {
+#pragma unroll
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const float all[kFourPoints] = {triples[0][i], triples[1][i], triples[2][i], triples[3][i]};
+    slot.store_each(word + i, all);
+  }
+}
+
+// All of it, when it was made. Points that the patch does not have are zeros.
+__device__ inline void store_constraint(const TileSlot& slot, core::PatchConstraint& c, core::Vec3 across) {
+  for (int k = c.count; k < core::kManifoldPoints; ++k) c.points[k] = {};
+  const std::uint32_t packed = c.a | static_cast<std::uint32_t>(c.count) << kCountShift;
+  slot.at(kPatchBodies) = {{__uint_as_float(packed), __uint_as_float(c.b), c.slop_m}, c.fastest_push_m_s};
+  slot.at(kNormal) = {c.normal, c.surface.mu_static};
+  slot.at(kTangent) = {c.tangent_1, c.surface.mu_kinetic};
+  slot.at(kAcross) = {across, c.surface.restitution};
+#pragma unroll
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) {
     const core::PatchPoint& p = c.points[k];
-    slot.at(k, kImpulses) = p.normal_impulse;
-    slot.at(k, kImpulses + 1) = p.tangent_impulse_1;
-    slot.at(k, kImpulses + 2) = p.tangent_impulse_2;
-    slot.at(k, kSlides) = p.slides ? 1.0F : 0.0F;
+    slot.at(kArms + k) = {p.arm_a, p.gap_m};
+    slot.at(kMasses + k) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12}, p.stick_mass_22};
+    slot.at(kImpulses + k) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2}, p.slide_mass};
   }
-}
-
-__device__ inline void load_approach(const TileSlot& slot, core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) c.points[k].approach_m_s = slot.at(k, kApproach);
-}
-
-__device__ inline void store_approach(const TileSlot& slot, const core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) slot.at(k, kApproach) = c.points[k].approach_m_s;
-}
-
-__device__ inline void load_stopping(const TileSlot& slot, core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) c.points[k].stopping_impulse = slot.at(k, kStopping);
-}
-
-__device__ inline void store_stopping(const TileSlot& slot, const core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) slot.at(k, kStopping) = c.points[k].stopping_impulse;
-}
-
-__device__ inline void load_totals(const TileSlot& slot, core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) {
-    c.points[k].normal_total = slot.at(k, kTotals);
-    c.points[k].tangent_total_1 = slot.at(k, kTotals + 1);
-    c.points[k].tangent_total_2 = slot.at(k, kTotals + 2);
-  }
-}
-
-__device__ inline void store_totals(const TileSlot& slot, const core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) {
-    slot.at(k, kTotals) = c.points[k].normal_total;
-    slot.at(k, kTotals + 1) = c.points[k].tangent_total_1;
-    slot.at(k, kTotals + 2) = c.points[k].tangent_total_2;
-  }
-}
-
-__device__ inline core::PatchWay load_way(const TileSlot& slot, int count) {
-  core::PatchWay way{};
-  for (int k = 0; k < count; ++k) {
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      way.before[k][i] = slot.at(k, kBefore + i);
-      way.way[k][i] = slot.at(k, kWay + i);
-    }
-  }
-  return way;
-}
-
-__device__ inline void store_before(const TileSlot& slot, int count, const core::PatchWay& way) {
-  for (int k = 0; k < count; ++k)
-    for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kBefore + i) = way.before[k][i];
-}
-
-__device__ inline void store_direction(const TileSlot& slot, int count, const core::PatchWay& way) {
-  for (int k = 0; k < count; ++k)
-    for (std::uint32_t i = 0; i < 3; ++i) slot.at(k, kWay + i) = way.way[k][i];
-}
-
-// All of it, when it was made.
-__device__ inline void store_constraint(const TileSlot& slot, const core::PatchConstraint& c) {
-  slot.at(kBodyA) = __uint_as_float(c.a);
-  slot.at(kBodyB) = __uint_as_float(c.b);
-  slot.at(kPointCount) = __uint_as_float(static_cast<std::uint32_t>(c.count));
-  slot.put(kNormal, c.normal);
-  slot.put(kTangent1, c.tangent_1);
-  slot.put(kTangent2, c.tangent_2);
-  slot.put(kSurface, {c.surface.mu_static, c.surface.mu_kinetic, c.surface.restitution});
-  slot.at(kSlop) = c.slop_m;
-  slot.at(kFastestPush) = c.fastest_push_m_s;
-  for (int k = 0; k < c.count; ++k) {
-    const core::PatchPoint& p = c.points[k];
-    slot.put(k, kArmA, p.arm_a);
-    slot.put(k, kArmB, p.arm_b);
-    slot.at(k, kGap) = p.gap_m;
-    slot.at(k, kNormalMass) = p.normal_mass;
-    slot.at(k, kStick11) = p.stick_mass_11;
-    slot.at(k, kStick12) = p.stick_mass_12;
-    slot.at(k, kStick22) = p.stick_mass_22;
-    slot.at(k, kSlideMass) = p.slide_mass;
-  }
-  store_impulses(slot, c);
-  store_approach(slot, c);
-  store_totals(slot, c);
+  const float none[kFourPoints] = {};
+  slot.store_each(kApproaches, none);
+  for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, none);
 }
 
 }  // namespace broadside::gpu

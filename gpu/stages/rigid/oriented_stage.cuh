@@ -2,16 +2,13 @@
 #pragma once
 
 #include "core/method/rigid/oriented_levels.hpp"
-#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/contact_body.cuh"
 
 namespace broadside::gpu {
 
-__device__ inline core::ContactPose pose_of(const RigidFrameView& f, std::uint32_t body) {
-  return {f.before[body].x, f.before[body].q};
-}
-
-__device__ inline bool levels_meet(const RigidFrameView& f, core::Pair pair) {
+__device__ inline bool levels_meet(const ContactView& f, core::Pair pair) {
   const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
   const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
   const core::RelativePose pose = core::relative_pose(pose_of(f, pair.i), a.balls.outer_m, pose_of(f, pair.j),
@@ -20,8 +17,23 @@ __device__ inline bool levels_meet(const RigidFrameView& f, core::Pair pair) {
   return core::is_confirmed(f.levels, *a.nodes, *b.nodes, pose, tests);
 }
 
+__device__ inline core::Pusher pusher_of(const ContactView& f, std::uint32_t body) {
+  const PackedPusher p = f.pushers[body];
+  return {f.before[body].x,           p.drift.v, p.pushed.v, p.drift.w, f.mass[body].inverse_mass, body,
+          __float_as_uint(p.pushed.w)};
+}
+
+// What candidates may do to each other in the next step.
+__device__ inline void note_pushes(const ContactView& f, core::Pair pair) {
+  const core::Pusher a = pusher_of(f, pair.i);
+  const core::Pusher b = pusher_of(f, pair.j);
+  const float restitution = max(f.material[pair.i].restitution, f.material[pair.j].restitution);
+  if (const unsigned long long push = core::push_by(a, b, restitution); push != 0) atomicMax(&f.push[pair.i], push);
+  if (const unsigned long long push = core::push_by(b, a, restitution); push != 0) atomicMax(&f.push[pair.j], push);
+}
+
 // Of all n^2 ordered pairs, where no broad phase came before: false for what is no pair.
-__device__ inline bool pair_of_all(const RigidFrameView& f, std::uint64_t k, core::Pair& pair) {
+__device__ inline bool pair_of_all(const ContactView& f, std::uint64_t k, core::Pair& pair) {
   pair = {static_cast<std::uint32_t>(k / f.body_count), static_cast<std::uint32_t>(k % f.body_count)};
   // Boxes of the whole step that do not meet are no pair.
   return pair.i < pair.j && core::overlaps(unpack(f.boxes[pair.i]), unpack(f.boxes[pair.j])) &&
@@ -29,7 +41,7 @@ __device__ inline bool pair_of_all(const RigidFrameView& f, std::uint64_t k, cor
 }
 
 template <typename Team>
-__device__ void confirm_pairs(const Team& team, const RigidFrameView& f) {
+__device__ void confirm_pairs(const Team& team, const ContactView& f) {
   const std::uint64_t n =
       f.has_broad ? f.broad_counters->pairs : std::uint64_t{f.body_count} * std::uint64_t{f.body_count};
   const std::uint64_t first = team.spread_rank() - lane();  // of this warp
@@ -39,6 +51,7 @@ __device__ void confirm_pairs(const Team& team, const RigidFrameView& f) {
     bool is_pair = k < n;
     if (is_pair && f.has_broad) pair = f.pairs[k];
     if (is_pair && !f.has_broad) is_pair = pair_of_all(f, k, pair);
+    if (is_pair) note_pushes(f, pair);
     const bool meets = is_pair && levels_meet(f, pair);
     const std::uint64_t place = warp_append_one(meets, &f.counts->confirmed);
     if (!meets || place >= f.confirmed.capacity) continue;

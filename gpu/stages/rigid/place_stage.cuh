@@ -1,4 +1,5 @@
-// Boxes of turned bodies, swept over what each can fill within the step. RIGID 8.2 and 8.7.
+// Boxes of turned bodies, swept over what each can fill within the step, and all else that a step begins with.
+// RIGID 8.2 and 8.7.
 #pragma once
 
 #include "core/method/rigid/motion_reach.hpp"
@@ -6,6 +7,7 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/solver_bodies.cuh"
 
 namespace broadside::gpu {
 
@@ -22,8 +24,9 @@ __device__ inline core::RigidWrench wrench_of(const RigidFrameView& f, std::uint
 __device__ inline void run_place(const RigidFrameView& f) {
   const GridPlaces grid;
   if (grid.rank() == 0) {
-    f.counts->arrived = 0;
     f.outcome->begin_ns = now_ns();
+    store_body(f.bodies[f.body_count], core::SolverBody{});
+    f.stirred[f.body_count] = 0;
   }
   std::uint32_t side = 0;
   std::uint32_t coordinate = 0;
@@ -35,11 +38,19 @@ __device__ inline void run_place(const RigidFrameView& f) {
     const core::RigidWrench wrench = wrench_of(f, i);
     const core::FreeMotion motion = core::free_motion(s, mass, shape.balls, f.gravity_m_s2, wrench, f.dt_s);
     const core::Box shape_box = core::turned_box(shape.contact, shape.vertices, s.x, s.q);
-    const core::Box box = core::swept_box(shape_box, motion);
+    const core::PushWord push = f.old_push[i];
+    const std::uint32_t pusher = core::pusher_of(push);
+    const core::Vec3 pushed = core::pushed_way(push, motion.drift, f.dt_s * f.before[pusher].v);
+    const core::Box box = core::pushed_box(core::swept_box(shape_box, motion), pushed);
+    f.pushers[i] = {{motion.drift, motion.swing_m}, {pushed, __uint_as_float(pusher)}};
+    f.push[i] = 0;
     f.free_end[i] = core::free_end(s, mass, f.gravity_m_s2, wrench, f.dt_s);
-    f.reach_m[i] = motion.reach_m();
+    f.reach_m[i] = motion.reach_m() + core::length(pushed);
     f.fall_m[i] = core::length(motion.fall);
     f.pushed_m[i] = 0;
+    f.memory.count[i] = 0;
+    store_body(f.bodies[i], core::solver_body(s, mass));
+    f.stirred[i] = 0;
     f.shape_boxes[i] = shape_box;
     f.boxes[i] = pack(box, i, mass.inverse_mass > 0.0F ? 0U : 1U);
     for (int axis = 0; axis < 3; ++axis) {
@@ -47,6 +58,10 @@ __device__ inline void run_place(const RigidFrameView& f) {
       coordinate = max(coordinate, max(as_ordered(fabsf(box.min[axis])), as_ordered(fabsf(box.max[axis]))));
     }
   }
+  __syncwarp();
+  side = warp_max(side);
+  coordinate = warp_max(coordinate);
+  if (lane() != 0) return;
   if (side != 0) atomicMax(&f.counts->largest_side, side);
   if (coordinate != 0) atomicMax(&f.counts->largest_coordinate, coordinate);
 }

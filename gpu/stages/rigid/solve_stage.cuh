@@ -1,239 +1,198 @@
-// The substeps of a step, with the sweeps of core/method/rigid/soft_contact.hpp: color by color, a thread a patch. The
-// same loop as reference/octree_cpu/rigid/soft_solver.cpp.
+// The substeps of a step: the same loop as reference/octree_cpu/rigid/soft_solver.cpp. What the twin does to all
+// contacts in loops of their own is done here where they are at hand already, with the same bits.
 #pragma once
 
 #include "core/math/order_free_sum.hpp"
-#include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 #include "gpu/rigid/rigid_view.hpp"
-#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/color_loop.cuh"
 #include "gpu/stages/rigid/constraint_stage.cuh"
-#include "gpu/stages/rigid/constraint_tiles.cuh"
-#include "gpu/stages/rigid/solver_bodies.cuh"
+#include "gpu/stages/rigid/kept_impulses.cuh"
+#include "gpu/stages/rigid/sweeps.cuh"
 #include "gpu/stages/rigid/team_sums.cuh"
 
 namespace broadside::gpu {
-
-template <typename Team, typename Work>
-__device__ void each_body(const Team& team, const RigidFrameView& f, const Work& work) {
-  for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) work(static_cast<std::uint32_t>(i));
-  team.sync();
-}
-
-// work(slot, constraint) for every patch, in any order: it reads bodies alone. No barrier behind it.
-template <typename Team, typename Work>
-__device__ void each_patch(const Team& team, const RigidFrameView& f, const Work& work) {
-  for (std::uint64_t place = team.rank(); place < f.counts->places; place += team.size()) {
-    if (f.patch_at[place] == kUncolored) continue;
-    const TileSlot slot(f.constraints, place);
-    core::PatchConstraint c = load_bodies_and_points(slot);
-    work(slot, c);
-  }
-}
-
-// work(slot, constraint, a, b) color by color; what it makes of the bodies' velocities is stored.
-template <typename Team, typename Work>
-__device__ void each_patch_by_color(const Team& team, const RigidFrameView& f, const Work& work) {
-  const std::uint32_t colors = f.counts->colors;
-  std::uint32_t begin = f.color_begin[0];
-  std::uint32_t count = f.color_count[0];
-  for (std::uint32_t color = 0; color < colors; ++color) {
-    const std::uint64_t end = std::uint64_t{begin} + count;
-    for (std::uint64_t place = begin + team.rank(); place < end; place += team.size()) {
-      const TileSlot slot(f.constraints, place);
-      core::PatchConstraint c = load_bodies_and_points(slot);
-      core::SolverBody a = load_moving(f.bodies[c.a]);
-      core::SolverBody b = load_moving(f.bodies[c.b]);
-      work(slot, c, a, b);
-      store_velocity(f.bodies[c.a], a);
-      store_velocity(f.bodies[c.b], b);
-    }
-    // Before the barrier, which makes the threads forget what they loaded.
-    if (color + 1 < colors) {
-      begin = f.color_begin[color + 1];
-      count = f.color_count[color + 1];
-    }
-    team.sync();
-  }
-}
-
-__device__ inline void load_for_sweep(const TileSlot& slot, core::PatchConstraint& c) {
-  load_tangents(slot, c);
-  load_surface_and_masses(slot, c);
-  load_impulses(slot, c);
-}
 
 // One step's numbers, and what its threads bring together.
 struct Solve {
   core::SoftStep soft;
   bool may_bounce = false;
+  bool has_way = false;  // several sweeps along conjugate directions
   TeamSums sums;
+  std::uint32_t sweep = 0;  // of all sweeps of bounces in this step
 };
 
-// Returns the largest change of a point's speed. has_way: directions follow.
-template <typename Team>
-__device__ float sweep(const Team& team, const RigidFrameView& f, Solve& solve, bool has_way) {
-  float largest = 0.0F;
-  each_patch_by_color(team, f,
-                      [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-                        load_for_sweep(slot, c);
-                        core::PatchWay way{};
-                        core::note_impulses(c, way);
-                        if (has_way) store_before(slot, c.count, way);
-                        largest = fmaxf(largest, core::solve_patch(c, a, b, solve.soft));
-                        store_impulses(slot, c);
-                      });
-  return has_way ? solve.sums.largest(team, largest) : largest;
+__device__ __forceinline__ void accelerate(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
+                                           float dt_s) {
+  core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, dt_s);
 }
 
-// Adds to the impulses what the last directions suggest. Returns the square of what the last sweep changed.
-template <typename Team>
-__device__ float follow_direction(const Team& team, const RigidFrameView& f, Solve& solve, float last_change) {
-  const auto changed = [&](const TileSlot& slot, core::PatchConstraint& c) {
-    load_surface_and_masses(slot, c);
-    load_impulses(slot, c);
-    return core::squared_change(c, load_way(slot, c.count));
-  };
-  float largest = 0.0F;
-  each_patch(team, f,
-             [&](const TileSlot& slot, core::PatchConstraint& c) { largest = fmaxf(largest, changed(slot, c)); });
-  const core::OrderFreeSum sum(solve.sums.largest(team, largest));
-  std::uint64_t units = 0;
-  each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) { units += sum.units(changed(slot, c)); });
-  const float change = sum.value(solve.sums.sum(team, units));
-  const float share = last_change > 0.0F && change <= last_change ? change / last_change : 0.0F;
-  each_patch_by_color(team, f,
-                      [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-                        load_for_sweep(slot, c);
-                        core::PatchWay way = load_way(slot, c.count);
-                        core::follow(c, way, a, b, share);
-                        store_impulses(slot, c);
-                        store_direction(slot, c.count, way);
-                      });
-  return change;
+// As the next substep's sweeps find it: the body that stands for the faces has no wrench and never moves.
+__device__ __forceinline__ core::SolverBody accelerated(const RigidFrameView& f, std::uint32_t i, float dt_s) {
+  core::SolverBody body = f.wrench == nullptr ? load_moving(f.bodies[i]) : load_body(f.bodies[i]);
+  if (i < f.body_count) accelerate(f, i, body, dt_s);
+  return body;
 }
 
-template <typename Team>
-__device__ void sweep_until_done(const Team& team, const RigidFrameView& f, Solve& solve) {
-  const bool has_way = f.solver.sweeps > 1;
-  float done = 0.0F;
-  if (has_way) {
-    float fastest = 0.0F;
-    each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
-      fastest = fmaxf(fastest, core::fastest_point(c, load_moving(f.bodies[c.a]), load_moving(f.bodies[c.b])));
-      store_direction(slot, c.count, core::PatchWay{});
-    });
-    // The speeds are read before anything changes them.
-    done = f.solver.done * solve.sums.largest(team, fastest);
-  }
-  each_patch_by_color(team, f,
-                      [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-                        load_tangents(slot, c);
-                        load_impulses(slot, c);
-                        core::warm_start(c, a, b);
-                        store_impulses(slot, c);
-                      });
-  float last_change = 0.0F;
-  for (std::uint32_t k = 1;; ++k) {
-    const float largest = sweep(team, f, solve, has_way);
-    if (k >= f.solver.sweeps || largest <= done) return;
-    last_change = follow_direction(team, f, solve, last_change);
-  }
+// Between two substeps, before the first and behind the last one: totals of the one that ends; of the one that begins,
+// how fast points come. Brings their largest speed under gravity, which says when sweeps are done.
+__device__ __forceinline__ void change_substeps(const SolveTeam& team, const RigidFrameView& f, const Solve& solve,
+                                                bool ends, bool begins) {
+  float fastest = 0.0F;
+  each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
+    core::PatchConstraint c;
+    load_bodies(slot, c);
+    const core::Vec3 across = load_directions(slot, c);
+    if (ends) {
+      load_impulses(slot, c);
+      if (solve.may_bounce) load_approach(slot, c);
+      load_totals(slot, c);
+      core::add_to_totals(c, solve.soft);
+      if (solve.may_bounce) store_impulses(slot, c);
+      store_totals(slot, c);
+    }
+    if (!begins || !(solve.may_bounce || solve.has_way)) return;
+    load_arms(slot, across, c);
+    if (solve.may_bounce) {
+      core::note_approach(c, load_moving(f.bodies[c.a]), load_moving(f.bodies[c.b]));
+      store_approach(slot, c);
+    }
+    if (!solve.has_way) return;
+    const core::SolverBody a = accelerated(f, c.a, solve.soft.dt_s);
+    const core::SolverBody b = accelerated(f, c.b, solve.soft.dt_s);
+    fastest = fmaxf(fastest, core::fastest_point(c, a, b));
+  });
+  __syncwarp();
+  if (begins && solve.has_way) solve.sums.bring_largest(TeamSums::kFirst, fastest);
 }
 
-// Returns the largest change of a point's speed.
-template <typename Team>
-__device__ float relax(const Team& team, const RigidFrameView& f, const Solve& solve) {
-  float largest = 0.0F;
-  each_patch_by_color(team, f,
-                      [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-                        load_for_sweep(slot, c);
-                        if (solve.may_bounce) load_approach(slot, c);
-                        largest = fmaxf(largest, core::relax_patch(c, a, b, solve.soft));
-                        store_impulses(slot, c);
-                      });
+// Behind a barrier.
+__device__ __forceinline__ float largest_of_turn(const SolveTeam& team, Solve& solve) {
+  const float largest = solve.sums.largest(TeamSums::kFirst);
+  solve.sums.end_turn(team);
   return largest;
 }
 
-// The fastest approach of what bounces. stops: what stopped each point is noted.
-template <typename Team>
-__device__ float fastest_of_bounces(const Team& team, const RigidFrameView& f, Solve& solve, bool stops) {
-  float fastest = 0.0F;
-  each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
-    load_surface_and_masses(slot, c);
-    load_impulses(slot, c);
-    load_approach(slot, c);
-    fastest = fmaxf(fastest, core::fastest_bounce(c, solve.soft));
-    if (!stops) return;
-    core::note_stopping(c);
-    store_stopping(slot, c);
-  });
-  return solve.sums.largest(team, fastest);
+// The sum of what the last sweep changed, J. By all threads; a barrier.
+__device__ __forceinline__ float sum_of_changes(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
+                                                float largest) {
+  const core::OrderFreeSum sum(largest);
+  std::uint64_t units = 0;
+  for (std::uint64_t place = team.spread_rank(); place < f.counts->places; place += team.size())
+    if (f.patch_at[place] != kUncolored) units += sum.units(f.changes[place]);
+  __syncwarp();
+  solve.sums.bring_sum(units);
+  team.sync();
+  const float change = sum.value(solve.sums.sum());
+  solve.sums.end_turn(team);
+  return change;
 }
 
-// Until nothing bounces any more that did.
-template <typename Team>
-__device__ void bounce_all(const Team& team, const RigidFrameView& f, Solve& solve) {
-  float largest = fastest_of_bounces(team, f, solve, false);
-  const float done = core::kBounceDone * largest;
-  if (!(done > 0.0F)) return;
-  // A share of what stopped them is given back, so that is to be known well.
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k)
-    largest = solve.sums.largest(team, relax(team, f, solve));
-  largest = fastest_of_bounces(team, f, solve, true);
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
-    float change = 0.0F;
-    each_patch_by_color(team, f,
-                        [&](const TileSlot& slot, core::PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-                          load_for_sweep(slot, c);
-                          load_approach(slot, c);
-                          load_stopping(slot, c);
-                          if (!(core::fastest_bounce(c, solve.soft) > 0.0F)) return;
-                          change = fmaxf(change, core::bounce(c, a, b, solve.soft));
-                          store_impulses(slot, c);
-                        });
-    largest = solve.sums.largest(team, change);
-  }
-}
-
-template <typename Team>
-__device__ void run_substep(const Team& team, const RigidFrameView& f, Solve& solve) {
-  if (solve.may_bounce) {
-    each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
-      core::note_approach(c, load_moving(f.bodies[c.a]), load_moving(f.bodies[c.b]));
-      store_approach(slot, c);
+__device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
+                                                 float done) {
+  float first_change = 0.0F;
+  float last_change = 0.0F;
+  float share = 0.0F;
+  for (std::uint32_t k = 1;; ++k) {
+    sweep_along(team, f, solve.soft, k == 1, share, solve.sums);
+    team.sync();
+    const float largest_change = solve.sums.largest(TeamSums::kSecond);
+    const float largest_speed = largest_of_turn(team, solve);
+    if (k >= f.solver.sweeps || largest_speed <= done) return;
+    const float change = sum_of_changes(team, f, solve, largest_change);
+    if (!(last_change > 0.0F)) first_change = change;
+    share = core::share_of_direction(first_change, last_change, change);
+    last_change = change;
+    each_body(team, f, [&](std::uint32_t i) {
+      core::SolverBody body = load_moving(f.bodies[i]);
+      give_step_along(f, i, body, share);
+      store_velocity(f.bodies[i], body);
     });
     team.sync();
   }
+}
+
+// The fastest approach of what bounces, whose bodies are stirred. A barrier.
+__device__ __forceinline__ float stir_what_bounces(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+  float fastest = 0.0F;
+  each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
+    core::PatchConstraint c;
+    load_bodies(slot, c);
+    load_directions(slot, c);
+    load_impulses(slot, c);
+    load_approach(slot, c);
+    const float own = core::fastest_bounce(c, solve.soft);
+    if (!(own > 0.0F)) return;
+    fastest = fmaxf(fastest, own);
+    stir(f, c.a, solve.sweep);
+    stir(f, c.b, solve.sweep);
+  });
+  __syncwarp();
+  solve.sums.bring_largest(TeamSums::kFirst, fastest);
+  team.sync();
+  return largest_of_turn(team, solve);
+}
+
+// The same as StepConstraints::bounce of the twin. Ends with a barrier.
+__device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+  solve.sweep += 2;
+  const float fastest = stir_what_bounces(team, f, solve);
+  const float done = core::kBounceDone * fastest;
+  if (!(done > 0.0F)) return;
+  float largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++solve.sweep) {
+    relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
+    team.sync();
+    largest = largest_of_turn(team, solve);
+  }
+  largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
+    sweep_bouncing(team, f, solve.soft, k == 0, solve.sums);
+    team.sync();
+    largest = largest_of_turn(team, solve);
+  }
+}
+
+// fastest: of the points as it begins, m/s; becomes that of the next substep.
+__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve, bool is_last,
+                                            float& fastest) {
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
-    core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
+    accelerate(f, i, body, solve.soft.dt_s);
+    give_kept_impulses(f, i, body);
     store_velocity(f.bodies[i], body);
   });
-  sweep_until_done(team, f, solve);
+  team.sync();
+  if (solve.has_way) {
+    sweep_until_done(team, f, solve, core::done_m_s(solve.soft, f.solver.done, fastest));
+  } else {
+    sweep_once(team, f, solve.soft);
+    team.sync();
+  }
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
     core::move(body, f.mass[i], solve.soft.dt_s);
     store_body(f.bodies[i], body);
   });
-  (void)relax(team, f, solve);
-  if (solve.may_bounce) bounce_all(team, f, solve);
-  each_patch(team, f, [&](const TileSlot& slot, core::PatchConstraint& c) {
-    load_for_sweep(slot, c);
-    load_approach(slot, c);
-    load_totals(slot, c);
-    core::add_to_totals(c, solve.soft);
-    store_impulses(slot, c);
-    store_totals(slot, c);
-  });
   team.sync();
+  relax_all(team, f, solve.soft, solve.may_bounce);
+  team.sync();
+  if (solve.may_bounce) bounce_all(team, f, solve);
+  change_substeps(team, f, solve, true, !is_last);
+  team.sync();
+  if (!is_last && solve.has_way) fastest = largest_of_turn(team, solve);
 }
 
-template <typename Team>
-__device__ void run_substeps(const Team& team, const RigidFrameView& f) {
+__device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
-  Solve solve{f.soft[kind], f.counts->bounces != 0, TeamSums(f.counts)};
-  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve);
+  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.sweeps > 1, TeamSums(f.counts)};
+  float fastest = 0.0F;
+  if (solve.may_bounce || solve.has_way) {
+    change_substeps(team, f, solve, false, true);
+    team.sync();
+    if (solve.has_way) fastest = largest_of_turn(team, solve);
+  }
+  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve, k + 1 == f.substeps[kind], fastest);
 }
 
 }  // namespace broadside::gpu

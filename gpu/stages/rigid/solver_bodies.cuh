@@ -8,7 +8,7 @@
 namespace broadside::gpu {
 
 // Without the orientation, which no contact reads.
-__device__ inline core::SolverBody load_moving(const PackedSolverBody& from) {
+__device__ __forceinline__ core::SolverBody load_moving(const PackedSolverBody& from) {
   const PackedVec3 v = from.v;
   const PackedVec3 momentum = from.angular_momentum;
   const PackedVec3 inertia = from.inertia;

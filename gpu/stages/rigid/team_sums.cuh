@@ -7,46 +7,46 @@
 
 namespace broadside::gpu {
 
-// Four words in turns: after the barrier of one turn its word is read, the next one may be written by those who go on,
-// and the one after is cleared, which nobody reads or writes before the next barrier.
+// A turn: threads bring their numbers, by whole warps; a barrier of the team; all read what came together; all end the
+// turn. Words are used in turns of four: after the barrier of one turn its words are read, those of the next may be
+// written by threads that go on, and those of the one after are cleared, which nobody reads or writes before the next
+// barrier.
 class TeamSums {
  public:
+  // Two numbers can be brought in one turn.
+  enum Which : std::uint32_t { kFirst, kSecond };
+
   __device__ explicit TeamSums(RigidCounts* counts) : counts_(counts) {}
 
-  // Of nonnegative numbers. By all threads; a barrier.
-  template <typename Team>
-  __device__ float largest(const Team& team, float own) {
-    std::uint32_t word = __float_as_uint(own);
-    for (unsigned step = 16; step > 0; step /= 2) word = max(word, __shfl_xor_sync(kFullWarp, word, step));
-    if (lane() == 0 && word != 0) atomicMax(&counts_->largest[turn_ % 4], word);
-    team.sync();
-    word = load_fresh_if(true, &counts_->largest[turn_ % 4]);
-    end_turn(team);
-    return __uint_as_float(word);
+  // Nonnegative numbers.
+  __device__ void bring_largest(Which which, float own) const {
+    const std::uint32_t word = warp_max(__float_as_uint(own));
+    if (lane() == 0 && word != 0) atomicMax(&counts_->largest[turn_ % 4][which], word);
   }
-
-  // By all threads; a barrier.
-  template <typename Team>
-  __device__ std::uint64_t sum(const Team& team, std::uint64_t own) {
-    unsigned long long units = own;
+  __device__ void bring_sum(unsigned long long units) const {
     for (unsigned step = 16; step > 0; step /= 2) units += __shfl_xor_sync(kFullWarp, units, step);
     if (lane() == 0 && units != 0) atomicAdd(&counts_->sums[turn_ % 4], units);
-    team.sync();
-    units = *static_cast<volatile unsigned long long*>(&counts_->sums[turn_ % 4]);
-    end_turn(team);
-    return units;
   }
 
- private:
+  // Behind the barrier.
+  [[nodiscard]] __device__ float largest(Which which) const {
+    return __uint_as_float(load_fresh_if(true, &counts_->largest[turn_ % 4][which]));
+  }
+  [[nodiscard]] __device__ std::uint64_t sum() const {
+    return *static_cast<volatile unsigned long long*>(&counts_->sums[turn_ % 4]);
+  }
+
   template <typename Team>
   __device__ void end_turn(const Team& team) {
     if (team.rank() == 0) {
-      counts_->largest[(turn_ + 2) % 4] = 0;
+      counts_->largest[(turn_ + 2) % 4][kFirst] = 0;
+      counts_->largest[(turn_ + 2) % 4][kSecond] = 0;
       counts_->sums[(turn_ + 2) % 4] = 0;
     }
     ++turn_;
   }
 
+ private:
   RigidCounts* counts_;
   std::uint32_t turn_ = 0;
 };

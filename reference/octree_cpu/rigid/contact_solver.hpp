@@ -24,6 +24,9 @@ struct RigidStep {
   core::Material face_material;
   core::Vec3 gravity_m_s2;
   float dt_s = 0.0F;
+  // By body, or none: 1 = asleep. Its patches are those of the step before, and give what they gave; nobody else has
+  // one with it.
+  std::span<const std::uint8_t> asleep;
 };
 
 // Of one patch, by point: N s on A, of the whole step.

@@ -14,6 +14,11 @@ std::span<const RememberedPoint> ImpulseMemory::of(std::uint32_t a, std::uint32_
                                     4 * static_cast<std::size_t>(last - first));
 }
 
+std::uint32_t ImpulseMemory::index_of(std::uint32_t a, std::uint32_t b) const {
+  return static_cast<std::uint32_t>(std::lower_bound(pairs_.begin(), pairs_.end(), core::pair_key({a, b})) -
+                                    pairs_.begin());
+}
+
 void ImpulseMemory::forget() {
   pairs_.clear();
   points_.clear();

@@ -7,6 +7,7 @@
 
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/manifold.hpp"
+#include "core/pair.hpp"
 
 namespace broadside::reference {
 
@@ -21,6 +22,14 @@ class ImpulseMemory {
   // The points of this pair; none when it did not touch.
   [[nodiscard]] std::span<const RememberedPoint> of(std::uint32_t a, std::uint32_t b) const;
   void forget();
+  // The place of the first patch of this pair.
+  [[nodiscard]] std::uint32_t index_of(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool has_patch(std::uint32_t patch, std::uint32_t a, std::uint32_t b) const {
+    return patch < pairs_.size() && pairs_[patch] == core::pair_key({a, b});
+  }
+  [[nodiscard]] std::span<const RememberedPoint> of_patch(std::uint32_t patch) const {
+    return std::span(points_).subspan(4 * static_cast<std::size_t>(patch), 4);
+  }
 
   // A new memory in place of the old: first the patches, sorted by (a, b); then their points, in any order.
   void begin(std::span<const core::ContactPatch> patches);

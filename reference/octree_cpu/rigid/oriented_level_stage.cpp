@@ -2,6 +2,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 
 #include "core/method/rigid/oriented_levels.hpp"
@@ -20,25 +22,42 @@ bool meets(const core::RigidBodies& bodies, core::Levels levels, Pair pair, std:
   return core::is_confirmed(levels, a.nodes, b.nodes, pose, tests);
 }
 
+void raise(core::PushWord& push, core::PushWord to) {
+  if (to == 0) return;
+  const std::atomic_ref<core::PushWord> shared(push);
+  core::PushWord now = shared.load(std::memory_order_relaxed);
+  while (now < to && !shared.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
+  }
+}
+
+void note_pushes(core::RigidBodies& bodies, Pair pair) {
+  const core::Pusher a = bodies.pusher(pair.i);
+  const core::Pusher b = bodies.pusher(pair.j);
+  const float restitution = std::max(bodies.material[pair.i].restitution, bodies.material[pair.j].restitution);
+  raise(bodies.push[pair.i], core::push_by(a, b, restitution));
+  raise(bodies.push[pair.j], core::push_by(b, a, restitution));
+}
+
 }  // namespace
 
-void OrientedLevelStage::confirm(const core::RigidBodies& bodies, core::Levels levels, std::span<const Pair> candidates,
+void OrientedLevelStage::confirm(core::RigidBodies& bodies, core::Levels levels, std::span<const Pair> candidates,
                                  std::vector<Pair>& confirmed) {
   confirmed.clear();
   pairs_tested_.fetch_add(candidates.size(), std::memory_order_relaxed);
   keep_.resize(candidates.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 64), [&](const auto& range) {
     std::uint64_t tests = 0;
-    for (std::size_t k = range.begin(); k != range.end(); ++k)
+    for (std::size_t k = range.begin(); k != range.end(); ++k) {
+      note_pushes(bodies, candidates[k]);
       keep_[k] = meets(bodies, levels, candidates[k], tests) ? 1 : 0;
+    }
     box_tests_.fetch_add(tests, std::memory_order_relaxed);
   });
   for (std::size_t k = 0; k < candidates.size(); ++k)
     if (keep_[k] != 0) confirmed.push_back(candidates[k]);
 }
 
-void OrientedLevelStage::confirm_all(const core::RigidBodies& bodies, core::Levels levels,
-                                     std::vector<Pair>& confirmed) {
+void OrientedLevelStage::confirm_all(core::RigidBodies& bodies, core::Levels levels, std::vector<Pair>& confirmed) {
   const std::uint32_t n = bodies.count();
   rows_.resize(n);
   // One row per body. Rows are joined in order, so the result is sorted whatever thread made which row.
@@ -51,6 +70,7 @@ void OrientedLevelStage::confirm_all(const core::RigidBodies& bodies, core::Leve
       if (bodies.is_static[i] != 0 && bodies.is_static[j] != 0) continue;
       ++tried;
       if (!core::overlaps(bodies.boxes[i], bodies.boxes[j])) continue;
+      note_pushes(bodies, {i, j});
       if (meets(bodies, levels, {i, j}, tests)) row.push_back({i, j});
     }
     pairs_tested_.fetch_add(tried, std::memory_order_relaxed);

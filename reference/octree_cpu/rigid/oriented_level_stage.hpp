@@ -14,13 +14,14 @@ namespace broadside::reference {
 
 class OrientedLevelStage {
  public:
-  // candidates: sorted pairs. confirmed: those of them that may come to touch within the step, sorted.
-  void confirm(const core::RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
+  // candidates: sorted pairs. confirmed: those of them that may come to touch within the step, sorted. Both functions
+  // also note in bodies.push what candidates may do to each other in the next step.
+  void confirm(core::RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
                std::vector<core::Pair>& confirmed);
 
   // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair, and neither are
   // two whose boxes of the whole step do not meet.
-  void confirm_all(const core::RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
+  void confirm_all(core::RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
 
   // Since reset_counts(). Sums of integers, so no thread order shows in them.
   [[nodiscard]] std::uint64_t pairs_tested() const { return pairs_tested_.load(std::memory_order_relaxed); }

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/sweep.hpp"
 
 namespace broadside::reference {
 
@@ -38,7 +39,8 @@ bool is_before(const ContactPatch& p, const ContactPatch& q) {
 
 }  // namespace
 
-void PatchStage::load(const core::Scene& scene) {
+void PatchStage::load(const core::Scene& scene, bool sweeps_fast) {
+  sweeps_fast_ = sweeps_fast;
   domain_ = scene.domain;
   for (int k = 0; k < core::kFaceCount; ++k) {
     face_shapes_[static_cast<std::size_t>(k)] = core::domain_face_shape(k);
@@ -49,18 +51,39 @@ void PatchStage::load(const core::Scene& scene) {
   patches_made_ = 0;
 }
 
-void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
+// Whether a patch leads to no contact in this step.
+bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, const core::Manifold& found) const {
+  const auto [i, j] = pair;
+  const core::RigidShape& a = bodies.shapes[bodies.shape[i]];
+  const core::RigidShape& b = bodies.shapes[bodies.shape[j]];
+  const core::ContactPath path_a = bodies.path(i);
+  const core::ContactPath path_b = bodies.path(j);
+  if (sweeps_fast_) {
+    const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
+    const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
+    const float thinner_m = bodies.thinner_m(pair);
+    // The planes of patches far away mislead; what a push makes of such a way, the sweep after the response sees.
+    if (core::length_of(way_a) + core::length_of(way_b) > core::swept_depth_m(thinner_m))
+      return core::least_gap_m(found) > bodies.fall_m[i] + bodies.fall_m[j] + thinner_m &&
+             core::misses(a.contact, way_a, b.contact, way_b, thinner_m);
+  }
+  const float near_m =
+      core::near_m(found.normal, bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]);
+  return core::passes_by(found, a.contact, path_a, b.contact, path_b, bodies.reach_m[i] + bodies.reach_m[j], near_m);
+}
+
+void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
+                              std::span<const std::uint8_t> asleep) {
+  const auto is_idle = [&](std::uint32_t i) { return asleep[i] != 0 || bodies.is_static[i] != 0; };
   fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
     const auto [i, j] = confirmed[k];
-    const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
-    const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
-    const float reach_m = bodies.reach_m[i] + bodies.reach_m[j];
-    const float near_m = bodies.fall_m[i] + bodies.fall_m[j];
+    if (is_idle(i) && is_idle(j)) return;
     core::Manifold found[core::kPatchesOfPair];
-    const int count = core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), reach_m, found);
+    const int count = core::make_manifolds(bodies.shapes[bodies.shape[i]].contact, bodies.pose(i),
+                                           bodies.shapes[bodies.shape[j]].contact, bodies.pose(j),
+                                           bodies.reach_m[i] + bodies.reach_m[j], found);
     for (int n = 0; n < count; ++n)
-      if (!core::passes_by(found[n], a, bodies.path(i), b, bodies.path(j), reach_m, near_m))
-        block.push_back({i, j, found[n]});
+      if (!is_passing(bodies, confirmed[k], found[n])) block.push_back({i, j, found[n]});
   });
 }
 
@@ -76,11 +99,11 @@ void PatchStage::find_pushed_reach(const core::RigidBodies& bodies, std::span<co
 }
 
 void PatchStage::touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
-                             std::vector<ContactPatch>& patches) {
+                             std::span<const std::uint8_t> asleep, std::vector<ContactPatch>& patches) {
   find_pushed_reach(bodies, confirmed);
   fill_in_order(bodies.count(), kBodiesOfBlock, face_blocks_, of_faces_, [&](std::size_t k, Block& block) {
     const auto i = static_cast<std::uint32_t>(k);
-    if (bodies.is_static[i] != 0) return;
+    if (bodies.is_static[i] != 0 || asleep[i] != 0) return;
     const core::Box& box = bodies.shape_boxes[i];
     const float reach_m = pushed_reach_m_[i];
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {

@@ -18,13 +18,18 @@ namespace broadside::reference {
 
 class PatchStage {
  public:
-  void load(const core::Scene& scene);
-  // confirmed: sorted pairs.
-  void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
+  // sweeps_fast: whether bodies that move farther than they are thick are followed on their way, to see whether they
+  // touch.
+  void load(const core::Scene& scene, bool sweeps_fast);
+  // confirmed: sorted pairs. asleep: by body; pairs that nobody awake is in are left out.
+  void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
+                    std::span<const std::uint8_t> asleep);
   // After touch_bodies. patches: of both stages, sorted by (a, b): of a body first those with bodies, then those with
-  // faces. Static bodies touch no face.
+  // faces. Static bodies touch no face, and who sleeps is left out.
   void touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
-                   std::vector<core::ContactPatch>& patches);
+                   std::span<const std::uint8_t> asleep, std::vector<core::ContactPatch>& patches);
+  // Of pairs, after touch_bodies.
+  [[nodiscard]] std::span<const core::ContactPatch> of_bodies() const { return of_pairs_; }
   // Since load.
   [[nodiscard]] std::uint64_t patches_made() const { return patches_made_; }
 
@@ -33,6 +38,9 @@ class PatchStage {
 
   void find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
 
+  [[nodiscard]] bool is_passing(const core::RigidBodies& bodies, core::Pair pair, const core::Manifold& found) const;
+
+  bool sweeps_fast_ = false;
   core::Box domain_;
   std::array<core::ContactShape, core::kFaceCount> face_shapes_;
   std::array<core::ContactPose, core::kFaceCount> face_poses_;

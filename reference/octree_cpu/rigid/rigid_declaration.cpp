@@ -12,8 +12,8 @@ core::Declaration rigid_declaration(const ContactSolverOptions& solver) {
   return core::rigid_declaration(soft_settings(solver));
 }
 
-core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, std::string build,
-                                 int threads) {
+core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, bool sleeps,
+                                 std::string build, int threads) {
   if (scene.motion != core::Motion::kRigid) return {};
   core::EquivalenceCard card = own_card(std::move(build), "float32 without contraction",
                                         "as the compiler made it; octree joins use AVX2 where it is", threads);
@@ -35,7 +35,7 @@ core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSetti
        "one pass"});
   card.push_back({"rotation", "bodies turn, with the gyroscopic torque", ""});
   card.push_back({"warm starting", "by the features that meet", ""});
-  card.push_back({"sleeping", "off", ""});
+  card.push_back({"sleeping", sleeps ? "on: islands that stand still" : "off", sleeps ? "off" : ""});
   return card;
 }
 

@@ -13,7 +13,7 @@ namespace broadside::reference {
 core::Declaration rigid_declaration(const ContactSolverOptions& solver);
 
 // Of a scene whose bodies turn; empty where they translate, which is what METHOD describes.
-core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, std::string build,
-                                 int threads);
+core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, bool sleeps,
+                                 std::string build, int threads);
 
 }  // namespace broadside::reference

@@ -3,11 +3,19 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iterator>
+#include <map>
+#include <string>
 #include <utility>
 
+#include "core/contact.hpp"
 #include "core/method/frame_digest.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/point_digest.hpp"
+#include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/told_point.hpp"
 #include "core/method/rigid/turned_box.hpp"
 #include "core/scene/refuse_springs.hpp"
@@ -27,6 +35,17 @@ RigidPipeline::RigidPipeline(RigidPipelineOptions options)
 
 RigidPipeline::~RigidPipeline() = default;
 
+core::Declaration RigidPipeline::declaration_for(const core::Scene& scene) const {
+  const float speed_m_s = options_.sleeps ? core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s) : 0.0F;
+  if (!(speed_m_s > 0.0F)) return options_.declaration;
+  const auto& declared = options_.declaration.declared();
+  std::map<std::string, std::string> given(declared.begin(), declared.end());
+  std::array<char, 32> text{};
+  std::to_chars(text.data(), text.data() + text.size() - 1, speed_m_s);
+  given["sleep_speed_m_s"] = text.data();
+  return core::Declaration::of(given);
+}
+
 core::Status RigidPipeline::load(const core::Scene& scene) {
   if (core::Status s = core::refuse_springs(scene); !s) return s;
   auto bodies = core::make_rigid_bodies(scene);
@@ -34,13 +53,17 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   scene_ = &scene;
   bodies_ = std::move(bodies).value();
   solver_ = options_.make_solver(scene);
+  sleepers_.load(bodies_);
+  last_patches_.clear();
+  dt_s_ = 0.0F;
   steps_ = 0;
   candidates_ = {};
   confirmed_.clear();
   patches_.clear();
   points_.clear();
   level_stage_.reset_counts();
-  patch_stage_.load(scene);
+  patch_stage_.load(scene, options_.sweeps_fast);
+  sweep_stage_.load(scene, bodies_, options_.make_broad_phase);
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
   threads_->arena.execute([&] { place(scene.dt_s); });
@@ -55,6 +78,8 @@ core::Status RigidPipeline::step(float dt_s) {
 
 core::Status RigidPipeline::run_stages(float dt_s) {
   StageClock clock(times_);
+  // What a contact gives in a step is no longer that of the last one.
+  if (dt_s != dt_s_) sleepers_.wake_all();
   place(dt_s);
   clock.lap(core::Stage::kIntegrate);
   if (core::Status s = find_candidates(); !s) return s;
@@ -62,10 +87,14 @@ core::Status RigidPipeline::run_stages(float dt_s) {
   confirm();
   clock.lap(core::Stage::kConfirm);
   touch_bodies();
+  if (options_.sleeps) wake();
   clock.lap(core::Stage::kVertices);
   touch_faces();
   clock.lap(core::Stage::kFaces);
   respond(dt_s);
+  if (options_.sleeps) fall_asleep(dt_s);
+  if (options_.sweeps_fast)
+    if (core::Status s = stop_short(); !s) return s;
   tell_points();
   clock.lap(core::Stage::kResponse);
   ++steps_;
@@ -82,10 +111,16 @@ void RigidPipeline::place(float dt_s) {
       const core::FreeMotion motion =
           core::free_motion(s, bodies_.mass[i], shape.balls, scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
       bodies_.free_end[i] = core::free_end(s, bodies_.mass[i], scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
-      bodies_.reach_m[i] = motion.reach_m();
+      const core::PushWord push = bodies_.push[i];
+      bodies_.push[i] = 0;
+      bodies_.pushed_by[i] = core::pusher_of(push);
+      bodies_.pushed[i] = core::pushed_way(push, motion.drift, dt_s * bodies_.state[core::pusher_of(push)].v);
+      bodies_.drift[i] = motion.drift;
+      bodies_.swing_m[i] = motion.swing_m;
+      bodies_.reach_m[i] = motion.reach_m() + core::length(bodies_.pushed[i]);
       bodies_.fall_m[i] = core::length(motion.fall);
       bodies_.shape_boxes[i] = core::turned_box(shape.contact, shape.vertices(), s.x, s.q);
-      bodies_.boxes[i] = core::swept_box(bodies_.shape_boxes[i], motion);
+      bodies_.boxes[i] = core::pushed_box(core::swept_box(bodies_.shape_boxes[i], motion), bodies_.pushed[i]);
     }
   });
 }
@@ -108,17 +143,47 @@ void RigidPipeline::confirm() {
 }
 
 void RigidPipeline::touch_bodies() {
-  patch_stage_.touch_bodies(bodies_, confirmed_);
+  patch_stage_.touch_bodies(bodies_, confirmed_, sleepers_.asleep());
 }
 
 void RigidPipeline::touch_faces() {
-  patch_stage_.touch_faces(bodies_, confirmed_, patches_);
+  last_patches_.swap(patches_);
+  patch_stage_.touch_faces(bodies_, confirmed_, sleepers_.asleep(), patches_);
+  if (sleepers_.is_anybody_asleep()) keep_sleeping_patches();
+}
+
+// Who wakes may touch others that sleep.
+void RigidPipeline::wake() {
+  while (sleepers_.wake_touched(patch_stage_.of_bodies())) touch_bodies();
+}
+
+void RigidPipeline::fall_asleep(float dt_s) {
+  sleepers_.fall_asleep(bodies_, patches_, scene_->gravity_m_s2, dt_s);
+}
+
+// Bodies that sleep have the patches that they had.
+void RigidPipeline::keep_sleeping_patches() {
+  const auto asleep = sleepers_.asleep();
+  const auto is_asleep = [&](const core::ContactPatch& p) {
+    return asleep[p.a] != 0 || (!core::is_face(p.b) && asleep[p.b] != 0);
+  };
+  std::vector<core::ContactPatch> awake;
+  awake.swap(patches_);
+  std::erase_if(last_patches_, [&](const core::ContactPatch& p) { return !is_asleep(p); });
+  patches_.reserve(awake.size() + last_patches_.size());
+  std::merge(
+      awake.begin(), awake.end(), last_patches_.begin(), last_patches_.end(), std::back_inserter(patches_),
+      [](const core::ContactPatch& p, const core::ContactPatch& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 }
 
 void RigidPipeline::respond(float dt_s) {
-  const RigidStep step{bodies_.mass,          bodies_.material,     bodies_.wrench,
-                       scene_->face_material, scene_->gravity_m_s2, dt_s};
+  const RigidStep step{bodies_.mass, bodies_.material,  bodies_.wrench, scene_->face_material, scene_->gravity_m_s2,
+                       dt_s,         sleepers_.asleep()};
   solver_->advance(bodies_.state, patches_, step);
+}
+
+core::Status RigidPipeline::stop_short() {
+  return sweep_stage_.stop_short(bodies_);
 }
 
 // Of what touched or was pushed. Patches are sorted, so the points are.
@@ -148,6 +213,8 @@ std::vector<core::Counter> RigidPipeline::counters() const {
   counters.push_back({"level stage: pairs tested", level_stage_.pairs_tested()});
   counters.push_back({"level stage: box tests", level_stage_.box_tests()});
   counters.push_back({"contact patches", patch_stage_.patches_made()});
+  if (options_.sleeps) counters.push_back({"sleep: bodies asleep", sleepers_.steps_slept()});
+  if (options_.sweeps_fast) counters.push_back({"sweep: bodies stopped short", sweep_stage_.stopped()});
   return counters;
 }
 

@@ -20,6 +20,8 @@
 #include "reference/octree_cpu/rigid/contact_solver.hpp"
 #include "reference/octree_cpu/rigid/oriented_level_stage.hpp"
 #include "reference/octree_cpu/rigid/patch_stage.hpp"
+#include "reference/octree_cpu/rigid/sleepers.hpp"
+#include "reference/octree_cpu/rigid/sweep_stage.hpp"
 
 namespace broadside::reference {
 
@@ -29,6 +31,8 @@ struct RigidPipelineOptions {
   core::Levels levels = core::Levels::kC;
   std::function<std::unique_ptr<ContactSolver>(const core::Scene&)> make_solver;
   core::Declaration declaration;  // of these stages with this solver
+  bool sweeps_fast = false;       // bodies that move farther than they are thick stop before they pass through others
+  bool sleeps = false;            // islands that stand still stop being solved
   int threads = 0;                // 0 = all
 };
 
@@ -47,7 +51,8 @@ class RigidPipeline : public core::Dynamics {
   [[nodiscard]] std::uint32_t groups() const override;
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override { return times_; }
   [[nodiscard]] std::vector<core::Counter> counters() const override;
-  [[nodiscard]] const core::Declaration& declaration() const { return options_.declaration; }
+  // What sleep is depends on the scene.
+  [[nodiscard]] core::Declaration declaration_for(const core::Scene& scene) const;
 
  protected:
   // The stages, in order. A wrong engine replaces one.
@@ -57,6 +62,11 @@ class RigidPipeline : public core::Dynamics {
   virtual void touch_bodies();
   virtual void touch_faces();
   virtual void respond(float dt_s);
+  // Where bodies sleep: before the response, and after it.
+  virtual void wake();
+  virtual void fall_asleep(float dt_s);
+  // Where fast bodies are swept.
+  virtual core::Status stop_short();
   virtual void tell_points();
   // The last word on what is recorded.
   virtual void record(core::FrameRecord&) {}
@@ -64,6 +74,8 @@ class RigidPipeline : public core::Dynamics {
   const core::Scene* scene_ = nullptr;
   core::RigidBodies bodies_;
   PatchStage patch_stage_;
+  Sleepers sleepers_;
+  SweepStage sweep_stage_;
   core::PairSet candidates_;
   std::vector<core::Pair> confirmed_;
   std::vector<core::ContactPatch> patches_;
@@ -74,6 +86,7 @@ class RigidPipeline : public core::Dynamics {
  private:
   core::Status run_stages(float dt_s);
   [[nodiscard]] std::uint64_t digest() const;
+  void keep_sleeping_patches();
 
   struct Threads;  // oneTBB's arena: vendor headers stay in the source
 
@@ -83,6 +96,7 @@ class RigidPipeline : public core::Dynamics {
   OrientedLevelStage level_stage_;
   std::unique_ptr<ContactSolver> solver_;
   std::array<core::StageTime, core::kStageCount> times_{};
+  std::vector<core::ContactPatch> last_patches_;  // of the step before, where bodies sleep
   float dt_s_ = 0.0F;
   std::uint64_t steps_ = 0;
 };

@@ -38,10 +38,13 @@ void SoftSolver::follow_direction() {
   std::uint64_t units = 0;
   for (const float part : of_patches_) units += sum.units(part);
   const float change = sum.value(units);
-  const float share = last_change_ > 0.0F && change <= last_change_ ? change / last_change_ : 0.0F;
+  if (!(last_change_ > 0.0F)) first_change_ = change;
+  const float share = core::share_of_direction(first_change_, last_change_, change);
   last_change_ = change;
   work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-    core::follow(c, ways_[work_.index_of(c)], a, b, share);
+    core::PatchWay& way = ways_[work_.index_of(c)];
+    core::push_along(c, way, a, b, share);
+    core::follow_impulses(c, way, share);
   });
 }
 
@@ -52,7 +55,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   work_.each_patch([&](const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
     of_patches_[work_.index_of(c)] = core::fastest_point(c, a, b);
   });
-  const float done = settings_.done * largest_of_patches();
+  const float done = core::done_m_s(numbers, settings_.done, largest_of_patches());
   work_.each_patch_by_color([](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::warm_start(c, a, b); });
   for (std::uint32_t k = 1;; ++k) {
     work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
@@ -86,7 +89,7 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                          const RigidStep& step) {
   const bool is_uneven = largest_mass_ratio(patches, step.masses) > settings_.even_masses;
-  const std::uint32_t substeps = is_uneven ? 2 * settings_.substeps : settings_.substeps;
+  const std::uint32_t substeps = core::substeps_of(settings_, is_uneven);
   const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, substeps);
   work_.begin(states, patches, step, numbers.dt_s, settings_.limits);
   for (std::uint32_t k = 0; k < substeps; ++k) substep(step, numbers);

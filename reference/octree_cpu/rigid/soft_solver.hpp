@@ -32,7 +32,8 @@ class SoftSolver final : public ContactSolver {
   StepConstraints work_;
   std::uint64_t sweeps_done_ = 0;
   std::vector<core::PatchWay> ways_;
-  float last_change_ = 0.0F;       // squared, of the sweep before
+  float first_change_ = 0.0F;      // squared, of the first sweep of the substep
+  float last_change_ = 0.0F;       // and of the sweep before
   std::vector<float> of_patches_;  // what a loop over patches found
 };
 

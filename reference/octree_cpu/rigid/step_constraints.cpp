@@ -27,12 +27,46 @@ void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c
   }
 }
 
-void StepConstraints::begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
+// Those that are to be solved; notes what the others go on with.
+std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const core::ContactPatch> patches,
+                                                              std::span<const std::uint8_t> asleep) {
+  awake_patches_.clear();
+  awake_.clear();
+  asleep_.clear();
+  if (std::find(asleep.begin(), asleep.end(), 1) == asleep.end()) return patches;
+  for (std::uint32_t k = 0; k < patches.size(); ++k) {
+    const core::ContactPatch& patch = patches[k];
+    // Of a pair's patches this is as many after the first one as it was.
+    std::uint32_t nth = 0;
+    while (nth < k && patches[k - nth - 1].a == patch.a && patches[k - nth - 1].b == patch.b) ++nth;
+    const bool is_awake = asleep[patch.a] == 0 && (core::is_face(patch.b) || asleep[patch.b] == 0);
+    const std::uint32_t last = is_awake ? 0 : memory_.index_of(patch.a, patch.b) + nth;
+    // What nobody remembers is solved, against a body that does not move.
+    if (is_awake || !memory_.has_patch(last, patch.a, patch.b)) {
+      awake_.push_back(k);
+      awake_patches_.push_back(patch);
+      continue;
+    }
+    AsleepPatch kept{k, impulses_[last], {}};
+    const auto points = memory_.of_patch(last);
+    std::copy(points.begin(), points.end(), kept.remembered.begin());
+    asleep_.push_back(kept);
+  }
+  return awake_patches_;
+}
+
+void StepConstraints::begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> given,
                             const RigidStep& step, float substep_s, const core::PatchLimits& limits) {
   substep_s_ = substep_s;
   bodies_.resize(states.size() + 1);
   bodies_.back() = {};
-  each_body([&](std::size_t i) { bodies_[i] = core::solver_body(states[i], step.masses[i]); });
+  const auto is_asleep = [&](std::size_t i) { return !step.asleep.empty() && step.asleep[i] != 0; };
+  each_body([&](std::size_t i) {
+    bodies_[i] = is_asleep(i) ? core::SolverBody{} : core::solver_body(states[i], step.masses[i]);
+  });
+  const std::span<const core::ContactPatch> patches = awake_of(given, step.asleep);
+  stirred_.assign(bodies_.size(), 0);
+  sweep_ = 0;
   coloring_.color(patches, step.masses);
   constraints_.resize(patches.size());
   std::atomic<bool> bouncing = false;
@@ -60,7 +94,8 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
   impulses_.resize(patches.size());
   const float per_s = 1.0F / substep_s_;
   in_parallel(0, constraints_.size(), [&](std::size_t place) {
-    const std::uint32_t patch = coloring_.order()[place];
+    const std::uint32_t of_awake = coloring_.order()[place];
+    const std::uint32_t patch = asleep_.empty() ? of_awake : awake_[of_awake];
     const PatchConstraint& c = constraints_[place];
     impulses_[patch] = {};
     for (int k = 0; k < c.count; ++k) {
@@ -70,32 +105,60 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
       memory_.keep(patch, k, {patches[patch].manifold.points[k].feature, per_s * p.normal_impulse, per_s * friction});
     }
   });
+  for (const AsleepPatch& kept : asleep_) {
+    impulses_[kept.patch] = kept.given;
+    for (int k = 0; k < core::kManifoldPoints; ++k)
+      memory_.keep(kept.patch, k, kept.remembered[static_cast<std::size_t>(k)]);
+  }
+}
+
+// Patches of one color, and patches in any order, may stir the same body that never moves, and bodies that bounce may
+// be stirred by several threads at once with the same number.
+void StepConstraints::stir(const PatchConstraint& c, std::uint32_t sweep) {
+  for (const std::uint32_t body : {c.a, c.b})
+    if (core::is_moved(bodies_[body])) std::atomic_ref(stirred_[body]).store(sweep, std::memory_order_relaxed);
+}
+
+bool StepConstraints::is_stirred(const PatchConstraint& c) const {
+  return stirred_[c.a] >= sweep_ || stirred_[c.b] >= sweep_;
+}
+
+float StepConstraints::largest_of_patches() const {
+  return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
+}
+
+float StepConstraints::stir_what_bounces(const core::SoftStep& numbers) {
+  of_patches_.assign(constraints_.size(), 0.0F);
+  each_patch([&](const PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
+    of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
+    if (of_patches_[index_of(c)] > 0.0F) stir(c, sweep_);
+  });
+  return largest_of_patches();
 }
 
 void StepConstraints::bounce(const core::SoftStep& numbers) {
   if (!may_bounce_) return;
-  of_patches_.assign(constraints_.size(), 0.0F);
-  each_patch([&](const PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
-    of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
-  });
-  const auto largest = [&] {
-    return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
-  };
-  const float done = core::kBounceDone * largest();
+  sweep_ += 2;  // above what was stirred by the last sweep before
+  const float fastest = stir_what_bounces(numbers);
+  const float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
   // A share of what stopped them is given back, so that is to be known well.
-  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
+  float largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++sweep_) {
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-      of_patches_[index_of(c)] = core::relax_patch(c, a, b, numbers);
+      float& change = of_patches_[index_of(c)] = is_stirred(c) ? core::relax_patch(c, a, b, numbers) : 0.0F;
+      if (change > done) stir(c, sweep_ + 1);
     });
-  each_patch([&](PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
-    core::note_stopping(c);
-    of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
-  });
-  for (int sweep = 0; sweep < core::kMostBounceSweeps && largest() > done; ++sweep)
+    largest = largest_of_patches();
+  }
+  each_patch([](PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) { core::note_stopping(c); });
+  largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
       of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
     });
+    largest = largest_of_patches();
+  }
 }
 
 }  // namespace broadside::reference

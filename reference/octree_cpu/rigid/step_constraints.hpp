@@ -59,18 +59,37 @@ class StepConstraints {
   }
 
   // Points that came fast leave with their share of that speed: sweeps until one changes no speed by more than
-  // 2^-10 of the fastest approach.
+  // 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by more than that.
   void bounce(const core::SoftStep& numbers);
 
  private:
+  [[nodiscard]] std::span<const core::ContactPatch> awake_of(std::span<const core::ContactPatch> patches,
+                                                             std::span<const std::uint8_t> asleep);
   void recall(const core::ContactPatch& patch, core::PatchConstraint& c) const;
+  // The fastest approach of what bounces, whose bodies are stirred.
+  float stir_what_bounces(const core::SoftStep& numbers);
+  void stir(const core::PatchConstraint& c, std::uint32_t sweep);
+  [[nodiscard]] bool is_stirred(const core::PatchConstraint& c) const;
+  [[nodiscard]] float largest_of_patches() const;
 
+  // Of patches as given, those of bodies that are awake: all, where nobody sleeps.
+  std::vector<core::ContactPatch> awake_patches_;
+  std::vector<std::uint32_t> awake_;  // their indices
+  // The others: what those gave in the step before, and left for the next one.
+  struct AsleepPatch {
+    std::uint32_t patch;
+    PatchImpulses given;
+    std::array<RememberedPoint, core::kManifoldPoints> remembered;
+  };
+  std::vector<AsleepPatch> asleep_;
   PatchColoring coloring_;
   ImpulseMemory memory_;
   std::vector<core::SolverBody> bodies_;            // the last one stands for every face: it never moves
   std::vector<core::PatchConstraint> constraints_;  // in the order of the coloring
   std::vector<PatchImpulses> impulses_;             // by patch as given
   std::vector<float> of_patches_;                   // what a loop over patches found, for the largest of it
+  std::vector<std::uint32_t> stirred_;              // [bodies] the sweep that has to visit the body's patches
+  std::uint32_t sweep_ = 0;                         // of all sweeps of bounces in this step
   float substep_s_ = 0.0F;
   bool may_bounce_ = false;
 };

@@ -39,7 +39,7 @@ TEST(Mutations, EveryValidatorHasSomethingThatItMustReject) {
                           reference::velocity_mutants(), reference::state_mutants()})
     for (const reference::Mutant& m : part) meant.insert(m.validator);
   for (const auto part : {reference::flight_mutants(), reference::touch_mutants(), reference::impulse_mutants(),
-                          reference::telling_mutants(), reference::pipeline_mutants()})
+                          reference::telling_mutants(), reference::pipeline_mutants(), reference::rest_mutants()})
     for (const reference::RigidMutant& m : part) meant.insert(m.law);
   for (const auto part :
        {bench::rigid_state_tamperings(), bench::rigid_point_tamperings(), bench::rigid_declaration_tamperings()})

@@ -55,6 +55,26 @@ TEST(RigidOnHost, AHeap) {
   EXPECT_GT(compare("freefall:cube:40[rigid=1]", 50), 0U);
 }
 
+// The solver's threads: one cluster of blocks, or a grid.
+TEST(RigidOnHost, AHeapSolvedByAGrid) {
+  RigidPipelineOptions options;
+  options.may_cluster = false;
+  EXPECT_GT(compare("freefall:cube:20[rigid=1]", 40, options), 0U);
+}
+
+// One sweep a substep is another path through the kernel than conjugate directions.
+TEST(RigidOnHost, SoftSteps) {
+  RigidPipelineOptions options;
+  options.solver = core::soft_step_settings();
+  EXPECT_GT(compare("freefall:cube:20[rigid=1]", 45, options, {{"contact", "soft-step"}}), 0U);
+}
+
+// What bounces stirs its neighbors; wrenches are added in each substep.
+TEST(RigidOnHost, BouncesAndWrenches) {
+  EXPECT_GT(compare("rigid:billiards:cradle", 60), 0U);
+  compare("rigid:flight:pushed", 10);
+}
+
 TEST(RigidOnHost, EveryStartAndLevel) {
   for (const core::LevelsRow& row : core::kLevels) {
     SCOPED_TRACE(row.name);
@@ -71,6 +91,13 @@ TEST(RigidOnHost, EveryStartAndLevel) {
   options.broad = Broad::kTree;
   options.least_for_grid = 2;
   EXPECT_GT(compare("freefall:cube:40[rigid=1]", 40, options), 0U);
+}
+
+// A first frame that searched cells of no size did not end where a box lies across a coordinate of 0: some of these do.
+TEST(RigidOnHost, TheFirstFrameSearchesNoCells) {
+  RigidPipelineOptions options;
+  options.least_for_grid = 2;
+  compare("freefall:cube:250[rigid=1]", 3, options);
 }
 
 // Threads of the kernel in another order each round.

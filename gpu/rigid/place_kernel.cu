@@ -1,26 +1,18 @@
+// The kernels of a frame of turning bodies that have no barrier: boxes at its begin, and its digest.
 #include <algorithm>
 
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/runtime/cuda_check.hpp"
-#include "gpu/runtime/kernel_launch.cuh"
 #include "gpu/stages/rigid/place_stage.cuh"
 #include "gpu/stages/rigid/rigid_digest.cuh"
-#include "gpu/stages/rigid/rigid_frame.cuh"
 
 namespace broadside::gpu {
 namespace {
 
 constexpr std::uint32_t kThreads = 256;
-// Two: 128 registers a thread.
-constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
 __global__ void __launch_bounds__(kThreads) place_kernel(const __grid_constant__ RigidFrameView frame) {
   run_place(frame);
-}
-
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
-    rigid_frame_kernel(const __grid_constant__ RigidFrameView frame) {
-  run_rigid_frame(frame);
 }
 
 __global__ void __launch_bounds__(kThreads) rigid_digest_kernel(const __grid_constant__ RigidDigestView view) {
@@ -33,24 +25,9 @@ std::uint32_t blocks_for(std::uint64_t items, const LaunchShape& shape) {
 
 }  // namespace
 
-core::Result<LaunchShape> rigid_launch_shape() {
-  auto is_cooperative = attribute(cudaDevAttrCooperativeLaunch);
-  if (!is_cooperative.ok()) return is_cooperative.error();
-  LaunchShape shape{kThreads, 0, 0, 0};
-  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(rigid_frame_kernel), shape));
-  if (is_cooperative.value() == 0 || shape.blocks == 0)
-    return core::Error{"this GPU cannot launch the kernel of turning bodies", "octree-gpu",
-                       "use one of compute capability 7.5 or later", core::Exit::kMissing};
-  return shape;
-}
-
 core::Status launch_place(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream) {
   place_kernel<<<blocks_for(frame.body_count, shape), kThreads, 0, stream>>>(frame);
   return cuda_status(cudaGetLastError(), "launching boxes");
-}
-
-core::Status launch_rigid_frame(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream) {
-  return launch(rigid_frame_kernel, frame, shape, stream);
 }
 
 core::Status launch_rigid_digest(const RigidDigestView& view, const LaunchShape& shape, StreamHandle stream) {

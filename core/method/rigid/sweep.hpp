@@ -1,0 +1,130 @@
+// How far two bodies can go along what a step moved them by before they are in each other: RIGID 8.7.
+//
+// Contacts of a step are those that its start foretells. Bodies that move farther than they are thick may meet others
+// in ways that nothing foretold: these stop short, at a pose on their way, and keep their velocities, which the next
+// step's contacts see to. Conservative advancement (Mirtich, 1996): no part of a way is skipped that the distance, and
+// how fast it can shrink, do not clear.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/rigid_integrate.hpp"
+
+namespace broadside::core {
+
+// A way is gone in so many parts of one length; a body stops after a whole number of them. So whoever is stopped again
+// and again by others comes to rest on a number, and the stage that asks comes to its end.
+inline constexpr std::uint32_t kPartsOfWay = 256;
+
+// Of the thinner body's half thickness, what two bodies may be in each other beyond how deep they are at the start.
+inline constexpr float kSweptDepthShare = 0.25F;
+
+// A way that is not cleared after so many advances ends where it is clear up to.
+inline constexpr int kMostAdvances = 64;
+
+// What one body did in a step.
+struct SweptWay {
+  ContactPose start;
+  ContactPose end;
+  float swing_m = 0.0F;  // turning from start to end moves no point of the shape by more
+};
+
+// The shorter of the two ways from one orientation to the other.
+BROADSIDE_HD constexpr Quat nearer_end(Quat start, Quat end) {
+  return dot(start, end) < 0.0F ? -1.0F * end : end;
+}
+
+// On the chord between two orientations q turns fastest in the middle, where the chord of at most a quarter turn of the
+// 4-sphere is 1 / sqrt(2) from its center; a turn of q by x turns the body by 2 x.
+BROADSIDE_HD float swing_of(ContactPose start, ContactPose end, float outer_m) {
+  constexpr float kFastest = 2.8285F;
+  const Quat d = nearer_end(start.q, end.q) + -1.0F * start.q;
+  return kFastest * sqrtf(dot(d, d)) * outer_m;
+}
+
+// No point of the body moves by more, m.
+BROADSIDE_HD float length_of(const SweptWay& way) {
+  return length(way.end.x - way.start.x) + way.swing_m;
+}
+
+BROADSIDE_HD SweptWay free_way(const ContactPath& path, float outer_m) {
+  return {path.start, path.end, swing_of(path.start, path.end, outer_m)};
+}
+
+// After a share of the way, 0 to 1.
+BROADSIDE_HD ContactPose pose_at(const SweptWay& way, float share) {
+  const Quat end = nearer_end(way.start.q, way.end.q);
+  const Quat q = (1.0F - share) * way.start.q + share * end;
+  return {way.start.x + share * (way.end.x - way.start.x), (1.0F / sqrtf(dot(q, q))) * q};
+}
+
+struct NearestPatch {
+  float gap_m = 0.0F;
+  Vec3 normal;  // from b to a
+  bool is_found = false;
+};
+
+BROADSIDE_HD NearestPatch nearest_patch(const ContactShape& a, ContactPose at_a, const ContactShape& b,
+                                        ContactPose at_b, float reach_m) {
+  Manifold found[kPatchesOfPair];
+  const int count = make_manifolds(a, at_a, b, at_b, reach_m, found);
+  NearestPatch nearest;
+  for (int k = 0; k < count; ++k) {
+    const float gap = least_gap_m(found[k]);
+    if (nearest.is_found && !(gap < nearest.gap_m)) continue;
+    nearest = {gap, found[k].normal, true};
+  }
+  return nearest;
+}
+
+// The share of both ways, gone at the same time, up to which the bodies are in each other by no more than allowed_m,
+// or than they are at the start; it stops where less than done_m of that is left. Of two convex shapes a plane that
+// parts them, or the direction of least depth, tells: along it alone they come nearer.
+BROADSIDE_HD float clear_share(const ContactShape& a, const SweptWay& way_a, const ContactShape& b,
+                               const SweptWay& way_b, float allowed_m, float done_m) {
+  const Vec3 toward = (way_b.end.x - way_b.start.x) - (way_a.end.x - way_a.start.x);
+  const float swing = way_a.swing_m + way_b.swing_m;
+  const bool is_mesh = a.kind == ContactKind::kMesh || b.kind == ContactKind::kMesh;
+  const float most = length(toward) + swing;
+  float allowed = allowed_m;
+  float share = 0.0F;
+  for (int k = 0; k < kMostAdvances; ++k) {
+    const NearestPatch near =
+        nearest_patch(a, pose_at(way_a, share), b, pose_at(way_b, share), (1.0F - share) * most + done_m);
+    if (!near.is_found) return 1.0F;
+    if (k == 0) allowed = fmaxf(allowed, 2.0F * done_m - near.gap_m);
+    const float clear = near.gap_m + allowed;
+    if (!(clear > done_m)) return share;
+    const float closing = is_mesh ? most : fmaxf(dot(near.normal, toward), 0.0F) + swing;
+    if (!((1.0F - share) * closing > clear)) return 1.0F;
+    share = share + clear / closing;
+  }
+  return share;
+}
+
+// What two bodies may be in each other beyond how deep they are at the start, and how near to that is near enough, m.
+// thinner_m: half of the least thickness of the thinner one.
+BROADSIDE_HD constexpr float swept_depth_m(float thinner_m) {
+  return kSweptDepthShare * thinner_m;
+}
+BROADSIDE_HD constexpr float swept_done_m(float thinner_m) {
+  return 0.125F * swept_depth_m(thinner_m);
+}
+
+// Whether two bodies that go their free ways do not touch: neither if both go, nor if something holds one of them.
+BROADSIDE_HD bool misses(const ContactShape& a, const SweptWay& way_a, const ContactShape& b, const SweptWay& way_b,
+                         float thinner_m) {
+  const SweptWay held_a{way_a.start, way_a.start, 0.0F};
+  const SweptWay held_b{way_b.start, way_b.start, 0.0F};
+  const float done_m = swept_done_m(thinner_m);
+  return clear_share(a, way_a, b, way_b, 0.0F, done_m) == 1.0F &&
+         clear_share(a, way_a, b, held_b, 0.0F, done_m) == 1.0F &&
+         clear_share(a, held_a, b, way_b, 0.0F, done_m) == 1.0F;
+}
+
+}  // namespace broadside::core

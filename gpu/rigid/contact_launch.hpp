@@ -1,0 +1,17 @@
+// The launch that finds the contacts of turning bodies: contact_kernel.cu implements it on CUDA,
+// on_host/rigid_on_host.cpp with fibers.
+#pragma once
+
+#include "core/result.hpp"
+#include "gpu/frame/frame_kernel.hpp"
+#include "gpu/rigid/contact_view.hpp"
+#include "gpu/runtime/device_runtime.hpp"
+
+namespace broadside::gpu {
+
+core::Result<LaunchShape> contact_launch_shape();
+
+// Levels and patches of contact, behind the broad phase. Asynchronous. Does nothing where the frame has no pairs.
+core::Status launch_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
+
+}  // namespace broadside::gpu

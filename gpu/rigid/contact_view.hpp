@@ -1,0 +1,121 @@
+// What the kernel of a frame of turning bodies that finds their contacts is given, by value: the part of RigidFrameView
+// that knows nothing of the solver, so that a change there does not compile the shapes again, which takes minutes.
+#pragma once
+
+#include <cstdint>
+
+#include "core/contact.hpp"
+#include "core/engine/stage.hpp"
+#include "core/material.hpp"
+#include "core/math/box.hpp"
+#include "core/method/levels.hpp"
+#include "core/method/rigid/contact_shape.hpp"
+#include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/motion_reach.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
+#include "core/method/rigid/rigid_state.hpp"
+#include "core/method/rigid/turned_box.hpp"
+#include "core/pair.hpp"
+#include "gpu/broad/broad_view.hpp"
+#include "gpu/scene/packed_box.hpp"
+
+namespace broadside::gpu {
+
+// Of a mesh and a center of mass in it; its pointers are the device's.
+struct RigidShapeView {
+  core::ContactShape contact;
+  const core::NodeBoxes* nodes = nullptr;
+  core::VertexTreeView vertices;
+  core::ShapeBalls balls;
+};
+
+// A patch in the list of one of its moved bodies.
+struct alignas(8) PatchEntry {
+  std::uint32_t patch = 0;
+  std::uint32_t other = 0;  // the other body, or a face
+};
+
+// Each moved body's patches, in no order, and the impulses that the last substep left in them: what the next step
+// begins with. One of the step before, one of this step.
+struct PatchMemory {
+  std::uint32_t* begin = nullptr;    // [bodies]
+  std::uint32_t* count = nullptr;    // [bodies]; 0 of bodies that never move
+  std::uint32_t* filled = nullptr;   // [bodies] entries that are there already
+  PatchEntry* entries = nullptr;     // [2 * patches]
+  std::uint32_t* feature = nullptr;  // [4 * patches]; 0 = no point
+  PackedVec3* impulse = nullptr;     // [4 * patches] N: friction on A, and w = along the normal
+};
+
+// What a pair needs of a body to say what it does to the other one: core::Pusher.
+struct alignas(16) PackedPusher {
+  PackedVec3 drift;   // w: what turning adds
+  PackedVec3 pushed;  // w: who drives it, as a word
+};
+
+// Counts of one frame; all are what was demanded. The last kernel of a frame leaves zeros.
+struct RigidCounts {
+  unsigned long long confirmed = 0;
+  unsigned long long patches = 0;
+  unsigned long long listed = 0;  // places given out in the lists of bodies
+  unsigned long long places = 0;  // of constraints: patches, and the gaps between colors
+  // Nonnegative floats, as words: they are ordered like the floats. What is not finite is above all that is.
+  std::uint32_t largest_side = 0;
+  std::uint32_t largest_coordinate = 0;
+  std::uint32_t colors = 0;
+  std::uint32_t bounces = 0;     // 1: a patch has restitution
+  std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
+  std::uint32_t is_aborted = 0;
+  // What all threads bring together, in turns (team_sums.cuh).
+  std::uint32_t largest[4][2] = {};
+  unsigned long long sums[4] = {};
+};
+
+// What the host reads after a frame, in host memory that the device writes.
+struct RigidOutcome {
+  RigidCounts counts;
+  unsigned long long begin_ns = 0;
+  unsigned long long stage_end_ns[core::kStageCount] = {};
+};
+
+// Fixed during a run, but for what changes places after every step.
+struct ContactView {
+  std::uint32_t body_count = 0;
+  core::Levels levels = core::Levels::kC;
+  bool has_broad = true;  // else the levels test all pairs of bodies
+  core::Box domain;
+
+  const RigidShapeView* shapes = nullptr;
+  const std::uint32_t* shape_of_body = nullptr;
+  const core::RigidMass* mass = nullptr;
+  const core::Material* material = nullptr;
+  const core::ContactShape* face_shapes = nullptr;  // [6]
+  const core::ContactPose* face_poses = nullptr;    // [6]
+
+  const core::RigidState* before = nullptr;  // at the start of the step, which is the pose of detection
+  // Of detection, as core::RigidBodies has them.
+  core::ContactPose* free_end = nullptr;
+  PackedPusher* pushers = nullptr;
+  const unsigned long long* old_push = nullptr;  // core::PushWord, from the step before
+  unsigned long long* push = nullptr;            // for the next step
+  float* reach_m = nullptr;
+  float* fall_m = nullptr;
+  std::uint32_t* pushed_m = nullptr;  // as a word: the reach of the neighbor that reaches farthest
+  core::Box* shape_boxes = nullptr;
+  PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
+
+  const core::Pair* pairs = nullptr;
+  std::uint64_t pair_capacity = 0;
+  const Counters* broad_counters = nullptr;
+  AppendView<core::Pair> confirmed;
+  AppendView<core::ContactPatch> patches;  // those of one pair follow each other
+  PatchMemory memory;                      // of this step
+
+  RigidCounts* counts = nullptr;
+  unsigned long long* barrier = nullptr;
+  RigidOutcome* outcome = nullptr;
+  // A box longer, or farther out, than this was not foreseen when the broad phase got its cells: the frame is repeated.
+  std::uint32_t side_limit = 0;
+  std::uint32_t coordinate_limit = 0;
+};
+
+}  // namespace broadside::gpu

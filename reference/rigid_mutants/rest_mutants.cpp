@@ -1,0 +1,88 @@
+// octree-cpu where bodies turn, with sleep and the sweep of fast bodies, of which one stage is replaced.
+#include <array>
+#include <vector>
+
+#include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/sleep.hpp"
+#include "reference/rigid_mutants/rigid_mutants.hpp"
+
+namespace broadside::reference {
+namespace {
+
+using core::RigidState;
+
+// Who falls is stopped for good after a second of the scene "rigid-nap".
+void hold_in_the_air(StagedPipeline& p, float dt_s) {
+  p.sound_fall_asleep(dt_s);
+  if (p.step_number() < 60) return;
+  RigidState& falling = p.bodies_.state.back();
+  if (p.step_number() < 90) {
+    falling.x = p.bodies_.detected.back().x;
+    falling = core::stopped(falling);
+  }
+}
+
+// As if a body that no point of which moves by 4 m/s stood still.
+void stop_at_any_speed(StagedPipeline& p, float dt_s) {
+  p.sound_fall_asleep(dt_s);
+  for (std::uint32_t i = 0; i < p.bodies_.count(); ++i) {
+    const float outer_m = p.bodies_.shapes[p.bodies_.shape[i]].balls.outer_m;
+    const float speed = core::fastest_of_body_m_s(p.bodies_.state[i], p.bodies_.mass[i], outer_m);
+    if (p.bodies_.is_static[i] == 0 && !p.points_.empty() && speed < 4.0F)
+      p.bodies_.state[i] = core::stopped(p.bodies_.state[i]);
+  }
+}
+
+// Of no contact is known before bodies are in each other.
+void touch_too_late(StagedPipeline& p) {
+  for (float& reach : p.bodies_.reach_m) reach = 0.0F;
+  p.sound_touch_bodies();
+}
+
+std::span<const RigidMutant> table() {
+  static const auto kTable = [] {
+    auto rows = std::to_array<RigidMutant>({
+        {"twin: sleeps-in-the-air",
+         "a body that falls is stopped and held",
+         "ballistic",
+         "rigid-nap",
+         {},
+         false,
+         {.fall_asleep = hold_in_the_air, .sleeps = true}},
+        {"twin: sleeps-at-any-speed",
+         "bodies are stopped that are too fast to be still",
+         "momentum",
+         "rigid-nap",
+         {},
+         false,
+         {.fall_asleep = stop_at_any_speed, .sleeps = true}},
+        {"twin: sleeps-through-a-blow",
+         "who is struck goes on sleeping",
+         "momentum",
+         "rigid-nap",
+         {},
+         false,
+         {.wake = [](StagedPipeline&) {}, .sleeps = true}},
+        {"twin: stops-nobody-on-the-way",
+         "fast bodies of which no contact told are not stopped before they pass through others",
+         "passage",
+         "rigid-fast",
+         {},
+         false,
+         {.touch_bodies = touch_too_late,
+          .stop_short = [](StagedPipeline&) -> core::Status { return core::Done{}; },
+          .sweeps_fast = true}},
+    });
+    for (RigidMutant& row : rows) row.is_of_pipeline = true;
+    return rows;
+  }();
+  return kTable;
+}
+
+}  // namespace
+
+std::span<const RigidMutant> rest_mutants() {
+  return table();
+}
+
+}  // namespace broadside::reference

@@ -1,0 +1,97 @@
+// One setting for bodies of a millimeter and of a kilometer: RIGID 8.6. The bar: no body is deeper in another than a
+// thousandth of the smaller one's side.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/contact.hpp"
+#include "tests/reference/octree_cpu/rigid/pipeline_rig.hpp"
+
+namespace broadside::tests {
+namespace {
+
+constexpr double kBar = 1e-3;
+
+PipelineRig rig_of_still_boxes(bool is_fixed) {
+  PipelineRig rig;
+  rig.options.make_solver = [is_fixed](const core::Scene& scene) {
+    return reference::make_soft_solver(is_fixed ? core::with_fixed_thresholds({}, scene) : core::SoftSettings{});
+  };
+  return rig;
+}
+
+core::Body& add_cube(PipelineRig& rig, std::uint32_t mesh, core::Vec3 x, float side_m) {
+  core::Body& body = rig.add(mesh, x, 1000.0F * side_m * side_m * side_m);
+  body.material.restitution = 0.0F;
+  return body;
+}
+
+// The deepest point of all frames, in sides of the smaller body.
+double deepest_share(const PipelineRig& rig, const std::vector<float>& sides_m, std::uint32_t steps) {
+  double deepest = 0.0;
+  for (const core::FrameRecord& f : rig.run(steps))
+    for (const core::ContactPoint& p : f.points) {
+      const float side = core::is_face(p.b) ? sides_m[p.a] : std::min(sides_m[p.a], sides_m[p.b]);
+      deepest = std::max(deepest, -static_cast<double>(p.gap_m) / static_cast<double>(side));
+    }
+  return deepest;
+}
+
+// Columns of three that fall a twentieth of their size onto each other. A step in which a cube falls by the same share
+// of its side.
+double deepest_of_size(float side_m, bool is_fixed) {
+  PipelineRig rig = rig_of_still_boxes(is_fixed);
+  rig.scene.dt_s = std::sqrt(side_m) / 60.0F;
+  rig.scene.domain = {{-20 * side_m, 0, -20 * side_m}, {20 * side_m, 40 * side_m, 20 * side_m}};
+  const std::uint32_t cube =
+      rig.box(static_cast<double>(side_m), static_cast<double>(side_m), static_cast<double>(side_m));
+  std::vector<float> sides;
+  for (int x = 0; x < 2; ++x)
+    for (int y = 0; y < 3; ++y) {
+      const float layer = static_cast<float>(y);
+      add_cube(rig, cube, {side_m * (1.1F * static_cast<float>(x) + 0.03F * layer), side_m * (0.5F + 1.05F * layer), 0},
+               side_m);
+      sides.push_back(side_m);
+    }
+  return deepest_share(rig, sides, 120);
+}
+
+TEST(Thresholds, OneSettingServesAMillimeterAMeterAndAKilometer) {
+  for (const float side : {0.001F, 1.0F, 1000.0F}) EXPECT_LT(deepest_of_size(side, false), kBar) << side;
+}
+
+TEST(Thresholds, FixedOnesDoNotServeAMillimeter) {
+  EXPECT_GT(deepest_of_size(0.001F, true), kBar);
+}
+
+// Cubes of 0.1 m, 1 cm and 1 mm on one of a meter.
+double deepest_of_mixture(bool is_fixed) {
+  PipelineRig rig = rig_of_still_boxes(is_fixed);
+  std::vector<float> sides;
+  add_cube(rig, rig.box(1, 1, 1), {0, 0.5F, 0}, 1.0F);
+  sides.push_back(1.0F);
+  float row = -0.3F;
+  for (const float side : {0.1F, 0.01F, 0.001F}) {
+    const std::uint32_t cube = rig.box(static_cast<double>(side), static_cast<double>(side), static_cast<double>(side));
+    for (int k = 0; k < 4; ++k) {
+      add_cube(rig, cube, {0.2F * static_cast<float>(k) - 0.3F, 1.0F + 0.51F * side, row}, side);
+      sides.push_back(side);
+    }
+    row += 0.3F;
+  }
+  return deepest_share(rig, sides, 120);
+}
+
+TEST(Thresholds, OneSettingServesAThousandToOneInOneHeap) {
+  EXPECT_LT(deepest_of_mixture(false), kBar);
+}
+
+TEST(Thresholds, FixedOnesDoNotServeAThousandToOne) {
+  EXPECT_GT(deepest_of_mixture(true), kBar);
+}
+
+}  // namespace
+}  // namespace broadside::tests
