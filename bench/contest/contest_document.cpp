@@ -89,11 +89,11 @@ void add_broken_laws(Document& document, const ContestTable& table) {
         }
   if (broken.items.empty()) return;
   document.blocks.emplace_back(Heading{"What was broken", "broken"});
-  document.blocks.emplace_back(Paragraph{
-      fmt::format("A broken law is a defect of the engine, what it declares to be, a wrong setting of ours, or "
-                  "an error of the law. Of these {} were looked into, and have their cause in a few words; "
-                  "reference/README.md tells more. The other {} are not yet looked into.",
-                  known, broken.items.size() - known)});
+  document.blocks.emplace_back(Paragraph{fmt::format(
+      "A broken law is a defect of the engine, what it declares to be, a wrong setting of ours, or "
+      "an error of the law. Of these {} were looked into: the cause in a few words, or that none was found; "
+      "reference/README.md tells more. The other {} are not yet looked into.",
+      known, broken.items.size() - known)});
   document.blocks.emplace_back(std::move(broken));
 }
 

@@ -98,16 +98,26 @@ std::string picture(const ContestTable& table, const PassageCourse& course, cons
 
 void add_passages(Document& document, const ContestTable& table) {
   std::vector<Block> figures;
-  Table words{"passages", "The law passage on fast bodies", columns_of(table, {"scene", "moves a step, m"}), {}};
-  for (const PassageCourse& course : passage_courses()) {
+  const std::vector<PassageCourse> courses = passage_courses();
+  // Who ran at a scene's own step alone is in the table of verdicts.
+  std::vector<std::string> columns;
+  for (const Entrant& e : table.entrants)
+    if (std::any_of(courses.begin(), courses.end(), [&](const PassageCourse& course) {
+          const auto ran = engines_of(table, course);
+          return std::find(ran.begin(), ran.end(), e.engine) != ran.end();
+        }))
+      columns.push_back(e.engine);
+  Table words{"passages", "The law passage on fast bodies", {"scene", "moves a step, m"}, {}};
+  words.columns.insert(words.columns.end(), columns.begin(), columns.end());
+  for (const PassageCourse& course : courses) {
     const std::vector<std::string> engines = engines_of(table, course);
     if (engines.empty()) continue;
     figures.emplace_back(Figure{file_name_of("passage", course.name), picture(table, course, engines, Placement::kFile),
                                 picture(table, course, engines, Placement::kInline), course.what});
     for (const PassageRun& run : course.runs) {
       std::vector<TableCell> line{{course.name}, {fmt::format("{:.3g}", run.step_m), run.step_m}};
-      for (const Entrant& e : table.entrants) {
-        const Entry* entry = entry_of(table, run.scene, e.engine);
+      for (const std::string& engine : columns) {
+        const Entry* entry = entry_of(table, run.scene, engine);
         TableCell cell{word_of(entry)};
         cell.tone = cell.text == "held" ? Tone::kGood : cell.text == "through" ? Tone::kBad : Tone::kAbsent;
         line.push_back(std::move(cell));
