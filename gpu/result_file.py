@@ -5,6 +5,7 @@ folders, which differ from machine to machine.
 
 As a program, for scripts that are not Python:  gpu/result_file.py OUT.json ROW_FILE... -- COMMAND...
 """
+import csv
 import datetime
 import json
 import os
@@ -22,6 +23,13 @@ def gpu_facts():
     except (OSError, subprocess.CalledProcessError, IndexError):
         return {}
     return dict(zip(GPU_FACTS.split(","), (part.strip() for part in line.split(","))))
+
+
+def gpu_of(path):
+    """Of the first GPU, from what `nvidia-smi --query-gpu=... --format=csv` left in a file."""
+    with open(path, encoding="utf-8") as file:
+        header, first = list(csv.reader(file))[:2]
+    return {name.strip().split(" [")[0]: value.strip() for name, value in zip(header, first)}
 
 
 def without_folder(argument):

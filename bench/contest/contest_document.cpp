@@ -114,7 +114,7 @@ void add_stability(Document& document, const ContestTable& table) {
       if (!was_judged)
         line.push_back({"not judged"});
       else if (longest > 0.0)
-        line.push_back({fmt::format("{:.4g}", longest), longest});
+        line.push_back({"1/" + fmt::format("{:.4g}", 1.0 / longest), longest});
       else
         line.push_back({"at none"});
     }
@@ -122,6 +122,9 @@ void add_stability(Document& document, const ContestTable& table) {
   }
   if (stands.rows.empty()) return;
   document.blocks.emplace_back(Heading{"What stands, and at which step", "stands"});
+  document.blocks.emplace_back(
+      Paragraph{"Of the steps that ran: a scene's own, 1/60 s where it is longer, and shares and multiples of some "
+                "scenes' own. The table of verdicts is of their own step alone."});
   document.blocks.emplace_back(std::move(stands));
 }
 

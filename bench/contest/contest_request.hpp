@@ -15,7 +15,7 @@ struct ContestRequest {
   std::vector<std::string> engines;  // empty = default_entrants()
   std::vector<std::string> scenes;   // names, or a beginning that ends in ':' or '*'; empty = default_scenes()
   // Of the scene's own step, rising. The scene's own, 1, is the one that the matrix of verdicts shows. Scenes that are
-  // not named run at their own, but for one of each kind.
+  // not named run at their own, but for one of each kind; and at 1/60 s where they stand by statics.
   std::vector<double> step_factors{0.25, 0.5, 1.0, 2.0};
   std::uint32_t repetitions = 1;   // timed runs of a cell; 0 = none
   double time_limit_s = 120.0;     // of each part of a cell

@@ -71,7 +71,7 @@ void add_error_against_cost(Document& document, const ContestTable& table) {
   document.blocks.emplace_back(Heading{"Error against cost", "error"});
   document.blocks.emplace_back(Paragraph{
       "Each mark is one step of an engine on a scene with a closed answer: the error that is largest against "
-      "its limit, and what the engine's steps cost. Engines that run under Node are dashed: their verdicts "
+      "its limit, and what the engine's steps cost. Marks of engines under Node are hollow: their verdicts "
       "count, their speeds do not, because WebAssembly is not the library's own code. A broken law strikes no "
       "mark here; the table of verdicts says which are broken." +
       (table.cells_at_once > 1

@@ -13,6 +13,7 @@ struct PassageRun {
 
 struct PassageCourse {
   std::string name;
+  std::string what;
   std::vector<PassageRun> runs;  // by falling distance a step, or by rising speed
 };
 

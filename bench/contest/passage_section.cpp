@@ -103,7 +103,7 @@ void add_passages(Document& document, const ContestTable& table) {
     const std::vector<std::string> engines = engines_of(table, course);
     if (engines.empty()) continue;
     figures.emplace_back(Figure{file_name_of("passage", course.name), picture(table, course, engines, Placement::kFile),
-                                picture(table, course, engines, Placement::kInline), course.name});
+                                picture(table, course, engines, Placement::kInline), course.what});
     for (const PassageRun& run : course.runs) {
       std::vector<TableCell> line{{course.name}, {fmt::format("{:.3g}", run.step_m), run.step_m}};
       for (const Entrant& e : table.entrants) {

@@ -23,7 +23,7 @@ std::string vec3(Vec3 v) {
   return "{" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "}";
 }
 
-std::string quoted(std::string_view text) {
+std::string literal_of(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -52,8 +52,8 @@ std::string material(const core::Material& m) {
 }
 
 std::string mesh_lines(const core::Mesh& mesh) {
-  std::string text = "  {\n    auto mesh = std::make_shared<core::Mesh>();\n    mesh->name = " + quoted(mesh.name) +
-                     ";\n    mesh->source = " + quoted(mesh.source) + ";\n    mesh->vertices = {";
+  std::string text = "  {\n    auto mesh = std::make_shared<core::Mesh>();\n    mesh->name = " + literal_of(mesh.name) +
+                     ";\n    mesh->source = " + literal_of(mesh.source) + ";\n    mesh->vertices = {";
   for (const Vec3 v : mesh.vertices) text += "\n        " + vec3(v) + ",";
   text += "\n    };\n    mesh->triangles = {";
   for (const core::Triangle& t : mesh.triangles) text += fmt::format("\n        {{{}, {}, {}}},", t[0], t[1], t[2]);
@@ -87,7 +87,7 @@ std::string spring_lines(const std::vector<core::Spring>& springs) {
 std::string rigid_lines(const core::Scene& s) {
   std::string text;
   if (s.motion == core::Motion::kRigid) text += "  scene.motion = core::Motion::kRigid;\n";
-  if (!s.answer.empty()) text += "  scene.answer = " + quoted(s.answer) + ";\n";
+  if (!s.answer.empty()) text += "  scene.answer = " + literal_of(s.answer) + ";\n";
   for (const core::MassProperties& m : s.mass_properties)
     text += fmt::format("  scene.mass_properties.push_back({{{{{}}}, {{{}}}}});\n", fmt::join(m.center_of_mass_m, ", "),
                         fmt::join(m.inertia_kg_m2, ", "));
@@ -116,7 +116,7 @@ std::string parameter_lines(const core::Parameters& p) {
 }
 
 std::string scene_function(const core::Scene& s) {
-  std::string text = "core::Scene shrunk_scene() {\n  core::Scene scene;\n  scene.name = " + quoted(s.name) + ";\n";
+  std::string text = "core::Scene shrunk_scene() {\n  core::Scene scene;\n  scene.name = " + literal_of(s.name) + ";\n";
   text += fmt::format("  scene.frames = {};\n", s.frames);
   if (s.dt_s != core::Scene{}.dt_s) text += "  scene.dt_s = " + number(s.dt_s) + ";\n";
   if (!(s.gravity_m_s2 == Vec3{})) text += "  scene.gravity_m_s2 = " + vec3(s.gravity_m_s2) + ";\n";
@@ -141,7 +141,7 @@ std::string case_text(const core::Scene& scene, const CaseFacts& facts) {
       "#include <gtest/gtest.h>\n\n#include <memory>\n\n#include \"bench/shrink/trial.hpp\"\n#include "
       "\"core/scene/scene.hpp\"\n\nnamespace broadside::tests {\nnamespace {\n\n";
   text += scene_function(scene);
-  const std::string against = facts.against.empty() ? "" : ", " + quoted(facts.against);
+  const std::string against = facts.against.empty() ? "" : ", " + literal_of(facts.against);
   // In the reduced scene a sound engine may have nothing to judge, or may rightly refuse it, for example because of too
   // long a step; both show in the test's output.
   text += fmt::format(
@@ -152,7 +152,7 @@ std::string case_text(const core::Scene& scene, const CaseFacts& facts) {
       "  const core::Outcome outcome = verdict.value().outcome;\n"
       "  EXPECT_TRUE(outcome == core::Outcome::kPass || outcome == core::Outcome::kNotApplicable)\n"
       "      << verdict.value().explanation;\n}}\n\n",
-      camel(facts.validator), quoted(facts.engine), quoted(facts.validator), against);
+      camel(facts.validator), literal_of(facts.engine), literal_of(facts.validator), against);
   return text + "}  // namespace\n}  // namespace broadside::tests\n";
 }
 

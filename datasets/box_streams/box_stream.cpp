@@ -25,8 +25,8 @@ namespace {
 using core::Error;
 using core::Result;
 
-// 24 bytes a box: 2.4 GB, which machines for such sets have many times over.
-constexpr std::uint32_t kMaxBoxes = 100'000'000;
+// 24 bytes a box: 24 GB, which machines for such sets have several times over.
+constexpr std::uint32_t kMaxBoxes = 1'000'000'000;
 // Part of the set's definition: long enough for a coherent engine to settle.
 constexpr std::uint32_t kMovingFrames = 100;
 

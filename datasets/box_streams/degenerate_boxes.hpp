@@ -34,8 +34,8 @@ std::vector<core::Box> far_boxes(std::uint32_t n, std::uint64_t seed);
 // uniform_boxes scaled by 1e-6.
 std::vector<core::Box> tiny_boxes(std::uint32_t n, std::uint64_t seed);
 
-// uniform_boxes scaled by 2^-140: every coordinate is below 2^-126 for n up to 100,000,000, so all are subnormal, on a
-// lattice of 512 steps a unit. Flushing subnormal numbers to zero makes all boxes one.
+// uniform_boxes scaled by 2^-140: every coordinate is below 2^-126 for n up to 1,000,000,000, so all are subnormal, on
+// a lattice of 512 steps a unit. Flushing subnormal numbers to zero makes all boxes one.
 std::vector<core::Box> subnormal_boxes(std::uint32_t n, std::uint64_t seed);
 
 }  // namespace broadside::datasets

@@ -9,6 +9,10 @@ namespace {
 
 using core::Box;
 
+// Of coarse cells: bits for each static box, so that few cells share one, and no more than a GPU's cache holds.
+constexpr std::uint64_t kBitsPerBox = 16;
+constexpr std::uint64_t kMostWords = 1ULL << 22U;
+
 // A moving box looks at so many cells of a level along an axis at most: some 4,000 rows of them.
 constexpr float kMostCells = 64.0F;
 
@@ -64,10 +68,32 @@ core::Result<bool> ApartSearch::load_standing(std::span<const Box> boxes, const 
   const BulkView& table = standing_.view().bulk;
   std::uint32_t levels = 0;
   BROADSIDE_TRY(copy_to_host(&levels, table.levels, sizeof levels));
+  float largest_side_m = facts.all().largest_side_m;
+  for (const std::uint32_t id : moving_ids_) {
+    const core::Vec3 side = boxes[id].max - boxes[id].min;
+    largest_side_m = std::max({largest_side_m, side.x, side.y, side.z});
+  }
+  BROADSIDE_TRY(mark_cells(largest_side_m, stream));
   finest_cell_m_ = std::ldexp(table.cell_m, 1 - static_cast<int>(std::bit_width(levels)));
   ++static_builds_;
   has_table_ = true;
   return true;
+}
+
+// `largest_side_m`: of boxes of either kind, as they are now.
+core::Status ApartSearch::mark_cells(float largest_side_m, const Stream& stream) {
+  const std::uint64_t count = standing_ids_.size();
+  const std::uint64_t words = std::min(kMostWords, std::bit_ceil(kBitsPerBox * count / 32 + 1));
+  BROADSIDE_TRY(cell_words_.reserve(words, "cells of static boxes"));
+  BROADSIDE_TRY(cell_words_.fill_bytes(0));
+  BROADSIDE_TRY(wait_for_device("clearing the cells of static boxes"));
+  StandingCells& cells = cross_.cells;
+  cells.words = cell_words_.data();
+  cells.word_mask = static_cast<std::uint32_t>(words - 1);
+  // Inverted it is still a normal number.
+  cells.cells_per_m = 1.0F / std::clamp(largest_side_m, 0x1p-100F, 0x1p100F);
+  BROADSIDE_TRY(launch_mark({standing_.view().boxes, static_cast<std::uint32_t>(count), cells}, stream.get()));
+  return stream.wait("marking the cells of static boxes");
 }
 
 core::Result<bool> ApartSearch::load_moving(std::span<const Box> boxes) {

@@ -31,7 +31,7 @@ class ApartSearch {
 
   [[nodiscard]] const Outcome& outcome() const { return moving_.outcome(); }
   [[nodiscard]] std::uint64_t launches() const { return moving_.launches() + 1; }
-  [[nodiscard]] std::uint64_t bytes() const { return standing_.bytes() + moving_.bytes(); }
+  [[nodiscard]] std::uint64_t bytes() const { return standing_.bytes() + moving_.bytes() + cell_words_.bytes(); }
   // Since start.
   [[nodiscard]] std::uint64_t static_builds() const { return static_builds_; }
   [[nodiscard]] std::uint64_t static_boxes_kept() const { return static_boxes_kept_; }
@@ -40,6 +40,7 @@ class ApartSearch {
  private:
   [[nodiscard]] bool has_moving() const { return !moving_ids_.empty(); }
   core::Result<bool> load_standing(std::span<const core::Box> boxes, const Stream& stream);
+  core::Status mark_cells(float largest_side_m, const Stream& stream);
   core::Result<bool> load_moving(std::span<const core::Box> boxes);
 
   PairFinderOptions options_;
@@ -49,6 +50,7 @@ class ApartSearch {
   std::vector<PackedBox> packed_;
   BoxSearch standing_;
   BoxSearch moving_;
+  DeviceBuffer<std::uint32_t> cell_words_;
   CrossView cross_;
   LaunchShape cross_shape_;
   bool has_table_ = false;

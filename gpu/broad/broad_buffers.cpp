@@ -27,7 +27,8 @@ float grid_cell_m(const BoxFacts& facts) {
   constexpr float kLeastShare = 0x1p-17F;
   // Halved twenty times, or inverted, it is still a normal number.
   constexpr float kLeast = 0x1p-100F;
-  const float wanted = std::max({facts.largest_side_m * kSlack, facts.coordinate_range_m * kLeastShare, kLeast});
+  const float wanted =
+      std::max({facts.largest_side_m * kSlack * facts.cell_scale, facts.coordinate_range_m * kLeastShare, kLeast});
   return std::min(wanted, kMostCell_m);
 }
 

@@ -33,6 +33,7 @@ struct BoxFacts {
   core::Vec3 low_corner;            // about where the world begins
   std::uint64_t hash_entries = 0;   // of boxes of these sizes, wherever they are; more is found out later
   core::Box domain;                 // of the published scene octree
+  float cell_scale = 1.0F;          // of the grid's cells, from 1 to below 4: fitted_cells.hpp
 };
 
 // Cells that a closed interval of this length can touch, wherever it is; and so of a box with these sides.

@@ -1,4 +1,4 @@
-#include "gpu/runtime/kernel_launch.cuh"
+#include "gpu/runtime/plain_launch.cuh"
 #include "gpu/stages/pairs_only/cross_search.cuh"
 
 namespace broadside::gpu {
@@ -11,7 +11,15 @@ __global__ void __launch_bounds__(kThreads, 2) cross_kernel(const __grid_constan
   run_cross(view, shared);
 }
 
+__global__ void __launch_bounds__(kPlainThreads) mark_kernel(const __grid_constant__ MarkView view) {
+  run_mark(view);
+}
+
 }  // namespace
+
+core::Status launch_mark(const MarkView& view, StreamHandle stream) {
+  return launch_over(view.count, mark_kernel, view, stream);
+}
 
 core::Result<LaunchShape> cross_launch_shape() {
   LaunchShape shape{kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), 0};

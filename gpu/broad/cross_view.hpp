@@ -13,9 +13,26 @@
 
 namespace broadside::gpu {
 
+// Which cells, of one coarse size, have standing boxes in them: a bit for each, several cells of the world may share
+// one. Most moving boxes of a large world are near nothing that stands, and need look no further.
+struct StandingCells {
+  std::uint32_t* words = nullptr;  // [word_mask + 1], a power of two of them; null: every cell may have some
+  std::uint32_t word_mask = 0;
+  float cells_per_m = 0.0F;
+};
+
+struct MarkView {
+  const PackedBox* boxes = nullptr;  // no longer than a cell
+  std::uint32_t count = 0;
+  StandingCells cells;  // words are zero before
+};
+// Asynchronous.
+core::Status launch_mark(const MarkView& view, StreamHandle stream);
+
 struct CrossView {
   BulkView standing;                          // in order
   const PackedBox* standing_boxes = nullptr;  // low_tag = the caller's number, as of the others
+  StandingCells cells;
   const PackedBox* moving_boxes = nullptr;
   const BulkEntry* order = nullptr;  // of the moving ones: neighbors in space side by side
   std::uint32_t count = 0;           // of them

@@ -9,6 +9,7 @@
 #include "gpu/broad/box_search.hpp"
 #include "gpu/broad/dealt_boxes.hpp"
 #include "gpu/broad/device_packing.hpp"
+#include "gpu/broad/fitted_cells.hpp"
 #include "gpu/broad/pair_chunks.hpp"
 #include "gpu/runtime/device_choice.hpp"
 
@@ -31,6 +32,7 @@ struct PairFinder::Impl {
   bool may_be_apart = false;
   bool is_apart = false;  // in the place of the searches
   std::uint64_t chunked_pairs = 0;
+  float cell_scale = 1.0F;  // of the boxes that were loaded
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
   WorkCounter work;
@@ -42,6 +44,7 @@ struct PairFinder::Impl {
   core::Status place(std::span<const Box> given, bool is_new);
   core::Status place_on_device(const core::DeviceBoxes& given, bool is_new);
   core::Status load_search(std::size_t k, bool is_new);
+  [[nodiscard]] float fitted_scale(std::span<const Box> given) const;
   BoxSearch& search(std::size_t k);
   core::Status launch();
   core::Result<bool> grow();
@@ -84,6 +87,11 @@ core::Status PairFinder::Impl::load_search(std::size_t k, bool is_new) {
   return search(k).load(boxes, options, is_new);
 }
 
+// Cells fit the boxes of bulk pairs; more frames than one decide whether it pays, so updates take what was loaded.
+float PairFinder::Impl::fitted_scale(std::span<const Box> given) const {
+  return options.start(boxes.facts()) == Start::kBulk ? fitted_cell_scale(given, boxes.facts()) : 1.0F;
+}
+
 core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
   // Also where there are passes: it refuses what is no box.
   BROADSIDE_TRY(boxes.take(given, is_static, options));
@@ -99,7 +107,11 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
     if (is_apart) return core::Done{};
   }
   active = std::max<std::size_t>(1, plan.passes.size());
-  if (plan.is_plain()) return load_search(0, is_new);
+  if (plan.is_plain()) {
+    if (is_new) cell_scale = options.cell_scale != 0.0F ? options.cell_scale : fitted_scale(given);
+    boxes.set_cell_scale(cell_scale);
+    return load_search(0, is_new);
+  }
   for (std::size_t k = 0; k < active; ++k) {
     boxes.take(given, is_static, plan, plan.passes[k]);
     BROADSIDE_TRY(load_search(k, is_new));

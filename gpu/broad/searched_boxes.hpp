@@ -41,6 +41,8 @@ class SearchedBoxes {
   void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::PassPlan& plan,
             const core::BoxPass& pass);
 
+  void set_cell_scale(float scale) { facts_.cell_scale = scale; }
+
   [[nodiscard]] const BoxFacts& facts() const { return facts_; }
   [[nodiscard]] std::span<const PackedBox> searched() const { return searched_; }
   // Empty where boxes are searched as they are; else as SettleView has them.

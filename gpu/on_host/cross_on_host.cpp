@@ -3,6 +3,11 @@
 
 namespace broadside::gpu {
 
+core::Status launch_mark(const MarkView& view, StreamHandle /*stream*/) {
+  on_host::run({{2}, {64}, 0}, 0, [&](unsigned char*) { run_mark(view); });
+  return core::Done{};
+}
+
 core::Result<LaunchShape> cross_launch_shape() {
   return LaunchShape{64, 2, 2 * static_cast<std::uint32_t>(sizeof(PairQueue)), 2};
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/kernel_launch.cuh"
 
 namespace broadside::gpu {

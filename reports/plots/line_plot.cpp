@@ -21,6 +21,14 @@ std::string mark_style(const Curve& curve, const std::string& color) {
   return (curve.is_hollow ? "hollow l" : "s") + color;
 }
 
+// Colors come again after eight curves, then with the next shape: 32 curves differ.
+int mark_of(int curve) {
+  return (curve + curve / kSeriesColors) % 4;
+}
+
+// A legend that is longer than a few lines makes the picture taller, not the data smaller.
+constexpr double kUsualHead = 110.0;
+
 constexpr std::size_t kMostMarks = 60;  // more would hide the curve
 
 struct Columns {
@@ -120,16 +128,19 @@ std::string svg(const LinePlot& plot, Placement placement) {
   const Axis y(plot.y_scale, ys, plot.y_from_zero);
   const std::vector<int> colors = colors_of(plot);
 
-  Drawing drawing(kPlotWidth, kPlotHeight, plot.text.title, plot.text.description);
   std::vector<LegendEntry> legend;
   for (std::size_t k = 0; k < plot.curves.size(); ++k) {
     const std::string number = color_of(colors[k]);
     if (plot.curves[k].is_fitted)
       legend.push_back({plot.curves[k].name, "fitted l" + number, LegendEntry::kLineOnly});
     else
-      legend.push_back({plot.curves[k].name, mark_style(plot.curves[k], number), colors[k] % 4});
+      legend.push_back({plot.curves[k].name, mark_style(plot.curves[k], number), mark_of(colors[k])});
   }
-  const Area area = area_below(draw_head(drawing, plot.text.title, legend), y);
+  Drawing measured(kPlotWidth, kPlotHeight, plot.text.title, {});
+  const double taller = std::max(0.0, draw_head(measured, plot.text.title, legend) - kUsualHead);
+  Drawing drawing(kPlotWidth, kPlotHeight + taller, plot.text.title, plot.text.description);
+  Area area = area_below(draw_head(drawing, plot.text.title, legend), y);
+  area.bottom += taller;
   draw_y_axis(drawing, area, y, plot.text.y_label);
   draw_x_axis(drawing, area, x, plot.text.x_label);
 
@@ -140,7 +151,7 @@ std::string svg(const LinePlot& plot, Placement placement) {
     const Curve& curve = plot.curves[k];
     const std::string number = color_of(colors[k]);
     curves.line(curve, (curve.is_fitted || curve.is_hollow ? "fitted l" : "curve l") + number);
-    if (!curve.is_fitted) curves.marks(curve, mark_style(curve, number), colors[k] % 4, plot.text);
+    if (!curve.is_fitted) curves.marks(curve, mark_style(curve, number), mark_of(colors[k]), plot.text);
   }
   draw_cross_lines(drawing, area, plot.lines, &x, y);
   const bool is_empty = std::none_of(ys.begin(), ys.begin() + static_cast<std::ptrdiff_t>(points),

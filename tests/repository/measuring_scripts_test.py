@@ -147,15 +147,31 @@ class ContestMatrix(unittest.TestCase):
         verdicts = [{"validator": v, "outcome": o, "kind": "mechanics"}
                     for v, o in (("rest", "fail"), ("momentum", "pass"), ("passage", "not applicable"))]
         rows = {"cells.json": [{"stamp": stamp, "state": "recorded", "trace_file": "/of/this/run/a.h5"},
-                               {"stamp": {**stamp, "scene_name": "b"}, "state": "crashed", "trace_file": ""}],
+                               {"stamp": {**stamp, "scene_name": "b"}, "state": "crashed", "trace_file": ""},
+                               {"stamp": {**stamp, "scene_name": "a@1/960"}, "state": "crashed", "trace_file": ""}],
                 "verdicts.json": [{"trace_file": "/of/this/run/a.h5", "verdicts": verdicts}]}
         with tempfile.TemporaryDirectory() as folder:
             for name, content in rows.items():
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     json.dump({"rows": content}, file)
-            subprocess.run([sys.executable, self.KEEP, folder, "--to", folder], check=True)
-            with open(os.path.join(folder, "README.md"), encoding="utf-8") as file:
+            tables = {"stands.csv": "scene,mine[k=1]\na,0.016666668\nc,at none\n",
+                      "passages.csv": 'scene,"moves a step, m",mine[k=1]\nfast: b,0.41666667,through\n',
+                      "passage_fast__b.svg": "<svg/>"}
+            for name, text in tables.items():
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            kept = os.path.join(folder, "kept")
+            os.mkdir(kept)
+            subprocess.run([sys.executable, self.KEEP, folder, "--to", kept], check=True)
+            self.assertEqual(["README.md", "matrix.json", "passage_fast__b.svg"], sorted(os.listdir(kept)))
+            with open(os.path.join(kept, "README.md"), encoding="utf-8") as file:
                 page = file.read()
+            self.assertIn("| a | 1/60 |", page)
+            self.assertIn("| c | at none |", page)
+            self.assertIn("![fast: b](passage_fast__b.svg)", page)
+            self.assertIn("| fast: b | 0.417 | through |", page)
+            self.assertNotIn("a@1/960", page, "other steps are in the table of steps")
+            folder = kept
             with open(os.path.join(folder, "matrix.json"), encoding="utf-8") as file:
                 self.assertNotIn("/of/this/run", file.read())
         self.assertIn("| a | rest |", page)
@@ -195,6 +211,35 @@ class GpuPage(unittest.TestCase):
             run(os.path.join(GPU, "measured"), "--out", out)
             with open(out, encoding="utf-8") as made, open(os.path.join(GPU, "MEASURED.md"), encoding="utf-8") as kept:
                 self.assertEqual(made.read(), kept.read(), "run gpu/measured and commit gpu/MEASURED.md")
+
+    def test_sets_on_several_gpus_are_compared_with_one(self):
+        machine = ("name, driver_version, clocks.max.sm [MHz]\nA GPU, 1.2, 1980 MHz\nA GPU, 1.2, 1980 MHz\n"
+                   "\tGPU0\tGPU1\nGPU0\t X \tNV18\nGPU1\tNV18\t X\n")
+        row = {"boxes": "heaps", "pairs": 8, "digest": "0x1", "borders_ms": 0.1, "exchange_ms": 0.0, "search_ms": 0.9,
+               "bytes_between": 3200000, "bytes_needed": 2800000}
+        rows = [{**row, "what": "one", "n": 50, "parts": 1, "ms": 0.75},
+                {**row, "what": "one", "n": 100, "parts": 1, "ms": 1.5},
+                {**row, "what": "all", "n": 100, "parts": 2, "ms": 1.0}]
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (("rows", "\n".join(map(json.dumps, rows)) + "\na remark"), ("machine", machine)):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            out = os.path.join(folder, "of_spread.json")
+            command = [sys.executable, os.path.join(GPU, "spread"), "--rows", os.path.join(folder, "rows"), "--machine",
+                       os.path.join(folder, "machine"), out]
+            self.assertEqual(subprocess.run(command, check=False).returncode, 0)
+            with open(out, encoding="utf-8") as file:
+                result = json.load(file)
+            rows[2]["digest"] = "0x2"
+            with open(os.path.join(folder, "rows"), "w", encoding="utf-8") as file:
+                file.write("\n".join(map(json.dumps, rows)))
+            self.assertEqual(subprocess.run(command, check=False).returncode, 1, "digests differ")
+        self.assertEqual((len(result["gpus"]), result["gpus"][1]["clocks.max.sm"], result["links"]),
+                         (2, "1980 MHz", ["NV18"]))
+        page = self.page_of({"card_spread.json": result})
+        self.assertIn("| heaps | 100 | 8 | 1.5 | 1 | 75 % | 75 % | 0.1 | 0 | 0.9 | 3.20 (2.80) | yes |", page)
+        result["rows"][2]["digest"] = "0x2"
+        self.assertIn("| 3.20 (2.80) | NO |", self.page_of({"card_spread.json": result}))
 
     def test_a_figure_stands_beside_its_gpu_its_date_and_its_command(self):
         row = {"scene": "freefall:bunny:50", "label": "tree", "fps_median": 64390.0, "fps_least": 64000.0,

@@ -62,6 +62,16 @@ BROADSIDE_HD void each_point(const PatchConstraint& c, const Work& work) {
     if (k < c.count) work(k);
 }
 
+// The same from the last one to the first.
+template <typename Work>
+BROADSIDE_HD void each_point_back(const PatchConstraint& c, const Work& work) {
+#if defined(__CUDACC__)
+#pragma unroll
+#endif
+  for (int k = kManifoldPoints - 1; k >= 0; --k)
+    if (k < c.count) work(k);
+}
+
 // A unit vector across the unit vector n: along the axis that n is farthest from, less its part along n.
 BROADSIDE_HD Vec3 unit_across(Vec3 n) {
   const float x = n.x < 0.0F ? -n.x : n.x;

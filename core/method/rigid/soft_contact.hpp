@@ -232,20 +232,23 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   float largest = 0.0F;
   // Of the patch together: how its points share what stopped it is often open.
   float room = 0.0F;
-  for (int k = 0; k < c.count; ++k) {
+  each_point(c, [&](int k) {
     const PatchPoint& p = c.points[k];
     if (bounces(c, p, step)) room += (1.0F + c.surface.restitution) * p.stopping_impulse - p.normal_impulse;
-  }
-  for (int k = 0; k < kSweepsOfBounce * c.count; ++k) {
-    const int at = k % c.count;
-    PatchPoint& p = c.points[(k / c.count) % 2 == 0 ? at : c.count - 1 - at];
-    if (!bounces(c, p, step)) continue;
+  });
+  const auto visit = [&](int k) {
+    PatchPoint& p = c.points[k];
+    if (!bounces(c, p, step)) return;
     const float speed = dot(c.normal, relative_velocity(m, p));
     const float wish = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
     const float before = p.normal_impulse;
     const float size = add_normal_impulse(c, p, m, a, b, wish < room ? wish : room);
     room -= p.normal_impulse - before;
     largest = size > largest ? size : largest;
+  };
+  for (int k = 0; k < kSweepsOfBounce; k += 2) {
+    each_point(c, visit);
+    each_point_back(c, visit);
   }
   const float size = solve_frictions(c, m, a, b);
   store(m, a, b);

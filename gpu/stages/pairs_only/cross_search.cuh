@@ -11,6 +11,7 @@
 #include "gpu/stages/grid/stage_clock.cuh"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/pairs_only/bulk_cells.cuh"
+#include "gpu/stages/pairs_only/standing_cells.cuh"
 
 namespace broadside::gpu {
 
@@ -26,6 +27,8 @@ class CrossSearch {
 
   // By the whole warp.
   __device__ void find_partners(const PackedBox& box, bool has_box) {
+    has_box = has_box && may_have_standing(view_.cells, box);
+    if (!__any_sync(kFullWarp, has_box)) return;
     const volatile std::uint32_t* known = view_.standing.levels;
     for (std::uint32_t left = known[0]; left != 0; left &= left - 1U)
       look_at_level(box, has_box, __ffs(static_cast<int>(left)) - 1);

@@ -24,14 +24,15 @@ __device__ inline void note_box(const core::Box& box, std::uint32_t place, BoxMe
   }
 }
 
-// By whole warps.
+// By whole warps. All atomics of a word wait for each other, some 2 ns each, and thousands of warps come at once: those
+// that would change nothing look first.
 __device__ inline void add_least(std::uint32_t* to, std::uint32_t value) {
   const std::uint32_t least = warp_min(value);
-  if (threadIdx.x % 32 == 0) atomicMin(to, least);
+  if (threadIdx.x % 32 == 0 && least < *static_cast<volatile std::uint32_t*>(to)) atomicMin(to, least);
 }
 __device__ inline void add_largest(std::uint32_t* to, std::uint32_t value) {
   const std::uint32_t largest = ~warp_min(~value);
-  if (threadIdx.x % 32 == 0) atomicMax(to, largest);
+  if (threadIdx.x % 32 == 0 && largest > *static_cast<volatile std::uint32_t*>(to)) atomicMax(to, largest);
 }
 
 // What one thread has noted, to that of all.

@@ -95,7 +95,7 @@ function step(h) {
 }
 
 // The equations of the last step: multipliers are forces on the second body, along the normal and along two tangents. They
-// belong to where the step began.
+// belong to where the step began. Points at one place share their friction: the first of them has all of it.
 function readPoints() {
   const key = (e) => [e.bi.id, e.bj.id, ...list(e.ri), ...list(e.rj)].join(" ");
   const center = (body) => list(body.type === CANNON.Body.STATIC ? body.position : body.previousPosition);
@@ -104,6 +104,7 @@ function readPoints() {
   return world.contacts.map((e) => {
     const n = list(e.ni), p = add(center(e.bi), list(e.ri)), q = add(center(e.bj), list(e.rj));
     const onSecond = add(scaled(seconds * e.multiplier, n), friction.get(key(e)) ?? [0, 0, 0]);
+    friction.delete(key(e));
     return pointOf(ids.get(e.bi.id), ids.get(e.bj.id), { point: scaled(0.5, add(p, q)), normal: scaled(-1, n), gap: dot(sub(q, p), n), impulse: scaled(-1, onSecond) });
   });
 }

@@ -115,6 +115,30 @@ TEST(ApartOnHost, TheStaticTableIsKeptWhileItsBoxesRest) {
   EXPECT_EQ(counts["bytes to the device"], (2U * 150U + 5U * 150U) * 32U);
 }
 
+// Coarse cells tell which moving boxes are near nothing that stands. They are as large as the largest box of the first
+// frame; boxes that grow, or that lie around and below the origin, are found all the same.
+TEST(ApartOnHost, MovingBoxesOnBothSidesOfTheOriginThatGrow) {
+  tests::Draw draw(8);
+  tests::BoxCase c;
+  for (int k = 0; k < 260; ++k) {
+    const bool stands = k % 2 == 0;
+    c.boxes.push_back(tests::box_at({draw.between(-60, 60), draw.between(-4, 4), draw.between(-4, 4)},
+                                    {draw.between(0.2F, 1), draw.between(0.2F, 1), draw.between(0.2F, 1)}));
+    c.is_static.push_back(stands ? 1 : 0);
+  }
+  PairFinder finder(apart_from(50));
+  ASSERT_TRUE(finder.load(c.boxes, c.is_static).ok());
+  for (const float size : {1.0F, 3.0F, 9.0F}) {
+    for (std::size_t k = 1; k < c.boxes.size(); k += 2) {
+      const core::Vec3 side = c.boxes[k].max - c.boxes[k].min;
+      c.boxes[k].max = c.boxes[k].min + core::Vec3{size * side.x, side.y, side.z};
+    }
+    ASSERT_TRUE(finder.update(c.boxes).ok());
+    EXPECT_TRUE(is_apart(finder));
+    EXPECT_EQ(pairs_of(finder), tests::every_pair(c)) << size;
+  }
+}
+
 TEST(ApartOnHost, FewStaticBoxesAreSearchedTogether) {
   tests::BoxCase c;
   c.boxes = datasets::uniform_boxes(200, 3);

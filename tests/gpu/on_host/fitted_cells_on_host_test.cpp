@@ -1,0 +1,74 @@
+// Cells that are larger than the largest box must be change no pair, and are chosen where they save tests.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "datasets/box_streams/box_sets.hpp"
+#include "gpu/broad/fitted_cells.hpp"
+#include "gpu/broad/pair_finder.hpp"
+#include "gpu/broad/searched_boxes.hpp"
+#include "tests/reference/scene_octree/box_family.hpp"
+
+namespace broadside::gpu {
+namespace {
+
+using core::Box;
+
+PairFinderOptions in_bulk(float cell_scale) {
+  PairFinderOptions options;
+  options.least_for_grid = 50;
+  options.least_for_bulk = 50;
+  options.least_for_passes = 1U << 30;
+  options.cell_scale = cell_scale;
+  return options;
+}
+
+// What finding them tests; `scale` 0: fitted.
+std::uint64_t tests_with(const tests::BoxCase& c, float scale) {
+  PairFinder finder(in_bulk(scale));
+  finder.count_work();
+  EXPECT_TRUE(finder.load(c.boxes, c.is_static).ok());
+  EXPECT_TRUE(finder.find().ok());
+  auto found = finder.read_back();
+  EXPECT_TRUE(found.ok());
+  EXPECT_EQ(found.value().pairs, tests::every_pair(c)) << "scale " << scale;
+  std::map<std::string_view, std::uint64_t> counts;
+  for (const core::Counter& counter : finder.counters()) counts[counter.name] = counter.count;
+  return counts["broad: box tests"];
+}
+
+TEST(FittedCellsOnHost, ChangeNoPairOfAnyFamily) {
+  for (const tests::BoxFamily& family : tests::kBoxFamilies) {
+    SCOPED_TRACE(family.name);
+    const tests::BoxCase c = tests::make_case(family, 130, 17);
+    for (const float scale : {1.41421356F, 2.82842712F, 3.9F}) tests_with(c, scale);
+  }
+}
+
+// Boxes a little longer than a quarter of the largest are nearly four times shorter than their cells.
+TEST(FittedCellsOnHost, SaveTestsWhereMostBoxesAreMuchShorterThanTheirCells) {
+  tests::Draw draw(3);
+  tests::BoxCase c;
+  for (int k = 0; k < 2500; ++k) {
+    const float s = k == 0 ? 1.0F : 0.27F;
+    c.boxes.push_back(tests::box_at({draw.between(0, 4), draw.between(0, 4), draw.between(0, 1)}, {s, s, s}));
+  }
+  c.is_static.resize(c.boxes.size());
+  const std::uint64_t fitted = tests_with(c, 0.0F);
+  EXPECT_LT(2 * fitted, tests_with(c, 1.0F));
+}
+
+TEST(FittedCellsOnHost, AreTheLargestBoxsWhereThatIsBest) {
+  for (const auto make : {datasets::uniform_boxes, datasets::heap_boxes}) {
+    FactsOfBoxes facts;
+    const std::vector<Box> boxes = make(20'000, 1);
+    for (const Box& box : boxes) facts.add(box);
+    EXPECT_EQ(fitted_cell_scale(boxes, facts.all()), 1.0F);
+  }
+  EXPECT_EQ(fitted_cell_scale({}, {}), 1.0F);
+}
+
+}  // namespace
+}  // namespace broadside::gpu
