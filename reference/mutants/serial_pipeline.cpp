@@ -27,8 +27,8 @@ SerialPipeline::SerialPipeline(const Stages& stages, std::uint64_t run) : stages
 }
 
 const char* SerialPipeline::settings() {
-  return "broad=octree,contact=conjugate,levels=C,solver=colored,substeps=0,threads=1,thresholds=scaled,variant=sound,"
-         "vertex_stage=on";
+  return "broad=octree,contact=conjugate,levels=C,sleep=off,solver=colored,substeps=0,sweep=off,threads=1,"
+         "thresholds=scaled,variant=sound,vertex_stage=on";
 }
 
 core::Status SerialPipeline::load(const core::Scene& scene) {
