@@ -184,7 +184,7 @@ PassPlan plan_passes(std::span<const Box> boxes, float largest_m, std::uint32_t 
   const std::uint32_t stride = (n + kSampled - 1) / kSampled;
   for (std::uint32_t k = 0; k < n; k += stride) {
     const Box& b = boxes[k];
-    // What is no box is refused by whoever searches.
+    // The search refuses what is no box.
     if (!(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z && std::isfinite(largest_coordinate(b))))
       return {};
     sample.push_back(b);

@@ -60,7 +60,7 @@ struct GivenRows {
   py::object owner;
 };
 
-// Called by whoever took the rows, perhaps from a thread without Python's lock.
+// Called by the library that took the rows, perhaps from a thread without Python's lock.
 void release(DLManagedTensor* managed) {
   const py::gil_scoped_acquire lock;
   delete static_cast<GivenRows*>(managed->manager_ctx);

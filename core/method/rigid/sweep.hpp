@@ -17,8 +17,8 @@
 
 namespace broadside::core {
 
-// A way is gone in so many parts of one length; a body stops after a whole number of them. So whoever is stopped again
-// and again by others comes to rest on a number, and the stage that asks comes to its end.
+// A body's way is cut into so many equal parts, and a body stops after a whole number of them. So a body that others
+// stop again and again has finitely many places to stop at, and the stage ends.
 inline constexpr std::uint32_t kPartsOfWay = 256;
 
 // Of the thinner body's half thickness, what two bodies may be in each other beyond how deep they are at the start.

@@ -71,7 +71,7 @@ core::Scene spheres(std::uint32_t bodies, float cube_m) {
 }
 
 // The host's grid has two blocks of 64 threads: 40 bodies are resolved by one block, 80 by a thread each, 150 by
-// whoever comes to a contact last.
+// the thread that comes to a contact last.
 TEST(DigestOnHost, OfEveryKindOfFrame) {
   struct Case {
     const char* name;

@@ -18,7 +18,7 @@
 namespace broadside::gpu {
 namespace {
 
-// Takes what is left at the so-manieth time.
+// Takes the leftover work when it is asked for the ends_at-th time.
 struct Ending {
   std::uint32_t ends_at = 0;
   std::uint32_t asked = 0;
