@@ -93,10 +93,13 @@ __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
     load_impulses(slot, c);
     load_totals(slot, c);
     const std::uint64_t first = std::uint64_t{kFourPoints} * patch;
+    // Points that the patch does not have get zeros: the host copies all four.
 #pragma unroll
-    for (std::uint32_t k = 0; k < kFourPoints; ++k)
-      f.memory.feature[first + k] =
-          static_cast<int>(k) < c.count ? f.patches.items[patch].manifold.points[k].feature : 0;
+    for (std::uint32_t k = 0; k < kFourPoints; ++k) {
+      const bool is_used = static_cast<int>(k) < c.count;
+      f.memory.feature[first + k] = is_used ? f.patches.items[patch].manifold.points[k].feature : 0;
+      if (!is_used) f.impulses[first + k] = core::Vec3{};
+    }
     core::each_point(c, [&](int k) {
       const core::PatchPoint& p = c.points[k];
       const std::uint64_t at = first + static_cast<std::uint64_t>(k);
