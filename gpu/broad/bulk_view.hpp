@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "core/attributes.hpp"
+
 namespace broadside::gpu {
 
 // Two corners, rounded: see bulk_cells.cuh.
@@ -18,17 +20,31 @@ struct alignas(16) BulkEntry {
   std::uint32_t tag = 0;  // see bulk_cells.cuh
 };
 
-// What puts boxes in order by chunk of buckets, so that memory is written in runs: see bulk_bins.cuh.
+// How many bins boxes go to: see bulk_bins.cuh.
+struct BinsShape {
+  std::uint32_t bins = 0;          // 0: there are too few boxes to need any
+  std::uint32_t coarse_shift = 0;  // 2^coarse_shift bins are a coarse bin, to which boxes go first; 0: at once to bins
+  std::uint32_t bins_of_tile = 0;  // a block's tile counts so many at a time
+  std::uint32_t shared_bytes = 0;  // of a block
+  [[nodiscard]] BROADSIDE_HD std::uint32_t coarse_bins() const {
+    return coarse_shift == 0 ? 0U : (bins >> coarse_shift) + 1U;
+  }
+};
+
+// What puts boxes in order by chunk of buckets, so that memory is written in runs.
 struct BinsView {
-  std::uint32_t bins = 0;                // 0: there are too few boxes to need it
-  std::uint32_t* chunk_count = nullptr;  // [chunks]; zero between frames
-  std::uint32_t* chunk_begin = nullptr;  // [chunks + 1] where their entries begin
-  std::uint32_t* block_sum = nullptr;    // [blocks of the launch]
-  std::uint32_t* first_chunk = nullptr;  // [bins]
-  std::uint32_t* last_chunk = nullptr;   // [bins]
-  std::uint32_t* cursor = nullptr;       // [bins] entries given out to blocks
-  BulkEntry* entries = nullptr;          // [bodies] by bin
-  std::uint16_t* bucket = nullptr;       // [bodies] of these entries, within their group
+  BinsShape shape;
+  std::uint32_t* chunk_count = nullptr;    // [chunks]; zero between frames
+  std::uint32_t* chunk_begin = nullptr;    // [chunks + 1] where their entries begin
+  std::uint32_t* block_sum = nullptr;      // [blocks of the launch]
+  std::uint32_t* first_chunk = nullptr;    // [bins]
+  std::uint32_t* last_chunk = nullptr;     // [bins]
+  std::uint32_t* cursor = nullptr;         // [bins] entries given out to blocks
+  std::uint32_t* coarse_cursor = nullptr;  // [coarse bins] likewise
+  std::uint32_t* whole_bucket = nullptr;   // [bodies] where there are coarse bins: buckets of entries by coarse bin,
+                                           // which lie where those by bucket will
+  BulkEntry* entries = nullptr;            // [bodies] by bin
+  std::uint16_t* bucket = nullptr;         // [bodies] of these entries, within their group
 };
 
 struct BulkView {
