@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/benchmarks/gpu_pair_digest.hpp"
 #include "core/pair.hpp"
 #include "datasets/box_streams/box_sets.hpp"
 #include "datasets/box_streams/box_stream.hpp"
-#include "gpu/broad/border_view.hpp"
 #include "gpu/broad/kept_finder.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "gpu/engines_on_cuda.hpp"
@@ -37,17 +37,6 @@ bool complain(const core::Error& error) {
 
 double ms_since(Clock::time_point from) {
   return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
-}
-
-core::Result<std::uint64_t> digest_of(const core::DevicePairs& pairs) {
-  gpu::DeviceBuffer<unsigned long long> sum;
-  const unsigned long long zero = 0;
-  if (core::Status s = sum.upload({&zero, 1}, "digest"); !s) return s.error();
-  if (core::Status s = gpu::launch_pair_digest({pairs.data, pairs.count, sum.data()}, nullptr); !s) return s.error();
-  if (core::Status s = gpu::wait_for_device("adding up a digest"); !s) return s.error();
-  std::vector<unsigned long long> out;
-  if (core::Status s = sum.download(out, 1); !s) return s.error();
-  return std::uint64_t{out[0]};
 }
 
 // Frames of a stream whose boxes lie on the device: update and find, by the host's clock.

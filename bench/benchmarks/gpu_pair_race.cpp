@@ -1,14 +1,16 @@
 // The GPU's broad phase on the boxes of the races: boxes on the device, pairs in memory, in any order. Prints one JSON
 // line a set: medians over the repetitions, ms.
-//   broadside_gpu_race [LARGEST_N [REPETITIONS [KIND [SMALLEST_N]]]]
-// KIND: uniform, heaps, mixed; or hard: surfaces, long thin boxes, uneven worlds, each of one size.
+//   broadside_gpu_race [LARGEST_N [REPETITIONS [KIND [SMALLEST_N [ORDER]]]]]
+// KIND: uniform, heaps, mixed; or hard: surfaces, long thin boxes, uneven worlds, each of one size. Numbers go from
+// SMALLEST_N to LARGEST_N by tens. ORDER: how bulk pairs are put in order, to compare: at-once, without bins; coarse,
+// in two steps however few bins there are.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
-#include "core/pair.hpp"
+#include "bench/benchmarks/gpu_pair_digest.hpp"
 #include "datasets/box_streams/box_stream.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "gpu/engines_on_cuda.hpp"
@@ -29,13 +31,21 @@ bool complain(const core::Error& error) {
 // A GPU that was idle takes some tenths of a second to reach its clock rate.
 constexpr double kWarmUpS = 0.3;
 
+gpu::PairFinderOptions options_of(const std::string& order) {
+  gpu::PairFinderOptions options;
+  if (order == "at-once") options.least_for_bins = 0xFFFFFFFFU;
+  if (order == "coarse") options.most_bins_at_once = 1024;  // two coarse bins have fewer, at any number of boxes
+  return options;
+}
+
 // `frame`: of a stream, counted from 0.
-bool race(const std::string& kind, const std::string& spec, std::uint32_t frame, int repetitions) {
+bool race(const std::string& kind, const std::string& spec, std::uint32_t frame, int repetitions,
+          const std::string& order) {
   auto made = datasets::make_box_stream("boxes:" + spec);
   if (!made) return complain(made.error());
   for (std::uint32_t k = 0; k < frame; ++k)
     if (core::Status s = made.value().advance(made.value().boxes); !s) return complain(s.error());
-  gpu::PairFinder finder({});
+  gpu::PairFinder finder(options_of(order));
   const std::vector<std::uint8_t> is_static(made.value().boxes.size());
   if (core::Status s = finder.load(made.value().boxes, is_static); !s) return complain(s.error());
   for (double spent_s = 0.0; spent_s < kWarmUpS; spent_s += 1e-5 + finder.find_time().whole_s)
@@ -47,15 +57,17 @@ bool race(const std::string& kind, const std::string& spec, std::uint32_t frame,
     whole.push_back(t.whole_s * 1e3), count.push_back(t.count_s * 1e3), place.push_back(t.place_s * 1e3);
     scatter.push_back(t.scatter_s * 1e3), find.push_back(t.find_s * 1e3);
   }
-  auto pairs = finder.read_back();
+  auto pairs = finder.pairs_on_device();
   if (!pairs) return complain(pairs.error());
+  auto digest = digest_of(pairs.value());
+  if (!digest) return complain(digest.error());
   const auto [least, most] = std::minmax_element(whole.begin(), whole.end());
   std::printf(
-      "{\"boxes\": \"%s\", \"n\": %zu, \"passes\": %zu, \"pairs\": %zu, \"digest\": \"0x%016llx\", \"ms\": %.4f, \"least_ms\": %.4f, "
+      "{\"boxes\": \"%s\", \"order\": \"%s\", \"n\": %zu, \"passes\": %zu, \"pairs\": %llu, \"digest\": \"0x%016llx\", \"ms\": %.4f, \"least_ms\": %.4f, "
       "\"most_ms\": %.4f, \"count_ms\": %.4f, \"place_ms\": %.4f, \"scatter_ms\": %.4f, \"find_ms\": %.4f}\n",
-      kind.c_str(), made.value().boxes.size(), finder.plan().passes.size(), pairs.value().pairs.size(),
-      static_cast<unsigned long long>(core::pair_digest(pairs.value().pairs)), median(whole), *least, *most,
-      median(count), median(place), median(scatter), median(find));
+      kind.c_str(), order.c_str(), made.value().boxes.size(), finder.plan().passes.size(),
+      static_cast<unsigned long long>(pairs.value().count), static_cast<unsigned long long>(digest.value()),
+      median(whole), *least, *most, median(count), median(place), median(scatter), median(find));
   std::fflush(stdout);
   return true;
 }
@@ -88,13 +100,14 @@ int main(int count, char** given) {
   const long largest = count > 1 ? std::atol(given[1]) : 1'000'000;
   const int repetitions = count > 2 ? std::max(1, std::atoi(given[2])) : 50;
   const long smallest = count > 4 ? std::max(1L, std::atol(given[4])) : 1000;
+  const std::string order = count > 5 ? given[5] : "default";
   bool is_good = true;
   for (const std::string kind : {"uniform", "heaps", "mixed"})
     for (long n = smallest; n <= largest; n *= 10)
       if (count <= 3 || kind == given[3])
-        is_good = broadside::bench::race(kind, kind + ":" + std::to_string(n), 0, repetitions) && is_good;
+        is_good = broadside::bench::race(kind, kind + ":" + std::to_string(n), 0, repetitions, order) && is_good;
   if (count <= 3 || std::string("hard") == given[3])
     for (const auto& set : broadside::bench::kHardSets)
-      is_good = broadside::bench::race(set.kind, set.spec, set.frame, repetitions) && is_good;
+      is_good = broadside::bench::race(set.kind, set.spec, set.frame, repetitions, order) && is_good;
   return is_good ? 0 : 1;
 }

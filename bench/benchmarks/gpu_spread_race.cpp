@@ -55,9 +55,11 @@ core::Result<std::vector<Box>> boxes_of(const std::string& kind, std::uint64_t n
 // In the order of the parts in which they begin, so that numbers part by part are those of the set.
 core::SpaceCut put_part_by_part(std::vector<Box>& boxes, std::uint32_t parts) {
   core::SpaceCut cut = core::cut_space(boxes, parts);
-  std::stable_sort(boxes.begin(), boxes.end(), [&cut](const Box& a, const Box& b) {
-    return cut.part_at(a.min[cut.axis]) < cut.part_at(b.min[cut.axis]);
-  });
+  // Dealt in one pass: sorting three hundred million boxes would take most of a minute.
+  std::vector<std::vector<Box>> of_part(cut.parts());
+  for (const Box& box : boxes) of_part[cut.part_at(box.min[cut.axis])].push_back(box);
+  boxes.clear();
+  for (const std::vector<Box>& part : of_part) boxes.insert(boxes.end(), part.begin(), part.end());
   return cut;
 }
 

@@ -179,16 +179,27 @@ void add_passes(const std::vector<Group>& groups, const Widths& world, PassPlan&
 
 PassPlan plan_passes(std::span<const Box> boxes, float largest_m, std::uint32_t least_boxes) {
   const auto n = static_cast<std::uint32_t>(boxes.size());
-  if (n < std::max(least_boxes, 2U)) return {};
   std::vector<Box> sample;
-  const std::uint32_t stride = (n + kSampled - 1) / kSampled;
-  for (std::uint32_t k = 0; k < n; k += stride) {
+  for (const std::uint32_t k : boxes_to_plan_by(n, least_boxes)) {
     const Box& b = boxes[k];
     // The search refuses what is no box.
     if (!(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z && std::isfinite(largest_coordinate(b))))
       return {};
     sample.push_back(b);
   }
+  return plan_passes_by_sample(sample, n, largest_m);
+}
+
+std::vector<std::uint32_t> boxes_to_plan_by(std::uint32_t count, std::uint32_t least_boxes) {
+  std::vector<std::uint32_t> which;
+  if (count < std::max(least_boxes, 2U)) return which;
+  const std::uint32_t stride = (count + kSampled - 1) / kSampled;
+  for (std::uint32_t k = 0; k < count; k += stride) which.push_back(k);
+  return which;
+}
+
+PassPlan plan_passes_by_sample(const std::vector<Box>& sample, std::uint32_t n, float largest_m) {
+  if (sample.empty()) return {};
   const PassMap shapes = map_of_shapes(sample, largest_m);
   const Kinds kinds = kinds_of(sample, shapes);
   const double boxes_a_sample = static_cast<double>(n) / static_cast<double>(sample.size());

@@ -104,6 +104,10 @@ inline constexpr std::uint32_t kLeastBoxesForPasses = 4096;
 PassPlan plan_passes(std::span<const Box> boxes, float largest_m = 0.0F,
                      std::uint32_t least_boxes = kLeastBoxesForPasses);
 
+// The same where the boxes are elsewhere: which of them the plan looks at, and the plan from these. Sound boxes.
+std::vector<std::uint32_t> boxes_to_plan_by(std::uint32_t count, std::uint32_t least_boxes = kLeastBoxesForPasses);
+PassPlan plan_passes_by_sample(const std::vector<Box>& sample, std::uint32_t count, float largest_m = 0.0F);
+
 // "one search of the boxes as they are", or the passes and why.
 std::string words_of(const PassPlan& plan);
 

@@ -73,6 +73,7 @@ core::Result<bool> ApartSearch::load_standing(std::span<const Box> boxes, const 
     const core::Vec3 side = boxes[id].max - boxes[id].min;
     largest_side_m = std::max({largest_side_m, side.x, side.y, side.z});
   }
+  cross_.cells.bounds = facts.all().domain;
   BROADSIDE_TRY(mark_cells(largest_side_m, stream));
   finest_cell_m_ = std::ldexp(table.cell_m, 1 - static_cast<int>(std::bit_width(levels)));
   ++static_builds_;
@@ -109,6 +110,11 @@ core::Result<bool> ApartSearch::load_moving(std::span<const Box> boxes) {
   BROADSIDE_TRY(copy_to_device(room.value(), packed_.data(), packed_.size() * sizeof(PackedBox)));
   bytes_to_device_ += packed_.size() * sizeof(PackedBox);
   BROADSIDE_TRY(moving_.load_packed(facts.all(), options_, false));
+  if (near_.capacity() <= packed_.size()) {
+    BROADSIDE_TRY(near_.reserve(packed_.size() + 1, "moving boxes near static ones"));
+    BROADSIDE_TRY(near_.fill_bytes(0));
+    BROADSIDE_TRY(wait_for_device("clearing a count of boxes"));
+  }
   return true;
 }
 
@@ -132,8 +138,10 @@ core::Status ApartSearch::launch(StreamHandle stream) {
   cross_.standing = standing_.view().bulk;
   cross_.standing_boxes = standing_.view().boxes;
   cross_.moving_boxes = moving.boxes;
-  cross_.order = moving.bulk.entries;
+  cross_.order = moving.bulk.bodies;
   cross_.count = moving.box_count;
+  cross_.near_count = near_.data();
+  cross_.near = near_.data() + 1;
   cross_.pairs = moving.pairs;
   cross_.counters = moving.counters;
   cross_.barrier = moving.barrier;

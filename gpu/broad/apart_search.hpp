@@ -31,7 +31,9 @@ class ApartSearch {
 
   [[nodiscard]] const Outcome& outcome() const { return moving_.outcome(); }
   [[nodiscard]] std::uint64_t launches() const { return moving_.launches() + 1; }
-  [[nodiscard]] std::uint64_t bytes() const { return standing_.bytes() + moving_.bytes() + cell_words_.bytes(); }
+  [[nodiscard]] std::uint64_t bytes() const {
+    return standing_.bytes() + moving_.bytes() + cell_words_.bytes() + near_.bytes();
+  }
   // Since start.
   [[nodiscard]] std::uint64_t static_builds() const { return static_builds_; }
   [[nodiscard]] std::uint64_t static_boxes_kept() const { return static_boxes_kept_; }
@@ -51,6 +53,7 @@ class ApartSearch {
   BoxSearch standing_;
   BoxSearch moving_;
   DeviceBuffer<std::uint32_t> cell_words_;
+  DeviceBuffer<std::uint32_t> near_;  // and their count
   CrossView cross_;
   LaunchShape cross_shape_;
   bool has_table_ = false;

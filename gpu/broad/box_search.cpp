@@ -26,8 +26,9 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   BROADSIDE_TRY(barrier_.fill_bytes(0));
   BROADSIDE_TRY(pairs_.reserve(first_room(options), "pairs"));
   const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
-  auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, options.least_for_bins)
-                                                 : pairs_launch_shape(start_, count_, buckets, options.least_for_bins);
+  const BinLimits limits{options.least_for_bins, options.most_bins_at_once};
+  auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, limits)
+                                                 : pairs_launch_shape(start_, count_, buckets, limits);
   if (!shape.ok()) return shape.error();
   shape_ = shape.value();
   BROADSIDE_TRY(broad_.load(start_, facts, options.hash_cell_m, options.variant, shape_.bins, shape_.sort.blocks));

@@ -57,7 +57,7 @@ class BoxSearch {
   core::Status append_pairs(std::vector<core::Pair>& to) const;
 
   [[nodiscard]] const Outcome& outcome() const { return outcome_[0]; }
-  [[nodiscard]] std::uint64_t launches() const { return (shape_.bins != 0 ? 2U : 1U) + (is_settled() ? 1U : 0U); }
+  [[nodiscard]] std::uint64_t launches() const { return (shape_.bins.bins != 0 ? 2U : 1U) + (is_settled() ? 1U : 0U); }
   [[nodiscard]] std::uint64_t bytes() const {
     return boxes_.bytes() + given_.bytes() + broad_.bytes() + pairs_.bytes() + settled_.bytes();
   }

@@ -62,18 +62,19 @@ core::Status BroadBuffers::reserve_buckets(std::uint64_t buckets, const char* wh
   return bucket_count_.fill_bytes(0);
 }
 
-core::Status BroadBuffers::load_bulk(std::size_t n, std::uint32_t bins, std::uint32_t blocks) {
+core::Status BroadBuffers::load_bulk(std::size_t n, const BinsShape& bins, std::uint32_t blocks) {
   BulkView& bulk = bulk_;
   const std::uint64_t buckets = grid_buckets(n);
-  BROADSIDE_TRY(bulk_entries_.reserve(n + 4, "boxes"));
+  // Half of it is CoarseBoxes, four more than there are boxes; the other half BulkBodies.
+  BROADSIDE_TRY(bulk_entries_.reserve(n + 5, "boxes"));
   BROADSIDE_TRY(levels_.reserve(3, "boxes"));
   BROADSIDE_TRY(levels_.fill_bytes(0));
   bulk.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
   bulk.axis_bits = axis_bits(buckets);
   bulk.x_bits = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U - 2 * bulk.axis_bits;
   bulk.row_bits = std::min(bulk.x_bits, static_cast<std::uint32_t>(std::bit_width(kBucketChunk)) - 1U);
-  bulk.bins.bins = bins;
-  if (bins == 0) {
+  bulk.bins.shape = bins;
+  if (bins.bins == 0) {
     BROADSIDE_TRY(rank_.reserve(n, "boxes"));
     return reserve_buckets(buckets, "boxes");
   }
@@ -82,12 +83,13 @@ core::Status BroadBuffers::load_bulk(std::size_t n, std::uint32_t bins, std::uin
   BROADSIDE_TRY(binned_buckets_.reserve(n, "boxes"));
   BROADSIDE_TRY(chunk_count_.reserve(buckets / kBucketChunk, "boxes"));
   BROADSIDE_TRY(chunk_begin_.reserve(buckets / kBucketChunk + 1, "boxes"));
-  BROADSIDE_TRY(bins_.reserve(3 * std::size_t{bins} + blocks, "boxes"));
+  if (bins.coarse_shift != 0) BROADSIDE_TRY(whole_buckets_.reserve(n, "boxes"));
+  BROADSIDE_TRY(bins_.reserve(3 * std::size_t{bins.bins} + bins.coarse_bins() + blocks, "boxes"));
   return chunk_count_.fill_bytes(0);
 }
 
 core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
-                                std::uint32_t bins, std::uint32_t blocks) {
+                                const BinsShape& bins, std::uint32_t blocks) {
   const std::size_t n = facts.count;
   view_ = {};
   bulk_ = {};
@@ -180,15 +182,19 @@ void BroadBuffers::fill(BulkView& bulk) const {
   bulk.count = bucket_count_.data();
   bulk.begin = bucket_begin_.data();
   bulk.rank = rank_.data();
-  bulk.entries = bulk_entries_.data();
+  bulk.staged = bulk_entries_.data();
+  bulk.boxes = reinterpret_cast<CoarseBox*>(bulk.staged);
+  bulk.bodies = reinterpret_cast<BulkBody*>(bulk.staged + (bulk_entries_.capacity() + 1) / 2);
   bulk.levels = levels_.data();
   bulk.turns = bulk.levels + 2;
   bulk.bins.chunk_count = chunk_count_.data();
   bulk.bins.chunk_begin = chunk_begin_.data();
   bulk.bins.first_chunk = bins_.data();
-  bulk.bins.last_chunk = bulk.bins.first_chunk + bulk.bins.bins;
-  bulk.bins.cursor = bulk.bins.last_chunk + bulk.bins.bins;
-  bulk.bins.block_sum = bulk.bins.cursor + bulk.bins.bins;
+  bulk.bins.last_chunk = bulk.bins.first_chunk + bulk.bins.shape.bins;
+  bulk.bins.cursor = bulk.bins.last_chunk + bulk.bins.shape.bins;
+  bulk.bins.coarse_cursor = bulk.bins.cursor + bulk.bins.shape.bins;
+  bulk.bins.block_sum = bulk.bins.coarse_cursor + bulk.bins.shape.coarse_bins();
+  bulk.bins.whole_bucket = whole_buckets_.data();
   bulk.bins.entries = binned_entries_.data();
   bulk.bins.bucket = binned_buckets_.data();
 }
@@ -196,8 +202,8 @@ void BroadBuffers::fill(BulkView& bulk) const {
 std::uint64_t BroadBuffers::bytes() const {
   return bucket_count_.bytes() + bucket_begin_.bytes() + bucket_cursor_.bytes() + rank_.bytes() + levels_.bytes() +
          entries_.bytes() + bulk_entries_.bytes() + binned_entries_.bytes() + binned_buckets_.bytes() +
-         chunk_count_.bytes() + chunk_begin_.bytes() + bins_.bytes() + hash_entries_.bytes() + oversized_.bytes() +
-         node_count_.bytes() + node_begin_.bytes() + range_end_.bytes();
+         chunk_count_.bytes() + chunk_begin_.bytes() + whole_buckets_.bytes() + bins_.bytes() + hash_entries_.bytes() +
+         oversized_.bytes() + node_count_.bytes() + node_begin_.bytes() + range_end_.bytes();
 }
 
 }  // namespace broadside::gpu

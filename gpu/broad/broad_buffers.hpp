@@ -48,9 +48,9 @@ std::uint64_t grid_buckets(std::uint64_t bodies);
 
 class BroadBuffers {
  public:
-  // `bins`: of BinsView; `blocks`: of the launch that sorts.
+  // `blocks`: of the launch that sorts.
   core::Status load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
-                    std::uint32_t bins = 0, std::uint32_t blocks = 0);
+                    const BinsShape& bins = {}, std::uint32_t blocks = 0);
   // The facts that a new set of boxes may change.
   void refit(const BoxFacts& facts);
   // Makes room for what the aborted frame demanded.
@@ -62,7 +62,7 @@ class BroadBuffers {
 
  private:
   core::Status reserve_buckets(std::uint64_t buckets, const char* what);
-  core::Status load_bulk(std::size_t n, std::uint32_t bins, std::uint32_t blocks);
+  core::Status load_bulk(std::size_t n, const BinsShape& bins, std::uint32_t blocks);
 
   BroadView view_;
   BulkView bulk_;
@@ -77,6 +77,7 @@ class BroadBuffers {
   DeviceBuffer<std::uint16_t> binned_buckets_;
   DeviceBuffer<std::uint32_t> chunk_count_;
   DeviceBuffer<std::uint32_t> chunk_begin_;
+  DeviceBuffer<std::uint32_t> whole_buckets_;
   DeviceBuffer<std::uint32_t> bins_;  // what BinsView has of each bin, and block_sum
   DeviceBuffer<HashEntry> hash_entries_;
   DeviceBuffer<std::uint32_t> oversized_;

@@ -3,32 +3,54 @@
 
 #include <cstdint>
 
+#include "core/attributes.hpp"
+
 namespace broadside::gpu {
 
 // Two corners, rounded: see bulk_cells.cuh.
-struct CoarseBox {
+struct alignas(8) CoarseBox {
   std::uint32_t min = 0;
   std::uint32_t max = 0;
 };
-
-// A box in its bucket.
-struct alignas(16) BulkEntry {
-  CoarseBox box;
+struct alignas(16) TwoCoarseBoxes {
+  CoarseBox box[2];
+};
+// Whose box that is.
+struct alignas(8) BulkBody {
   std::uint32_t body = 0;
   std::uint32_t tag = 0;  // see bulk_cells.cuh
 };
 
-// What puts boxes in order by chunk of buckets, so that memory is written in runs: see bulk_bins.cuh.
+// A box on its way to its bucket.
+struct alignas(16) BulkEntry {
+  CoarseBox box;
+  BulkBody who;
+};
+
+// How many bins boxes go to: see bulk_bins.cuh.
+struct BinsShape {
+  std::uint32_t bins = 0;          // 0: there are too few boxes to need any
+  std::uint32_t coarse_shift = 0;  // 2^coarse_shift bins are a coarse bin, to which boxes go first; 0: at once to bins
+  std::uint32_t bins_of_tile = 0;  // a block's tile counts so many at a time
+  std::uint32_t shared_bytes = 0;  // of a block
+  [[nodiscard]] BROADSIDE_HD std::uint32_t coarse_bins() const {
+    return coarse_shift == 0 ? 0U : (bins >> coarse_shift) + 1U;
+  }
+};
+
+// What puts boxes in order by chunk of buckets, so that memory is written in runs.
 struct BinsView {
-  std::uint32_t bins = 0;                // 0: there are too few boxes to need it
-  std::uint32_t* chunk_count = nullptr;  // [chunks]; zero between frames
-  std::uint32_t* chunk_begin = nullptr;  // [chunks + 1] where their entries begin
-  std::uint32_t* block_sum = nullptr;    // [blocks of the launch]
-  std::uint32_t* first_chunk = nullptr;  // [bins]
-  std::uint32_t* last_chunk = nullptr;   // [bins]
-  std::uint32_t* cursor = nullptr;       // [bins] entries given out to blocks
-  BulkEntry* entries = nullptr;          // [bodies] by bin
-  std::uint16_t* bucket = nullptr;       // [bodies] of these entries, within their group
+  BinsShape shape;
+  std::uint32_t* chunk_count = nullptr;    // [chunks]; zero between frames
+  std::uint32_t* chunk_begin = nullptr;    // [chunks + 1] where their entries begin
+  std::uint32_t* block_sum = nullptr;      // [blocks of the launch]
+  std::uint32_t* first_chunk = nullptr;    // [bins]
+  std::uint32_t* last_chunk = nullptr;     // [bins]
+  std::uint32_t* cursor = nullptr;         // [bins] entries given out to blocks
+  std::uint32_t* coarse_cursor = nullptr;  // [coarse bins] likewise
+  std::uint32_t* whole_bucket = nullptr;   // [bodies] where there are coarse bins: buckets of BulkView::staged
+  BulkEntry* entries = nullptr;            // [bodies] by bin
+  std::uint16_t* bucket = nullptr;         // [bodies] of these entries, within their group
 };
 
 struct BulkView {
@@ -40,7 +62,10 @@ struct BulkView {
   std::uint32_t* count = nullptr;   // [buckets]; zero between frames
   std::uint32_t* begin = nullptr;   // [bucket_words(buckets)]
   std::uint32_t* rank = nullptr;    // [bodies] place within the bucket
-  BulkEntry* entries = nullptr;     // [bodies + 4] by bucket
+  // A box in its bucket is in two arrays: a search reads all boxes of a row, and few of their names.
+  CoarseBox* boxes = nullptr;       // [bodies + 4] by bucket, aligned to two
+  BulkBody* bodies = nullptr;       // [bodies] of these
+  BulkEntry* staged = nullptr;      // [bodies] the memory of both, before they are there: entries by coarse bin
   std::uint32_t* levels = nullptr;  // [2] bit k of the first: some body was on level k; of the second: see LevelMarks;
                                     // bits are only ever set
   std::uint32_t* turns = nullptr;   // [1] shares of the boxes given out to warps that look for their partners

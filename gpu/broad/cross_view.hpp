@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/math/box.hpp"
 #include "core/pair.hpp"
 #include "core/result.hpp"
 #include "gpu/broad/broad_view.hpp"
@@ -19,6 +20,7 @@ struct StandingCells {
   std::uint32_t* words = nullptr;  // [word_mask + 1], a power of two of them; null: every cell may have some
   std::uint32_t word_mask = 0;
   float cells_per_m = 0.0F;
+  core::Box bounds;  // of all standing boxes
 };
 
 struct MarkView {
@@ -34,8 +36,10 @@ struct CrossView {
   const PackedBox* standing_boxes = nullptr;  // low_tag = the caller's number, as of the others
   StandingCells cells;
   const PackedBox* moving_boxes = nullptr;
-  const BulkEntry* order = nullptr;  // of the moving ones: neighbors in space side by side
-  std::uint32_t count = 0;           // of them
+  const BulkBody* order = nullptr;      // of the moving ones: neighbors in space side by side
+  std::uint32_t count = 0;              // of them
+  std::uint32_t* near = nullptr;        // [count] moving boxes that may have partners, by their place in the order
+  std::uint32_t* near_count = nullptr;  // of them; zero between frames
   // Behind what is there: the pairs that the moving ones have among each other.
   AppendView<core::Pair> pairs;
   Counters* counters = nullptr;

@@ -29,13 +29,35 @@ core::Status DevicePacking::reserve(std::span<const std::uint8_t> is_static) {
   return core::Done{};
 }
 
+core::Status DevicePacking::wait_behind(const core::DeviceBoxes& given, const Stream& stream) {
+  if (given.count == 0 || !given.is_behind_stream) return core::Done{};
+  BROADSIDE_TRY(written_.set(static_cast<StreamHandle>(given.stream)));
+  return written_.hold_back(stream.get());
+}
+
+core::Result<std::vector<core::Box>> DevicePacking::gather(const core::DeviceBoxes& given,
+                                                           std::span<const std::uint32_t> which, const Stream& stream) {
+  std::vector<core::Box> boxes;
+  if (which.empty()) return boxes;
+  BROADSIDE_TRY(which_.upload(which, "numbers of boxes"));
+  BROADSIDE_TRY(gathered_.reserve(which.size(), "some of the boxes"));
+  BROADSIDE_TRY(wait_for_device("copying numbers of boxes"));
+  BROADSIDE_TRY(wait_behind(given, stream));
+  GatherView view;
+  view.count = static_cast<std::uint32_t>(which.size());
+  view.which = which_.data();
+  view.given = given.data;
+  view.gathered = gathered_.data();
+  BROADSIDE_TRY(launch_gather(view, stream.get()));
+  BROADSIDE_TRY(stream.wait("looking at some of the boxes"));
+  BROADSIDE_TRY(gathered_.download(boxes, which.size()));
+  return boxes;
+}
+
 core::Result<BoxFacts> DevicePacking::pack(const core::DeviceBoxes& given, std::span<const std::uint8_t> is_static,
                                            PackedBox* to, const Stream& stream) {
   if (!has_flags_) BROADSIDE_TRY(reserve(is_static));
-  if (given.count != 0 && given.is_behind_stream) {
-    BROADSIDE_TRY(written_.set(static_cast<StreamHandle>(given.stream)));
-    BROADSIDE_TRY(written_.hold_back(stream.get()));
-  }
+  BROADSIDE_TRY(wait_behind(given, stream));
   BoxMeasure* const measure = measures_.data() + 1;
   BROADSIDE_TRY(copy_on_device(measure, measures_.data(), sizeof *measure, stream.get()));
   PackView view;

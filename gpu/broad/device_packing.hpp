@@ -22,10 +22,17 @@ class DevicePacking {
   // Before the first boxes with these flags.
   void start() { has_flags_ = false; }
 
+  // What the stream is asked for from now on comes after what may still write these boxes.
+  core::Status wait_behind(const core::DeviceBoxes& given, const Stream& stream);
+
   // Waits: when it returns the boxes were read, and are in `to` with these flags. An error names the first that is no
   // box. `is_static`: of as many boxes.
   core::Result<BoxFacts> pack(const core::DeviceBoxes& given, std::span<const std::uint8_t> is_static, PackedBox* to,
                               const Stream& stream);
+
+  // Waits. Those of the boxes, which are not packed for it.
+  core::Result<std::vector<core::Box>> gather(const core::DeviceBoxes& given, std::span<const std::uint32_t> which,
+                                              const Stream& stream);
 
  private:
   core::Status reserve(std::span<const std::uint8_t> is_static);
@@ -33,6 +40,8 @@ class DevicePacking {
   DeviceBuffer<std::uint8_t> flags_;
   DeviceBuffer<BoxMeasure> measures_;  // that of no box, which each packing begins with, and that of the last boxes
   Mapped<BoxMeasure, 1> measured_;
+  DeviceBuffer<std::uint32_t> which_;
+  DeviceBuffer<core::Box> gathered_;
   StreamMark written_;
   bool has_flags_ = false;  // and the measure of no box
 };

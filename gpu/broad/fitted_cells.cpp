@@ -73,9 +73,20 @@ double tests_of(const std::vector<Box>& sample, double largest_cell_m) {
 }  // namespace
 
 float fitted_cell_scale(std::span<const Box> boxes, const BoxFacts& facts) {
-  if (boxes.size() < 2 * kSample || !(facts.largest_side_m > 0.0F)) return 1.0F;
   std::vector<Box> sample;
-  for (std::size_t k = 0; k < kSample; ++k) sample.push_back(boxes[k * boxes.size() / kSample]);
+  for (const std::uint32_t k : boxes_to_fit_by(boxes.size())) sample.push_back(boxes[k]);
+  return cell_scale_by_sample(sample, facts);
+}
+
+std::vector<std::uint32_t> boxes_to_fit_by(std::size_t count) {
+  std::vector<std::uint32_t> which;
+  if (count < 2 * kSample) return which;
+  for (std::size_t k = 0; k < kSample; ++k) which.push_back(static_cast<std::uint32_t>(k * count / kSample));
+  return which;
+}
+
+float cell_scale_by_sample(const std::vector<Box>& sample, const BoxFacts& facts) {
+  if (sample.empty() || !(facts.largest_side_m > 0.0F)) return 1.0F;
   double least = 0.0;
   float best = 1.0F;
   for (const float scale : kScales) {

@@ -6,7 +6,10 @@
 // is counted in a sample.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/math/box.hpp"
 #include "gpu/broad/broad_buffers.hpp"
@@ -16,5 +19,9 @@ namespace broadside::gpu {
 // From 1 to below 4; 1 where nothing else promises a fifth less work, or where a sample of a thousand is too thin to
 // tell. Sound boxes; the same boxes give the same answer. It takes some milliseconds.
 float fitted_cell_scale(std::span<const core::Box> boxes, const BoxFacts& facts);
+
+// The same where the boxes are elsewhere: which of them are looked at, and the answer from these.
+std::vector<std::uint32_t> boxes_to_fit_by(std::size_t count);
+float cell_scale_by_sample(const std::vector<core::Box>& sample, const BoxFacts& facts);
 
 }  // namespace broadside::gpu

@@ -33,7 +33,6 @@ struct KeptFinder::Impl {
   std::vector<std::uint8_t> is_static;
   KeptView view;
   DeviceBuffer<PackedBox> now;
-  DeviceBuffer<PackedBox> fat_placed;
   DeviceBuffer<PackedBox> placed;
   DeviceBuffer<std::uint32_t> place_of;
   DeviceBuffer<core::Pair> pairs;
@@ -57,7 +56,7 @@ struct KeptFinder::Impl {
   core::Status reserve();
   core::Status clear_counts();
   core::Status read_counts(const char* what);
-  core::Status look_within();
+  core::Status look_within(const float* given);
   core::Status fatten();
   core::Status choose();
   core::Status search_fat();
@@ -85,7 +84,6 @@ core::Status KeptFinder::Impl::reserve() {
   const KeptCounts no_counts[2];
   const BoxMeasure of_none[2];
   BROADSIDE_TRY(now.reserve(count, "boxes"));
-  BROADSIDE_TRY(fat_placed.reserve(count, "fat boxes"));
   BROADSIDE_TRY(placed.reserve(count, "boxes by place"));
   BROADSIDE_TRY(place_of.reserve(count, "places of boxes"));
   BROADSIDE_TRY(counts.upload(no_counts, "counts of kept pairs"));
@@ -96,7 +94,6 @@ core::Status KeptFinder::Impl::reserve() {
   view.count = static_cast<std::uint32_t>(count);
   view.now = now.data();
   view.measure = measures.data() + 1;
-  view.fat_placed = fat_placed.data();
   view.placed = placed.data();
   view.place_of = place_of.data();
   view.counts = counts.data() + 1;
@@ -112,7 +109,11 @@ core::Status KeptFinder::Impl::read_counts(const char* what) {
   return stream.wait(what);
 }
 
-core::Status KeptFinder::Impl::look_within() {
+// `given`: on the device; null: packed already.
+core::Status KeptFinder::Impl::look_within(const float* given) {
+  is_kept = false;
+  if (!has_candidates) return core::Done{};
+  view.given = given;
   BROADSIDE_TRY(clear_counts());
   BROADSIDE_TRY(launch_within(view, stream.get()));
   BROADSIDE_TRY(read_counts("looking whether boxes are within"));
@@ -136,11 +137,8 @@ core::Status KeptFinder::Impl::fatten() {
   return core::Done{};
 }
 
-// What this frame does, once its boxes are there.
+// How a frame is searched that is not of kept pairs, once its boxes are packed.
 core::Status KeptFinder::Impl::choose() {
-  is_kept = false;
-  if (has_candidates) BROADSIDE_TRY(look_within());
-  if (is_kept) return core::Done{};
   if (has_candidates) {
     in_vain = has_served ? 0 : in_vain + 1;
     if (in_vain > 0) pause = std::min(kMostPause, 1U << std::min(in_vain, 6U));
@@ -167,8 +165,10 @@ core::Status KeptFinder::update(std::span<const Box> boxes) {
     BROADSIDE_TRY(d.now.upload(d.packed.searched(), "boxes"));
     BROADSIDE_TRY(wait_for_device("copying boxes"));
   }
+  BROADSIDE_TRY(d.look_within(nullptr));
+  if (d.is_kept) return core::Done{};
   BROADSIDE_TRY(d.choose());
-  if (d.is_kept || d.is_fat) return core::Done{};
+  if (d.is_fat) return core::Done{};
   const bool is_first = !d.is_plain;
   d.is_plain = true;
   return is_first ? d.plain.load(boxes, d.is_static) : d.plain.update(boxes);
@@ -182,10 +182,13 @@ core::Status KeptFinder::load_on_device(const core::DeviceBoxes& boxes, std::spa
 core::Status KeptFinder::update_on_device(const core::DeviceBoxes& boxes) {
   Impl& d = *impl_;
   if (boxes.count != d.is_static.size()) return another_count(boxes.count, d.is_static.size());
+  BROADSIDE_TRY(d.packing.wait_behind(boxes, d.stream));
+  BROADSIDE_TRY(d.look_within(boxes.data));
+  if (d.is_kept) return core::Done{};
   if (d.looks())
     if (auto facts = d.packing.pack(boxes, d.is_static, d.now.data(), d.stream); !facts.ok()) return facts.error();
   BROADSIDE_TRY(d.choose());
-  if (d.is_kept || d.is_fat) return core::Done{};
+  if (d.is_fat) return core::Done{};
   const bool is_first = !d.is_plain;
   d.is_plain = true;
   return is_first ? d.plain.load_on_device(boxes, d.is_static) : d.plain.update_on_device(boxes);
@@ -200,7 +203,7 @@ core::Status KeptFinder::Impl::search_fat() {
     if (!fat.is_aborted()) break;
     BROADSIDE_TRY(fat.grow());
   }
-  view.order = fat.view().bulk.entries;
+  view.order = fat.view().bulk.bodies;
   view.candidates = fat.view().pairs.items;
   view.candidate_count = fat.found().count;
   BROADSIDE_TRY(launch_place(view, stream.get()));

@@ -22,10 +22,10 @@ struct KeptCounts {
 struct KeptView {
   std::uint32_t count = 0;
   const PackedBox* now = nullptr;     // [count] this frame's boxes; low_tag = the box's number
+  const float* given = nullptr;       // [count][6] where launch_within finds them; null: in `now`
   PackedBox* fat = nullptr;           // [count] by number
   BoxMeasure* measure = nullptr;      // of the fat ones
-  const BulkEntry* order = nullptr;   // [count] by place
-  PackedBox* fat_placed = nullptr;    // [count] by place
+  const BulkBody* order = nullptr;    // [count] by place
   PackedBox* placed = nullptr;        // [count] this frame's, by place
   std::uint32_t* place_of = nullptr;  // [count] by number
   core::Pair* candidates = nullptr;

@@ -13,9 +13,8 @@ __global__ void __launch_bounds__(kThreads, 2) named_pairs_kernel(const __grid_c
 
 }  // namespace
 
-core::Result<PairsShape> named_pairs_launch_shape(std::uint32_t boxes, std::uint32_t buckets,
-                                                  std::uint32_t least_for_bins) {
-  auto made = pairs_launch_shape(Start::kBulk, boxes, buckets, least_for_bins);
+core::Result<PairsShape> named_pairs_launch_shape(std::uint32_t boxes, std::uint32_t buckets, const BinLimits& limits) {
+  auto made = pairs_launch_shape(Start::kBulk, boxes, buckets, limits);
   if (!made.ok()) return made.error();
   PairsShape shape = made.value();
   shape.search = {kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(BulkNotes)), 0};
@@ -24,7 +23,7 @@ core::Result<PairsShape> named_pairs_launch_shape(std::uint32_t boxes, std::uint
 }
 
 core::Status launch_named_pairs(const NamedPairsView& view, const PairsShape& shape, StreamHandle stream) {
-  if (shape.bins != 0 && !view.is_in_order) BROADSIDE_TRY(launch_sort(view.search, shape, stream));
+  if (shape.bins.bins != 0 && !view.is_in_order) BROADSIDE_TRY(launch_sort(view.search, shape, stream));
   return launch(named_pairs_kernel, view, shape.search, stream);
 }
 

@@ -27,8 +27,7 @@ struct NamedPairsView {
 };
 
 // Of pairs_launch_shape's, with the search's own blocks.
-core::Result<PairsShape> named_pairs_launch_shape(std::uint32_t boxes, std::uint32_t buckets,
-                                                  std::uint32_t least_for_bins);
+core::Result<PairsShape> named_pairs_launch_shape(std::uint32_t boxes, std::uint32_t buckets, const BinLimits& limits);
 // Asynchronous.
 core::Status launch_named_pairs(const NamedPairsView& view, const PairsShape& shape, StreamHandle stream);
 // The launch before a search, where the shape has bins.

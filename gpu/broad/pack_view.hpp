@@ -38,7 +38,16 @@ struct PackView {
   BoxMeasure* measure = nullptr;            // as BoxMeasure{} before the launch
 };
 
+// Some of the boxes, behind each other.
+struct GatherView {
+  std::uint32_t count = 0;
+  const std::uint32_t* which = nullptr;  // [count]
+  const float* given = nullptr;          // boxes, as of PackView
+  core::Box* gathered = nullptr;         // [count]
+};
+
 // Asynchronous.
 core::Status launch_pack(const PackView& view, StreamHandle stream);
+core::Status launch_gather(const GatherView& view, StreamHandle stream);
 
 }  // namespace broadside::gpu

@@ -33,6 +33,7 @@ struct PairFinder::Impl {
   bool is_apart = false;  // in the place of the searches
   std::uint64_t chunked_pairs = 0;
   float cell_scale = 1.0F;  // of the boxes that were loaded
+  bool is_by_host = false;  // boxes of the device that were loaded need passes, which the host makes
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
   WorkCounter work;
@@ -43,6 +44,8 @@ struct PairFinder::Impl {
   core::Status start(std::span<const std::uint8_t> flags);
   core::Status place(std::span<const Box> given, bool is_new);
   core::Status place_on_device(const core::DeviceBoxes& given, bool is_new);
+  core::Status fit_to(const core::DeviceBoxes& given, const BoxFacts& facts);
+  core::Status place_by_host(const core::DeviceBoxes& given, bool is_new);
   core::Status load_search(std::size_t k, bool is_new);
   [[nodiscard]] float fitted_scale(std::span<const Box> given) const;
   BoxSearch& search(std::size_t k);
@@ -51,6 +54,9 @@ struct PairFinder::Impl {
   [[nodiscard]] std::vector<FoundPairs> found() const;
   core::Status join();
   core::Status for_each_chunk(const ChunkConsumer& take);
+  [[nodiscard]] std::uint32_t least_for_passes() const {
+    return std::max(options.least_for_grid, options.least_for_passes);
+  }
   [[nodiscard]] bool is_chunked() const { return options.pairs_at_once != 0; }
 };
 
@@ -70,6 +76,7 @@ core::Status PairFinder::Impl::start(std::span<const std::uint8_t> flags) {
   BROADSIDE_TRY(check_box_limit(flags.size()));
   is_static.assign(flags.begin(), flags.end());
   packing.start();
+  is_by_host = false;
   launches = bytes_to_device = 0;
   may_be_apart = !is_chunked() && options.may_have_passes() && is_worth_keeping_apart(is_static, options);
   if (may_be_apart) apart.start(is_static, options);
@@ -96,9 +103,7 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
   // Also where there are passes: it refuses what is no box.
   BROADSIDE_TRY(boxes.take(given, is_static, options));
   plan = {};
-  if (options.may_have_passes())
-    plan = core::plan_passes(given, boxes.facts().coordinate_range_m,
-                             std::max(options.least_for_grid, options.least_for_passes));
+  if (options.may_have_passes()) plan = core::plan_passes(given, boxes.facts().coordinate_range_m, least_for_passes());
   is_apart = false;
   if (may_be_apart && plan.is_plain()) {
     auto can_be = apart.load(given, stream);
@@ -119,10 +124,35 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
   return core::Done{};
 }
 
+// What the host learns of a sample, as of boxes of its own: whether there are passes, and how large cells are.
+core::Status PairFinder::Impl::fit_to(const core::DeviceBoxes& given, const BoxFacts& facts) {
+  is_by_host = false;
+  if (options.may_have_passes()) {
+    auto sample = packing.gather(given, core::boxes_to_plan_by(facts.count, least_for_passes()), stream);
+    if (!sample.ok()) return sample.error();
+    is_by_host = !core::plan_passes_by_sample(sample.value(), facts.count, facts.coordinate_range_m).is_plain();
+  }
+  cell_scale = options.cell_scale != 0.0F ? options.cell_scale : 1.0F;
+  if (is_by_host || options.cell_scale != 0.0F || options.start(facts) != Start::kBulk) return core::Done{};
+  auto sample = packing.gather(given, boxes_to_fit_by(facts.count), stream);
+  if (!sample.ok()) return sample.error();
+  cell_scale = cell_scale_by_sample(sample.value(), facts);
+  return core::Done{};
+}
+
+core::Status PairFinder::Impl::place_by_host(const core::DeviceBoxes& given, bool is_new) {
+  BROADSIDE_TRY(packing.wait_behind(given, stream));
+  BROADSIDE_TRY(stream.wait("writing boxes"));
+  std::vector<Box> copied(given.count);
+  if (given.count != 0) BROADSIDE_TRY(copy_to_host(copied.data(), given.data, given.count * sizeof(Box)));
+  return place(copied, is_new);
+}
+
 core::Status PairFinder::Impl::place_on_device(const core::DeviceBoxes& given, bool is_new) {
   if (options.broad == Broad::kHash)
     return core::Error{"it takes boxes from the host alone", "spatial hash on the GPU",
                        "take octree-gpu, or copy the boxes to the host"};
+  if (!is_new && is_by_host) return place_by_host(given, false);
   plan = {};
   is_apart = false;
   active = 1;
@@ -130,7 +160,11 @@ core::Status PairFinder::Impl::place_on_device(const core::DeviceBoxes& given, b
   if (!room.ok()) return room.error();
   auto facts = packing.pack(given, is_static, room.value(), stream);
   if (!facts.ok()) return facts.error();
-  return search(0).load_packed(facts.value(), options, is_new);
+  BoxFacts fitted = facts.value();
+  if (is_new) BROADSIDE_TRY(fit_to(given, fitted));
+  if (is_by_host) return place_by_host(given, is_new);
+  fitted.cell_scale = cell_scale;
+  return search(0).load_packed(fitted, options, is_new);
 }
 
 core::Status PairFinder::load(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {

@@ -21,6 +21,7 @@ struct PairFinderOptions {
   std::uint64_t pairs_at_once = 0;                     // room for pairs on the device; 0: for all
   float cell_scale = 0.0F;                             // of BoxFacts; 0: what fits the boxes that are loaded
   bool has_shares = false;  // boxes are searched share by share or part by part, so by the search of bulk pairs alone
+  std::uint32_t most_bins_at_once = 0;  // of BinLimits
 
   // Where the pairs of these boxes come from.
   [[nodiscard]] Start start(const BoxFacts& facts) const {

@@ -35,17 +35,17 @@ core::Result<LaunchShape> search_shape() {
 }  // namespace
 
 core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
-                                            std::uint32_t least_for_bins) {
+                                            const BinLimits& limits) {
   PairsShape shape;
   auto search = start == Start::kBulk ? search_shape<true>() : search_shape<false>();
   if (!search.ok()) return search.error();
   shape.search = search.value();
-  if (start != Start::kBulk || boxes < least_for_bins) return shape;
-  const std::uint32_t bins = bins_of(kSortThreads, boxes, buckets);
+  if (start != Start::kBulk || boxes < limits.least_boxes) return shape;
   auto block_limit = attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin);
   if (!block_limit.ok()) return block_limit.error();
-  shape.sort = {kSortThreads, 0, std::max(tile_bytes(kSortThreads, bins), bin_bytes(kSortThreads)), 0};
-  if (shape.sort.shared_bytes > block_limit.value()) return shape;
+  const BinsShape bins = bins_shape(kSortThreads, boxes, buckets, block_limit.value(), limits.most_at_once);
+  if (bins.bins == 0) return shape;
+  shape.sort = {kSortThreads, 0, bins.shared_bytes, 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(sort_kernel), shape.sort));
   if (shape.sort.blocks != 0) shape.bins = bins;
   return shape;
@@ -57,7 +57,7 @@ core::Status launch_sort(const PairsView& view, const PairsShape& shape, StreamH
 
 core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
   if (view.broad.start != Start::kBulk) return launch(pairs_kernel<false>, view, shape.search, stream);
-  if (shape.bins != 0) BROADSIDE_TRY(launch_sort(view, shape, stream));
+  if (shape.bins.bins != 0) BROADSIDE_TRY(launch_sort(view, shape, stream));
   return launch(pairs_kernel<true>, view, shape.search, stream);
 }
 

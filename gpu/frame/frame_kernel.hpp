@@ -63,13 +63,18 @@ struct PairsView {
   unsigned long long* barrier = nullptr;  // the barrier word
   Outcome* outcome = nullptr;
 };
+// Where bulk pairs are put in order by bins.
+struct BinLimits {
+  std::uint32_t least_boxes = 0;
+  std::uint32_t most_at_once = 0;  // bins that a tile counts; 0: as many as fit
+};
 struct PairsShape {
   LaunchShape search;
-  LaunchShape sort;        // where there are bins
-  std::uint32_t bins = 0;  // of BinsView; 0 also where the GPU has too little shared memory for them
+  LaunchShape sort;  // where there are bins
+  BinsShape bins;    // none also where the GPU has too little shared memory for them
 };
 core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
-                                            std::uint32_t least_for_bins);
+                                            const BinLimits& limits);
 core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream);
 
 // The sum of the digests of everything that the last frame left. Counts are read on the device, so that it can be

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kThreads = 64;
 constexpr std::uint32_t kBlocks = 2;
+constexpr std::uint32_t kSharedBytes = 1U << 17U;
 
 // A test that sets the seed runs the fibers in another order each round; 0 = one after another.
 std::uint64_t seed() {
@@ -54,14 +55,14 @@ core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, 
 }
 
 core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
-                                            std::uint32_t least_for_bins) {
+                                            const BinLimits& limits) {
   const bool is_bulk = start == Start::kBulk;
   const std::size_t each = is_bulk ? sizeof(PairsScratch<true>) : sizeof(PairsScratch<false>);
   PairsShape shape;
   shape.search = {kThreads, kBlocks, kThreads / 32 * static_cast<std::uint32_t>(each), kBlocks};
-  if (!is_bulk || boxes < least_for_bins) return shape;
-  shape.bins = bins_of(kThreads, boxes, buckets);
-  shape.sort = {kThreads, kBlocks, std::max(tile_bytes(kThreads, shape.bins), bin_bytes(kThreads)), kBlocks};
+  if (!is_bulk || boxes < limits.least_boxes) return shape;
+  shape.bins = bins_shape(kThreads, boxes, buckets, kSharedBytes, limits.most_at_once);
+  shape.sort = {kThreads, kBlocks, shape.bins.shared_bytes, kBlocks};
   return shape;
 }
 
@@ -71,7 +72,7 @@ core::Status launch_sort(const PairsView& view, const PairsShape& shape, StreamH
 }
 
 core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
-  if (shape.bins != 0) BROADSIDE_TRY(launch_sort(view, shape, stream));
+  if (shape.bins.bins != 0) BROADSIDE_TRY(launch_sort(view, shape, stream));
   on_host::run(launch_of(shape.search), shape.search.shared_bytes, [&](unsigned char* shared) {
     if (view.broad.start == Start::kBulk)
       run_pairs<true>(view, shared);

@@ -3,6 +3,11 @@
 
 namespace broadside::gpu {
 
+core::Status launch_gather(const GatherView& view, StreamHandle /*stream*/) {
+  on_host::run({{2}, {64}, 0}, 0, [&](unsigned char*) { run_gather(view); });
+  return core::Done{};
+}
+
 core::Status launch_pack(const PackView& view, StreamHandle /*stream*/) {
   on_host::run({{2}, {64}, 0}, 0, [&](unsigned char*) { run_pack(view); });
   return core::Done{};

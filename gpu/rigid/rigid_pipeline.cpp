@@ -98,7 +98,7 @@ Start RigidPipeline::Impl::start() const {
 core::Status RigidPipeline::Impl::load_broad() {
   const std::size_t n = bodies.state.size();
   auto shape =
-      pairs_launch_shape(start(), facts.count, static_cast<std::uint32_t>(grid_buckets(n)), kLeastBoxesForBins);
+      pairs_launch_shape(start(), facts.count, static_cast<std::uint32_t>(grid_buckets(n)), {kLeastBoxesForBins});
   if (!shape.ok()) return shape.error();
   pairs_launch = shape.value();
   BROADSIDE_TRY(broad.load(start(), facts, 0.0F, core::Variant::kSound, pairs_launch.bins, pairs_launch.sort.blocks));

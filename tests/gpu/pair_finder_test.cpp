@@ -115,6 +115,12 @@ TEST_F(PairFinderTest, SearchesAgreeOnManyBoxes) {
     PairFinder subject(among_many(least_for_bins));
     EXPECT_TRUE(pairs_of(subject, boxes, is_static) == expected) << "many, bins from " << least_for_bins << " boxes on";
   }
+  for (const std::uint32_t most_bins : {1U, 1024U}) {
+    PairFinderOptions options = among_many(50);
+    options.most_bins_at_once = most_bins;
+    PairFinder subject(options);
+    EXPECT_TRUE(pairs_of(subject, boxes, is_static) == expected) << "coarse bins, " << most_bins << " at once";
+  }
 }
 
 TEST_F(PairFinderTest, SizesOverSixOrders) {

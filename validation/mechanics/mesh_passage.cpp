@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/exact/swept_box.hpp"
+
 namespace broadside::validation {
 namespace {
 
@@ -30,27 +32,32 @@ exact::RigidMotion motion_between(const BodyState& from, const BodyState& to) {
 
 }  // namespace
 
-const exact::MovingShape& MeshPassage::shape(const Motion& motion, std::uint32_t body) {
+const MeshPassage::Shape& MeshPassage::shape(const Motion& motion, std::uint32_t body) {
   const BodyFacts& facts = motion.facts[body];
   const auto known = shapes_.find(facts.mesh);
   if (known != shapes_.end()) return known->second;
   core::Mesh mesh = *scene_.meshes[facts.mesh];
   for (core::Vec3& v : mesh.vertices) v = to_float(Vec3d{v.x, v.y, v.z} - facts.center_of_mass);
-  return shapes_.emplace(facts.mesh, exact::MovingShape(mesh, false)).first->second;
+  return shapes_.emplace(facts.mesh, Shape{mesh.vertices, exact::MovingShape(mesh, false)}).first->second;
 }
 
 double MeshPassage::deepest_m(const Motion& motion, core::Pair pair, double moved_m) {
   const BodyStep& a = motion.bodies[pair.i];
   const BodyStep& b = motion.bodies[pair.j];
-  const exact::MovingShape& shape_a = shape(motion, pair.i);
-  const exact::MovingShape& shape_b = shape(motion, pair.j);
+  const Shape& shape_a = shape(motion, pair.i);
+  const Shape& shape_b = shape(motion, pair.j);
   const double far = std::max({length(a.before.x), length(a.after.x), length(b.before.x), length(b.after.x)});
   const double rounded_m = kToFloat * (far + motion.facts[pair.i].reach_m + motion.facts[pair.j].reach_m);
-  const exact::RigidTouch there =
-      first_touch(shape_a, motion_between(a.before, a.after), shape_b, motion_between(b.before, b.after));
+  const exact::RigidMotion motion_a = motion_between(a.before, a.after);
+  const exact::RigidMotion motion_b = motion_between(b.before, b.after);
+  // A box holds its body at every time of the step: bodies whose boxes are apart never touch.
+  if (!core::overlaps(exact::swept_box(shape_a.vertices, motion_a), exact::swept_box(shape_b.vertices, motion_b)))
+    return rounded_m;
+  ++asked_;
+  const exact::RigidTouch there = first_touch(shape_a.surface, motion_a, shape_b.surface, motion_b);
   if (there.meeting == exact::Meeting::kApart) return rounded_m;
-  const exact::RigidTouch back =
-      first_touch(shape_a, motion_between(a.after, a.before), shape_b, motion_between(b.after, b.before));
+  const exact::RigidTouch back = first_touch(shape_a.surface, motion_between(a.after, a.before), shape_b.surface,
+                                             motion_between(b.after, b.before));
   const double last = back.meeting == exact::Meeting::kApart ? there.lower : 1.0 - back.lower;
   return 0.5 * moved_m * std::max(0.0, last - there.lower) + rounded_m;
 }

@@ -1,8 +1,9 @@
 // How deep two meshes that are not convex can have been in each other within a step, by the arbiter of first touches.
 #pragma once
 
+#include <cstdint>
 #include <map>
-#include <memory>
+#include <vector>
 
 #include "core/exact/rigid_touch.hpp"
 #include "validation/mechanics/motion.hpp"
@@ -17,12 +18,20 @@ class MeshPassage {
   // touch and their last one they move by so much; in the middle they are at most half of it deep, because at both of
   // these times they only touch. moved_m: no two of their points come closer by more than this in the step.
   double deepest_m(const Motion& motion, core::Pair pair, double moved_m);
+  // Pairs whose swept boxes meet, so that the arbiter was asked.
+  [[nodiscard]] std::uint64_t asked() const { return asked_; }
 
  private:
-  const exact::MovingShape& shape(const Motion& motion, std::uint32_t body);
+  // Both about the center of mass.
+  struct Shape {
+    std::vector<core::Vec3> vertices;
+    exact::MovingShape surface;
+  };
+  const Shape& shape(const Motion& motion, std::uint32_t body);
 
   const core::Scene& scene_;
-  std::map<std::uint32_t, exact::MovingShape> shapes_;  // by mesh: about the center of mass
+  std::map<std::uint32_t, Shape> shapes_;  // by mesh
+  std::uint64_t asked_ = 0;
 };
 
 }  // namespace broadside::validation

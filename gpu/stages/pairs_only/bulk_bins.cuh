@@ -2,8 +2,11 @@
 // cache holds make every entry a write somewhere else in memory, which takes it several times as long as a run of them.
 // So entries go to bins first, each some chunks of buckets, a tile of boxes at a time, so that a tile's share of a bin
 // is a run; then bin by bin, each small enough for a multiprocessor's shared memory, into their buckets. Entries end up
-// in the order of their buckets.
+// in the order of their buckets. From some 15 million boxes on there are more bins than a tile can count, and than it
+// has entries for: these go to coarse bins first.
 #pragma once
+
+#include <algorithm>
 
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/pairs_only/bulk_cells.cuh"
@@ -14,106 +17,200 @@ namespace broadside::gpu {
 // Of a bin, in shared memory: its share and what the last of its chunks has beyond.
 constexpr std::uint32_t kStagedPerThread = 11;
 
-// Of shared memory.
-constexpr std::uint32_t tile_bytes(std::uint32_t threads, std::uint32_t bins) {
-  return kBoxesPerThread * threads * (sizeof(BulkEntry) + 3 * sizeof(std::uint16_t)) +
-         (2 * bins + 1 + 32) * sizeof(std::uint32_t);
+// Of shared memory. `bucket_bytes`: of what a step writes of an entry's bucket.
+constexpr std::uint32_t tile_bytes(std::uint32_t threads, std::uint32_t bins, std::uint32_t bucket_bytes) {
+  return kBoxesPerThread * threads *
+             (static_cast<std::uint32_t>(sizeof(BulkEntry) + 2 * sizeof(std::uint16_t)) + bucket_bytes) +
+         (2 * bins + 1 + 32) * static_cast<std::uint32_t>(sizeof(std::uint32_t));
 }
 constexpr std::uint32_t bin_bytes(std::uint32_t threads) {
-  return kStagedPerThread * threads * sizeof(BulkEntry) + (kGroupBuckets + 32) * sizeof(std::uint32_t);
+  return static_cast<std::uint32_t>(kStagedPerThread * threads * sizeof(BulkEntry) +
+                                    (kGroupBuckets + 32) * sizeof(std::uint32_t));
+}
+
+// Bins of these boxes for blocks of this many threads that may have `most_bytes` of shared memory; none where that is
+// too little. `most_at_once`: bins that a tile counts, even if it could count more; 0: no such limit.
+//
+// Blocks count each tile's entries by bin in shared memory. Where a tile can count all bins, boxes go to them in one
+// step. Above, they go to coarse bins first; then a tile holds entries of few coarse bins, whose bins it can count.
+constexpr BinsShape bins_shape(std::uint32_t threads, std::uint32_t boxes, std::uint32_t buckets,
+                               std::uint32_t most_bytes, std::uint32_t most_at_once) {
+  BinsShape shape;
+  shape.bins = bins_of(threads, boxes, buckets);
+  shape.bins_of_tile = shape.bins;
+  shape.shared_bytes = std::max(tile_bytes(threads, shape.bins, sizeof(std::uint16_t)), bin_bytes(threads));
+  if (shape.shared_bytes <= most_bytes && (most_at_once == 0 || shape.bins <= most_at_once)) return shape;
+  // As many coarse bins as a coarse bin has bins: both steps write runs that are equally long.
+  while (shape.bins >> 2 * shape.coarse_shift != 0) ++shape.coarse_shift;
+  // A tile seldom reaches over more than two coarse bins; where it does, it is gone through several times.
+  const std::uint32_t of_two = 2U << shape.coarse_shift;
+  shape.bins_of_tile = std::max(shape.coarse_bins(), most_at_once == 0 ? of_two : std::min(of_two, most_at_once));
+  shape.shared_bytes = std::max(tile_bytes(threads, shape.bins_of_tile, sizeof(std::uint32_t)), bin_bytes(threads));
+  return shape.shared_bytes <= most_bytes ? shape : BinsShape{};
+}
+
+// What the three steps differ in: from where entries come, by which bins they are put, and to where.
+struct BoxesToBins {
+  using Bucket = std::uint16_t;
+  using Item = PackedBox;
+  static constexpr bool kIsByCoarseBin = false;
+  const BulkView& g;
+  const PackedBox* boxes;
+
+  __device__ Item item(std::uint64_t k) const { return boxes[k]; }
+  __device__ BulkPlace place(const Item& box, std::uint64_t k) const {
+    return place_of(g, box, static_cast<std::uint32_t>(k));
+  }
+  __device__ std::uint32_t bin(std::uint32_t fine) const { return fine; }
+  __device__ std::uint32_t* cursor() const { return g.bins.cursor; }
+  __device__ static Bucket written(std::uint32_t bucket) { return static_cast<Bucket>(bucket % kGroupBuckets); }
+  __device__ void write(std::uint32_t to, const BulkEntry& entry, Bucket bucket) const {
+    g.bins.entries[to] = entry;
+    g.bins.bucket[to] = bucket;
+  }
+};
+
+struct BoxesToCoarseBins : BoxesToBins {
+  using Bucket = std::uint32_t;
+  __device__ std::uint32_t bin(std::uint32_t fine) const { return fine >> g.bins.shape.coarse_shift; }
+  __device__ std::uint32_t* cursor() const { return g.bins.coarse_cursor; }
+  __device__ static Bucket written(std::uint32_t bucket) { return bucket; }
+  __device__ void write(std::uint32_t to, const BulkEntry& entry, Bucket bucket) const {
+    g.staged[to] = entry;
+    g.bins.whole_bucket[to] = bucket;
+  }
+};
+
+struct CoarseBinsToBins : BoxesToBins {
+  struct Item {
+    BulkEntry entry;
+    std::uint32_t bucket;
+  };
+  static constexpr bool kIsByCoarseBin = true;
+  __device__ Item item(std::uint64_t k) const { return {g.staged[k], g.bins.whole_bucket[k]}; }
+  __device__ BulkPlace place(const Item& item, std::uint64_t /*k*/) const { return {item.entry, item.bucket, {}, 0}; }
+};
+
+// The bins over which a block's tile reaches. `room`: 2 words. Has barriers of the block.
+struct BinRange {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+};
+__device__ inline BinRange range_over_block(BinRange own, std::uint32_t* room) {
+  if (threadIdx.x == 0) room[0] = ~0U, room[1] = 0;
+  __syncthreads();
+  const std::uint32_t first = warp_min(own.first);
+  const std::uint32_t last = warp_max(own.last);
+  if (lane() == 0) atomicMin(&room[0], first), atomicMax(&room[1], last);
+  __syncthreads();
+  const BinRange all{room[0], room[1]};
+  __syncthreads();
+  return all;
 }
 
 // Tile by tile: entries into bins.
-__device__ inline void fill_bins(const BulkView& g, const PackedBox* boxes, std::uint32_t count,
-                                 unsigned char* shared) {
+template <typename Step>
+__device__ void fill_bins(const BulkView& g, const Step& step, std::uint32_t count, unsigned char* shared) {
+  using Bucket = typename Step::Bucket;
   const BinsView& b = g.bins;
   const std::uint32_t tile = kBoxesPerThread * blockDim.x;
-  constexpr int kRankBits = 16;  // beside which a bin fits
+  const std::uint32_t bins = b.shape.bins_of_tile;
+  constexpr int kRankBits = 16;  // beside which a tile's bin fits
+  constexpr std::uint32_t kElsewhere = ~0U;
   // By their place among the boxes: entries. By bin: which box it is, its bucket, its bin.
   auto* entries = reinterpret_cast<BulkEntry*>(shared);
-  auto* begin_of_bin = reinterpret_cast<std::uint32_t*>(entries + tile);
-  std::uint32_t* offset = begin_of_bin + b.bins + 1;  // from a place in the tile to that in memory
-  std::uint32_t* room = offset + b.bins;
+  auto* written_bucket = reinterpret_cast<Bucket*>(entries + tile);
+  auto* begin_of_bin = reinterpret_cast<std::uint32_t*>(written_bucket + tile);
+  std::uint32_t* offset = begin_of_bin + bins + 1;  // from a place in the tile to that in memory
+  std::uint32_t* room = offset + bins;
   auto* which = reinterpret_cast<std::uint16_t*>(room + 32);
-  std::uint16_t* bucket_in_group = which + tile;
-  std::uint16_t* bin_at = bucket_in_group + tile;
+  std::uint16_t* bin_at = which + tile;
   for (std::uint64_t first = std::uint64_t{blockIdx.x} * tile; first < count;
        first += std::uint64_t{gridDim.x} * tile) {
     const auto filled = static_cast<std::uint32_t>(min(std::uint64_t{tile}, count - first));
-    for (std::uint32_t k = threadIdx.x; k < b.bins; k += blockDim.x) begin_of_bin[k] = 0;
-    __syncthreads();
     std::uint32_t bucket[kBoxesPerThread];
-    std::uint32_t bin_and_rank[kBoxesPerThread];
+    std::uint32_t bin[kBoxesPerThread];
 #pragma unroll
     for (std::uint32_t half = 0; half < kBoxesPerThread; half += kBoxesAtOnce) {
-      PackedBox box[kBoxesAtOnce];
+      typename Step::Item item[kBoxesAtOnce];
 #pragma unroll
       for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
         const std::uint32_t at = (half + k) * blockDim.x + threadIdx.x;
-        if (at < filled) box[k] = boxes[first + at];
+        if (at < filled) item[k] = step.item(first + at);
       }
 #pragma unroll
       for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k) {
         const std::uint32_t at = (half + k) * blockDim.x + threadIdx.x;
         bucket[half + k] = 0;
         if (at >= filled) continue;
-        const BulkPlace to = place_of(g, box[k], static_cast<std::uint32_t>(first + at));
+        const BulkPlace to = step.place(item[k], first + at);
         entries[at] = to.entry;
         bucket[half + k] = to.bucket;
       }
     }
-#pragma unroll
-    for (std::uint32_t k = 0; k < kBoxesPerThread; ++k)
-      bin_and_rank[k] = bin_of(bucket[k] / kBucketChunk, b.chunk_begin[bucket[k] / kBucketChunk]);
-#pragma unroll
-    for (std::uint32_t k = 0; k < kBoxesPerThread; ++k)
-      if (k * blockDim.x + threadIdx.x < filled)
-        bin_and_rank[k] = bin_and_rank[k] << kRankBits | atomicAdd(&begin_of_bin[bin_and_rank[k]], 1U);
-    __syncthreads();
-    // Each thread some neighboring bins.
-    const std::uint32_t each = (b.bins + blockDim.x - 1) / blockDim.x;
-    const std::uint32_t from = min(threadIdx.x * each, b.bins);
-    const std::uint32_t to = min(from + each, b.bins);
-    std::uint32_t sum = 0;
-    for (std::uint32_t k = from; k < to; ++k) sum += begin_of_bin[k];
-    std::uint32_t begin = sum_before(sum, room);
-    for (std::uint32_t k = from; k < to; ++k) {
-      const std::uint32_t own = begin_of_bin[k];
-      begin_of_bin[k] = begin;
-      begin += own;
-    }
-    if (threadIdx.x == 0) begin_of_bin[b.bins] = filled;
-    __syncthreads();
-    for (std::uint32_t k = threadIdx.x; k < b.bins; k += 4 * blockDim.x) {
-      std::uint32_t given[4];
-#pragma unroll
-      for (std::uint32_t j = 0; j < 4; ++j) {
-        const std::uint32_t bin = k + j * blockDim.x;
-        const std::uint32_t own = bin < b.bins ? begin_of_bin[bin + 1] - begin_of_bin[bin] : 0U;
-        given[j] = own != 0 ? atomicAdd(&b.cursor[bin], own) : 0U;
-      }
-#pragma unroll
-      for (std::uint32_t j = 0; j < 4; ++j)
-        if (k + j * blockDim.x < b.bins) offset[k + j * blockDim.x] = given[j] - begin_of_bin[k + j * blockDim.x];
-    }
+    BinRange range{Step::kIsByCoarseBin ? ~0U : 0U, 0};
 #pragma unroll
     for (std::uint32_t k = 0; k < kBoxesPerThread; ++k) {
-      const std::uint32_t at = k * blockDim.x + threadIdx.x;
-      if (at >= filled) break;
-      const std::uint32_t bin = bin_and_rank[k] >> kRankBits;
-      const std::uint32_t place = begin_of_bin[bin] + (bin_and_rank[k] & ((1U << kRankBits) - 1U));
-      which[place] = static_cast<std::uint16_t>(at);
-      bucket_in_group[place] = static_cast<std::uint16_t>(bucket[k] % kGroupBuckets);
-      bin_at[place] = static_cast<std::uint16_t>(bin);
+      bin[k] = step.bin(bin_of(bucket[k] / kBucketChunk, b.chunk_begin[bucket[k] / kBucketChunk]));
+      if (!Step::kIsByCoarseBin || k * blockDim.x + threadIdx.x >= filled) continue;
+      range.first = min(range.first, bin[k]);
+      range.last = max(range.last, bin[k]);
     }
-    __syncthreads();
+    if constexpr (Step::kIsByCoarseBin) range = range_over_block(range, room);
+    for (std::uint32_t first_bin = range.first; first_bin <= range.last; first_bin += bins) {
+      for (std::uint32_t k = threadIdx.x; k < bins; k += blockDim.x) begin_of_bin[k] = 0;
+      __syncthreads();
+      std::uint32_t bin_and_rank[kBoxesPerThread];
+#pragma unroll
+      for (std::uint32_t k = 0; k < kBoxesPerThread; ++k) {
+        const std::uint32_t own = bin[k] - first_bin;
+        bin_and_rank[k] = k * blockDim.x + threadIdx.x < filled && own < bins
+                              ? own << kRankBits | atomicAdd(&begin_of_bin[own], 1U)
+                              : kElsewhere;
+      }
+      __syncthreads();
+      // Each thread some neighboring bins.
+      const std::uint32_t each = (bins + blockDim.x - 1) / blockDim.x;
+      const std::uint32_t from = min(threadIdx.x * each, bins);
+      const std::uint32_t to = min(from + each, bins);
+      std::uint32_t sum = 0;
+      for (std::uint32_t k = from; k < to; ++k) sum += begin_of_bin[k];
+      std::uint32_t begin = sum_before(sum, room);
+      for (std::uint32_t k = from; k < to; ++k) {
+        const std::uint32_t own = begin_of_bin[k];
+        begin_of_bin[k] = begin;
+        begin += own;
+      }
+      if (threadIdx.x == blockDim.x - 1) begin_of_bin[bins] = begin;
+      __syncthreads();
+      for (std::uint32_t k = threadIdx.x; k < bins; k += 4 * blockDim.x) {
+        std::uint32_t given[4];
+#pragma unroll
+        for (std::uint32_t j = 0; j < 4; ++j) {
+          const std::uint32_t at = k + j * blockDim.x;
+          const std::uint32_t own = at < bins ? begin_of_bin[at + 1] - begin_of_bin[at] : 0U;
+          given[j] = own != 0 ? atomicAdd(&step.cursor()[first_bin + at], own) : 0U;
+        }
+#pragma unroll
+        for (std::uint32_t j = 0; j < 4; ++j)
+          if (k + j * blockDim.x < bins) offset[k + j * blockDim.x] = given[j] - begin_of_bin[k + j * blockDim.x];
+      }
+#pragma unroll
+      for (std::uint32_t k = 0; k < kBoxesPerThread; ++k) {
+        if (bin_and_rank[k] == kElsewhere) continue;
+        const std::uint32_t own = bin_and_rank[k] >> kRankBits;
+        const std::uint32_t place = begin_of_bin[own] + (bin_and_rank[k] & ((1U << kRankBits) - 1U));
+        which[place] = static_cast<std::uint16_t>(k * blockDim.x + threadIdx.x);
+        written_bucket[place] = Step::written(bucket[k]);
+        bin_at[place] = static_cast<std::uint16_t>(own);
+      }
+      __syncthreads();
+      const std::uint32_t all = begin_of_bin[bins];
 #pragma unroll 4
-    for (std::uint32_t k = threadIdx.x; k < filled; k += blockDim.x) {
-      const std::uint32_t to_place = k + offset[bin_at[k]];
-      b.entries[to_place] = entries[which[k]];
-      b.bucket[to_place] = bucket_in_group[k];
+      for (std::uint32_t k = threadIdx.x; k < all; k += blockDim.x)
+        step.write(k + offset[bin_at[k]], entries[which[k]], written_bucket[k]);
+      __syncthreads();
     }
-    __syncthreads();
   }
 }
 
@@ -152,7 +249,7 @@ __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
   auto* staged = reinterpret_cast<BulkEntry*>(shared);
   auto* place = reinterpret_cast<std::uint32_t*>(staged + kStagedPerThread * blockDim.x);
   std::uint32_t* room = place + kGroupBuckets;
-  for (std::uint32_t bin = blockIdx.x; bin < b.bins; bin += gridDim.x) {
+  for (std::uint32_t bin = blockIdx.x; bin < b.shape.bins; bin += gridDim.x) {
     const std::uint32_t first_chunk = b.first_chunk[bin];
     if (first_chunk == ~0U) continue;  // of a group's empty chunks, or of a share in which no chunk begins
     const std::uint32_t chunks = b.last_chunk[bin] + 1 - first_chunk;
@@ -183,7 +280,7 @@ __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
         staged[place[bucket_and_rank[k] & ((1U << kBucketBits) - 1U)] + rank - begin] = b.entries[begin + e];
       }
       __syncthreads();
-      for (std::uint32_t k = threadIdx.x; k < count; k += blockDim.x) g.entries[begin + k] = staged[k];
+      for (std::uint32_t k = threadIdx.x; k < count; k += blockDim.x) put_entry(g, begin + k, staged[k]);
     } else {  // one chunk has more than fits
       for (std::uint32_t e = threadIdx.x; e < count; e += blockDim.x)
         atomicAdd(&place[b.bucket[begin + e] - first_bucket], 1U);
@@ -191,7 +288,7 @@ __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
       place_in_bin(g, first_chunk, chunks, begin, place, room);
       __syncthreads();
       for (std::uint32_t e = threadIdx.x; e < count; e += blockDim.x)
-        g.entries[atomicAdd(&place[b.bucket[begin + e] - first_bucket], 1U)] = b.entries[begin + e];
+        put_entry(g, atomicAdd(&place[b.bucket[begin + e] - first_bucket], 1U), b.entries[begin + e]);
     }
     __syncthreads();
   }

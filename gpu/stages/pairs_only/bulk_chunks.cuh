@@ -43,11 +43,12 @@ __device__ inline std::uint32_t sum_before(std::uint32_t own, std::uint32_t* roo
 template <typename Team>
 __device__ void count_chunks(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count) {
   const BinsView& b = g.bins;
-  for (std::uint64_t k = team.rank(); k < b.bins; k += team.size()) {
+  for (std::uint64_t k = team.rank(); k < b.shape.bins; k += team.size()) {
     b.first_chunk[k] = ~0U;
     b.last_chunk[k] = 0;
     b.cursor[k] = ~0U;
   }
+  for (std::uint64_t k = team.rank(); k < b.shape.coarse_bins(); k += team.size()) b.coarse_cursor[k] = ~0U;
   for (std::uint64_t first = team.rank(); first < count; first += team.size() * kBoxesAtOnce) {
     PackedBox box[kBoxesAtOnce];
     LevelMarks marks;
@@ -64,6 +65,14 @@ __device__ void count_chunks(const Team& team, const BulkView& g, const PackedBo
     }
     marks.note(g);
   }
+}
+
+// Neighboring chunks are mostly of one coarse bin: the first of them speaks for all, as it begins first. By whole
+// warps.
+__device__ inline void note_coarse_begin(const BinsView& b, std::uint32_t chunk, bool has_chunk, std::uint32_t begin) {
+  const std::uint32_t coarse = bin_of(chunk, begin) >> b.shape.coarse_shift;
+  const std::uint32_t previous = __shfl_up_sync(kFullWarp, coarse, 1);
+  if (has_chunk && (lane() == 0 || previous != coarse)) atomicMin(&b.coarse_cursor[coarse], begin);
 }
 
 // Where each chunk begins, and what bins that makes. Empty chunks are done with: nothing begins in their buckets.
@@ -102,6 +111,7 @@ __device__ void place_chunks_in_order(const Team& team, const BulkView& g, std::
       }
       if (c + 1 == chunks) b.chunk_begin[chunks] = begin + before + own;
     }
+    if (b.shape.coarse_shift != 0) note_coarse_begin(b, c, c < to, begin + before);
     for (unsigned empty = __ballot_sync(kFullWarp, c < to && own == 0); empty != 0; empty &= empty - 1U) {
       const std::uint32_t which = static_cast<std::uint32_t>(__ffs(static_cast<int>(empty))) - 1;
       const std::uint32_t value = __shfl_sync(kFullWarp, begin + before, which);

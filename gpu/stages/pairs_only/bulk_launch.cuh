@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// `shared`: a block's own, tile_bytes or bin_bytes, the larger.
+// `shared`: a block's own, of BinsShape::shared_bytes.
 __device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
   const BulkView& bulk = view.bulk;
@@ -21,7 +21,13 @@ __device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
   place_chunks_in_order(grid, bulk, reinterpret_cast<std::uint32_t*>(shared));
   grid.sync();
   mark_end(grid, view.outcome, FindStep::kPlace);
-  fill_bins(bulk, view.boxes, view.box_count, shared);
+  if (bulk.bins.shape.coarse_shift == 0) {
+    fill_bins(bulk, BoxesToBins{bulk, view.boxes}, view.box_count, shared);
+  } else {
+    fill_bins(bulk, BoxesToCoarseBins{{bulk, view.boxes}}, view.box_count, shared);
+    grid.sync();
+    fill_bins(bulk, CoarseBinsToBins{{bulk, view.boxes}}, view.box_count, shared);
+  }
   grid.sync();
   empty_bins(bulk, shared);
   end_entries(grid, bulk, view.box_count);

@@ -1,6 +1,9 @@
-// Looks for the partners that moving boxes have among standing ones, in the table of these. A lane takes a box, and
-// looks at every level that has standing boxes: at coarser levels as bulk_search.cuh does; at finer ones, where it is
-// longer than a cell, it goes through all cells that it covers, and compares boxes as they are.
+// Looks for the partners that moving boxes have among standing ones, in the table of these. Most moving boxes have
+// none, and the others lie side by side in the order of boxes: a warp that took neighbors would have all the work or
+// none. So first a lane a box finds those that may have partners; then a warp takes one of these, and looks at every
+// level that has standing boxes: at coarser levels at the rows of cells that bulk_search.cuh looks at; at finer ones,
+// where the box is longer than a cell, at all cells that it covers. Lanes share rows, and boxes are compared as they
+// are.
 //
 // A standing box of a level is no longer than its cells. So it overlaps only where its lower corner lies between a cell
 // before the moving box and the moving box's end: the bound of BulkSearch::lowest_cell holds whatever the other's size.
@@ -25,18 +28,20 @@ class CrossSearch {
   __device__ CrossSearch(const CrossView& view, PairQueue& room)
       : view_(view), queue_(room, view.pairs, &view.counters->pairs) {}
 
-  // By the whole warp.
-  __device__ void find_partners(const PackedBox& box, bool has_box) {
-    has_box = has_box && may_have_standing(view_.cells, box);
-    if (!__any_sync(kFullWarp, has_box)) return;
+  // By the whole warp, of one box.
+  __device__ void find_partners(const PackedBox& box) {
     const volatile std::uint32_t* known = view_.standing.levels;
     for (std::uint32_t left = known[0]; left != 0; left &= left - 1U)
-      look_at_level(box, has_box, __ffs(static_cast<int>(left)) - 1);
+      look_at_level(box, __ffs(static_cast<int>(left)) - 1);
   }
   __device__ void flush() { queue_.flush(); }
 
  private:
-  __device__ void look_at_level(const PackedBox& box, bool looks, int level) {
+  // Of a row: rows of triangles' boxes have some ten entries.
+  static constexpr std::uint32_t kLanesOfRow = 8;
+  static constexpr std::uint32_t kRowsAtOnce = 32 / kLanesOfRow;
+
+  __device__ void look_at_level(const PackedBox& box, int level) {
     const BulkView& g = view_.standing;
     const float cells_per_m = scaled(g.cells_per_m, level);
     const CellCorner fine_min = fine_corner(box.min, cells_per_m);
@@ -50,38 +55,39 @@ class CrossSearch {
     // corners are less than the four cells that rounded boxes can tell.
     const bool is_short = high.x - low.x < 3 && rows_y < 4 && rows_z < 4;
     const CoarseBox coarse = coarse_box(fine_min, fine_max, 0);
-    for (std::uint32_t z = 0; __any_sync(kFullWarp, looks && z < rows_z); ++z) {
-      for (std::uint32_t y = 0; __any_sync(kFullWarp, looks && z < rows_z && y < rows_y); ++y) {
-        TableCell cell{low.x, low.y + y, low.z + z};
-        for (bool is_in_row = looks && z < rows_z && y < rows_y; __any_sync(kFullWarp, is_in_row);) {
-          const std::uint32_t more = min(high.x - cell.x, row_mask(g) - (cell.x & row_mask(g)));
-          std::uint32_t k = 0;
-          std::uint32_t end = 0;
-          if (is_in_row) {
-            const std::uint32_t* at = g.begin + bucket_place(bucket_of(g, cell, level));
-            k = at[0];
-            end = at[more + 1];
-          }
-          walk(box, k, end, block_tag(g, cell, level), is_short, coarse);
-          is_in_row = is_in_row && high.x - cell.x != more;
-          cell.x += more + 1;
+    for (std::uint32_t first = 0; first < rows_y * rows_z; first += kRowsAtOnce) {
+      const std::uint32_t row = first + lane() / kLanesOfRow;
+      TableCell cell{low.x, low.y + row % rows_y, low.z + row / rows_y};
+      for (bool is_in_row = row < rows_y * rows_z; __any_sync(kFullWarp, is_in_row);) {
+        const std::uint32_t more = min(high.x - cell.x, row_mask(g) - (cell.x & row_mask(g)));
+        std::uint32_t k = 0;
+        std::uint32_t end = 0;
+        if (is_in_row) {
+          const std::uint32_t* at = g.begin + bucket_place(bucket_of(g, cell, level));
+          k = at[0] + lane() % kLanesOfRow;
+          end = at[more + 1];
         }
+        walk(box, k, end, block_tag(g, cell, level), is_short, coarse);
+        is_in_row = is_in_row && high.x - cell.x != more;
+        cell.x += more + 1;
       }
     }
   }
 
   __device__ void walk(const PackedBox& box, std::uint32_t k, std::uint32_t end, std::uint32_t row_tag, bool is_short,
                        CoarseBox coarse) {
-    for (; __any_sync(kFullWarp, k < end); ++k) {
+    for (; __any_sync(kFullWarp, k < end); k += kLanesOfRow) {
       bool is_pair = false;
       core::Pair pair{};
       if (k < end) {
-        const BulkEntry other = view_.standing.entries[k];
-        // Buckets are shared: an entry of another row that happens to be here is found from its own.
-        if (((other.tag ^ row_tag) & kRowTag) == 0 && (!is_short || may_overlap(coarse, other.box))) {
-          const PackedBox standing = view_.standing_boxes[other.body];
-          is_pair = core::overlaps(unpack(box), unpack(standing));
-          pair = core::make_pair_of(box.low_tag, standing.low_tag);
+        if (!is_short || may_overlap(coarse, view_.standing.boxes[k])) {
+          const BulkBody other = view_.standing.bodies[k];
+          // Buckets are shared: a box of another row that happens to be here is found from its own.
+          if (((other.tag ^ row_tag) & kRowTag) == 0) {
+            const PackedBox standing = view_.standing_boxes[other.body];
+            is_pair = core::overlaps(unpack(box), unpack(standing));
+            pair = core::make_pair_of(box.low_tag, standing.low_tag);
+          }
         }
       }
       queue_.push(is_pair, pair);
@@ -92,19 +98,33 @@ class CrossSearch {
   WarpQueue queue_;
 };
 
+// By whole warps: which moving boxes may have partners, in any order.
+__device__ inline void note_near_boxes(const GridTeam& grid, const CrossView& view) {
+  for (std::uint64_t first = warp_rank(grid) * 32; first < view.count; first += warp_count(grid) * 32) {
+    const std::uint64_t place = first + lane();
+    const bool is_near = place < view.count && may_have_standing(view.cells, view.moving_boxes[view.order[place].body]);
+    const unsigned all = __ballot_sync(kFullWarp, is_near);
+    if (all == 0) continue;
+    std::uint32_t to = 0;
+    if (lane() == 0) to = atomicAdd(view.near_count, static_cast<std::uint32_t>(__popc(all)));
+    to = __shfl_sync(kFullWarp, to, 0) + static_cast<std::uint32_t>(__popc(all & ((1U << lane()) - 1U)));
+    if (is_near) view.near[to] = static_cast<std::uint32_t>(place);
+  }
+}
+
 // `shared`: a PairQueue a warp.
 __device__ inline void run_cross(const CrossView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
+  note_near_boxes(grid, view);
+  grid.sync();
   CrossSearch search(view, reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32]);
-  for (std::uint64_t first = warp_rank(grid) * 32; first < view.count; first += warp_count(grid) * 32) {
-    const std::uint64_t place = first + lane();
-    PackedBox box;
-    if (place < view.count) box = view.moving_boxes[view.order[place].body];
-    search.find_partners(box, place < view.count);
-  }
+  const std::uint32_t near_count = *static_cast<const volatile std::uint32_t*>(view.near_count);
+  for (std::uint64_t k = warp_rank(grid); k < near_count; k += warp_count(grid))
+    search.find_partners(view.moving_boxes[view.order[view.near[k]].body]);
   search.flush();
   grid.sync();
   if (grid.rank() != 0) return;
+  *view.near_count = 0;
   mark_end(grid, view.outcome, FindStep::kSearch);
   if (view.counters->pairs > view.pairs.capacity) view.counters->is_aborted = 1;
   view.outcome->counters = *view.counters;

@@ -31,7 +31,6 @@ __device__ inline void run_place(const KeptView& view) {
   const GridPlaces grid;
   for (std::uint64_t k = grid.rank(); k < view.count; k += grid.size()) {
     const std::uint32_t number = view.order[k].body;
-    view.fat_placed[k] = view.fat[number];
     view.placed[k] = view.now[number];
     view.place_of[number] = static_cast<std::uint32_t>(k);
   }
@@ -45,19 +44,22 @@ __device__ inline void run_renumber(const KeptView& view) {
   }
 }
 
-// A box that is no number is within nothing.
-__device__ inline bool is_within(const PackedBox& b, const PackedBox& fat) {
-  return fat.min.x <= b.min.x && fat.min.y <= b.min.y && fat.min.z <= b.min.z && b.max.x <= fat.max.x &&
-         b.max.y <= fat.max.y && b.max.z <= fat.max.z;
+// What is no box is within nothing: then boxes are packed, and refused.
+__device__ inline bool is_within(const core::Box& b, const PackedBox& fat) {
+  bool is_within_all = true;
+  for (int k = 0; k < 3; ++k)
+    is_within_all = is_within_all && fat.min[k] <= b.min[k] && b.min[k] <= b.max[k] && b.max[k] <= fat.max[k];
+  return is_within_all;
 }
 
+// Boxes are read by number, in a row, and written by place: a whole sector of memory each.
 __device__ inline void run_within(const KeptView& view) {
   const GridPlaces grid;
   bool has_left = false;
-  for (std::uint64_t k = grid.rank(); k < view.count; k += grid.size()) {
-    const PackedBox box = view.now[view.order[k].body];
-    view.placed[k] = box;
-    has_left = has_left || !is_within(box, view.fat_placed[k]);
+  for (std::uint64_t i = grid.rank(); i < view.count; i += grid.size()) {
+    const core::Box box = view.given != nullptr ? given_box(view.given, i) : unpack(view.now[i]);
+    view.placed[view.place_of[i]] = pack(box, static_cast<std::uint32_t>(i), 0U);
+    has_left = has_left || !is_within(box, view.fat[i]);
   }
   if (__any_sync(kFullWarp, has_left) && lane() == 0) view.counts->left = 1;
 }

@@ -27,7 +27,7 @@ __device__ inline void run_named_pairs(const NamedPairsView& view, unsigned char
   const BulkView& bulk = search.bulk;
   const GridTeam grid(search.barrier);
   BulkNotes& notes = reinterpret_cast<BulkNotes*>(shared)[threadIdx.x / 32];
-  const bool is_sorted = bulk.bins.bins != 0;
+  const bool is_sorted = bulk.bins.shape.bins != 0;
   if (view.is_in_order || !is_sorted) {
     mark_begin(grid, search.outcome);
     if (grid.rank() == 0) start_counts(search);

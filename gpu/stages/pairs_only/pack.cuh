@@ -46,12 +46,22 @@ __device__ inline void add_measure(const BoxMeasure& own, BoxMeasure& all) {
   }
 }
 
+__device__ inline core::Box given_box(const float* given, std::uint64_t which) {
+  const float* g = given + 6 * which;
+  return {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}};
+}
+
+__device__ inline void run_gather(const GatherView& view) {
+  const GridPlaces grid;
+  for (std::uint64_t k = grid.rank(); k < view.count; k += grid.size())
+    view.gathered[k] = given_box(view.given, view.which[k]);
+}
+
 __device__ inline void run_pack(const PackView& view) {
   const GridPlaces grid;
   BoxMeasure own;
   for (std::uint64_t i = grid.rank(); i < view.count; i += grid.size()) {
-    const float* g = view.given + 6 * i;
-    const core::Box box{{g[0], g[1], g[2]}, {g[3], g[4], g[5]}};
+    const core::Box box = given_box(view.given, i);
     const auto place = static_cast<std::uint32_t>(i);
     note_box(box, place, own);
     view.packed[i] = pack(box, place, view.is_static[i] != 0 ? 1U : 0U);

@@ -32,7 +32,7 @@ __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
   auto& scratch = reinterpret_cast<PairsScratch<kIsBulk>*>(shared)[threadIdx.x / 32];
   const BulkView& bulk = view.bulk;
-  const bool is_sorted = kIsBulk && bulk.bins.bins != 0;
+  const bool is_sorted = kIsBulk && bulk.bins.shape.bins != 0;
   if (!is_sorted) {
     mark_begin(grid, view.outcome);
     if (grid.rank() == 0) start_counts(view);

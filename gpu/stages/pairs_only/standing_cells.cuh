@@ -61,6 +61,7 @@ __device__ inline void run_mark(const MarkView& view) {
 }
 
 __device__ inline bool may_have_standing(const StandingCells& cells, const PackedBox& box) {
+  if (!core::overlaps(unpack(box), cells.bounds)) return false;
   if (cells.words == nullptr) return true;
   const StandingRange r = standing_range(cells, box);
   for (int k = 0; k < 3; ++k)

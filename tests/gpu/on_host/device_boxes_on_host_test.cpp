@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <vector>
 
+#include "datasets/box_streams/thin_boxes.hpp"
 #include "gpu/broad/pack_view.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "tests/gpu/small_scenes.hpp"
@@ -145,6 +147,56 @@ TEST(OrderedBits, FollowTheOrderOfFloats) {
     EXPECT_LT(ordered_bits(rising[k - 1]), ordered_bits(rising[k]));
   }
   EXPECT_GT(ordered_bits(-std::numeric_limits<float>::max()), BoxMeasure{}.largest_side);
+}
+
+// Passes and cells are those that the same boxes of the host would have.
+TEST(DeviceBoxesOnHost, HavePassesWhereTheyAreLongAndThin) {
+  PairFinderOptions options = starting_at(50, 1U << 30);
+  options.least_for_passes = 100;
+  PairFinder by_device(options);
+  PairFinder by_host(options);
+  const std::vector<Box> first = datasets::needle_boxes(700, 2);
+  const std::vector<Box> second = datasets::needle_boxes(700, 3);
+  const auto flags = some_static(first.size());
+  ASSERT_TRUE(by_device.load_on_device(lying(first), flags).ok());
+  ASSERT_TRUE(by_host.load(first, flags).ok());
+  EXPECT_GT(by_host.plan().passes.size(), 1U);
+  EXPECT_EQ(by_device.plan().passes.size(), by_host.plan().passes.size());
+  EXPECT_EQ(found_by(by_device), overlapping(first, flags));
+  ASSERT_TRUE(by_device.update_on_device(lying(second)).ok());
+  EXPECT_EQ(by_device.plan().passes.size(), by_host.plan().passes.size());
+  EXPECT_EQ(found_by(by_device), overlapping(second, flags));
+  // Another set of boxes is looked at anew.
+  const std::vector<Box> plain = boxes_of(300, 12.0F, 1);
+  ASSERT_TRUE(by_device.load_on_device(lying(plain), some_static(300)).ok());
+  EXPECT_TRUE(by_device.plan().is_plain());
+  EXPECT_EQ(found_by(by_device), overlapping(plain, some_static(300)));
+}
+
+TEST(DeviceBoxesOnHost, HaveFittedCells) {
+  std::vector<Box> boxes;
+  Dice dice(3);
+  for (int k = 0; k < 2500; ++k) {
+    const float side = k == 0 ? 1.0F : 0.27F;
+    const core::Vec3 low{4.0F * dice.next(), 4.0F * dice.next(), dice.next()};
+    boxes.push_back({low, low + core::Vec3{side, side, side}});
+  }
+  const std::vector<std::uint8_t> flags(boxes.size());
+  const auto tests_of = [&](float scale, bool is_on_device) {
+    PairFinderOptions options = starting_at(50, 50);
+    options.least_for_passes = 1U << 30;
+    options.cell_scale = scale;
+    PairFinder finder(options);
+    finder.count_work();
+    EXPECT_TRUE((is_on_device ? finder.load_on_device(lying(boxes), flags) : finder.load(boxes, flags)).ok());
+    EXPECT_TRUE(finder.find().ok());
+    for (const core::Counter& counter : finder.counters())
+      if (std::string_view(counter.name) == "broad: box tests") return counter.count;
+    return std::uint64_t{0};
+  };
+  const std::uint64_t fitted = tests_of(0.0F, true);
+  EXPECT_EQ(fitted, tests_of(0.0F, false));
+  EXPECT_LT(2 * fitted, tests_of(1.0F, true));
 }
 
 }  // namespace

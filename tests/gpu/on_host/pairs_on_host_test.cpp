@@ -22,6 +22,12 @@ PairFinderOptions starting_at(Broad broad, std::uint32_t grid, std::uint32_t man
   return {broad, core::Variant::kSound, 0.5F, grid, many, bins};
 }
 constexpr std::uint32_t kNever = 1U << 30;
+// A tile counts fewer bins than it reaches over.
+PairFinderOptions by_coarse_bins() {
+  PairFinderOptions options = starting_at(Broad::kTree, 50, 50, 50);
+  options.most_bins_at_once = 1;
+  return options;
+}
 
 void expect_exact(const std::vector<Box>& boxes) {
   std::vector<std::uint8_t> is_static(boxes.size());
@@ -32,8 +38,8 @@ void expect_exact(const std::vector<Box>& boxes) {
       if (core::overlaps(boxes[i], boxes[j]) && (is_static[i] == 0 || is_static[j] == 0)) expected.push_back({i, j});
   const std::pair<const char*, PairFinderOptions> subjects[] = {
       {"grid", starting_at(Broad::kTree, 50, kNever, kNever)}, {"many", starting_at(Broad::kTree, 50, 50, kNever)},
-      {"bins", starting_at(Broad::kTree, 50, 50, 50)},         {"octree", starting_at(Broad::kOctree, 50, 50, 50)},
-      {"hash", starting_at(Broad::kHash, 50, 50, 50)},
+      {"bins", starting_at(Broad::kTree, 50, 50, 50)},         {"coarse bins", by_coarse_bins()},
+      {"octree", starting_at(Broad::kOctree, 50, 50, 50)},     {"hash", starting_at(Broad::kHash, 50, 50, 50)},
   };
   for (const auto& [name, options] : subjects) {
     PairFinder subject(options);
@@ -136,6 +142,25 @@ TEST(PairsOnHost, TouchingAlongEachAxis) {
     }
     expect_exact(boxes);
   }
+}
+
+// Several tiles, each over more bins than it may count: it is gone through more than once.
+TEST(PairsOnHost, TilesOverSeveralCoarseBins) {
+  const std::vector<Box> boxes = boxes_of(2600, [](Dice& dice, std::uint32_t) { return dice.cube(14.0F); });
+  const std::vector<std::uint8_t> is_static(boxes.size());
+  std::vector<std::vector<Pair>> found;
+  for (const PairFinderOptions& options : {starting_at(Broad::kTree, 50, 50, kNever), by_coarse_bins()}) {
+    PairFinder subject(options);
+    ASSERT_TRUE(subject.load(boxes, is_static).ok());
+    ASSERT_TRUE(subject.find().ok());
+    found.push_back(subject.read_back().value().pairs);
+  }
+  std::vector<Pair> expected;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+      if (core::overlaps(boxes[i], boxes[j])) expected.push_back({i, j});
+  EXPECT_TRUE(found[0] == expected);
+  EXPECT_TRUE(found[1] == expected);
 }
 
 // A row of cells with more entries than a bin is given shared memory for, and strays in other bins.
