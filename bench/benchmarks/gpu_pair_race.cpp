@@ -2,8 +2,8 @@
 // line a set: medians over the repetitions, ms.
 //   broadside_gpu_race [LARGEST_N [REPETITIONS [KIND [SMALLEST_N [ORDER]]]]]
 // KIND: uniform, heaps, mixed; or hard: surfaces, long thin boxes, uneven worlds, each of one size. Numbers go from
-// SMALLEST_N to LARGEST_N by tens. ORDER: how bulk pairs are put in order, to compare: at-once, without bins; coarse,
-// in two steps however few bins there are.
+// SMALLEST_N to LARGEST_N by tens. ORDER: how boxes are put in order, to compare: at-once, bulk pairs without bins;
+// coarse, in two steps however few bins there are; bulk, as bulk pairs from 4096 boxes on.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -34,6 +34,7 @@ constexpr double kWarmUpS = 0.3;
 gpu::PairFinderOptions options_of(const std::string& order) {
   gpu::PairFinderOptions options;
   if (order == "at-once") options.least_for_bins = 0xFFFFFFFFU;
+  if (order == "bulk") options.least_for_bulk = 4096;
   if (order == "coarse") options.most_bins_at_once = 1024;  // two coarse bins have fewer, at any number of boxes
   return options;
 }
