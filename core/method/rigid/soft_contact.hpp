@@ -56,14 +56,12 @@ BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, fl
 }
 
 // Before anything else of a substep: how fast the points come.
-BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-  const PatchMotion m = motion_of(a, b);
+BROADSIDE_HD void note_approach(PatchConstraint& c, const PatchMotion& m) {
   each_point(c, [&](int k) { c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k])); });
 }
 
 // The largest speed of a point relative to the other body, m/s.
-BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-  const PatchMotion m = motion_of(a, b);
+BROADSIDE_HD float fastest_point(const PatchConstraint& c, const PatchMotion& m) {
   float squared = 0.0F;
   each_point(c, [&](int k) {
     const Vec3 v = relative_velocity(m, c.points[k]);
@@ -146,24 +144,47 @@ BROADSIDE_HD float fastest_push(const PatchConstraint& c, const PatchPoint& p, f
   return rises_m_s + yields_m_s;
 }
 
-// One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
-BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
-  PatchMotion m = motion_of(a, b);
-  float largest = 0.0F;
+// What a sweep wants of the points of a patch. It follows from where the bodies are and from the patch's own impulses,
+// not from velocities: no other patch changes it during a sweep.
+struct PatchGoals {
+  // By which a point's approach is lessened, m/s: what of it may close a gap, or less than nothing, to push apart.
+  float allowed_m_s[kManifoldPoints] = {};
+  // With a gap. After the bodies moved: with a gap and without an impulse, so that the sweep leaves it out.
+  bool is_open[kManifoldPoints] = {};
+};
+
+// Of a sweep before the bodies move.
+BROADSIDE_HD PatchGoals goals_of(const PatchConstraint& c, const SolverBody& a, const SolverBody& b,
+                                 const SoftStep& step) {
+  PatchGoals goals;
   each_point(c, [&](int k) {
-    PatchPoint& p = c.points[k];
+    const PatchPoint& p = c.points[k];
     const float gap = gap_now(c, p, a, b);
-    const float speed = dot(c.normal, relative_velocity(m, p));
-    float change;
-    if (gap > 0.0F) {
-      change = -p.normal_mass * (speed + gap * step.per_dt_s);  // it may close within the substep, no more
+    goals.is_open[k] = gap > 0.0F;
+    if (goals.is_open[k]) {
+      goals.allowed_m_s[k] = gap * step.per_dt_s;  // it may close within the substep, no more
     } else {
       const float wish = (gap + c.slop_m) * step.push_rate_per_s;
       const float slow = wish > step.settle_m_s ? step.settle_m_s : wish;
       const float fast = fastest_push(c, p, -gap, step);
-      const float toward = slow < -fast ? -fast : slow;
-      change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
+      goals.allowed_m_s[k] = slow < -fast ? -fast : slow;
     }
+  });
+  return goals;
+}
+
+// One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
+BROADSIDE_HD float solve_patch(PatchConstraint& c, const PatchGoals& goals, SolverBody& a, SolverBody& b,
+                               const SoftStep& step) {
+  PatchMotion m = motion_of(a, b);
+  float largest = 0.0F;
+  each_point(c, [&](int k) {
+    PatchPoint& p = c.points[k];
+    const float speed = dot(c.normal, relative_velocity(m, p));
+    const float rigid = speed + goals.allowed_m_s[k];
+    const float change = goals.is_open[k]
+                             ? -p.normal_mass * rigid
+                             : -p.normal_mass * step.mass_scale * rigid - step.impulse_scale * p.normal_impulse;
     const float size = add_normal_impulse(c, p, m, a, b, change);
     largest = size > largest ? size : largest;
   });
@@ -177,20 +198,32 @@ BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const S
   return c.surface.restitution > 0.0F && p.approach_m_s > step.bounce_from_m_s && p.normal_impulse > 0.0F;
 }
 
-// One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
-// is the next substep's. Returns the largest change of a point's speed, m/s.
-BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
-  // Bodies turn where they move alone, so masses that are right here are so until they move again.
+// Of a sweep after the bodies moved. Sets the patch's masses where its bodies have turned far: bodies turn where they
+// move alone, so masses that are right here are so until they move again.
+BROADSIDE_HD PatchGoals goals_after_motion(PatchConstraint& c, const SolverBody& a, const SolverBody& b,
+                                           const SoftStep& step) {
   if (has_turned_far(a) || has_turned_far(b)) set_masses(c, a, b);
+  PatchGoals goals;
+  each_point(c, [&](int k) {
+    const PatchPoint& p = c.points[k];
+    const float gap = gap_now(c, p, a, b);
+    // An open point that gave no impulse is the next substep's.
+    goals.is_open[k] = gap > 0.0F && !(p.normal_impulse > 0.0F);
+    // What bounces has been met, wherever its neighbors left it.
+    goals.allowed_m_s[k] = gap > 0.0F && !bounces(c, p, step) ? gap * step.per_dt_s : 0.0F;
+  });
+  return goals;
+}
+
+// One sweep over a patch after the bodies moved: closed points neither close nor open. Returns the largest change of a
+// point's speed, m/s.
+BROADSIDE_HD float relax_patch(PatchConstraint& c, const PatchGoals& goals, SolverBody& a, SolverBody& b) {
   PatchMotion m = motion_of(a, b);
   float largest = 0.0F;
   each_point(c, [&](int k) {
+    if (goals.is_open[k]) return;
     PatchPoint& p = c.points[k];
-    const float gap = gap_now(c, p, a, b);
-    if (gap > 0.0F && !(p.normal_impulse > 0.0F)) return;
-    // What bounces has been met, wherever its neighbors left it.
-    const float may_close = gap > 0.0F && !bounces(c, p, step) ? gap * step.per_dt_s : 0.0F;
-    const float speed = dot(c.normal, relative_velocity(m, p)) + may_close;
+    const float speed = dot(c.normal, relative_velocity(m, p)) + goals.allowed_m_s[k];
     const float size = add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
     largest = size > largest ? size : largest;
   });
@@ -255,13 +288,20 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   return size > largest ? size : largest;
 }
 
-// Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
-BROADSIDE_HD void add_to_totals(PatchConstraint& c, const SoftStep& step) {
+// Ends a substep.
+BROADSIDE_HD void add_to_totals(PatchConstraint& c) {
   each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;
     p.tangent_total_2 = p.tangent_total_2 + p.tangent_impulse_2;
+  });
+}
+
+// Behind that. What bounced leaves: the next substep does not begin with the impulse of the impact.
+BROADSIDE_HD void drop_impacts(PatchConstraint& c, const SoftStep& step) {
+  each_point(c, [&](int k) {
+    PatchPoint& p = c.points[k];
     if (bounces(c, p, step)) p.normal_impulse = p.tangent_impulse_1 = p.tangent_impulse_2 = 0.0F;
   });
 }

@@ -53,7 +53,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   ways_.assign(work_.patches().size(), {});
   last_change_ = 0.0F;
   work_.each_patch([&](const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-    of_patches_[work_.index_of(c)] = core::fastest_point(c, a, b);
+    of_patches_[work_.index_of(c)] = core::fastest_point(c, core::motion_of(a, b));
   });
   const float done = core::done_m_s(numbers, settings_.done, largest_of_patches());
   work_.each_patch_by_color([](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::warm_start(c, a, b); });
@@ -61,7 +61,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
     work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
       const std::size_t index = work_.index_of(c);
       core::note_impulses(c, ways_[index]);
-      of_patches_[index] = core::solve_patch(c, a, b, numbers);
+      of_patches_[index] = core::solve_patch(c, core::goals_of(c, a, b, numbers), a, b, numbers);
     });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
@@ -73,17 +73,22 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
 void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   const auto bodies = work_.bodies();
   if (work_.may_bounce())
-    work_.each_patch(
-        [](PatchConstraint& c, const SolverBody& a, const SolverBody& b) { core::note_approach(c, a, b); });
+    work_.each_patch([](PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
+      core::note_approach(c, core::motion_of(a, b));
+    });
   work_.each_body([&](std::size_t i) {
     core::accelerate(bodies[i], step.gravity_m_s2, step.wrenches.empty() ? nullptr : &step.wrenches[i], numbers.dt_s);
   });
   sweep_until_done(numbers);
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
-  work_.each_patch_by_color(
-      [&](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::relax_patch(c, a, b, numbers); });
+  work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
+    core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
+  });
   work_.bounce(numbers);
-  work_.each_patch([&](PatchConstraint& c, const SolverBody&, const SolverBody&) { core::add_to_totals(c, numbers); });
+  work_.each_patch([&](PatchConstraint& c, const SolverBody&, const SolverBody&) {
+    core::add_to_totals(c);
+    core::drop_impacts(c, numbers);
+  });
 }
 
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,

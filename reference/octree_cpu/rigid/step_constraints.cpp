@@ -146,9 +146,11 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   float largest = fastest;
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++sweep_) {
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-      float& change = of_patches_[index_of(c)] = is_stirred(c) ? core::relax_patch(c, a, b, numbers) : 0.0F;
+      float& change = of_patches_[index_of(c)] =
+          is_stirred(c) ? core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b) : 0.0F;
       if (change > done) stir(c, sweep_ + 1);
     });
+    ++bounce_sweeps_;
     largest = largest_of_patches();
   }
   each_patch([](PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) { core::note_stopping(c); });
@@ -157,6 +159,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
       of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
     });
+    ++bounce_sweeps_;
     largest = largest_of_patches();
   }
 }
