@@ -56,16 +56,14 @@ BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, fl
 }
 
 // Before anything else of a substep: how fast the points come.
-template <typename Number, typename Body>
-BROADSIDE_HD void note_approach(PatchOf<Number>& c, const Body& a, const Body& b) {
-  const PatchMotionOf<Number> m = motion_of(a, b);
+template <typename Number>
+BROADSIDE_HD void note_approach(PatchOf<Number>& c, const PatchMotionOf<Number>& m) {
   each_point(c, [&](int k) { c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k])); });
 }
 
 // The largest speed of a point relative to the other body, m/s.
-template <typename Number, typename Body>
-BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const Body& a, const Body& b) {
-  const PatchMotionOf<Number> m = motion_of(a, b);
+template <typename Number>
+BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const PatchMotionOf<Number>& m) {
   Number squared = 0.0F;
   each_point(c, [&](int k) {
     const VectorOf<Number> v = relative_velocity(m, c.points[k]);
@@ -154,43 +152,59 @@ BROADSIDE_HD Number fastest_push(const PatchOf<Number>& c, const PatchPointOf<Nu
   return square_root(0.5F * step.gravity_m_s2 * depth_m) + yields_m_s;
 }
 
-// What of a normal impulse a sweep before the bodies move adds, for a point of this gap that moves so fast.
+// What a sweep wants of the points of a patch. It follows from where the bodies are and from the patch's own impulses,
+// not from velocities: no other patch changes it during a sweep.
 template <typename Number>
-BROADSIDE_HD Number wanted_change(const PatchOf<Number>& c, const PatchPointOf<Number>& p, Number gap_m, Number speed,
-                                  const SoftStep& step) {
-  const TruthOf<Number> is_open = gap_m > 0.0F;
-  // It may close within the substep, no more.
-  Number change = -p.normal_mass * (speed + gap_m * step.per_dt_s);
-  if (any(!is_open)) {
-    const Number wish = (gap_m + c.slop_m) * step.push_rate_per_s;
-    const Number slow = pick(wish > step.settle_m_s, step.settle_m_s, wish);
-    const Number fast = fastest_push(c, p, -gap_m, step);
-    const Number toward = pick(slow < -fast, -fast, slow);
-    const Number soft = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
-    change = pick(is_open, change, soft);
-  }
-  return change;
+struct PatchGoalsOf {
+  // By which a point's approach is lessened, m/s: what of it may close a gap, or less than nothing, to push apart.
+  Number allowed_m_s[kManifoldPoints] = {};
+  // With a gap. After the bodies moved: with a gap and without an impulse, so that the sweep leaves it out.
+  TruthOf<Number> is_open[kManifoldPoints] = {};
+};
+using PatchGoals = PatchGoalsOf<float>;
+
+// Of a sweep before the bodies move. gap_m(k): of a point, at the start of the substep.
+template <typename Number, typename Gap>
+BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const SoftStep& step, const Gap& gap_m) {
+  PatchGoalsOf<Number> goals;
+  each_point(c, [&](int k) {
+    const PatchPointOf<Number>& p = c.points[k];
+    const Number gap = gap_m(k);
+    const TruthOf<Number> is_open = gap > 0.0F;
+    goals.is_open[k] = is_open;
+    goals.allowed_m_s[k] = gap * step.per_dt_s;  // it may close within the substep, no more
+    if (any(!is_open)) {
+      const Number wish = (gap + c.slop_m) * step.push_rate_per_s;
+      const Number slow = pick(wish > step.settle_m_s, step.settle_m_s, wish);
+      const Number fast = fastest_push<Number>(c, p, -gap, step);
+      goals.allowed_m_s[k] = pick(is_open, goals.allowed_m_s[k], pick(slow < -fast, -fast, slow));
+    }
+  });
+  return goals;
+}
+template <typename Number, typename Body>
+BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const Body& a, const Body& b,
+                                           const SoftStep& step) {
+  return goals_of(c, step, [&](int k) { return gap_now(c, c.points[k], a, b); });
 }
 
-// One sweep over a patch before the bodies move. gap_m(k): of a point, which is that of the substep's start. Returns
-// the largest change of a point's speed, m/s.
-template <typename Number, typename Body, typename Gap>
-BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, Body& a, Body& b, const SoftStep& step, const Gap& gap_m) {
+// One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
+template <typename Number, typename Body>
+BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& goals, Body& a, Body& b,
+                                const SoftStep& step) {
   PatchMotionOf<Number> m = motion_of(a, b);
   Number largest = 0.0F;
   each_point(c, [&](int k) {
     PatchPointOf<Number>& p = c.points[k];
     const Number speed = dot(c.normal, relative_velocity(m, p));
-    const Number size = add_normal_impulse(c, p, m, a, b, wanted_change<Number>(c, p, gap_m(k), speed, step));
+    const Number rigid = speed + goals.allowed_m_s[k];
+    const Number soft = -p.normal_mass * step.mass_scale * rigid - step.impulse_scale * p.normal_impulse;
+    const Number size = add_normal_impulse<Number>(c, p, m, a, b, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
     largest = pick(size > largest, size, largest);
   });
   const Number size = solve_frictions(c, m, a, b);
   store(m, a, b);
   return pick(size > largest, size, largest);
-}
-template <typename Number, typename Body>
-BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, Body& a, Body& b, const SoftStep& step) {
-  return solve_patch(c, a, b, step, [&](int k) { return gap_now(c, c.points[k], a, b); });
 }
 
 // Whether the point came fast enough to bounce.
@@ -209,28 +223,42 @@ BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointO
   return is_fast & is_met;
 }
 
-// One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
-// is the next substep's. Returns the largest change of a point's speed, m/s.
+// Of a sweep after the bodies moved. Sets the patch's masses where its bodies have turned far: bodies turn where they
+// move alone, so masses that are right here are so until they move again.
 template <typename Number, typename Body>
-BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, Body& a, Body& b, const SoftStep& step) {
-  // Bodies turn where they move alone, so masses that are right here are so until they move again.
+BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const Body& a, const Body& b,
+                                                     const SoftStep& step) {
   const TruthOf<Number> is_far_a = has_turned_far(a);
   const TruthOf<Number> is_far_b = has_turned_far(b);
   const TruthOf<Number> is_far = is_far_a | is_far_b;
   if (any(is_far)) each_point(c, [&](int k) { set_masses_where(is_far, c, c.points[k], a, b); });
+  PatchGoalsOf<Number> goals;
+  each_point(c, [&](int k) {
+    const PatchPointOf<Number>& p = c.points[k];
+    const Number gap = gap_now(c, p, a, b);
+    const TruthOf<Number> has_gap = gap > 0.0F;
+    const TruthOf<Number> has_pushed = p.normal_impulse > 0.0F;
+    const TruthOf<Number> is_bouncing = bounces(c, p, step);
+    // An open point that gave no impulse is the next substep's.
+    goals.is_open[k] = has_gap & !has_pushed;
+    // What bounces has been met, wherever its neighbors left it.
+    goals.allowed_m_s[k] = pick(has_gap & !is_bouncing, gap * step.per_dt_s, 0.0F);
+  });
+  return goals;
+}
+
+// One sweep over a patch after the bodies moved: closed points neither close nor open. Returns the largest change of a
+// point's speed, m/s.
+template <typename Number, typename Body>
+BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& goals, Body& a, Body& b) {
   PatchMotionOf<Number> m = motion_of(a, b);
   Number largest = 0.0F;
   each_point(c, [&](int k) {
-    PatchPointOf<Number>& p = c.points[k];
-    const Number gap = gap_now(c, p, a, b);
-    const TruthOf<Number> is_open = gap > 0.0F;
-    const TruthOf<Number> has_pushed = p.normal_impulse > 0.0F;
-    const TruthOf<Number> is_met = has_pushed | !is_open;
+    const TruthOf<Number> is_met = !goals.is_open[k];
     if (!any(is_met)) return;
-    // What bounces has been met, wherever its neighbors left it.
-    const TruthOf<Number> is_bouncing = bounces(c, p, step);
-    const Number may_close = pick(is_open & !is_bouncing, gap * step.per_dt_s, 0.0F);
-    const Number speed = dot(c.normal, relative_velocity(m, p)) + may_close;
+    PatchPointOf<Number>& p = c.points[k];
+    const Number speed = dot(c.normal, relative_velocity(m, p)) + goals.allowed_m_s[k];
+    // Where it is not met, nothing changes.
     const PatchMotionOf<Number> before = m;
     const Number size = add_normal_impulse<Number>(c, p, m, a, b, pick(is_met, -p.normal_mass * speed, 0.0F));
     m = pick<Number>(is_met, m, before);
@@ -297,14 +325,22 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   return size > largest ? size : largest;
 }
 
-// Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
+// Ends a substep.
 template <typename Number>
-BROADSIDE_HD void add_to_totals(PatchOf<Number>& c, const SoftStep& step) {
+BROADSIDE_HD void add_to_totals(PatchOf<Number>& c) {
   each_point(c, [&](int k) {
     PatchPointOf<Number>& p = c.points[k];
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;
     p.tangent_total_2 = p.tangent_total_2 + p.tangent_impulse_2;
+  });
+}
+
+// Behind that. What bounced leaves: the next substep does not begin with the impulse of the impact.
+template <typename Number>
+BROADSIDE_HD void drop_impacts(PatchOf<Number>& c, const SoftStep& step) {
+  each_point(c, [&](int k) {
+    PatchPointOf<Number>& p = c.points[k];
     const TruthOf<Number> leaves = bounces(c, p, step);
     p.normal_impulse = pick(leaves, 0.0F, p.normal_impulse);
     p.tangent_impulse_1 = pick(leaves, 0.0F, p.tangent_impulse_1);

@@ -166,8 +166,9 @@ void each_tile_moving(const TileRange& range, const Work& work) {
 
 template <typename Lanes>
 void note_approach(const TileRange& range) {
-  each_tile<Lanes>(
-      range, [](Tile<Lanes>& t, const auto& a, const auto& b, std::size_t) { core::note_approach(t.patch, a, b); });
+  each_tile<Lanes>(range, [](Tile<Lanes>& t, const auto& a, const auto& b, std::size_t) {
+    core::note_approach(t.patch, core::motion_of(a, b));
+  });
 }
 
 template <typename Lanes>
@@ -185,7 +186,7 @@ template <typename Lanes>
 void begin_sweeps(const TileRange& range, float* speeds) {
   each_tile<Lanes>(range, [speeds](Tile<Lanes>& t, const auto& a, const auto& b, std::size_t k) {
     core::each_point(t.patch, [&](int n) { t.gaps[n] = core::gap_now(t.patch, t.patch.points[n], a, b); });
-    speeds[k] = largest_of(core::fastest_point(t.patch, a, b));
+    speeds[k] = largest_of(core::fastest_point(t.patch, core::motion_of(a, b)));
   });
 }
 
@@ -205,7 +206,8 @@ void sweep(const TileRange& range, const core::SoftStep& step, const SweepWay& w
         core::follow_impulses(t.patch, t.way, way.share);
       core::note_impulses(t.patch, t.way);
     }
-    way.speeds[k] = largest_of(core::solve_patch(t.patch, a, b, step, [&](int n) { return t.gaps[n]; }));
+    const auto goals = core::goals_of(t.patch, step, [&](int n) { return t.gaps[n]; });
+    way.speeds[k] = largest_of(core::solve_patch(t.patch, goals, a, b, step));
     if (way.is_one_of_many) core::squared_change(t.patch, t.way).store(way.changes + k * kTileLanes);
   });
 }
@@ -218,14 +220,18 @@ void push_along(const TileRange& range, float share) {
 
 template <typename Lanes>
 void relax(const TileRange& range, const core::SoftStep& step) {
-  each_tile_moving<Lanes>(
-      range, [&](Tile<Lanes>& t, auto& a, auto& b, std::size_t) { (void)core::relax_patch(t.patch, a, b, step); });
+  each_tile_moving<Lanes>(range, [&](Tile<Lanes>& t, auto& a, auto& b, std::size_t) {
+    (void)core::relax_patch(t.patch, core::goals_after_motion(t.patch, a, b, step), a, b);
+  });
 }
 
 template <typename Lanes>
 void add_to_totals(const TileRange& range, const core::SoftStep& step) {
-  for (std::size_t k = range.first; k < range.last; ++k)
-    core::add_to_totals(Tile<Lanes>::at(range.tiles, k).patch, step);
+  for (std::size_t k = range.first; k < range.last; ++k) {
+    core::PatchOf<Lanes>& patch = Tile<Lanes>::at(range.tiles, k).patch;
+    core::add_to_totals(patch);
+    core::drop_impacts(patch, step);
+  }
 }
 
 template <typename Lanes>

@@ -21,7 +21,7 @@ class SoftSolver final : public ContactSolver {
                const RigidStep& step) override;
   [[nodiscard]] std::span<const PatchImpulses> impulses() const override { return work_.impulses(); }
   void forget() override { work_.forget(); }
-  [[nodiscard]] std::uint64_t sweeps_done() const override { return sweeps_done_; }
+  [[nodiscard]] SolverSweeps sweeps_done() const override { return {sweeps_done_, work_.bounce_sweeps()}; }
 
  private:
   void substep(const RigidStep& step, const core::SoftStep& numbers);

@@ -186,12 +186,13 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   float largest = fastest;
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++sweep_) {
     const auto relax = [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-      return core::relax_patch(c, a, b, numbers);
+      return core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
     };
     visit_by_color(place_begin_, [&](std::size_t place) {
       of_places_[place] = is_stirred(place) ? change(place, relax) : 0.0F;
       if (of_places_[place] > done) stir(place, sweep_ + 1);
     });
+    ++bounce_sweeps_;
     largest = largest_of_places();
   }
   largest = fastest;
@@ -203,6 +204,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
         return core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
       });
     });
+    ++bounce_sweeps_;
     largest = largest_of_places();
   }
 }

@@ -52,6 +52,9 @@ class StepConstraints {
       ranges_in_parallel(begin[color], begin[color + 1], work);
   }
 
+  // Sweeps of bounces since it was made.
+  [[nodiscard]] std::uint64_t bounce_sweeps() const { return bounce_sweeps_; }
+
   // Points that came fast leave with their share of that speed: sweeps until one changes no speed by more than
   // 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by more than that.
   void bounce(const core::SoftStep& numbers);
@@ -107,6 +110,7 @@ class StepConstraints {
   std::vector<std::uint32_t> fast_begin_;
   std::vector<std::uint32_t> stirred_;  // [bodies] the sweep that has to visit the body's patches
   std::uint32_t sweep_ = 0;             // of all sweeps of bounces in this step
+  std::uint64_t bounce_sweeps_ = 0;
   float substep_s_ = 0.0F;
   bool may_bounce_ = false;
 };

@@ -122,10 +122,12 @@ struct OneByOne {
   void run(const core::SoftStep& step, std::span<const float> shares) {
     ways.assign(patches.size(), {});
     changes.assign(patches.size(), 0.0F);
-    each([](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) { core::note_approach(c, a, b); });
+    each([](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) {
+      core::note_approach(c, core::motion_of(a, b));
+    });
     float fastest = 0.0F;
     each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) {
-      fastest = std::max(fastest, core::fastest_point(c, a, b));
+      fastest = std::max(fastest, core::fastest_point(c, core::motion_of(a, b)));
     });
     speeds.push_back(fastest);
     each([](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) { core::warm_start(c, a, b); });
@@ -133,7 +135,7 @@ struct OneByOne {
       float largest = 0.0F;
       each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t k) {
         core::note_impulses(c, ways[k]);
-        largest = std::max(largest, core::solve_patch(c, a, b, step));
+        largest = std::max(largest, core::solve_patch(c, core::goals_of(c, a, b, step), a, b, step));
         changes[k] = core::squared_change(c, ways[k]);
         if (n == shares.size()) return;  // the last word is a sweep's
         core::push_along(c, ways[k], a, b, shares[n]);
@@ -141,8 +143,13 @@ struct OneByOne {
       });
       speeds.push_back(largest);
     }
-    each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) { core::relax_patch(c, a, b, step); });
-    each([&](PatchConstraint& c, SolverBody&, SolverBody&, std::size_t) { core::add_to_totals(c, step); });
+    each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) {
+      core::relax_patch(c, core::goals_after_motion(c, a, b, step), a, b);
+    });
+    each([&](PatchConstraint& c, SolverBody&, SolverBody&, std::size_t) {
+      core::add_to_totals(c);
+      core::drop_impacts(c, step);
+    });
   }
 };
 
