@@ -51,7 +51,8 @@ core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& 
 }
 
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle /*stream*/) {
-  on_host::run({{blocks}, {kSolveThreads}, seed()}, 0, [&](unsigned char*) { run_solve(frame); });
+  on_host::run({{blocks}, {kSolveThreads}, seed()}, sizeof(ColorTable),
+               [&](unsigned char* shared) { run_solve(frame, *reinterpret_cast<ColorTable*>(shared)); });
   return core::Done{};
 }
 

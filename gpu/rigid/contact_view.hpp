@@ -52,6 +52,13 @@ struct alignas(16) PackedPusher {
   PackedVec3 pushed;  // w: who drives it, as a word
 };
 
+// What solving a frame's contacts took.
+struct SolveCounts {
+  std::uint32_t sweeps = 0;         // over all contacts, before the bodies move
+  std::uint32_t bounce_sweeps = 0;  // while contacts bounce
+  std::uint32_t waits = 0;          // of all threads for each other
+};
+
 // Counts of one frame; all are what was demanded. The last kernel of a frame leaves zeros.
 struct RigidCounts {
   unsigned long long confirmed = 0;
@@ -66,8 +73,9 @@ struct RigidCounts {
   std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
   // What all threads bring together, in turns (team_sums.cuh).
-  std::uint32_t largest[4][2] = {};
+  std::uint32_t largest[4][3] = {};
   unsigned long long sums[4] = {};
+  SolveCounts done;
 };
 
 // What the host reads after a frame, in host memory that the device writes.

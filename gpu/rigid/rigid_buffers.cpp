@@ -89,6 +89,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
   BROADSIDE_TRY(boxes_.reserve(n, "bodies"));
   BROADSIDE_TRY(coloring_.reserve(n, "bodies"));
   BROADSIDE_TRY(bodies_.reserve(n + 1, "bodies"));
+  BROADSIDE_TRY(starts_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(stirred_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(old_memory_.reserve_bodies(n));
   BROADSIDE_TRY(memory_.reserve_bodies(n));
@@ -153,6 +154,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.changes = changes_.data();
   view.by_color = by_color_.data();
   view.bodies = bodies_.data();
+  view.starts = starts_.data();
   view.stirred = stirred_.data();
   view.impulses = impulses_.data();
   view.old_memory = old_memory_.view();
@@ -166,8 +168,9 @@ std::uint64_t RigidBuffers::bytes() const {
          reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() + shape_boxes_.bytes() + boxes_.bytes() +
          confirmed_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
          color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
-         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + stirred_.bytes() +
-         impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + counts_.bytes() + barrier_.bytes();
+         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + starts_.bytes() +
+         stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + counts_.bytes() +
+         barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -71,6 +71,7 @@ class RigidBuffers {
   DeviceBuffer<float> changes_;
   DeviceBuffer<std::uint32_t> by_color_;
   DeviceBuffer<PackedSolverBody> bodies_;
+  DeviceBuffer<PackedStart> starts_;
   DeviceBuffer<std::uint32_t> stirred_;
   DeviceBuffer<core::Vec3> impulses_;
   Memory old_memory_;

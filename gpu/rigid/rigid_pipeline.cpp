@@ -47,6 +47,9 @@ struct RigidPipeline::Impl {
   std::uint64_t repeats = 0;
   std::uint64_t patches_made = 0;
   std::uint64_t pairs_tested = 0;
+  std::uint64_t sweeps = 0;
+  std::uint64_t bounce_sweeps = 0;
+  std::uint64_t waits = 0;
   float dt_s = 0.0F;
 
   [[nodiscard]] bool has_broad() const;
@@ -129,6 +132,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.bodies = std::move(bodies).value();
   d.scene = &scene;
   d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
+  d.sweeps = d.bounce_sweeps = d.waits = 0;
   d.last = {};
   d.times = {};
   d.view = {};
@@ -258,6 +262,9 @@ void RigidPipeline::Impl::take_frame() {
   const std::uint64_t n = bodies.state.size();
   pairs_tested += has_broad() ? last_pairs : n * (n - 1) / 2;
   patches_made += last.patches;
+  sweeps += last.done.sweeps;
+  bounce_sweeps += last.done.bounce_sweeps;
+  waits += last.done.waits;
   ++steps;
 }
 
@@ -310,6 +317,9 @@ std::vector<core::Counter> RigidPipeline::counters() const {
   return {{"launches", 5 * (d.steps + d.repeats)},
           {"level stage: pairs tested", d.pairs_tested},
           {"contact patches", d.patches_made},
+          {"solver: sweeps", d.sweeps},
+          {"solver: sweeps of bounces", d.bounce_sweeps},
+          {"solver: waits", d.waits},
           {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes()}};
 }
 

@@ -35,16 +35,25 @@ struct alignas(16) BodyColors {
 // core::SolverBody in words of 16 bytes; those that sweeps over patches read come first, those that they write before
 // all others: 32 bytes, which is how much memory is read at least.
 struct alignas(128) PackedSolverBody {
-  PackedVec3 v;                 // w: inverse mass
-  PackedVec3 angular_momentum;  // w: xx of the inverse inertia
-  PackedVec3 inertia;           // yy zz xy, w: xz
-  PackedVec3 moved;             // w: yz
-  PackedVec3 turned;
+  PackedVec3 v;  // w: inverse mass
+  PackedVec3 angular_momentum;
+  PackedVec3 inertia;  // inverse: xx yy zz, w: xy
+  PackedVec3 moved;    // w: xz
+  PackedVec3 turned;   // w: yz
   core::Quat q;
   core::Quat q_rest;
 };
 static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 128,
               "read and written in words of 16 bytes");
+
+// How a body moves as a substep begins.
+struct alignas(32) PackedStart {
+  PackedVec3 v;
+  PackedVec3 w;
+  // With gravity and wrenches of the substep.
+  PackedVec3 driven_v;
+  PackedVec3 driven_w;
+};
 
 // Whose barriers the solver's kernel has: all its blocks'. A cluster's is the fastest.
 enum class SolveTeamKind : std::uint8_t { kGrid, kCluster };
@@ -76,6 +85,7 @@ struct RigidFrameView : ContactView {
   // [2 * patches] In the lists of each moved body its patches' places by color: 2 * place, + 1 where it is body B.
   std::uint32_t* by_color = nullptr;
   PackedSolverBody* bodies = nullptr;  // [bodies + 1]; the last one stands for every face: it never moves
+  PackedStart* starts = nullptr;       // [bodies + 1] of the substep
   // [bodies + 1] While contacts bounce: the sweep that has to visit the body's patches, of all of the step.
   std::uint32_t* stirred = nullptr;
   core::Vec3* impulses = nullptr;  // [4 * patches] N s on A, of the whole step

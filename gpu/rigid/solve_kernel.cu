@@ -16,7 +16,8 @@ constexpr std::uint32_t kMostClusterBlocks = 16;
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
     solve_kernel(const __grid_constant__ RigidFrameView frame) {
-  run_solve(frame);
+  __shared__ ColorTable table;
+  run_solve(frame, table);
 }
 
 cudaLaunchConfig_t cluster_config(std::uint32_t blocks, cudaLaunchAttribute& attribute) {

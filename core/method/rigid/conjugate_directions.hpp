@@ -13,12 +13,15 @@
 namespace broadside::core {
 
 // Impulses of a patch in the direction of the last sweeps.
-struct PatchWay {
-  float before[kManifoldPoints][3];  // impulses before the sweep: normal and tangents
-  float way[kManifoldPoints][3];     // the direction
+template <typename Number>
+struct PatchWayOf {
+  Number before[kManifoldPoints][3];  // impulses before the sweep: normal and tangents
+  Number way[kManifoldPoints][3];     // the direction
 };
+using PatchWay = PatchWayOf<float>;
 
-BROADSIDE_HD void note_impulses(const PatchConstraint& c, PatchWay& way) {
+template <typename Number>
+BROADSIDE_HD void note_impulses(const PatchOf<Number>& c, PatchWayOf<Number>& way) {
   each_point(c, [&](int k) {
     way.before[k][0] = c.points[k].normal_impulse;
     way.before[k][1] = c.points[k].tangent_impulse_1;
@@ -27,14 +30,15 @@ BROADSIDE_HD void note_impulses(const PatchConstraint& c, PatchWay& way) {
 }
 
 // The square of what the sweep changed, in the mobilities of the points, J.
-BROADSIDE_HD float squared_change(const PatchConstraint& c, const PatchWay& way) {
-  float sum = 0.0F;
+template <typename Number>
+BROADSIDE_HD Number squared_change(const PatchOf<Number>& c, const PatchWayOf<Number>& way) {
+  Number sum = 0.0F;
   each_point(c, [&](int k) {
-    const PatchPoint& p = c.points[k];
-    const float n = p.normal_impulse - way.before[k][0];
-    const float t1 = p.tangent_impulse_1 - way.before[k][1];
-    const float t2 = p.tangent_impulse_2 - way.before[k][2];
-    sum += ((n * n + t1 * t1) + t2 * t2) / p.normal_mass;
+    const PatchPointOf<Number>& p = c.points[k];
+    const Number n = p.normal_impulse - way.before[k][0];
+    const Number t1 = p.tangent_impulse_1 - way.before[k][1];
+    const Number t2 = p.tangent_impulse_2 - way.before[k][2];
+    sum = sum + ((n * n + t1 * t1) + t2 * t2) / p.normal_mass;
   });
   return sum;
 }
@@ -47,40 +51,44 @@ BROADSIDE_HD constexpr float share_of_direction(float first_change, float last_c
 }
 
 // How far a step along the last direction changes a point's impulses.
+template <typename Number>
 struct PointStep {
-  float normal = 0.0F;
-  float tangent_1 = 0.0F;
-  float tangent_2 = 0.0F;
+  Number normal = 0.0F;
+  Number tangent_1 = 0.0F;
+  Number tangent_2 = 0.0F;
 };
 
-BROADSIDE_HD PointStep step_along(const float (&way)[3], float share) {
+template <typename Number>
+BROADSIDE_HD PointStep<Number> step_along(const Number (&way)[3], float share) {
   return {share * way[0], share * way[1], share * way[2]};
 }
 
 // Goes on along the last direction by `share` of it, and turns the direction to what the sweep changed. The impulses
 // alone: what that does to the bodies is push_along's.
-BROADSIDE_HD void follow_impulses(PatchConstraint& c, PatchWay& way, float share) {
+template <typename Number>
+BROADSIDE_HD void follow_impulses(PatchOf<Number>& c, PatchWayOf<Number>& way, float share) {
   each_point(c, [&](int k) {
-    PatchPoint& p = c.points[k];
-    const float changed[3] = {p.normal_impulse - way.before[k][0], p.tangent_impulse_1 - way.before[k][1],
-                              p.tangent_impulse_2 - way.before[k][2]};
-    const PointStep more = step_along(way.way[k], share);
+    PatchPointOf<Number>& p = c.points[k];
+    const Number changed[3] = {p.normal_impulse - way.before[k][0], p.tangent_impulse_1 - way.before[k][1],
+                               p.tangent_impulse_2 - way.before[k][2]};
+    const PointStep<Number> more = step_along(way.way[k], share);
     way.way[k][0] = more.normal + changed[0];
     way.way[k][1] = more.tangent_1 + changed[1];
     way.way[k][2] = more.tangent_2 + changed[2];
-    p.normal_impulse += more.normal;
-    p.tangent_impulse_1 += more.tangent_1;
-    p.tangent_impulse_2 += more.tangent_2;
+    p.normal_impulse = p.normal_impulse + more.normal;
+    p.tangent_impulse_1 = p.tangent_impulse_1 + more.tangent_1;
+    p.tangent_impulse_2 = p.tangent_impulse_2 + more.tangent_2;
   });
 }
 
 // What the step along the direction does to the bodies. Before follow_impulses turns it.
-BROADSIDE_HD void push_along(const PatchConstraint& c, const PatchWay& way, SolverBody& a, SolverBody& b, float share) {
+template <typename Number, typename Body>
+BROADSIDE_HD void push_along(const PatchOf<Number>& c, const PatchWayOf<Number>& way, Body& a, Body& b, float share) {
   BodyGain of_a(a);
   BodyGain of_b(b);
   each_point(c, [&](int k) {
-    const PointStep more = step_along(way.way[k], share);
-    const Vec3 impulse = impulse_of(c, more.normal, more.tangent_1, more.tangent_2);
+    const PointStep<Number> more = step_along(way.way[k], share);
+    const VectorOf<Number> impulse = impulse_of(c, more.normal, more.tangent_1, more.tangent_2);
     of_a.add_to_a(a, c.points[k].arm_a, impulse);
     of_b.add_to_b(b, c.points[k].arm_b, impulse);
   });

@@ -56,30 +56,31 @@ BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, fl
 }
 
 // Before anything else of a substep: how fast the points come.
-BROADSIDE_HD void note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-  const PatchMotion m = motion_of(a, b);
+template <typename Number>
+BROADSIDE_HD void note_approach(PatchOf<Number>& c, const PatchMotionOf<Number>& m) {
   each_point(c, [&](int k) { c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k])); });
 }
 
 // The largest speed of a point relative to the other body, m/s.
-BROADSIDE_HD float fastest_point(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-  const PatchMotion m = motion_of(a, b);
-  float squared = 0.0F;
+template <typename Number>
+BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const PatchMotionOf<Number>& m) {
+  Number squared = 0.0F;
   each_point(c, [&](int k) {
-    const Vec3 v = relative_velocity(m, c.points[k]);
-    squared = dot(v, v) > squared ? dot(v, v) : squared;
+    const VectorOf<Number> v = relative_velocity(m, c.points[k]);
+    squared = pick(dot(v, v) > squared, dot(v, v), squared);
   });
-  return sqrtf(squared);
+  return square_root(squared);
 }
 
 // The impulses of the substep before.
-BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
+template <typename Number, typename Body>
+BROADSIDE_HD void warm_start(PatchOf<Number>& c, Body& a, Body& b) {
   BodyGain of_a(a);
   BodyGain of_b(b);
   each_point(c, [&](int k) {
-    PatchPoint& p = c.points[k];
+    PatchPointOf<Number>& p = c.points[k];
     p.slides = false;
-    const Vec3 impulse = impulse_of(c, p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2);
+    const VectorOf<Number> impulse = impulse_of(c, p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2);
     of_a.add_to_a(a, p.arm_a, impulse);
     of_b.add_to_b(b, p.arm_b, impulse);
   });
@@ -88,51 +89,54 @@ BROADSIDE_HD void warm_start(PatchConstraint& c, SolverBody& a, SolverBody& b) {
 }
 
 // Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
-BROADSIDE_HD float add_normal_impulse(const PatchConstraint& c, PatchPoint& p, PatchMotion& m, const SolverBody& a,
-                                      const SolverBody& b, float change) {
-  const float sum = p.normal_impulse + change;
-  const float next = sum > 0.0F ? sum : 0.0F;
-  const float done = next - p.normal_impulse;
+template <typename Number, typename Body>
+BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m,
+                                       const Body& a, const Body& b, Number change) {
+  const Number sum = p.normal_impulse + change;
+  const Number next = pick(sum > 0.0F, sum, 0.0F);
+  const Number done = next - p.normal_impulse;
   p.normal_impulse = next;
   push(m, a, b, p, done * c.normal);
-  return (done < 0.0F ? -done : done) / p.normal_mass;
+  return pick(done < 0.0F, -done, done) / p.normal_mass;
 }
 
 // Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
 // the slip. With one mass for both directions of a sliding point its friction turns until it opposes the slip. Returns
 // how fast it changed the point, m/s.
-BROADSIDE_HD float solve_friction(const PatchConstraint& c, PatchPoint& p, PatchMotion& m, const SolverBody& a,
-                                  const SolverBody& b) {
-  const Vec3 v = relative_velocity(m, p);
-  const float v1 = dot(v, c.tangent_1);
-  const float v2 = dot(v, c.tangent_2);
-  float want_1 = p.tangent_impulse_1 - (p.stick_mass_11 * v1 + p.stick_mass_12 * v2);
-  float want_2 = p.tangent_impulse_2 - (p.stick_mass_12 * v1 + p.stick_mass_22 * v2);
-  float most = (p.slides ? c.surface.mu_kinetic : c.surface.mu_static) * p.normal_impulse;
-  if (want_1 * want_1 + want_2 * want_2 > most * most) {
-    p.slides = true;
-    most = c.surface.mu_kinetic * p.normal_impulse;
-    want_1 = p.tangent_impulse_1 - p.slide_mass * v1;
-    want_2 = p.tangent_impulse_2 - p.slide_mass * v2;
-    const float size = sqrtf(want_1 * want_1 + want_2 * want_2);
-    if (size > most) {
-      want_1 = (most / size) * want_1;
-      want_2 = (most / size) * want_2;
-    }
+template <typename Number, typename Body>
+BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m,
+                                   const Body& a, const Body& b) {
+  const VectorOf<Number> v = relative_velocity(m, p);
+  const Number v1 = dot(v, c.tangent_1);
+  const Number v2 = dot(v, c.tangent_2);
+  Number want_1 = p.tangent_impulse_1 - (p.stick_mass_11 * v1 + p.stick_mass_12 * v2);
+  Number want_2 = p.tangent_impulse_2 - (p.stick_mass_12 * v1 + p.stick_mass_22 * v2);
+  const Number held = pick(p.slides, c.surface.mu_kinetic, c.surface.mu_static) * p.normal_impulse;
+  const TruthOf<Number> is_sliding = want_1 * want_1 + want_2 * want_2 > held * held;
+  if (any(is_sliding)) {
+    p.slides = p.slides | is_sliding;
+    const Number most = c.surface.mu_kinetic * p.normal_impulse;
+    const Number slide_1 = p.tangent_impulse_1 - p.slide_mass * v1;
+    const Number slide_2 = p.tangent_impulse_2 - p.slide_mass * v2;
+    const Number size = square_root(slide_1 * slide_1 + slide_2 * slide_2);
+    const TruthOf<Number> is_more = size > most;
+    want_1 = pick(is_sliding, pick(is_more, (most / size) * slide_1, slide_1), want_1);
+    want_2 = pick(is_sliding, pick(is_more, (most / size) * slide_2, slide_2), want_2);
   }
-  const float change_1 = want_1 - p.tangent_impulse_1;
-  const float change_2 = want_2 - p.tangent_impulse_2;
+  const Number change_1 = want_1 - p.tangent_impulse_1;
+  const Number change_2 = want_2 - p.tangent_impulse_2;
   p.tangent_impulse_1 = want_1;
   p.tangent_impulse_2 = want_2;
   push(m, a, b, p, change_1 * c.tangent_1 + change_2 * c.tangent_2);
-  return sqrtf(change_1 * change_1 + change_2 * change_2) / p.slide_mass;
+  return square_root(change_1 * change_1 + change_2 * change_2) / p.slide_mass;
 }
 
-BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const SolverBody& a, const SolverBody& b) {
-  float largest = 0.0F;
+template <typename Number, typename Body>
+BROADSIDE_HD Number solve_frictions(PatchOf<Number>& c, PatchMotionOf<Number>& m, const Body& a, const Body& b) {
+  Number largest = 0.0F;
   each_point(c, [&](int k) {
-    const float size = solve_friction(c, c.points[k], m, a, b);
-    largest = size > largest ? size : largest;
+    const Number size = solve_friction(c, c.points[k], m, a, b);
+    largest = pick(size > largest, size, largest);
   });
   return largest;
 }
@@ -140,67 +144,133 @@ BROADSIDE_HD float solve_frictions(PatchConstraint& c, PatchMotion& m, const Sol
 // An overlap is pushed apart no faster than half of what it would take to fall out of it, beside what the soft contact
 // yields to the impulse that it bears: where something rides on what is pushed, and keeps its speed, it keeps no more
 // energy than that of a quarter of the lift.
-BROADSIDE_HD float fastest_push(const PatchConstraint& c, const PatchPoint& p, float depth_m, const SoftStep& step) {
-  const float yields_m_s = step.impulse_scale * p.normal_impulse / (step.mass_scale * p.normal_mass);
-  const float rises_m_s = step.gravity_m_s2 > 0.0F ? sqrtf(0.5F * step.gravity_m_s2 * depth_m) : c.fastest_push_m_s;
-  return rises_m_s + yields_m_s;
+template <typename Number>
+BROADSIDE_HD Number fastest_push(const PatchOf<Number>& c, const PatchPointOf<Number>& p, Number depth_m,
+                                 const SoftStep& step) {
+  const Number yields_m_s = step.impulse_scale * p.normal_impulse / (step.mass_scale * p.normal_mass);
+  if (!(step.gravity_m_s2 > 0.0F)) return c.fastest_push_m_s + yields_m_s;
+  return square_root(0.5F * step.gravity_m_s2 * depth_m) + yields_m_s;
+}
+
+// What a sweep wants of the points of a patch. It follows from where the bodies are and from the patch's own impulses,
+// not from velocities: no other patch changes it during a sweep.
+template <typename Number>
+struct PatchGoalsOf {
+  // By which a point's approach is lessened, m/s: what of it may close a gap, or less than nothing, to push apart.
+  Number allowed_m_s[kManifoldPoints] = {};
+  // With a gap. After the bodies moved: with a gap and without an impulse, so that the sweep leaves it out.
+  TruthOf<Number> is_open[kManifoldPoints] = {};
+};
+using PatchGoals = PatchGoalsOf<float>;
+
+// Of a sweep before the bodies move. gap_m(k): of a point, at the start of the substep.
+template <typename Number, typename Gap>
+BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const SoftStep& step, const Gap& gap_m) {
+  PatchGoalsOf<Number> goals;
+  each_point(c, [&](int k) {
+    const PatchPointOf<Number>& p = c.points[k];
+    const Number gap = gap_m(k);
+    const TruthOf<Number> is_open = gap > 0.0F;
+    goals.is_open[k] = is_open;
+    goals.allowed_m_s[k] = gap * step.per_dt_s;  // it may close within the substep, no more
+    if (any(!is_open)) {
+      const Number wish = (gap + c.slop_m) * step.push_rate_per_s;
+      const Number slow = pick(wish > step.settle_m_s, step.settle_m_s, wish);
+      const Number fast = fastest_push<Number>(c, p, -gap, step);
+      goals.allowed_m_s[k] = pick(is_open, goals.allowed_m_s[k], pick(slow < -fast, -fast, slow));
+    }
+  });
+  return goals;
+}
+template <typename Number, typename Body>
+BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const Body& a, const Body& b,
+                                           const SoftStep& step) {
+  return goals_of(c, step, [&](int k) { return gap_now(c, c.points[k], a, b); });
 }
 
 // One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
-BROADSIDE_HD float solve_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
-  PatchMotion m = motion_of(a, b);
-  float largest = 0.0F;
+template <typename Number, typename Body>
+BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& goals, Body& a, Body& b,
+                                const SoftStep& step) {
+  PatchMotionOf<Number> m = motion_of(a, b);
+  Number largest = 0.0F;
   each_point(c, [&](int k) {
-    PatchPoint& p = c.points[k];
-    const float gap = gap_now(c, p, a, b);
-    const float speed = dot(c.normal, relative_velocity(m, p));
-    float change;
-    if (gap > 0.0F) {
-      change = -p.normal_mass * (speed + gap * step.per_dt_s);  // it may close within the substep, no more
-    } else {
-      const float wish = (gap + c.slop_m) * step.push_rate_per_s;
-      const float slow = wish > step.settle_m_s ? step.settle_m_s : wish;
-      const float fast = fastest_push(c, p, -gap, step);
-      const float toward = slow < -fast ? -fast : slow;
-      change = -p.normal_mass * step.mass_scale * (speed + toward) - step.impulse_scale * p.normal_impulse;
-    }
-    const float size = add_normal_impulse(c, p, m, a, b, change);
-    largest = size > largest ? size : largest;
+    PatchPointOf<Number>& p = c.points[k];
+    const Number speed = dot(c.normal, relative_velocity(m, p));
+    const Number rigid = speed + goals.allowed_m_s[k];
+    const Number soft = -p.normal_mass * step.mass_scale * rigid - step.impulse_scale * p.normal_impulse;
+    const Number size = add_normal_impulse<Number>(c, p, m, a, b, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
+    largest = pick(size > largest, size, largest);
   });
-  const float size = solve_frictions(c, m, a, b);
+  const Number size = solve_frictions(c, m, a, b);
   store(m, a, b);
-  return size > largest ? size : largest;
+  return pick(size > largest, size, largest);
 }
 
-// Whether the point came fast enough to bounce, and was met in this substep.
-BROADSIDE_HD bool bounces(const PatchConstraint& c, const PatchPoint& p, const SoftStep& step) {
-  return c.surface.restitution > 0.0F && p.approach_m_s > step.bounce_from_m_s && p.normal_impulse > 0.0F;
+// Whether the point came fast enough to bounce.
+template <typename Number>
+BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const SoftStep& step) {
+  const TruthOf<Number> gives_back = c.surface.restitution > 0.0F;
+  const TruthOf<Number> is_fast = p.approach_m_s > step.bounce_from_m_s;
+  return gives_back & is_fast;
 }
 
-// One sweep over a patch after the bodies moved: closed points neither close nor open. An open one that gave no impulse
-// is the next substep's. Returns the largest change of a point's speed, m/s.
-BROADSIDE_HD float relax_patch(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step) {
-  // Bodies turn where they move alone, so masses that are right here are so until they move again.
-  if (has_turned_far(a) || has_turned_far(b)) set_masses(c, a, b);
-  PatchMotion m = motion_of(a, b);
-  float largest = 0.0F;
+// Whether it did, and was met in this substep.
+template <typename Number>
+BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const SoftStep& step) {
+  const TruthOf<Number> is_met = p.normal_impulse > 0.0F;
+  const TruthOf<Number> is_fast = came_fast(c, p, step);
+  return is_fast & is_met;
+}
+
+// Of a sweep after the bodies moved. Sets the patch's masses where its bodies have turned far: bodies turn where they
+// move alone, so masses that are right here are so until they move again.
+template <typename Number, typename Body>
+BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const Body& a, const Body& b,
+                                                     const SoftStep& step) {
+  const TruthOf<Number> is_far_a = has_turned_far(a);
+  const TruthOf<Number> is_far_b = has_turned_far(b);
+  const TruthOf<Number> is_far = is_far_a | is_far_b;
+  if (any(is_far)) each_point(c, [&](int k) { set_masses_where(is_far, c, c.points[k], a, b); });
+  PatchGoalsOf<Number> goals;
   each_point(c, [&](int k) {
-    PatchPoint& p = c.points[k];
-    const float gap = gap_now(c, p, a, b);
-    if (gap > 0.0F && !(p.normal_impulse > 0.0F)) return;
+    const PatchPointOf<Number>& p = c.points[k];
+    const Number gap = gap_now(c, p, a, b);
+    const TruthOf<Number> has_gap = gap > 0.0F;
+    const TruthOf<Number> has_pushed = p.normal_impulse > 0.0F;
+    const TruthOf<Number> is_bouncing = bounces(c, p, step);
+    // An open point that gave no impulse is the next substep's.
+    goals.is_open[k] = has_gap & !has_pushed;
     // What bounces has been met, wherever its neighbors left it.
-    const float may_close = gap > 0.0F && !bounces(c, p, step) ? gap * step.per_dt_s : 0.0F;
-    const float speed = dot(c.normal, relative_velocity(m, p)) + may_close;
-    const float size = add_normal_impulse(c, p, m, a, b, -p.normal_mass * speed);
-    largest = size > largest ? size : largest;
+    goals.allowed_m_s[k] = pick(has_gap & !is_bouncing, gap * step.per_dt_s, 0.0F);
   });
-  const float size = solve_frictions(c, m, a, b);
+  return goals;
+}
+
+// One sweep over a patch after the bodies moved: closed points neither close nor open. Returns the largest change of a
+// point's speed, m/s.
+template <typename Number, typename Body>
+BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& goals, Body& a, Body& b) {
+  PatchMotionOf<Number> m = motion_of(a, b);
+  Number largest = 0.0F;
+  each_point(c, [&](int k) {
+    const TruthOf<Number> is_met = !goals.is_open[k];
+    if (!any(is_met)) return;
+    PatchPointOf<Number>& p = c.points[k];
+    const Number speed = dot(c.normal, relative_velocity(m, p)) + goals.allowed_m_s[k];
+    // Where it is not met, nothing changes.
+    const PatchMotionOf<Number> before = m;
+    const Number size = add_normal_impulse<Number>(c, p, m, a, b, pick(is_met, -p.normal_mass * speed, 0.0F));
+    m = pick<Number>(is_met, m, before);
+    largest = pick(is_met & (size > largest), size, largest);
+  });
+  const Number size = solve_frictions(c, m, a, b);
   store(m, a, b);
-  return size > largest ? size : largest;
+  return pick(size > largest, size, largest);
 }
 
 // The fastest approach of the patch's points that bounce, m/s; 0 = none does.
-BROADSIDE_HD float fastest_bounce(const PatchConstraint& c, const SoftStep& step) {
+BROADSIDE_HD float fastest_bounce(const PatchOf<float>& c, const SoftStep& step) {
   float fastest = 0.0F;
   each_point(c, [&](int k) {
     if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
@@ -255,14 +325,26 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   return size > largest ? size : largest;
 }
 
-// Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
-BROADSIDE_HD void add_to_totals(PatchConstraint& c, const SoftStep& step) {
+// Ends a substep.
+template <typename Number>
+BROADSIDE_HD void add_to_totals(PatchOf<Number>& c) {
   each_point(c, [&](int k) {
-    PatchPoint& p = c.points[k];
+    PatchPointOf<Number>& p = c.points[k];
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;
     p.tangent_total_2 = p.tangent_total_2 + p.tangent_impulse_2;
-    if (bounces(c, p, step)) p.normal_impulse = p.tangent_impulse_1 = p.tangent_impulse_2 = 0.0F;
+  });
+}
+
+// Behind that. What bounced leaves: the next substep does not begin with the impulse of the impact.
+template <typename Number>
+BROADSIDE_HD void drop_impacts(PatchOf<Number>& c, const SoftStep& step) {
+  each_point(c, [&](int k) {
+    PatchPointOf<Number>& p = c.points[k];
+    const TruthOf<Number> leaves = bounces(c, p, step);
+    p.normal_impulse = pick(leaves, 0.0F, p.normal_impulse);
+    p.tangent_impulse_1 = pick(leaves, 0.0F, p.tangent_impulse_1);
+    p.tangent_impulse_2 = pick(leaves, 0.0F, p.tangent_impulse_2);
   });
 }
 

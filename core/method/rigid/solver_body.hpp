@@ -13,6 +13,8 @@ namespace broadside::core {
 // and impulses are added to it exactly as they are recorded. A body that never moves has inverse mass and inverse
 // inertia 0; contacts read it and never write it.
 struct SolverBody {
+  using Number = float;
+
   Vec3 v;                      // m/s
   Vec3 angular_momentum;       // kg m^2/s
   Symmetric3 inverse_inertia;  // world axes, of the orientation at the start of the substep
@@ -33,11 +35,13 @@ BROADSIDE_HD constexpr Symmetric3 turned_to_world(const Symmetric3& m, Quat q) {
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
 }
 
-BROADSIDE_HD constexpr bool is_moved(const SolverBody& body) {
+template <typename Body>
+BROADSIDE_HD constexpr auto is_moved(const Body& body) {
   return body.inverse_mass > 0.0F;
 }
 
-BROADSIDE_HD constexpr Vec3 angular_velocity(const SolverBody& body) {
+template <typename Body>
+BROADSIDE_HD constexpr auto angular_velocity(const Body& body) {
   return body.inverse_inertia * body.angular_momentum;
 }
 

@@ -22,62 +22,54 @@ __device__ __forceinline__ void each_place(const SolveTeam& team, const RigidFra
     if (f.patch_at[place] != kUncolored) work(TileSlot(f.constraints, place), place);
 }
 
-// work(a, b) changes the velocities of a patch's two bodies.
-template <typename Work>
-__device__ __forceinline__ void with_bodies(const RigidFrameView& f, const core::PatchConstraint& c, const Work& work) {
-  core::SolverBody a = load_moving(f.bodies[c.a]);
-  core::SolverBody b = load_moving(f.bodies[c.b]);
-  work(a, b);
-  store_velocity(f.bodies[c.a], a);
-  store_velocity(f.bodies[c.b], b);
-}
-
-// A thread's places of one color.
-struct ColorTurn {
-  std::uint64_t place = 0;
-  std::uint64_t end = 0;
-  std::uint64_t step = 0;
-};
-
-// Every sweep deals places out alike.
-__device__ __forceinline__ ColorTurn turn_of(const SolveTeam& team, const RigidFrameView& f, std::uint32_t color) {
-  const bool is_alone = color >= team.alone_from();
-  if (color >= team.colors() || (is_alone && blockIdx.x != 0)) return {};
-  const std::uint64_t begin = f.color_begin[color];
-  return {begin + (is_alone ? threadIdx.x : team.spread_rank()), begin + f.color_count[color],
-          is_alone ? blockDim.x : team.size()};
-}
+// Whether the barrier before a sweep is the sweep's: its first constraint is then loaded meanwhile.
+enum class SweepBegin : std::uint8_t { kAtOnce, kWithBarrier };
 
 // work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. load(slot) gives
-// what work needs of the constraint. The first constraint of a color is loaded while the thread waits for the others:
-// nobody but this thread writes it during a sweep.
+// what work needs of the constraint, and of its bodies what no sweep changes. A thread loads its next constraint right
+// after its last one, mostly some colors ahead: nobody but this thread writes it during a sweep.
 template <typename Load, typename Work>
-__device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, const Load& load,
-                                                    const Work& work) {
+__device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, SweepBegin begin,
+                                                    const Load& load, const Work& work) {
   decltype(load(TileSlot(nullptr, 0))) loaded;
-  ColorTurn turn = turn_of(team, f, 0);
-  const auto load_first = [&] {
-    if (turn.place < turn.end) loaded = load(TileSlot(f.constraints, turn.place));
+  ColorTurn turn = team.turn_from(0);
+  bool is_loaded = false;
+  const auto load_next = [&] {
+    if (!is_loaded && turn.color != kNoColor) loaded = load(TileSlot(f.constraints, turn.place));
+    is_loaded = true;
   };
-  load_first();
-  for (std::uint32_t color = 1;; ++color) {
-    const ColorTurn next = turn_of(team, f, color);  // asked for now, used behind this color's work
-    while (turn.place < turn.end) {
+  if (begin == SweepBegin::kWithBarrier)
+    team.sync(load_next);
+  else
+    load_next();
+  for (std::uint32_t color = 0;; ++color) {
+    while (turn.color == color) {
+      load_next();
       work(TileSlot(f.constraints, turn.place), turn.place, loaded);
-      turn.place += turn.step;
-      load_first();
+      turn = team.turn_after(turn);
+      is_loaded = false;
     }
-    if (color >= team.colors()) return;
-    turn = next;
-    if (color <= team.alone_from()) {
-      team.sync(load_first);
+    if (color + 1 >= team.colors()) return;
+    if (color + 1 <= team.alone_from()) {
+      team.sync(load_next);
     } else if (blockIdx.x == 0) {
-      load_first();
+      load_next();
       __syncthreads();
     } else {
       return;
     }
   }
+}
+
+// work(a, b) changes the velocities of a patch's two bodies, of which the rest is there already.
+template <typename Work>
+__device__ __forceinline__ void with_velocities(const RigidFrameView& f, const core::PatchConstraint& c,
+                                                core::SolverBody& a, core::SolverBody& b, const Work& work) {
+  load_velocity(f.bodies[c.a], a);
+  load_velocity(f.bodies[c.b], b);
+  work();
+  store_velocity(f.bodies[c.a], a);
+  store_velocity(f.bodies[c.b], b);
 }
 
 }  // namespace broadside::gpu

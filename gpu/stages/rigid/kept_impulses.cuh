@@ -9,28 +9,41 @@
 
 namespace broadside::gpu {
 
+// A patch that one of its bodies is to be told of.
+struct KnownPatch {
+  core::PatchConstraint c;
+  float changes[kFourPoints][3] = {};
+  bool is_b = false;  // the body is the patch's B
+};
+
 // triples(slot, out): how far normal and tangent impulses of the four points change.
 template <typename Triples>
 __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                     const Triples& triples) {
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
   const std::uint32_t count = f.memory.count[i];
-  std::uint32_t next = count > 0 ? places[0] : 0;
+  const auto load = [&](std::uint32_t place_and_side) {
+    const TileSlot slot(f.constraints, place_and_side / 2);
+    KnownPatch known;
+    known.is_b = place_and_side % 2 != 0;
+    load_bodies(slot, known.c);
+    load_arms(slot, load_directions(slot, known.c), known.c);
+    triples(slot, known.changes);
+    return known;
+  };
+  KnownPatch ahead;
+  if (count > 0) ahead = load(places[0]);
+  std::uint32_t next = count > 1 ? places[1] : 0;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const std::uint32_t own = next;
-    next = k + 1 < count ? places[k + 1] : 0;
-    const TileSlot slot(f.constraints, own / 2);
-    const bool is_b = own % 2 != 0;
-    core::PatchConstraint c;
-    load_bodies(slot, c);
-    load_arms(slot, load_directions(slot, c), c);
-    float changes[kFourPoints][3];
-    triples(slot, changes);
+    const KnownPatch now = ahead;
+    if (k + 1 < count) ahead = load(next);  // asked for now, used in the next round
+    next = k + 2 < count ? places[k + 2] : 0;
     core::BodyGain gain(body);
-    core::each_point(c, [&](int point) {
-      const core::PatchPoint& p = c.points[point];
-      const core::Vec3 impulse = core::impulse_of(c, changes[point][0], changes[point][1], changes[point][2]);
-      if (is_b)
+    core::each_point(now.c, [&](int point) {
+      const core::PatchPoint& p = now.c.points[point];
+      const float(&change)[3] = now.changes[point];
+      const core::Vec3 impulse = core::impulse_of(now.c, change[0], change[1], change[2]);
+      if (now.is_b)
         gain.add_to_b(body, p.arm_b, impulse);
       else
         gain.add_to_a(body, p.arm_a, impulse);

@@ -26,6 +26,7 @@ __device__ inline void run_place(const RigidFrameView& f) {
   if (grid.rank() == 0) {
     f.outcome->begin_ns = now_ns();
     store_body(f.bodies[f.body_count], core::SolverBody{});
+    f.starts[f.body_count] = {};
     f.stirred[f.body_count] = 0;
   }
   std::uint32_t side = 0;

@@ -9,14 +9,15 @@
 
 namespace broadside::gpu {
 
-__device__ __forceinline__ void run_solve(const RigidFrameView& f) {
-  const SolveTeam team(f);
+// table: in the block's shared memory.
+__device__ __forceinline__ void run_solve(const RigidFrameView& f, ColorTable& table) {
+  const SolveTeam team(f, table);
   const bool is_first = team.rank() == 0;
   const bool is_aborted = lacks_room(f);
   if (!is_aborted) {
-    run_substeps(team, f);
+    const bool owes_totals = run_substeps(team, f);
     finish_bodies(team, f);
-    finish_patches(team, f);
+    finish_patches(team, f, owes_totals);
   }
   team.sync();
   if (!is_first) return;

@@ -5,6 +5,7 @@
 #include "core/math/order_free_sum.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 #include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/rigid/bounce_sweeps.cuh"
 #include "gpu/stages/rigid/color_loop.cuh"
 #include "gpu/stages/rigid/constraint_stage.cuh"
 #include "gpu/stages/rigid/kept_impulses.cuh"
@@ -19,52 +20,10 @@ struct Solve {
   bool may_bounce = false;
   bool has_way = false;  // several sweeps along conjugate directions
   TeamSums sums;
-  std::uint32_t sweep = 0;  // of all sweeps of bounces in this step
+  std::uint32_t sweep = 0;   // of all sweeps of bounces in this step
+  bool owes_totals = false;  // the impulses of the last substep are to be added to the totals
+  SolveCounts done;
 };
-
-__device__ __forceinline__ void accelerate(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
-                                           float dt_s) {
-  core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, dt_s);
-}
-
-// As the next substep's sweeps find it: the body that stands for the faces has no wrench and never moves.
-__device__ __forceinline__ core::SolverBody accelerated(const RigidFrameView& f, std::uint32_t i, float dt_s) {
-  core::SolverBody body = f.wrench == nullptr ? load_moving(f.bodies[i]) : load_body(f.bodies[i]);
-  if (i < f.body_count) accelerate(f, i, body, dt_s);
-  return body;
-}
-
-// Between two substeps, before the first and behind the last one: totals of the one that ends; of the one that begins,
-// how fast points come. Brings their largest speed under gravity, which says when sweeps are done.
-__device__ __forceinline__ void change_substeps(const SolveTeam& team, const RigidFrameView& f, const Solve& solve,
-                                                bool ends, bool begins) {
-  float fastest = 0.0F;
-  each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
-    core::PatchConstraint c;
-    load_bodies(slot, c);
-    const core::Vec3 across = load_directions(slot, c);
-    if (ends) {
-      load_impulses(slot, c);
-      if (solve.may_bounce) load_approach(slot, c);
-      load_totals(slot, c);
-      core::add_to_totals(c, solve.soft);
-      if (solve.may_bounce) store_impulses(slot, c);
-      store_totals(slot, c);
-    }
-    if (!begins || !(solve.may_bounce || solve.has_way)) return;
-    load_arms(slot, across, c);
-    if (solve.may_bounce) {
-      core::note_approach(c, load_moving(f.bodies[c.a]), load_moving(f.bodies[c.b]));
-      store_approach(slot, c);
-    }
-    if (!solve.has_way) return;
-    const core::SolverBody a = accelerated(f, c.a, solve.soft.dt_s);
-    const core::SolverBody b = accelerated(f, c.b, solve.soft.dt_s);
-    fastest = fmaxf(fastest, core::fastest_point(c, a, b));
-  });
-  __syncwarp();
-  if (begins && solve.has_way) solve.sums.bring_largest(TeamSums::kFirst, fastest);
-}
 
 // Behind a barrier.
 __device__ __forceinline__ float largest_of_turn(const SolveTeam& team, Solve& solve) {
@@ -88,14 +47,17 @@ __device__ __forceinline__ float sum_of_changes(const SolveTeam& team, const Rig
   return change;
 }
 
-__device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
-                                                 float done) {
+// Behind a barrier; ends with one.
+__device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   float first_change = 0.0F;
   float last_change = 0.0F;
   float share = 0.0F;
+  float done = 0.0F;
   for (std::uint32_t k = 1;; ++k) {
-    sweep_along(team, f, solve.soft, k == 1, share, solve.sums);
+    sweep_along(team, f, solve.soft, k == 1, solve.owes_totals, share, solve.sums);
+    ++solve.done.sweeps;
     team.sync();
+    if (k == 1) done = core::done_m_s(solve.soft, f.solver.done, solve.sums.largest(TeamSums::kThird));
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);
     if (k >= f.solver.sweeps || largest_speed <= done) return;
@@ -112,61 +74,58 @@ __device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const Ri
   }
 }
 
-// The fastest approach of what bounces, whose bodies are stirred. A barrier.
-__device__ __forceinline__ float stir_what_bounces(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
-  float fastest = 0.0F;
-  each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
-    core::PatchConstraint c;
-    load_bodies(slot, c);
-    load_directions(slot, c);
-    load_impulses(slot, c);
-    load_approach(slot, c);
-    const float own = core::fastest_bounce(c, solve.soft);
-    if (!(own > 0.0F)) return;
-    fastest = fmaxf(fastest, own);
-    stir(f, c.a, solve.sweep);
-    stir(f, c.b, solve.sweep);
-  });
-  __syncwarp();
-  solve.sums.bring_largest(TeamSums::kFirst, fastest);
-  team.sync();
-  return largest_of_turn(team, solve);
-}
-
-// The same as StepConstraints::bounce of the twin. Ends with a barrier.
-__device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
-  solve.sweep += 2;
-  const float fastest = stir_what_bounces(team, f, solve);
+// fastest: the approach of what bounces, whose bodies are stirred. The same as StepConstraints::bounce of the twin.
+// Begins behind a barrier and ends with one.
+__device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
+                                           float fastest) {
   const float done = core::kBounceDone * fastest;
-  if (!(done > 0.0F)) return;
   float largest = fastest;
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++solve.sweep) {
+  for (int k = 0; done > 0.0F && k < core::kMostBounceSweeps && largest > done; ++k, ++solve.sweep) {
     relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
+    ++solve.done.bounce_sweeps;
     team.sync();
     largest = largest_of_turn(team, solve);
   }
   largest = fastest;
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
+  for (int k = 0; done > 0.0F && k < core::kMostBounceSweeps && largest > done; ++k) {
     sweep_bouncing(team, f, solve.soft, k == 0, solve.sums);
+    ++solve.done.bounce_sweeps;
     team.sync();
     largest = largest_of_turn(team, solve);
   }
+  end_bounces(team, f, solve.soft);
+  team.sync();
 }
 
-// fastest: of the points as it begins, m/s; becomes that of the next substep.
-__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve, bool is_last,
-                                            float& fastest) {
+// What contacts ask of a body later: how it moves before the substep drives it, and after.
+__device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_t i, const core::SolverBody& before,
+                                           const core::SolverBody& driven, const Solve& solve) {
+  PackedStart& start = f.starts[i];
+  if (solve.may_bounce) {
+    start.v = {before.v, 0.0F};
+    start.w = {core::angular_velocity(before), 0.0F};
+  }
+  if (solve.has_way) {
+    start.driven_v = {driven.v, 0.0F};
+    start.driven_w = {core::angular_velocity(driven), 0.0F};
+  }
+}
+
+__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
-    accelerate(f, i, body, solve.soft.dt_s);
+    const core::SolverBody before = body;
+    core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
+    note_start(f, i, before, body, solve);
     give_kept_impulses(f, i, body);
     store_velocity(f.bodies[i], body);
   });
-  team.sync();
   if (solve.has_way) {
-    sweep_until_done(team, f, solve, core::done_m_s(solve.soft, f.solver.done, fastest));
+    team.sync();
+    sweep_until_done(team, f, solve);
   } else {
-    sweep_once(team, f, solve.soft);
+    sweep_once(team, f, solve.soft, solve.owes_totals);
+    ++solve.done.sweeps;
     team.sync();
   }
   each_body(team, f, [&](std::uint32_t i) {
@@ -175,24 +134,27 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     store_body(f.bodies[i], body);
   });
   team.sync();
-  relax_all(team, f, solve.soft, solve.may_bounce);
+  solve.sweep += 2;  // above what was stirred by the last sweep before
+  relax_all(team, f, solve.soft, solve.may_bounce, solve.sweep, solve.sums);
   team.sync();
-  if (solve.may_bounce) bounce_all(team, f, solve);
-  change_substeps(team, f, solve, true, !is_last);
-  team.sync();
-  if (!is_last && solve.has_way) fastest = largest_of_turn(team, solve);
+  solve.owes_totals = true;
+  if (!solve.may_bounce) return;
+  const float fastest = largest_of_turn(team, solve);
+  if (!(fastest > 0.0F)) return;
+  bounce_all(team, f, solve, fastest);
+  solve.owes_totals = false;
 }
 
-__device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidFrameView& f) {
+// Returns whether the impulses of the last substep are still to be added to the totals.
+__device__ __forceinline__ bool run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
-  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.sweeps > 1, TeamSums(f.counts)};
-  float fastest = 0.0F;
-  if (solve.may_bounce || solve.has_way) {
-    change_substeps(team, f, solve, false, true);
-    team.sync();
-    if (solve.has_way) fastest = largest_of_turn(team, solve);
+  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.sweeps > 1, TeamSums(f.counts), 0, false, {}};
+  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve);
+  if (team.rank() == 0) {
+    f.counts->done = solve.done;
+    f.counts->done.waits = team.waits();
   }
-  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve, k + 1 == f.substeps[kind], fastest);
+  return solve.owes_totals;
 }
 
 }  // namespace broadside::gpu

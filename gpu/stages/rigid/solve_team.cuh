@@ -3,24 +3,62 @@
 
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/color_table.cuh"
 
 namespace broadside::gpu {
+
+constexpr std::uint32_t kNoColor = 0xFFFFFFFFU;
+
+// A thread's next place.
+struct ColorTurn {
+  std::uint32_t color = kNoColor;
+  std::uint32_t place = 0;
+  std::uint32_t end = 0;  // of the color's places
+};
 
 // One class for both, because the sweeps are long to compile.
 class SolveTeam : public GridPlaces {
  public:
-  __device__ explicit SolveTeam(const RigidFrameView& f)
-      : colors_(min(f.counts->colors, f.color_capacity)),  // an aborted frame may have more
+  // table: in the block's shared memory. By all threads.
+  __device__ SolveTeam(const RigidFrameView& f, ColorTable& table)
+      : f_(f),
+        table_(table),
+        colors_(min(f.counts->colors, f.color_capacity)),  // an aborted frame may have more
         alone_from_(colors_),
+        threads_(static_cast<std::uint32_t>(size())),
         kind_(f.solve_team),
         barrier_(f.barrier) {
     while (alone_from_ > 0 && f.color_count[alone_from_ - 1] <= blockDim.x) --alone_from_;
+    for (std::uint32_t color = threadIdx.x; color < min(colors_, ColorTable::kColors); color += blockDim.x)
+      table_.of_color[color] = places_of_color(f, color, threads_of(color));
+    __syncthreads();
   }
 
   [[nodiscard]] __device__ std::uint32_t colors() const { return colors_; }
   // The last colors, from this one on, have a patch for each thread of the first block or fewer: it solves them alone.
   // Most colors of a loose heap are such.
   [[nodiscard]] __device__ std::uint32_t alone_from() const { return alone_from_; }
+
+  // This thread's first place of all colors from this one on. Every sweep deals places out alike.
+  [[nodiscard]] __device__ __forceinline__ ColorTurn turn_from(std::uint32_t color) const {
+    for (; color < colors_; ++color) {
+      const bool is_alone = color >= alone_from_;
+      if (is_alone && blockIdx.x != 0) break;
+      const std::uint32_t threads = threads_of(color);
+      const ColorPlaces places =
+          color < ColorTable::kColors ? table_.of_color[color] : places_of_color(f_, color, threads);
+      const std::uint32_t rank = is_alone ? threadIdx.x : static_cast<std::uint32_t>(spread_rank());
+      const std::uint32_t behind = rank >= places.first_rank ? 0 : threads;
+      const std::uint32_t place = places.begin + (rank + behind - places.first_rank);
+      if (place < places.end) return {color, place, places.end};
+    }
+    return {};
+  }
+  [[nodiscard]] __device__ __forceinline__ ColorTurn turn_after(const ColorTurn& turn) const {
+    const std::uint32_t place = turn.place + threads_of(turn.color);
+    if (place < turn.end) return {turn.color, place, turn.end};
+    return turn_from(turn.color + 1);
+  }
 
   __device__ void sync() const {
     sync([] {});
@@ -38,13 +76,24 @@ class SolveTeam : public GridPlaces {
       ClusterBarrier::wait();
     else
       barrier_.wait();
+    ++waits_;
   }
+  // How often.
+  [[nodiscard]] __device__ std::uint32_t waits() const { return waits_; }
 
  private:
+  [[nodiscard]] __device__ std::uint32_t threads_of(std::uint32_t color) const {
+    return color < alone_from_ ? threads_ : blockDim.x;
+  }
+
+  const RigidFrameView& f_;
+  ColorTable& table_;
   std::uint32_t colors_;
   std::uint32_t alone_from_;
+  std::uint32_t threads_;
   SolveTeamKind kind_;
   mutable GridBarrier barrier_;
+  mutable std::uint32_t waits_ = 0;
 };
 
 }  // namespace broadside::gpu

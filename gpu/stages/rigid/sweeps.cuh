@@ -9,86 +9,99 @@
 
 namespace broadside::gpu {
 
+// A patch, its bodies but for their velocities, and what follows from these two.
 struct LoadedPatch {
   core::PatchConstraint c;
+  core::SolverBody a;
+  core::SolverBody b;
+  core::PatchGoals goals;
 };
 
-// A patch and its impulses before the sweep.
+// And its impulses before the sweep.
 struct LoadedWay {
-  core::PatchConstraint c;
+  LoadedPatch patch;
   core::PatchWay way;
 };
 
-// A substep's only sweep. Nothing slides yet.
-__device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft) {
+__device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const TileSlot& slot) {
+  LoadedPatch loaded;
+  loaded.c = load_for_sweep(slot);
+  loaded.a = load_place(f.bodies[loaded.c.a]);
+  loaded.b = load_place(f.bodies[loaded.c.b]);
+  return loaded;
+}
+
+// As a substep's first sweep finds it: nothing slides yet. owes_totals: the substep before left its impulses to be
+// added to the totals.
+__device__ __forceinline__ void begin_substep(const TileSlot& slot, core::PatchConstraint& c, bool owes_totals) {
+  core::each_point(c, [&](int k) { c.points[k].slides = false; });
+  if (!owes_totals) return;
+  load_totals(slot, c);
+  core::add_to_totals(c);
+  store_totals(slot, c);
+}
+
+// A substep's only sweep, with the barrier before it.
+__device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
+                                           bool owes_totals) {
   each_place_by_color(
-      team, f,
-      [](const TileSlot& slot) {
-        LoadedPatch loaded{load_for_sweep(slot)};
-        core::each_point(loaded.c, [&](int k) { loaded.c.points[k].slides = false; });
+      team, f, SweepBegin::kWithBarrier,
+      [&](const TileSlot& slot) {
+        LoadedPatch loaded = load_patch(f, slot);
+        begin_substep(slot, loaded.c, owes_totals);
+        loaded.goals = core::goals_of(loaded.c, loaded.a, loaded.b, soft);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint64_t /*place*/, LoadedPatch& loaded) {
-        with_bodies(f, loaded.c,
-                    [&](core::SolverBody& a, core::SolverBody& b) { (void)core::solve_patch(loaded.c, a, b, soft); });
-        store_impulses(slot, loaded.c);
+      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedPatch& p) {
+        with_velocities(f, p.c, p.a, p.b, [&] { (void)core::solve_patch(p.c, p.goals, p.a, p.b, soft); });
+        store_impulses(slot, p.c);
       });
+}
+
+__device__ __forceinline__ core::PatchMotion driven_motion(const PackedStart& a, const PackedStart& b) {
+  return {a.driven_v.v, a.driven_w.v, {}, b.driven_v.v, b.driven_w.v, {}};
 }
 
 // A sweep of several along conjugate directions. The impulses follow the last direction by `share` before, except in
 // the first sweep; what that does to the bodies was done by give_step_along. Brings the largest change of a point's
-// speed, and that of f.changes.
+// speed, that of f.changes, and, in the first sweep, the largest speed of a point before any impulse.
 __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
-                                            bool is_first, float share, const TeamSums& sums) {
+                                            bool is_first, bool owes_totals, float share, const TeamSums& sums) {
   float largest_speed = 0.0F;
   float largest_change = 0.0F;
+  float fastest = 0.0F;
   each_place_by_color(
-      team, f,
+      team, f, SweepBegin::kAtOnce,
       [&](const TileSlot& slot) {
-        LoadedWay loaded{load_for_sweep(slot), {}};
+        LoadedWay loaded{load_patch(f, slot), {}};
+        core::PatchConstraint& c = loaded.patch.c;
         if (is_first) {
-          core::each_point(loaded.c, [&](int k) { loaded.c.points[k].slides = false; });
+          begin_substep(slot, c, owes_totals);
+          fastest = fmaxf(fastest, core::fastest_point(c, driven_motion(f.starts[c.a], f.starts[c.b])));
         } else {
           load_triples(slot, kBefore, loaded.way.before);
           load_triples(slot, kWays, loaded.way.way);
-          core::follow_impulses(loaded.c, loaded.way, share);
+          core::follow_impulses(c, loaded.way, share);
         }
-        core::note_impulses(loaded.c, loaded.way);
+        core::note_impulses(c, loaded.way);
         store_triples(slot, kBefore, loaded.way.before);
         store_triples(slot, kWays, loaded.way.way);
+        loaded.patch.goals = core::goals_of(c, loaded.patch.a, loaded.patch.b, soft);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint64_t place, LoadedWay& loaded) {
-        with_bodies(f, loaded.c, [&](core::SolverBody& a, core::SolverBody& b) {
-          largest_speed = fmaxf(largest_speed, core::solve_patch(loaded.c, a, b, soft));
-        });
-        store_impulses(slot, loaded.c);
-        const float change = core::squared_change(loaded.c, loaded.way);
+      [&](const TileSlot& slot, std::uint32_t place, LoadedWay& loaded) {
+        LoadedPatch& p = loaded.patch;
+        with_velocities(f, p.c, p.a, p.b,
+                        [&] { largest_speed = fmaxf(largest_speed, core::solve_patch(p.c, p.goals, p.a, p.b, soft)); });
+        store_impulses(slot, p.c);
+        const float change = core::squared_change(p.c, loaded.way);
         largest_change = fmaxf(largest_change, change);
         f.changes[place] = change;
       });
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest_speed);
   sums.bring_largest(TeamSums::kSecond, largest_change);
-}
-
-// Each contact once, after the bodies moved.
-__device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
-                                          bool may_bounce) {
-  each_place_by_color(
-      team, f,
-      [&](const TileSlot& slot) {
-        LoadedPatch loaded{load_for_sweep(slot)};
-        if (may_bounce) load_approach(slot, loaded.c);
-        return loaded;
-      },
-      [&](const TileSlot& slot, std::uint64_t /*place*/, LoadedPatch& loaded) {
-        with_bodies(f, loaded.c, [&](core::SolverBody& a, core::SolverBody& b) {
-          (void)core::relax_patch(loaded.c, a, b, soft);
-          if (core::has_turned_far(a) || core::has_turned_far(b)) store_masses(slot, loaded.c);
-        });
-        store_impulses(slot, loaded.c);
-      });
+  if (is_first) sums.bring_largest(TeamSums::kThird, fastest);
 }
 
 // Bodies whose patches the sweep has to visit. Those that never move are not stirred.
@@ -96,67 +109,54 @@ __device__ __forceinline__ void stir(const RigidFrameView& f, std::uint32_t body
   if (body < f.body_count && f.mass[body].inverse_mass > 0.0F) f.stirred[body] = sweep;
 }
 
-// Again, the contacts of bodies that are stirred. What changes by more than `done` stirs its bodies for the next sweep.
-// Brings the largest change of a point's speed.
-__device__ __forceinline__ void relax_stirred(const SolveTeam& team, const RigidFrameView& f,
-                                              const core::SoftStep& soft, std::uint32_t sweep, float done,
-                                              const TeamSums& sums) {
-  float largest = 0.0F;
-  each_place_by_color(
-      team, f,
-      [](const TileSlot& slot) {
-        LoadedPatch loaded;
-        load_bodies(slot, loaded.c);
-        return loaded;
-      },
-      [&](const TileSlot& slot, std::uint64_t /*place*/, LoadedPatch& loaded) {
-        if (f.stirred[loaded.c.a] < sweep && f.stirred[loaded.c.b] < sweep) return;
-        core::PatchConstraint c = load_for_sweep(slot);
-        load_approach(slot, c);
-        float change = 0.0F;
-        with_bodies(f, c, [&](core::SolverBody& a, core::SolverBody& b) { change = core::relax_patch(c, a, b, soft); });
-        store_impulses(slot, c);
-        largest = fmaxf(largest, change);
-        if (!(change > done)) return;
-        stir(f, c.a, sweep + 1);
-        stir(f, c.b, sweep + 1);
-      });
-  __syncwarp();
-  sums.bring_largest(TeamSums::kFirst, largest);
+__device__ __forceinline__ float inverse_mass_of(const RigidFrameView& f, std::uint32_t body) {
+  return body < f.body_count ? f.mass[body].inverse_mass : 0.0F;
 }
 
-// What came fast leaves. is_first: what stopped each point is noted. Brings the largest change of a point's speed.
-__device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f,
-                                               const core::SoftStep& soft, bool is_first, const TeamSums& sums) {
-  float largest = 0.0F;
+// Of a patch after the bodies moved.
+__device__ __forceinline__ void set_goals_after_motion(const RigidFrameView& f, const TileSlot& slot,
+                                                       const core::SoftStep& soft, LoadedPatch& p) {
+  const bool sets_masses = core::has_turned_far(p.a) || core::has_turned_far(p.b);
+  if (sets_masses) {
+    p.a.inverse_mass = inverse_mass_of(f, p.c.a);
+    p.b.inverse_mass = inverse_mass_of(f, p.c.b);
+  }
+  p.goals = core::goals_after_motion(p.c, p.a, p.b, soft);
+  if (sets_masses) store_masses(slot, p.c);
+}
+
+__device__ __forceinline__ core::PatchMotion start_motion(const PackedStart& a, const PackedStart& b) {
+  return {a.v.v, a.w.v, {}, b.v.v, b.w.v, {}};
+}
+
+// Each contact once, after the bodies moved. may_bounce: what bounces stirs its bodies for `sweep`; brings the fastest
+// approach of what bounces.
+__device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
+                                          bool may_bounce, std::uint32_t sweep, const TeamSums& sums) {
+  float fastest = 0.0F;
   each_place_by_color(
-      team, f,
+      team, f, SweepBegin::kAtOnce,
       [&](const TileSlot& slot) {
-        LoadedPatch loaded;
-        load_bodies(slot, loaded.c);
-        load_directions(slot, loaded.c);
-        load_impulses(slot, loaded.c);
-        load_approach(slot, loaded.c);
+        LoadedPatch loaded = load_patch(f, slot);
+        if (may_bounce) {
+          core::note_approach(loaded.c, start_motion(f.starts[loaded.c.a], f.starts[loaded.c.b]));
+          store_approach(slot, loaded.c);
+        }
+        set_goals_after_motion(f, slot, soft, loaded);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint64_t /*place*/, LoadedPatch& loaded) {
-        core::PatchConstraint& c = loaded.c;
-        if (!(core::fastest_bounce(c, soft) > 0.0F)) return;
-        load_arms(slot, load_directions(slot, c), c);
-        load_masses(slot, c);
-        if (is_first) {
-          core::note_stopping(c);
-          store_stopping(slot, c);
-        } else {
-          load_stopping(slot, c);
-        }
-        with_bodies(f, c, [&](core::SolverBody& a, core::SolverBody& b) {
-          largest = fmaxf(largest, core::bounce(c, a, b, soft));
-        });
-        store_impulses(slot, c);
+      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedPatch& p) {
+        with_velocities(f, p.c, p.a, p.b, [&] { (void)core::relax_patch(p.c, p.goals, p.a, p.b); });
+        store_impulses(slot, p.c);
+        if (!may_bounce) return;
+        const float own = core::fastest_bounce(p.c, soft);
+        if (!(own > 0.0F)) return;
+        fastest = fmaxf(fastest, own);
+        stir(f, p.c.a, sweep);
+        stir(f, p.c.b, sweep);
       });
   __syncwarp();
-  sums.bring_largest(TeamSums::kFirst, largest);
+  if (may_bounce) sums.bring_largest(TeamSums::kFirst, fastest);
 }
 
 }  // namespace broadside::gpu

@@ -32,6 +32,12 @@ struct RigidStep {
 // Of one patch, by point: N s on A, of the whole step.
 using PatchImpulses = std::array<core::Vec3, core::kManifoldPoints>;
 
+// Sweeps over all patches so far, for who measures.
+struct SolverSweeps {
+  std::uint64_t solving = 0;   // before the bodies move
+  std::uint64_t bouncing = 0;  // while contacts bounce
+};
+
 class ContactSolver {
  public:
   virtual ~ContactSolver() = default;
@@ -45,8 +51,7 @@ class ContactSolver {
   // Of the last step, by patch.
   [[nodiscard]] virtual std::span<const PatchImpulses> impulses() const = 0;
 
-  // Sweeps over all patches so far, for who measures.
-  [[nodiscard]] virtual std::uint64_t sweeps_done() const = 0;
+  [[nodiscard]] virtual SolverSweeps sweeps_done() const = 0;
 
   // Forgets the steps before: the next one begins without impulses.
   virtual void forget() = 0;

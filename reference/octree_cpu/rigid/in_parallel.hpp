@@ -9,20 +9,28 @@ namespace broadside::reference {
 // Below twice this many, handing work to threads costs more than doing it: a patch or a body takes some hundred
 // nanoseconds, waking a worker some microseconds.
 inline constexpr std::size_t kTurnsPerTask = 64;
+// Of tiles of patches, which take as long as two or three patches one by one.
+inline constexpr std::size_t kTilesPerTask = 16;
 
-// work(first, last) for parts of the range, from several threads at once.
-void parts_in_parallel(std::size_t first, std::size_t last, const std::function<void(std::size_t, std::size_t)>& work);
+// work(first, last) for parts of the range of `grain` turns, from several threads at once.
+void parts_in_parallel(std::size_t grain, std::size_t first, std::size_t last,
+                       const std::function<void(std::size_t, std::size_t)>& work);
+
+// The same, on this thread alone where that is faster.
+template <typename Work>
+void in_parallel_by(std::size_t grain, std::size_t first, std::size_t last, const Work& work) {
+  if (last - first >= 2 * grain)
+    parts_in_parallel(grain, first, last, work);
+  else if (last > first)
+    work(first, last);
+}
 
 // work(k) for each k of the range.
 template <typename Work>
 void in_parallel(std::size_t first, std::size_t last, const Work& work) {
-  const auto part = [&work](std::size_t begin, std::size_t end) {
+  in_parallel_by(kTurnsPerTask, first, last, [&work](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) work(k);
-  };
-  if (last - first < 2 * kTurnsPerTask)
-    part(first, last);
-  else
-    parts_in_parallel(first, last, part);
+  });
 }
 
 }  // namespace broadside::reference

@@ -213,6 +213,11 @@ std::vector<core::Counter> RigidPipeline::counters() const {
   counters.push_back({"level stage: pairs tested", level_stage_.pairs_tested()});
   counters.push_back({"level stage: box tests", level_stage_.box_tests()});
   counters.push_back({"contact patches", patch_stage_.patches_made()});
+  if (solver_) {
+    const SolverSweeps sweeps = solver_->sweeps_done();
+    counters.push_back({"solver: sweeps", sweeps.solving});
+    counters.push_back({"solver: sweeps of bounces", sweeps.bouncing});
+  }
   if (options_.sleeps) counters.push_back({"sleep: bodies asleep", sleepers_.steps_slept()});
   if (options_.sweeps_fast) counters.push_back({"sweep: bodies stopped short", sweep_stage_.stopped()});
   return counters;

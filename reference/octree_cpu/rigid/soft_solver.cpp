@@ -5,11 +5,9 @@
 
 #include "core/contact.hpp"
 #include "core/math/order_free_sum.hpp"
+#include "core/method/rigid/conjugate_directions.hpp"
 
 namespace broadside::reference {
-
-using core::PatchConstraint;
-using core::SolverBody;
 
 namespace {
 
@@ -25,65 +23,51 @@ float largest_mass_ratio(std::span<const core::ContactPatch> patches, std::span<
 
 }  // namespace
 
-float SoftSolver::largest_of_patches() const {
-  return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
+float SoftSolver::largest_speed() const {
+  return speeds_.empty() ? 0.0F : *std::max_element(speeds_.begin(), speeds_.end());
 }
 
-// Adds to the impulses what the last directions suggest.
-void SoftSolver::follow_direction() {
-  work_.each_patch([&](const PatchConstraint& c, const SolverBody&, const SolverBody&) {
-    of_patches_[work_.index_of(c)] = core::squared_change(c, ways_[work_.index_of(c)]);
-  });
-  const core::OrderFreeSum sum(largest_of_patches());
+float SoftSolver::next_share() {
+  const core::OrderFreeSum sum(changes_.empty() ? 0.0F : *std::max_element(changes_.begin(), changes_.end()));
   std::uint64_t units = 0;
-  for (const float part : of_patches_) units += sum.units(part);
+  for (const float part : changes_) units += sum.units(part);
   const float change = sum.value(units);
   if (!(last_change_ > 0.0F)) first_change_ = change;
   const float share = core::share_of_direction(first_change_, last_change_, change);
   last_change_ = change;
-  work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-    core::PatchWay& way = ways_[work_.index_of(c)];
-    core::push_along(c, way, a, b, share);
-    core::follow_impulses(c, way, share);
-  });
+  return share;
 }
 
 void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
-  of_patches_.assign(work_.patches().size(), 0.0F);
-  ways_.assign(work_.patches().size(), {});
+  speeds_.assign(work_.tiles().count(), 0.0F);
+  changes_.assign(work_.tiles().places(), 0.0F);
   last_change_ = 0.0F;
-  work_.each_patch([&](const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
-    of_patches_[work_.index_of(c)] = core::fastest_point(c, a, b);
-  });
-  const float done = core::done_m_s(numbers, settings_.done, largest_of_patches());
-  work_.each_patch_by_color([](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::warm_start(c, a, b); });
+  work_.each_range([&](const TileRange& range) { kernels_.begin_sweeps(range, speeds_.data()); });
+  const float done = core::done_m_s(numbers, settings_.done, largest_speed());
+  work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
+  SweepWay way{settings_.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
   for (std::uint32_t k = 1;; ++k) {
-    work_.each_patch_by_color([&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-      const std::size_t index = work_.index_of(c);
-      core::note_impulses(c, ways_[index]);
-      of_patches_[index] = core::solve_patch(c, a, b, numbers);
-    });
+    work_.each_range_by_color([&](const TileRange& range) { kernels_.sweep(range, numbers, way); });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
-    if (k >= settings_.sweeps || largest_of_patches() <= done) return;
-    follow_direction();
+    if (k >= settings_.sweeps || largest_speed() <= done) return;
+    way.is_first = false;
+    way.share = next_share();
+    work_.each_range_by_color([&](const TileRange& range) { kernels_.push_along(range, way.share); });
   }
 }
 
 void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   const auto bodies = work_.bodies();
-  if (work_.may_bounce())
-    work_.each_patch(
-        [](PatchConstraint& c, const SolverBody& a, const SolverBody& b) { core::note_approach(c, a, b); });
+  if (work_.may_bounce()) work_.each_range([&](const TileRange& range) { kernels_.note_approach(range); });
   work_.each_body([&](std::size_t i) {
     core::accelerate(bodies[i], step.gravity_m_s2, step.wrenches.empty() ? nullptr : &step.wrenches[i], numbers.dt_s);
   });
   sweep_until_done(numbers);
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
-  work_.each_patch_by_color(
-      [&](PatchConstraint& c, SolverBody& a, SolverBody& b) { core::relax_patch(c, a, b, numbers); });
+  work_.each_range_by_color([&](const TileRange& range) { kernels_.relax(range, numbers); });
   work_.bounce(numbers);
-  work_.each_patch([&](PatchConstraint& c, const SolverBody&, const SolverBody&) { core::add_to_totals(c, numbers); });
+  work_.each_range([&](const TileRange& range) { kernels_.add_to_totals(range, numbers); });
 }
 
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,

@@ -11,6 +11,7 @@ namespace broadside::reference {
 
 using core::PatchConstraint;
 using core::PatchPoint;
+using core::SolverBody;
 
 // The impulses that these two bodies gave each other in the last substep of the step before.
 void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c) const {
@@ -68,22 +69,32 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
   stirred_.assign(bodies_.size(), 0);
   sweep_ = 0;
   coloring_.color(patches, step.masses);
-  constraints_.resize(patches.size());
+  const auto faces = static_cast<std::uint32_t>(states.size());
+  tiles_.arrange(patches, coloring_, faces);
+  touched_.resize(tiles_.places());
+  place_begin_.clear();
+  for (const std::uint32_t tile : tiles_.color_begin()) place_begin_.push_back(tile * kTileLanes);
   std::atomic<bool> bouncing = false;
-  in_parallel(0, patches.size(), [&](std::size_t place) {
-    const core::ContactPatch& patch = patches[coloring_.order()[place]];
-    const bool is_face = core::is_face(patch.b);
-    const auto b = is_face ? static_cast<std::uint32_t>(states.size()) : patch.b;
-    const core::Material surface =
-        core::combine(step.materials[patch.a], is_face ? step.face_material : step.materials[patch.b]);
-    const core::Vec3 across = is_face ? core::Vec3{} : states[patch.b].x - states[patch.a].x;
-    PatchConstraint& c = constraints_[place];
-    c = core::make_constraint(patch.manifold, bodies_[patch.a], bodies_[b], across, surface);
-    c.a = patch.a;
-    c.b = b;
-    core::set_limits(c, bodies_[c.a], bodies_[c.b], limits, step.dt_s);
-    recall(patch, c);
-    if (surface.restitution > 0.0F) bouncing.store(true, std::memory_order_relaxed);
+  in_parallel(0, tiles_.count(), [&](std::size_t tile) {
+    tiles_.clear_tile(tile);
+    for (std::size_t place = tile * kTileLanes; place < (tile + 1) * kTileLanes; ++place) {
+      touched_[place] = {faces, faces};
+      if (tiles_.patch_at()[place] == PatchTiles::kNoPatch) continue;
+      const core::ContactPatch& patch = patches[tiles_.patch_at()[place]];
+      const bool is_face = core::is_face(patch.b);
+      const std::uint32_t b = is_face ? faces : patch.b;
+      const core::Material surface =
+          core::combine(step.materials[patch.a], is_face ? step.face_material : step.materials[patch.b]);
+      const core::Vec3 across = is_face ? core::Vec3{} : states[patch.b].x - states[patch.a].x;
+      PatchConstraint c = core::make_constraint(patch.manifold, bodies_[patch.a], bodies_[b], across, surface);
+      c.a = patch.a;
+      c.b = b;
+      core::set_limits(c, bodies_[c.a], bodies_[c.b], limits, step.dt_s);
+      recall(patch, c);
+      tiles_.put(place, c);
+      touched_[place] = {c.a, c.b};
+      if (surface.restitution > 0.0F) bouncing.store(true, std::memory_order_relaxed);
+    }
   });
   may_bounce_ = bouncing;
 }
@@ -93,10 +104,11 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
   memory_.begin(patches);
   impulses_.resize(patches.size());
   const float per_s = 1.0F / substep_s_;
-  in_parallel(0, constraints_.size(), [&](std::size_t place) {
-    const std::uint32_t of_awake = coloring_.order()[place];
+  in_parallel(0, tiles_.places(), [&](std::size_t place) {
+    const std::uint32_t of_awake = tiles_.patch_at()[place];
+    if (of_awake == PatchTiles::kNoPatch) return;
     const std::uint32_t patch = asleep_.empty() ? of_awake : awake_[of_awake];
-    const PatchConstraint& c = constraints_[place];
+    const PatchConstraint c = tiles_.get(place);
     impulses_[patch] = {};
     for (int k = 0; k < c.count; ++k) {
       const PatchPoint& p = c.points[k];
@@ -114,30 +126,58 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
 
 // Patches of one color, and patches in any order, may stir the same body that never moves, and bodies that bounce may
 // be stirred by several threads at once with the same number.
-void StepConstraints::stir(const PatchConstraint& c, std::uint32_t sweep) {
-  for (const std::uint32_t body : {c.a, c.b})
+void StepConstraints::stir(std::size_t place, std::uint32_t sweep) {
+  for (const std::uint32_t body : {touched_[place].a, touched_[place].b})
     if (core::is_moved(bodies_[body])) std::atomic_ref(stirred_[body]).store(sweep, std::memory_order_relaxed);
 }
 
-bool StepConstraints::is_stirred(const PatchConstraint& c) const {
-  return stirred_[c.a] >= sweep_ || stirred_[c.b] >= sweep_;
+bool StepConstraints::is_stirred(std::size_t place) const {
+  return stirred_[touched_[place].a] >= sweep_ || stirred_[touched_[place].b] >= sweep_;
 }
 
-float StepConstraints::largest_of_patches() const {
-  return of_patches_.empty() ? 0.0F : *std::max_element(of_patches_.begin(), of_patches_.end());
+float StepConstraints::largest_of_places() const {
+  return of_places_.empty() ? 0.0F : *std::max_element(of_places_.begin(), of_places_.end());
+}
+
+template <typename Work>
+void StepConstraints::visit_by_color(const std::vector<std::uint32_t>& begin, const Work& work) {
+  for (std::size_t color = 0; color + 1 < begin.size(); ++color) in_parallel(begin[color], begin[color + 1], work);
+}
+
+template <typename Work>
+float StepConstraints::change(std::size_t place, const Work& work) {
+  PatchConstraint c = tiles_.get(place);
+  const float largest = work(c, bodies_[c.a], bodies_[c.b]);
+  tiles_.put(place, c);
+  return largest;
+}
+
+void StepConstraints::find_fast(const core::SoftStep& numbers) {
+  came_fast_.resize(tiles_.places());
+  each_range([&](const TileRange& range) { tiles_.kernels().note_fast(range, numbers, came_fast_.data()); });
+  fast_.clear();
+  fast_begin_.assign(1, 0);
+  const auto begin = tiles_.color_begin();
+  for (std::size_t color = 0; color + 1 < begin.size(); ++color) {
+    for (std::size_t place = begin[color] * kTileLanes; place < begin[color + 1] * kTileLanes; ++place)
+      if (came_fast_[place] != 0) fast_.push_back(static_cast<std::uint32_t>(place));
+    fast_begin_.push_back(static_cast<std::uint32_t>(fast_.size()));
+  }
 }
 
 float StepConstraints::stir_what_bounces(const core::SoftStep& numbers) {
-  of_patches_.assign(constraints_.size(), 0.0F);
-  each_patch([&](const PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) {
-    of_patches_[index_of(c)] = core::fastest_bounce(c, numbers);
-    if (of_patches_[index_of(c)] > 0.0F) stir(c, sweep_);
+  of_places_.assign(std::max(fast_.size(), tiles_.places()), 0.0F);
+  in_parallel(0, fast_.size(), [&](std::size_t k) {
+    of_places_[k] = core::fastest_bounce(tiles_.get(fast_[k]), numbers);
+    if (of_places_[k] > 0.0F) stir(fast_[k], sweep_);
   });
-  return largest_of_patches();
+  return largest_of_places();
 }
 
 void StepConstraints::bounce(const core::SoftStep& numbers) {
   if (!may_bounce_) return;
+  find_fast(numbers);
+  if (fast_.empty()) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
   const float fastest = stir_what_bounces(numbers);
   const float done = core::kBounceDone * fastest;
@@ -145,19 +185,27 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   // A share of what stopped them is given back, so that is to be known well.
   float largest = fastest;
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++sweep_) {
-    each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-      float& change = of_patches_[index_of(c)] = is_stirred(c) ? core::relax_patch(c, a, b, numbers) : 0.0F;
-      if (change > done) stir(c, sweep_ + 1);
+    const auto relax = [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
+      return core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
+    };
+    visit_by_color(place_begin_, [&](std::size_t place) {
+      of_places_[place] = is_stirred(place) ? change(place, relax) : 0.0F;
+      if (of_places_[place] > done) stir(place, sweep_ + 1);
     });
-    largest = largest_of_patches();
+    ++bounce_sweeps_;
+    largest = largest_of_places();
   }
-  each_patch([](PatchConstraint& c, const core::SolverBody&, const core::SolverBody&) { core::note_stopping(c); });
   largest = fastest;
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
-    each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-      of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
+    of_places_.assign(fast_.size(), 0.0F);
+    visit_by_color(fast_begin_, [&](std::size_t n) {
+      of_places_[n] = change(fast_[n], [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
+        if (k == 0) core::note_stopping(c);
+        return core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
+      });
     });
-    largest = largest_of_patches();
+    ++bounce_sweeps_;
+    largest = largest_of_places();
   }
 }
 

@@ -14,11 +14,14 @@
 #include "reference/octree_cpu/rigid/impulse_memory.hpp"
 #include "reference/octree_cpu/rigid/in_parallel.hpp"
 #include "reference/octree_cpu/rigid/patch_coloring.hpp"
+#include "reference/octree_cpu/rigid/patch_tiles.hpp"
 
 namespace broadside::reference {
 
 class StepConstraints {
  public:
+  explicit StepConstraints(const PatchKernels& kernels) : tiles_(kernels) {}
+
   void begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
              const RigidStep& step, float substep_s, const core::PatchLimits& limits);
   // Writes the states, and keeps the impulses of the last substep and of the step.
@@ -26,7 +29,7 @@ class StepConstraints {
   void forget() { memory_.forget(); }
 
   [[nodiscard]] std::span<core::SolverBody> bodies() { return bodies_; }
-  [[nodiscard]] std::span<core::PatchConstraint> patches() { return constraints_; }
+  [[nodiscard]] const PatchTiles& tiles() const { return tiles_; }
   [[nodiscard]] std::span<const PatchImpulses> impulses() const { return impulses_; }
   // Whether a patch has restitution.
   [[nodiscard]] bool may_bounce() const { return may_bounce_; }
@@ -36,41 +39,48 @@ class StepConstraints {
   void each_body(const Work& work) {
     in_parallel(0, bodies_.size() - 1, work);
   }
-  // work(patch, a, b) for every patch, in any order: it reads bodies alone.
+  // work(range of tiles), in any order: it reads bodies alone.
   template <typename Work>
-  void each_patch(const Work& work) {
-    in_parallel(0, constraints_.size(), [&](std::size_t k) {
-      core::PatchConstraint& c = constraints_[k];
-      work(c, bodies_[c.a], bodies_[c.b]);
-    });
+  void each_range(const Work& work) {
+    ranges_in_parallel(0, tiles_.count(), work);
   }
-  // The same color by color: it may write its moved bodies.
+  // The same color by color: it may write the moved bodies of its tiles.
   template <typename Work>
-  void each_patch_by_color(const Work& work) {
-    const auto begin = coloring_.color_begin();
-    for (std::uint32_t color = 0; color < coloring_.color_count(); ++color)
-      in_parallel(begin[color], begin[color + 1], [&](std::size_t k) {
-        core::PatchConstraint& c = constraints_[k];
-        work(c, bodies_[c.a], bodies_[c.b]);
-      });
+  void each_range_by_color(const Work& work) {
+    const auto begin = tiles_.color_begin();
+    for (std::size_t color = 0; color + 1 < begin.size(); ++color)
+      ranges_in_parallel(begin[color], begin[color + 1], work);
   }
-  [[nodiscard]] std::size_t index_of(const core::PatchConstraint& c) const {
-    return static_cast<std::size_t>(&c - constraints_.data());
-  }
+
+  // Sweeps of bounces since it was made.
+  [[nodiscard]] std::uint64_t bounce_sweeps() const { return bounce_sweeps_; }
 
   // Points that came fast leave with their share of that speed: sweeps until one changes no speed by more than
   // 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by more than that.
   void bounce(const core::SoftStep& numbers);
 
  private:
+  template <typename Work>
+  void ranges_in_parallel(std::size_t first, std::size_t last, const Work& work) {
+    in_parallel_by(kTilesPerTask, first, last,
+                   [&](std::size_t begin, std::size_t end) { work(tiles_.range(begin, end, bodies_.data())); });
+  }
   [[nodiscard]] std::span<const core::ContactPatch> awake_of(std::span<const core::ContactPatch> patches,
                                                              std::span<const std::uint8_t> asleep);
   void recall(const core::ContactPatch& patch, core::PatchConstraint& c) const;
+  // work(index) for the indices of each color, which end where the next one's begin.
+  template <typename Work>
+  void visit_by_color(const std::vector<std::uint32_t>& begin, const Work& work);
+  // work(patch, a, b), of one patch alone. Returns what the work does.
+  template <typename Work>
+  float change(std::size_t place, const Work& work);
+  // Places of patches with a point that came fast enough to bounce.
+  void find_fast(const core::SoftStep& numbers);
   // The fastest approach of what bounces, whose bodies are stirred.
   float stir_what_bounces(const core::SoftStep& numbers);
-  void stir(const core::PatchConstraint& c, std::uint32_t sweep);
-  [[nodiscard]] bool is_stirred(const core::PatchConstraint& c) const;
-  [[nodiscard]] float largest_of_patches() const;
+  void stir(std::size_t place, std::uint32_t sweep);
+  [[nodiscard]] bool is_stirred(std::size_t place) const;
+  [[nodiscard]] float largest_of_places() const;
 
   // Of patches as given, those of bodies that are awake: all, where nobody sleeps.
   std::vector<core::ContactPatch> awake_patches_;
@@ -84,12 +94,23 @@ class StepConstraints {
   std::vector<AsleepPatch> asleep_;
   PatchColoring coloring_;
   ImpulseMemory memory_;
-  std::vector<core::SolverBody> bodies_;            // the last one stands for every face: it never moves
-  std::vector<core::PatchConstraint> constraints_;  // in the order of the coloring
-  std::vector<PatchImpulses> impulses_;             // by patch as given
-  std::vector<float> of_patches_;                   // what a loop over patches found, for the largest of it
-  std::vector<std::uint32_t> stirred_;              // [bodies] the sweep that has to visit the body's patches
-  std::uint32_t sweep_ = 0;                         // of all sweeps of bounces in this step
+  std::vector<core::SolverBody> bodies_;  // the last one stands for every face: it never moves
+  PatchTiles tiles_;
+  // By place: its bodies. What the tiles know too, for who asks often.
+  struct Bodies {
+    std::uint32_t a;
+    std::uint32_t b;
+  };
+  std::vector<Bodies> touched_;
+  std::vector<PatchImpulses> impulses_;     // by patch as given
+  std::vector<float> of_places_;            // what a loop over places found, for the largest of it
+  std::vector<std::uint32_t> place_begin_;  // by color
+  std::vector<std::uint8_t> came_fast_;     // by place
+  std::vector<std::uint32_t> fast_;         // places of patches that came fast, by color
+  std::vector<std::uint32_t> fast_begin_;
+  std::vector<std::uint32_t> stirred_;  // [bodies] the sweep that has to visit the body's patches
+  std::uint32_t sweep_ = 0;             // of all sweeps of bounces in this step
+  std::uint64_t bounce_sweeps_ = 0;
   float substep_s_ = 0.0F;
   bool may_bounce_ = false;
 };

@@ -1,0 +1,94 @@
+// The sweeps of a substep in which contacts bounce: core/method/rigid/soft_contact.hpp.
+#pragma once
+
+#include "gpu/stages/rigid/sweeps.cuh"
+
+namespace broadside::gpu {
+
+// What these sweeps load of a patch before they know whether they visit it.
+struct LoadedBodies {
+  core::PatchConstraint c;
+};
+
+// Again, the contacts of bodies that are stirred. What changes by more than `done` stirs its bodies for the next sweep.
+// Brings the largest change of a point's speed.
+__device__ __forceinline__ void relax_stirred(const SolveTeam& team, const RigidFrameView& f,
+                                              const core::SoftStep& soft, std::uint32_t sweep, float done,
+                                              const TeamSums& sums) {
+  float largest = 0.0F;
+  each_place_by_color(
+      team, f, SweepBegin::kAtOnce,
+      [](const TileSlot& slot) {
+        LoadedBodies loaded;
+        load_bodies(slot, loaded.c);
+        return loaded;
+      },
+      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
+        if (f.stirred[loaded.c.a] < sweep && f.stirred[loaded.c.b] < sweep) return;
+        LoadedPatch p = load_patch(f, slot);
+        load_approach(slot, p.c);
+        set_goals_after_motion(f, slot, soft, p);
+        float change = 0.0F;
+        with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
+        store_impulses(slot, p.c);
+        largest = fmaxf(largest, change);
+        if (!(change > done)) return;
+        stir(f, p.c.a, sweep + 1);
+        stir(f, p.c.b, sweep + 1);
+      });
+  __syncwarp();
+  sums.bring_largest(TeamSums::kFirst, largest);
+}
+
+// What came fast leaves. is_first: what stopped each point is noted. Brings the largest change of a point's speed.
+__device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f,
+                                               const core::SoftStep& soft, bool is_first, const TeamSums& sums) {
+  float largest = 0.0F;
+  each_place_by_color(
+      team, f, SweepBegin::kAtOnce,
+      [&](const TileSlot& slot) {
+        LoadedBodies loaded;
+        load_bodies(slot, loaded.c);
+        load_directions(slot, loaded.c);
+        load_impulses(slot, loaded.c);
+        load_approach(slot, loaded.c);
+        return loaded;
+      },
+      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
+        core::PatchConstraint& c = loaded.c;
+        if (!(core::fastest_bounce(c, soft) > 0.0F)) return;
+        load_arms(slot, load_directions(slot, c), c);
+        load_masses(slot, c);
+        if (is_first) {
+          core::note_stopping(c);
+          store_stopping(slot, c);
+        } else {
+          load_stopping(slot, c);
+        }
+        core::SolverBody a = load_place(f.bodies[c.a]);
+        core::SolverBody b = load_place(f.bodies[c.b]);
+        with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, soft)); });
+        store_impulses(slot, c);
+      });
+  __syncwarp();
+  sums.bring_largest(TeamSums::kFirst, largest);
+}
+
+// The end of such a substep.
+__device__ __forceinline__ void end_bounces(const SolveTeam& team, const RigidFrameView& f,
+                                            const core::SoftStep& soft) {
+  each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
+    core::PatchConstraint c;
+    load_bodies(slot, c);
+    load_directions(slot, c);
+    load_impulses(slot, c);
+    load_approach(slot, c);
+    load_totals(slot, c);
+    core::add_to_totals(c);
+    store_totals(slot, c);
+    core::drop_impacts(c, soft);
+    store_impulses(slot, c);
+  });
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,66 @@
+// Contacts are solved eight patches at a time, one in each lane of a vector register. Patches of a tile share no moved
+// body, and every lane does what core/method/rigid/soft_contact.hpp does to a float: the same bits as one by one, with
+// any instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/soft_contact.hpp"
+#include "core/method/rigid/solver_body.hpp"
+
+namespace broadside::reference {
+
+inline constexpr std::uint32_t kTileLanes = 8;
+
+// Tiles [first, last) of those that begin at `tiles`, and the bodies that they name.
+struct TileRange {
+  std::byte* tiles = nullptr;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  core::SolverBody* bodies = nullptr;
+};
+
+// What a sweep along conjugate directions needs and gives.
+struct SweepWay {
+  bool is_one_of_many = true;  // else there are no directions
+  bool is_first = true;        // of its substep: there is no direction yet
+  float share = 0.0F;          // of the last direction, which the impulses follow before the sweep
+  float* speeds = nullptr;     // [tiles] the largest change of a point's speed, m/s
+  float* changes = nullptr;    // [tiles][kTileLanes] core::squared_change
+};
+
+// One instruction set's functions over tiles. A tile's memory is known to them alone.
+struct PatchKernels {
+  const char* name;
+  std::size_t tile_bytes;
+  // A tile without patches: what stands in its lanes touches the body `still`, which never moves, and no other.
+  void (*clear)(std::byte* tiles, std::size_t tile, std::uint32_t still);
+  void (*put)(std::byte* tiles, std::size_t tile, std::uint32_t lane, const core::PatchConstraint& c);
+  core::PatchConstraint (*get)(const std::byte* tiles, std::size_t tile, std::uint32_t lane);
+
+  // The stages of soft_contact.hpp.
+  void (*note_approach)(const TileRange& range);
+  // By place: whether a point of a patch that gives speed back came fast enough for it.
+  void (*note_fast)(const TileRange& range, const core::SoftStep& step, std::uint8_t* came_fast);
+  void (*begin_sweeps)(const TileRange& range, float* speeds);  // notes gaps, and by tile the fastest point's speed
+  void (*warm_start)(const TileRange& range);
+  void (*sweep)(const TileRange& range, const core::SoftStep& step, const SweepWay& way);
+  void (*push_along)(const TileRange& range, float share);
+  void (*relax)(const TileRange& range, const core::SoftStep& step);
+  void (*add_to_totals)(const TileRange& range, const core::SoftStep& step);
+};
+
+// Those that this machine has; the first is the fastest.
+std::span<const PatchKernels* const> all_patch_kernels();
+inline const PatchKernels& patch_kernels() {
+  return *all_patch_kernels().front();
+}
+
+#ifdef BROADSIDE_HAS_AVX2_KERNEL
+extern const PatchKernels kAvx2PatchKernels;
+#endif
+
+}  // namespace broadside::reference
