@@ -157,7 +157,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   largest = fastest;
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
     each_patch_by_color([&](PatchConstraint& c, core::SolverBody& a, core::SolverBody& b) {
-      of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
+      of_patches_[index_of(c)] = core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers, done) : 0.0F;
     });
     ++bounce_sweeps_;
     largest = largest_of_patches();
