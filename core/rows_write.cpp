@@ -10,7 +10,7 @@
 namespace broadside::core {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string hex(std::uint64_t digest) {
   char text[19];
@@ -19,53 +19,53 @@ std::string hex(std::uint64_t digest) {
 }
 
 // JSON has no word for these, and a missing value would read as zero.
-Json number(double value) {
+OrderedJson number(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   return value;
 }
 
-Json numbers(const std::vector<double>& values) {
-  Json array = Json::array();
+OrderedJson numbers(const std::vector<double>& values) {
+  OrderedJson array = OrderedJson::array();
   for (const double value : values) array.push_back(number(value));
   return array;
 }
 
-Json to_json(const Stamp& stamp) {
-  return Json{{"scene_name", stamp.scene_name},
-              {"scene_digest", hex(stamp.scene_digest)},
-              {"engine", stamp.engine},
-              {"settings", stamp.settings},
-              {"settings_short", stamp.settings_short},
-              {"engine_build", stamp.engine_build},
-              {"broadside_build", stamp.broadside_build},
-              {"machine", stamp.machine}};
+OrderedJson to_json(const Stamp& stamp) {
+  return OrderedJson{{"scene_name", stamp.scene_name},
+                     {"scene_digest", hex(stamp.scene_digest)},
+                     {"engine", stamp.engine},
+                     {"settings", stamp.settings},
+                     {"settings_short", stamp.settings_short},
+                     {"engine_build", stamp.engine_build},
+                     {"broadside_build", stamp.broadside_build},
+                     {"machine", stamp.machine}};
 }
 
-Json to_json(const Cell& cell) {
-  Json digests = Json::object();
+OrderedJson to_json(const Cell& cell) {
+  OrderedJson digests = OrderedJson::object();
   for (const auto& [step, digest] : cell.digests) digests[std::to_string(step)] = hex(digest);
-  Json counters = Json::object();
+  OrderedJson counters = OrderedJson::object();
   for (const auto& [name, count] : cell.counters) counters[name] = count;
-  Json notes = Json::object();
+  OrderedJson notes = OrderedJson::object();
   for (const auto& [key, text] : cell.notes) notes[key] = text;
-  return Json{{"stamp", to_json(cell.stamp)},  {"state", std::string(cell_state_word(cell.state))},
-              {"reason", cell.reason},         {"trace_file", cell.trace_file},
-              {"frames", cell.frames},         {"wall_s", number(cell.wall_s)},
-              {"digests", std::move(digests)}, {"counters", std::move(counters)},
-              {"notes", std::move(notes)}};
+  return OrderedJson{{"stamp", to_json(cell.stamp)},  {"state", std::string(cell_state_word(cell.state))},
+                     {"reason", cell.reason},         {"trace_file", cell.trace_file},
+                     {"frames", cell.frames},         {"wall_s", number(cell.wall_s)},
+                     {"digests", std::move(digests)}, {"counters", std::move(counters)},
+                     {"notes", std::move(notes)}};
 }
 
-Json to_json(const Verdict& verdict);
+OrderedJson to_json(const Verdict& verdict);
 
-Json all_of(const std::vector<Verdict>& verdicts) {
-  Json array = Json::array();
+OrderedJson all_of(const std::vector<Verdict>& verdicts) {
+  OrderedJson array = OrderedJson::array();
   for (const Verdict& verdict : verdicts) array.push_back(to_json(verdict));
   return array;
 }
 
-Json to_json(const Verdict& verdict) {
-  Json json{
+OrderedJson to_json(const Verdict& verdict) {
+  OrderedJson json{
       {"validator", verdict.validator},
       {"outcome", std::string(outcome_word(verdict.outcome))},
       {"measured", number(verdict.measured)},
@@ -73,7 +73,8 @@ Json to_json(const Verdict& verdict) {
       {"unit", verdict.unit},
       {"origin", verdict.origin},
       {"explanation", verdict.explanation},
-      {"worst", Json{{"step", verdict.worst.step}, {"bodies", verdict.worst.bodies}, {"field", verdict.worst.field}}},
+      {"worst",
+       OrderedJson{{"step", verdict.worst.step}, {"bodies", verdict.worst.bodies}, {"field", verdict.worst.field}}},
       {"checked", verdict.checked},
       {"violations", verdict.violations},
       {"baseline", verdict.baseline},
@@ -85,30 +86,30 @@ Json to_json(const Verdict& verdict) {
   return json;
 }
 
-Json to_json(const LawCount& count) {
-  return Json{{"applied", count.applied}, {"laws", count.laws}};
+OrderedJson to_json(const LawCount& count) {
+  return OrderedJson{{"applied", count.applied}, {"laws", count.laws}};
 }
 
-Json to_json(const CellVerdicts& cell) {
-  Json coverage = Json::object();
+OrderedJson to_json(const CellVerdicts& cell) {
+  OrderedJson coverage = OrderedJson::object();
   const Coverage counts = coverage_of(cell.verdicts);
   for (std::size_t k = 0; k < kLawKinds.size(); ++k)
     coverage[std::string(law_kind_word(kLawKinds[k]))] = to_json(counts.counts[k]);
-  Json declaration = Json::object();
+  OrderedJson declaration = OrderedJson::object();
   for (const auto& [key, text] : cell.declaration) declaration[key] = text;
-  return Json{{"trace_file", cell.trace_file},       {"stamp", to_json(cell.stamp)},
-              {"is_simulation", cell.is_simulation}, {"declaration", std::move(declaration)},
-              {"coverage", std::move(coverage)},     {"verdicts", all_of(cell.verdicts)}};
+  return OrderedJson{{"trace_file", cell.trace_file},       {"stamp", to_json(cell.stamp)},
+                     {"is_simulation", cell.is_simulation}, {"declaration", std::move(declaration)},
+                     {"coverage", std::move(coverage)},     {"verdicts", all_of(cell.verdicts)}};
 }
 
-Json to_json(const Sample& sample) {
-  Json stages = Json::array();
+OrderedJson to_json(const Sample& sample) {
+  OrderedJson stages = OrderedJson::array();
   for (const StageSeries& series : sample.stages)
-    stages.push_back(Json{{"stage", series.stage}, {"seconds", numbers(series.seconds)}});
-  return Json{{"stamp", to_json(sample.stamp)}, {"repetition", sample.repetition},
-              {"process", hex(sample.process)}, {"warm_up_frames", sample.warm_up_frames},
-              {"stages", std::move(stages)},    {"final_digest", hex(sample.final_digest)},
-              {"final_step", sample.final_step}};
+    stages.push_back(OrderedJson{{"stage", series.stage}, {"seconds", numbers(series.seconds)}});
+  return OrderedJson{{"stamp", to_json(sample.stamp)}, {"repetition", sample.repetition},
+                     {"process", hex(sample.process)}, {"warm_up_frames", sample.warm_up_frames},
+                     {"stages", std::move(stages)},    {"final_digest", hex(sample.final_digest)},
+                     {"final_step", sample.final_step}};
 }
 
 // One row per line, so that two files can be compared line by line and long series stay compact.
@@ -118,7 +119,7 @@ Status write_rows(const std::filesystem::path& file, std::string_view format, co
   const char* separator = "\n";
   for (const Row& row : rows) {
     text += separator;
-    text += to_json(row).dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += to_json(row).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     separator = ",\n";
   }
   text += "\n]}\n";

@@ -118,7 +118,7 @@ std::vector<Columns> tables_of(const SceneView& scene) {
   return tables;
 }
 
-std::string_view heading_of(core::LawKind kind) {
+std::string_view matrix_heading(core::LawKind kind) {
   switch (kind) {
     case core::LawKind::kMechanics:
       return "Laws of mechanics";
@@ -204,7 +204,7 @@ std::string matrix_section(const SceneView& scene, PageParts& page) {
   const std::vector<Columns> tables = tables_of(scene);
   std::string all;
   for (const Columns& columns : tables)
-    all += (tables.size() > 1 ? element("h4", heading_of(columns.kind)) : std::string()) +
+    all += (tables.size() > 1 ? element("h4", matrix_heading(columns.kind)) : std::string()) +
            matrix_table(scene, columns.validators, shared.empty(), page);
   return element(
       "section", element("h3", "Verdicts"),

@@ -4,7 +4,7 @@
 namespace broadside::reports {
 namespace {
 
-constexpr LawPicture kPictures[] = {
+constexpr LawPicture kContactsPictures[] = {
     {"friction-cone",
      [] {
        // The impulse lies in the cone about the normal.
@@ -58,7 +58,7 @@ constexpr LawPicture kPictures[] = {
 }  // namespace
 
 std::span<const LawPicture> pictures_of_contacts() {
-  return kPictures;
+  return kContactsPictures;
 }
 
 }  // namespace broadside::reports

@@ -4,7 +4,7 @@
 namespace broadside::reports {
 namespace {
 
-constexpr LawPicture kPictures[] = {
+constexpr LawPicture kMethodPictures[] = {
     {"level-agreement",
      [] {
        // Boxes within boxes: the smallest that overlap confirm the pair.
@@ -104,7 +104,7 @@ constexpr LawPicture kPictures[] = {
 }  // namespace
 
 std::span<const LawPicture> pictures_of_the_method() {
-  return kPictures;
+  return kMethodPictures;
 }
 
 }  // namespace broadside::reports

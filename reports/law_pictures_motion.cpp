@@ -4,7 +4,7 @@
 namespace broadside::reports {
 namespace {
 
-constexpr LawPicture kPictures[] = {
+constexpr LawPicture kMotionPictures[] = {
     {"ballistic",
      [] {
        // Free flight is a parabola.
@@ -73,7 +73,7 @@ constexpr LawPicture kPictures[] = {
 }  // namespace
 
 std::span<const LawPicture> pictures_of_motion() {
-  return kPictures;
+  return kMotionPictures;
 }
 
 }  // namespace broadside::reports

@@ -4,7 +4,7 @@
 namespace broadside::reports {
 namespace {
 
-constexpr LawPicture kPictures[] = {
+constexpr LawPicture kTracesPictures[] = {
     {"candidate-set",
      [] {
        // Two boxes that overlap are a pair; a box apart is in none.
@@ -65,7 +65,7 @@ constexpr LawPicture kPictures[] = {
 }  // namespace
 
 std::span<const LawPicture> pictures_of_traces() {
-  return kPictures;
+  return kTracesPictures;
 }
 
 }  // namespace broadside::reports

@@ -111,7 +111,7 @@ class CandidateSet final : public Validator {
   std::uint64_t differing_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_candidate_set(const Subject& subject) {
   return lacking(subject.header, core::bit(core::Group::kPairs) | core::bit(core::Group::kDetection));
 }
 
@@ -123,7 +123,7 @@ ValidatorRow candidate_set_row() {
           "printed-E2; a dropped pair; a stale pair; a repeated pair",
           core::bit(core::Group::kPairs) | core::bit(core::Group::kDetection),
           core::bit(core::Group::kPairs) | core::bit(core::Group::kDetection),
-          why_not,
+          why_not_candidate_set,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<CandidateSet>(subject); }};
 }
 

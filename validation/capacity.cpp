@@ -27,7 +27,7 @@ class Capacity final : public Validator {
   Tally tally_{"capacity", "counts of pairs", "demanded = stored: counts are exact"};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_capacity(const Subject& subject) {
   return lacking(subject.header, core::bit(core::Group::kPairs));
 }
 
@@ -39,7 +39,7 @@ ValidatorRow capacity_row() {
           "a truncated pair list",
           core::bit(core::Group::kPairs),
           0,
-          why_not,
+          why_not_capacity,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Capacity>(subject); }};
 }
 

@@ -99,7 +99,7 @@ class CenterOfMass final : public Validator {
   std::uint64_t static_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_center_of_mass(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
   return why_not_method(subject.header);
 }
@@ -112,7 +112,7 @@ ValidatorRow center_of_mass_row() {
           "printed-E3; a moved static body",
           core::bit(core::Group::kContacts) | core::bit(core::Group::kBodies),
           0,
-          why_not,
+          why_not_center_of_mass,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<CenterOfMass>(subject); }};
 }
 

@@ -192,7 +192,7 @@ class ContactNormal final : public Validator {
   std::uint64_t faces_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_contact_normal(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
   return why_not_method(subject.header);
 }
@@ -206,7 +206,7 @@ ValidatorRow contact_normal_row() {
       "a flipped sign; a non-minimal axis; a normal that is no unit vector",
       core::bit(core::Group::kContacts),
       0,
-      why_not,
+      why_not_contact_normal,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<ContactNormal>(subject); }};
 }
 

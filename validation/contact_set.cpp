@@ -19,7 +19,8 @@ using core::FrameRecord;
 using core::Pair;
 using core::Vec3;
 
-constexpr std::string_view kOrigin = "METHOD 3 and 4: one contact for each pair that touches, float comparison";
+constexpr std::string_view kContactSetOrigin =
+    "METHOD 3 and 4: one contact for each pair that touches, float comparison";
 constexpr std::string_view kFaceOrigin = "METHOD 4: one contact for each face that a body's box passes";
 constexpr std::uint32_t kPairGroups = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
 
@@ -107,7 +108,7 @@ class ContactSet final : public Validator {
       if (turn_ == Turn::kUnknown) continue;
       const bool had_parted = were_apart(p);
       parted_ += had_parted ? 1 : 0;
-      tally_.require(had_parted, kOrigin, Where::pair(frame_->step, p.i, p.j, "contacts: missing"));
+      tally_.require(had_parted, kContactSetOrigin, Where::pair(frame_->step, p.i, p.j, "contacts: missing"));
     }
   }
 
@@ -207,13 +208,13 @@ class ContactSet final : public Validator {
   std::vector<FaceContact> at_face_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> moves_;
   std::vector<std::uint32_t> own_moves_;
-  Tally tally_{"contact-set", "contacts, parted pairs and faces out of reach", kOrigin};
+  Tally tally_{"contact-set", "contacts, parted pairs and faces out of reach", kContactSetOrigin};
   std::uint64_t pairs_ = 0;
   std::uint64_t faces_ = 0;
   std::uint64_t parted_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_contact_set(const Subject& subject) {
   constexpr std::uint32_t kNeeded = core::bit(core::Group::kContacts) | core::bit(core::Group::kBodies);
   if (std::string text = lacking(subject.header, kNeeded); !text.empty()) return text;
   return why_not_method(subject.header);
@@ -227,7 +228,7 @@ ValidatorRow contact_set_row() {
           "a lost contact; a contact of bodies that do not touch",
           core::bit(core::Group::kContacts) | kPairGroups | core::bit(core::Group::kBodies),
           0,
-          why_not,
+          why_not_contact_set,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<ContactSet>(subject); }};
 }
 

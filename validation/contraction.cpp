@@ -72,7 +72,7 @@ class Contraction final : public Validator {
   std::uint64_t inside_slop_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_contraction(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
   return why_not_method(subject.header);
 }
@@ -85,7 +85,7 @@ ValidatorRow contraction_row() {
           "printed-E4; beta applied twice",
           core::bit(core::Group::kContacts),
           0,
-          why_not,
+          why_not_contraction,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Contraction>(subject); }};
 }
 

@@ -9,7 +9,7 @@
 namespace broadside::validation {
 namespace {
 
-constexpr std::string_view kOrigin = "same stamp, same bits, on any thread count and device (DESIGN 8)";
+constexpr std::string_view kDeterminismOrigin = "same stamp, same bits, on any thread count and device (DESIGN 8)";
 constexpr std::uint32_t kAllGroups = core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) |
                                      core::bit(core::Group::kPairs) | core::bit(core::Group::kConfirmed) |
                                      core::bit(core::Group::kContacts) | core::bit(core::Group::kNarrow) |
@@ -38,7 +38,7 @@ class Determinism final : public Validator {
     }
     const core::FrameRecord& frame = evidence.frame;
     const std::optional<Where> where = divergence(frame, *evidence.baseline, common_);
-    tally_.check(where ? 1.0 : 0.0, {0.0, "frames", kOrigin},
+    tally_.check(where ? 1.0 : 0.0, {0.0, "frames", kDeterminismOrigin},
                  where.value_or(Where::frame(frame.step, "/trace/digest")));
   }
 
@@ -53,11 +53,11 @@ class Determinism final : public Validator {
  private:
   std::string baseline_;
   std::uint32_t common_;
-  Tally tally_{"determinism", "frames", kOrigin};
+  Tally tally_{"determinism", "frames", kDeterminismOrigin};
   std::uint64_t alone_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_determinism(const Subject& subject) {
   if (subject.baseline == nullptr) return "no second run of the same stamp was given";
   const core::Stamp& a = subject.header.stamp;
   const core::Stamp& b = subject.baseline->stamp;
@@ -75,7 +75,7 @@ ValidatorRow determinism_row() {
           "printed-E8; one flipped bit",
           kAllGroups,
           kAllGroups,
-          why_not,
+          why_not_determinism,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Determinism>(subject); }};
 }
 

@@ -41,7 +41,7 @@ class Energy final : public Validator {
   Tally tally_{"energy", "frames", "a frame's change of energy is the work of its stages, to their rounding"};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_energy(const Subject& subject) {
   constexpr std::uint32_t kRead =
       core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) | core::bit(core::Group::kContacts);
   if (std::string text = lacking(subject.header, kRead); !text.empty()) return text;
@@ -60,7 +60,7 @@ ValidatorRow energy_row() {
           "a stage whose work is not in the books",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) | core::bit(core::Group::kContacts),
           0,
-          why_not,
+          why_not_energy,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Energy>(subject); }};
 }
 

@@ -13,7 +13,8 @@
 namespace broadside::validation {
 namespace {
 
-constexpr std::string_view kOrigin = "SCHEMA.md, The digest: a sum of the hashes of the frame's records, bit by bit";
+constexpr std::string_view kFrameDigestOrigin =
+    "SCHEMA.md, The digest: a sum of the hashes of the frame's records, bit by bit";
 
 // The upper half of a product of two 64-bit numbers, from products of their halves.
 std::uint64_t upper_product(std::uint64_t a, std::uint64_t b) {
@@ -144,7 +145,7 @@ class FrameDigest final : public Validator {
     const core::FrameRecord& frame = evidence.frame;
     const bool is_same = frame.digest == digest_(frame);
     if (!is_same && frame.digest == 0) ++zeros_;
-    tally_.check(is_same ? 0.0 : 1.0, {0.0, "frames", kOrigin}, Where::frame(frame.step, "/trace/digest"));
+    tally_.check(is_same ? 0.0 : 1.0, {0.0, "frames", kFrameDigestOrigin}, Where::frame(frame.step, "/trace/digest"));
   }
 
   core::Verdict conclude() override {
@@ -155,11 +156,11 @@ class FrameDigest final : public Validator {
 
  private:
   Digest digest_;
-  Tally tally_{"frame-digest", "digests", kOrigin};
+  Tally tally_{"frame-digest", "digests", kFrameDigestOrigin};
   std::uint64_t zeros_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_frame_digest(const Subject& subject) {
   const std::string kind = told_kind(subject.header);
   if (kind == "none") return {};
   if (!kind.empty() && kind != kWithPoints) return "the engine has a digest of its own (" + kind + ")";
@@ -178,7 +179,7 @@ ValidatorRow frame_digest_row() {
       core::bit(core::Group::kBodies) | core::bit(core::Group::kConfirmed) | core::bit(core::Group::kContacts) |
           core::bit(core::Group::kNarrow) | core::bit(core::Group::kPairs) | core::bit(core::Group::kPoints),
       0,
-      why_not,
+      why_not_frame_digest,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<FrameDigest>(subject); }};
 }
 

@@ -134,7 +134,7 @@ class FrictionEnergy final : public Validator {
   std::uint64_t sliding_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_friction_energy(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
   return why_not_method(subject.header);
 }
@@ -148,7 +148,7 @@ ValidatorRow friction_energy_row() {
       "printed-E6",
       core::bit(core::Group::kContacts),
       0,
-      why_not,
+      why_not_friction_energy,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<FrictionEnergy>(subject); }};
 }
 

@@ -14,7 +14,8 @@
 namespace broadside::validation {
 namespace {
 
-constexpr std::string_view kOrigin = "METHOD 2: a child box lies inside its parent's box; boxes are compared as floats";
+constexpr std::string_view kLevelAgreementOrigin =
+    "METHOD 2: a child box lies inside its parent's box; boxes are compared as floats";
 
 // The last level whose boxes are tested; nothing when the settings do not say.
 std::optional<int> last_level(const core::Stamp& stamp) {
@@ -124,7 +125,7 @@ class LevelAgreement final : public Validator {
     std::set_difference(inner.begin(), inner.end(), outer.begin(), outer.end(), std::back_inserter(difference_));
     const Where where = difference_.empty() ? Where::frame(step, field)
                                             : Where::pair(step, difference_.front().i, difference_.front().j, field);
-    tally_.check(static_cast<double>(difference_.size()), {0.0, "pairs", kOrigin}, where);
+    tally_.check(static_cast<double>(difference_.size()), {0.0, "pairs", kLevelAgreementOrigin}, where);
   }
 
   const core::TraceHeader& header_;
@@ -140,13 +141,13 @@ class LevelAgreement final : public Validator {
   std::vector<core::Vec3> last_position_;
   std::vector<core::Pair> last_start_;
   std::vector<core::Pair> last_expected_;
-  Tally tally_{"level-agreement", "lists of confirmed pairs", kOrigin};
+  Tally tally_{"level-agreement", "lists of confirmed pairs", kLevelAgreementOrigin};
   std::uint64_t recomputed_ = 0;
   std::uint64_t compared_ = 0;
   std::uint64_t parted_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_level_agreement(const Subject& subject) {
   constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
   if (std::string text = lacking(subject.header, kBoth); !text.empty()) return text;
   if (has(subject.header, core::Group::kDetectedOrientation)) return "its body octrees turn with the bodies";
@@ -163,7 +164,7 @@ ValidatorRow level_agreement_row() {
       "a wrongly skipped child",
       kRead | core::bit(core::Group::kPairs),
       kRead,
-      why_not,
+      why_not_level_agreement,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<LevelAgreement>(subject); }};
 }
 

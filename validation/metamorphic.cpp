@@ -23,7 +23,7 @@ using core::Pair;
 using core::Vec3;
 using Kind = SceneRelation::Kind;
 
-constexpr std::string_view kOrigin =
+constexpr std::string_view kMetamorphicOrigin =
     "the transformed scene's outcome, to the bit: rounding is symmetric in sign and scale";
 
 class Metamorphic final : public Validator {
@@ -67,7 +67,7 @@ class Metamorphic final : public Validator {
     why_parted_ = std::move(why);
   }
 
-  bool require(bool holds, const Where& where) { return tally_.require(holds, kOrigin, where); }
+  bool require(bool holds, const Where& where) { return tally_.require(holds, kMetamorphicOrigin, where); }
 
   void judge_grown() {
     if (frame_->detected_position != other_->detected_position) return part("bodies stand elsewhere");
@@ -95,7 +95,7 @@ class Metamorphic final : public Validator {
                         relation_.vector(frame_->detected_velocity[i]) == other_->detected_velocity[j] &&
                         relation_.box(frame_->boxes[i]) == other_->boxes[j];
       if (same) {
-        tally_.require(true, kOrigin, Where::body(step_, i, "detection"));
+        tally_.require(true, kMetamorphicOrigin, Where::body(step_, i, "detection"));
         continue;
       }
       if (!why_may_part_.empty())
@@ -254,10 +254,10 @@ class Metamorphic final : public Validator {
   std::uint64_t parted_at_ = 0;
   std::string why_parted_;
   std::uint64_t compared_ = 0;
-  Tally tally_{"metamorphic", "states, pairs and contacts", kOrigin};
+  Tally tally_{"metamorphic", "states, pairs and contacts", kMetamorphicOrigin};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_metamorphic(const Subject& subject) {
   if (subject.baseline == nullptr) return "no run of a transformed scene was given";
   if (subject.header.stamp.scene_digest == subject.baseline->stamp.scene_digest)
     return "the baseline is of the same scene, not of a transformed one";
@@ -280,7 +280,7 @@ ValidatorRow metamorphic_row() {
           "a result that depends on the order of ids, on a direction of space, or on the unit of length",
           kRead,
           kRead,
-          why_not,
+          why_not_metamorphic,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Metamorphic>(subject); },
           true};
 }

@@ -54,7 +54,7 @@ class NormalEnergy final : public Validator {
   double gained_j_ = 0.0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_normal_energy(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
   return why_not_method(subject.header);
 }
@@ -67,7 +67,7 @@ ValidatorRow normal_energy_row() {
           "printed-E5",
           core::bit(core::Group::kContacts),
           0,
-          why_not,
+          why_not_normal_energy,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<NormalEnergy>(subject); }};
 }
 

@@ -241,7 +241,7 @@ class OctreeInvariants final : public Validator {
   Tally tally_{"octree-invariants", "properties of octrees", "METHOD 2: children tile, everything in its lowest cell"};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_octree_invariants(const Subject& subject) {
   const bool has_any = has(subject.header, core::Group::kOctree) || has(subject.header, core::Group::kBodyOctree);
   return has_any ? "" : "the trace records no octree";
 }
@@ -255,7 +255,7 @@ ValidatorRow octree_invariants_row() {
       "printed-E7; a body one level too high; a vertex in no leaf or another's",
       core::bit(core::Group::kOctree) | core::bit(core::Group::kBodyOctree) | core::bit(core::Group::kDetection),
       0,
-      why_not,
+      why_not_octree_invariants,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<OctreeInvariants>(subject); }};
 }
 

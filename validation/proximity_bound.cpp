@@ -253,7 +253,7 @@ class ProximityBound final : public Validator {
   std::uint64_t elsewhere_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_proximity_bound(const Subject& subject) {
   constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
   if (std::string text = lacking(subject.header, kBoth); !text.empty()) return text;
   return has(subject.header, core::Group::kDetectedOrientation) ? "its bodies turn, and touch by their surfaces" : "";
@@ -269,7 +269,7 @@ ValidatorRow proximity_bound_row() {
       "theta tested on squared distance; a missed vertex",
       kRead,
       core::bit(core::Group::kNarrow) | core::bit(core::Group::kDetection),
-      why_not,
+      why_not_proximity_bound,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<ProximityBound>(subject); }};
 }
 

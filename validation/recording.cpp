@@ -210,7 +210,7 @@ class Recording final : public Validator {
   Tally tally_{"recording", "statements about the frames", kStatistics};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_recording(const Subject& subject) {
   const core::TraceHeader& header = subject.header;
   if (header.groups == 0 && header.level == core::RecordLevel::kDigest) return "the trace records digests alone";
   return {};
@@ -224,7 +224,7 @@ ValidatorRow recording_row() {
           "statistics of other contacts; a step left out",
           core::bit(core::Group::kContacts),
           0,
-          why_not,
+          why_not_recording,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Recording>(subject); }};
 }
 

@@ -108,7 +108,7 @@ class Restitution final : public Validator {
   std::uint64_t beyond_ = 0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_restitution(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kContacts)); !text.empty()) return text;
   return why_not_method(subject.header);
 }
@@ -122,7 +122,7 @@ ValidatorRow restitution_row() {
           "restitution applied below the threshold speed; an impulse below the floor",
           core::bit(core::Group::kContacts),
           0,
-          why_not,
+          why_not_restitution,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Restitution>(subject); }};
 }
 

@@ -108,7 +108,7 @@ class Stability final : public Validator {
   double largest_ = 0.0;
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_stability(const Subject& subject) {
   if (oscillators(subject.header.scene).empty()) return "the scene has no springs";
   if (std::string text = lacking(subject.header, core::bit(core::Group::kDetection)); !text.empty()) return text;
   return subject.header.driver.empty() ? "" : "the states are those of another engine";
@@ -123,7 +123,7 @@ ValidatorRow stability_row() {
       "printed-E1; a step above the sound limit",
       core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection),
       0,
-      why_not,
+      why_not_stability,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Stability>(subject); }};
 }
 

@@ -227,7 +227,7 @@ class StateSanity final : public Validator {
   Tally integration_{"integration", "components of integrated states", kIntegration};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_state_sanity(const Subject& subject) {
   if (!has(subject.header, core::Group::kBodies) && !has(subject.header, core::Group::kDetection))
     return "the trace records no states";
   return {};
@@ -242,7 +242,7 @@ ValidatorRow state_sanity_row() {
           "NaN; drift; a stale state",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) | core::bit(core::Group::kContacts),
           0,
-          why_not,
+          why_not_state_sanity,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<StateSanity>(subject); },
           false,
           false,

@@ -28,7 +28,7 @@ class VelocityCap final : public Validator {
   Tally tally_{"velocity-cap", "velocities", "P(23): v_max, a comparison that rounds nothing"};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_velocity_cap(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   return why_not_method(subject.header);
 }
@@ -41,7 +41,7 @@ ValidatorRow velocity_cap_row() {
           "a component above v_max; NaN",
           core::bit(core::Group::kBodies),
           0,
-          why_not,
+          why_not_velocity_cap,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<VelocityCap>(subject); }};
 }
 

@@ -25,9 +25,9 @@ namespace broadside::bench {
 namespace {
 
 // Cases of one class that are kept as files.
-constexpr std::uint64_t kCasesPerClass = 3;
+constexpr std::uint64_t kMotionCasesPerClass = 3;
 
-MotionKind kind_named(const std::string& name) {
+MotionKind motion_kind_named(const std::string& name) {
   const auto found = std::find(std::begin(kMotionKinds), std::end(kMotionKinds), name);
   return static_cast<MotionKind>(found - std::begin(kMotionKinds));
 }
@@ -128,7 +128,7 @@ core::Status save_cases(const MotionArguments& a, const Questions& questions, Mo
   for (std::size_t k = 0; k < questions.tests.size(); ++k) {
     const MotionVerdict verdict = study.table.verdicts[k];
     std::uint64_t& count = saved[static_cast<std::size_t>(verdict)];
-    if (!is_worth_a_file(verdict) || count >= kCasesPerClass) continue;
+    if (!is_worth_a_file(verdict) || count >= kMotionCasesPerClass) continue;
     std::string word(kMotionVerdicts[static_cast<std::size_t>(verdict)]);
     std::replace(word.begin(), word.end(), ' ', '-');
     const std::filesystem::path file =
@@ -198,7 +198,7 @@ bool has_wrong_answers(const MotionTable& table) {
 }  // namespace
 
 core::Exit agree_motion(const MotionArguments& a) {
-  const MotionKind kind = kind_named(a.kind);
+  const MotionKind kind = motion_kind_named(a.kind);
   if (!a.mesh.empty() && kind != MotionKind::kMeshes)
     return complain({"a mesh is given for " + a.kind, "--mesh", "give it with --motion meshes"});
   std::vector<MotionEngineSpec> engines;

@@ -27,7 +27,7 @@ namespace broadside::bench {
 namespace {
 
 // Cases of one class that are kept as files: thousands of the same abort teach no more than a few.
-constexpr std::uint64_t kCasesPerClass = 4;
+constexpr std::uint64_t kPairCasesPerClass = 4;
 
 struct AgreeArguments {
   std::string kind = "boxes";
@@ -52,7 +52,7 @@ std::vector<std::string> default_engines(PairKind kind) {
           "bullet-shapes"};
 }
 
-PairKind kind_named(const std::string& name) {
+PairKind pair_kind_named(const std::string& name) {
   const auto found = std::find(std::begin(kPairKinds), std::end(kPairKinds), name);
   return static_cast<PairKind>(found - std::begin(kPairKinds));
 }
@@ -87,7 +87,7 @@ core::Status save_cases(const PairSource& source, const std::vector<TestPair>& p
   std::array<std::uint64_t, kAgreements.size()> saved{};
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     std::uint64_t& count = saved[static_cast<std::size_t>(verdicts[k])];
-    if (!is_worth_a_file(verdicts[k]) || count >= kCasesPerClass) continue;
+    if (!is_worth_a_file(verdicts[k]) || count >= kPairCasesPerClass) continue;
     std::string word(kAgreements[static_cast<std::size_t>(verdicts[k])]);
     std::replace(word.begin(), word.end(), ' ', '-');
     const std::filesystem::path file = cases / fmt::format("{}-{}-{}-{}.json", name, study.label, word, k);
@@ -160,7 +160,7 @@ core::Exit agree(const AgreeArguments& a) {
   if (!a.motion.empty())
     return agree_motion({a.motion, a.count, a.seed, a.mesh, a.engines, a.folder, a.case_file, a.as_json, a.limits});
   if (!a.case_file.empty()) return repeat_case(a);
-  const PairKind kind = kind_named(a.kind);
+  const PairKind kind = pair_kind_named(a.kind);
   if (!a.mesh.empty() && kind != PairKind::kMeshes)
     return complain({"a mesh is given for " + a.kind, "--mesh", "give it with --pairs meshes"});
   if (core::Status s = prepare_folder(a.folder); !s) return complain(s.error());

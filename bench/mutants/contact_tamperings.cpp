@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bench/mutants/specimen_parts.hpp"
@@ -7,8 +6,6 @@
 
 namespace broadside::bench {
 namespace {
-
-constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 void scale(Vec3& v, float by) {
   v = by * v;
@@ -39,7 +36,7 @@ bool is_idle(const Contact& c) {
   return c.pre_a == c.post_a && c.pre_b == c.post_b;
 }
 
-constexpr Tampering kTable[] = {
+constexpr Tampering kContactTamperings[] = {
     {"contact-set", "a lost contact", [](Specimen& r) { erase_contact(r, is_shared); }},
     {"contact-set", "a lost contact that changed nothing", [](Specimen& r) { erase_contact(r, is_idle); }},
     {"contact-set", "a lost contact with a face", [](Specimen& r) { erase_contact(r, is_on_face); }},
@@ -163,7 +160,7 @@ constexpr Tampering kTable[] = {
 }  // namespace
 
 std::span<const Tampering> contact_tamperings() {
-  return kTable;
+  return kContactTamperings;
 }
 
 }  // namespace broadside::bench

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bench/mutants/specimen_parts.hpp"
@@ -8,9 +7,7 @@
 namespace broadside::bench {
 namespace {
 
-constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
-
-constexpr Tampering kTable[] = {
+constexpr Tampering kPairTamperings[] = {
     {"candidate-set", "a dropped pair", [](Specimen& r) { frame_with_pairs(r).pairs.clear(); }},
     {"candidate-set", "a stale pair",
      [](Specimen& r) {
@@ -82,7 +79,7 @@ constexpr Tampering kTable[] = {
 }  // namespace
 
 std::span<const Tampering> pair_tamperings() {
-  return kTable;
+  return kPairTamperings;
 }
 
 }  // namespace broadside::bench

@@ -6,7 +6,7 @@ namespace broadside::bench {
 namespace {
 
 // Sound motion under a declaration that lies.
-constexpr RigidTampering kTable[] = {
+constexpr RigidTampering kRigidDeclarationTamperings[] = {
     {"closed-form", "an order that is too high", "rigid-spin-up",
      [](Specimen& r) {
        declare(r, {{"order", "4"}});
@@ -57,7 +57,7 @@ constexpr RigidTampering kTable[] = {
 }  // namespace
 
 std::span<const RigidTampering> rigid_declaration_tamperings() {
-  return kTable;
+  return kRigidDeclarationTamperings;
 }
 
 }  // namespace broadside::bench

@@ -10,7 +10,7 @@ bool is_any(const ContactPoint&) {
   return true;
 }
 
-constexpr RigidTampering kTable[] = {
+constexpr RigidTampering kRigidPointTamperings[] = {
     {"momentum", "impulses a thousandth too large", "rigid-mixed",
      [](Specimen& r) { at_points(r, carries, [](ContactPoint& p) { p.impulse = 1.001F * p.impulse; }); }},
     {"momentum", "a point left out", "rigid-mixed",
@@ -127,7 +127,7 @@ constexpr RigidTampering kTable[] = {
 }  // namespace
 
 std::span<const RigidTampering> rigid_point_tamperings() {
-  return kTable;
+  return kRigidPointTamperings;
 }
 
 }  // namespace broadside::bench

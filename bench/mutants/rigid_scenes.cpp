@@ -98,7 +98,7 @@ Scene offset() {
   return scene;
 }
 
-Scene fast() {
+Scene fast_bodies() {
   Scene scene = world("rigid-fast", 20, 1.0F / 60.0F);
   scene.meshes = {ball(0.1), box(0.1, 4, 4)};
   add(scene, 0, {-4.5F, 4, 0}, {60, 0, 0}, 1.0F);
@@ -158,21 +158,22 @@ Scene spin_up() {
   return scene;
 }
 
-struct SceneRow {
+struct RigidSceneRow {
   std::string_view name;
   Scene (*make)();
 };
-constexpr std::array kScenes{
-    SceneRow{"rigid-mixed", mixed},     SceneRow{"rigid-stack", stack},     SceneRow{"rigid-overlap", overlap},
-    SceneRow{"rigid-offset", offset},   SceneRow{"rigid-fast", fast},       SceneRow{"rigid-blade", blade},
-    SceneRow{"rigid-million", million}, SceneRow{"rigid-bounce", bounce},   SceneRow{"rigid-flight", flight},
-    SceneRow{"rigid-slide", slide},     SceneRow{"rigid-spin-up", spin_up}, SceneRow{"rigid-nap", nap}};
+constexpr std::array kRigidScenes{RigidSceneRow{"rigid-mixed", mixed},      RigidSceneRow{"rigid-stack", stack},
+                                  RigidSceneRow{"rigid-overlap", overlap},  RigidSceneRow{"rigid-offset", offset},
+                                  RigidSceneRow{"rigid-fast", fast_bodies}, RigidSceneRow{"rigid-blade", blade},
+                                  RigidSceneRow{"rigid-million", million},  RigidSceneRow{"rigid-bounce", bounce},
+                                  RigidSceneRow{"rigid-flight", flight},    RigidSceneRow{"rigid-slide", slide},
+                                  RigidSceneRow{"rigid-spin-up", spin_up},  RigidSceneRow{"rigid-nap", nap}};
 
 }  // namespace
 
 core::Result<Scene> rigid_scene(std::string_view name) {
   std::vector<std::string_view> names;
-  for (const SceneRow& row : kScenes) {
+  for (const RigidSceneRow& row : kRigidScenes) {
     if (row.name == name) return row.make();
     names.push_back(row.name);
   }

@@ -8,6 +8,7 @@
 
 #include "bench/mutants/rigid_tamperings.hpp"
 #include "core/contact.hpp"
+#include "core/method/rigid/cross.hpp"
 
 namespace broadside::bench {
 
@@ -49,9 +50,6 @@ inline WideQuat turned(const WideQuat& q, double angle) {
 
 inline double size_of(Vec3 v) {
   return std::sqrt(double(v.x) * v.x + double(v.y) * v.y + double(v.z) * v.z);
-}
-inline Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline Vec3 along_normal(const ContactPoint& p) {
   return dot(p.impulse, p.normal) * p.normal;

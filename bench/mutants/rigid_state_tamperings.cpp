@@ -7,7 +7,7 @@
 namespace broadside::bench {
 namespace {
 
-constexpr RigidTampering kTable[] = {
+constexpr RigidTampering kRigidStateTamperings[] = {
     {"ballistic", "a free body gained 1 mm/s", "rigid-mixed",
      [](Specimen& r) { in_frames(r, 20, kToTheEnd, [](FrameRecord& f) { f.wide.velocity[0].x += 1e-3; }); }},
     {"ballistic", "a free body lost a step of gravity", "rigid-mixed",
@@ -168,7 +168,7 @@ constexpr RigidTampering kTable[] = {
 }  // namespace
 
 std::span<const RigidTampering> rigid_state_tamperings() {
-  return kTable;
+  return kRigidStateTamperings;
 }
 
 }  // namespace broadside::bench

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "bench/mutants/tamperings.hpp"
 #include "core/contact.hpp"
@@ -16,6 +17,8 @@ using core::Contact;
 using core::FrameRecord;
 using core::Pair;
 using core::Vec3;
+
+inline constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 // The first contact that fits.
 template <typename Fits>

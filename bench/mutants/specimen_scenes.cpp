@@ -129,7 +129,7 @@ struct SpecimenRow {
   std::string_view name;
   Scene (*make)();
 };
-constexpr std::array kScenes{
+constexpr std::array kSpecimenScenes{
     SpecimenRow{"mixed", [] { return mixed_scene(cube(4)); }},
     SpecimenRow{"ties", ties},
     SpecimenRow{"fudge", fudge},
@@ -204,7 +204,7 @@ Scene random_scene(std::uint32_t seed, float origin_m, float largest_mass_ratio)
 }
 
 core::Result<Scene> specimen_scene(std::string_view name) {
-  for (const SpecimenRow& row : kScenes)
+  for (const SpecimenRow& row : kSpecimenScenes)
     if (row.name == name) return row.make();
   return datasets::make_scene(std::string(name));
 }

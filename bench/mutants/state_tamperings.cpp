@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bench/mutants/specimen_parts.hpp"
@@ -8,9 +7,7 @@
 namespace broadside::bench {
 namespace {
 
-constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
-
-constexpr Tampering kTable[] = {
+constexpr Tampering kStateTamperings[] = {
     {"state-sanity", "NaN", [](Specimen& r) { r.frames[9].position[5].y = kNoNumber; }},
     {"state-sanity", "infinity", [](Specimen& r) { r.frames[9].angular_velocity[5].y = INFINITY; }},
     {"state-sanity", "NaN in a box", [](Specimen& r) { r.frames[9].boxes[5].min.x = kNoNumber; }},
@@ -97,7 +94,7 @@ constexpr Tampering kTable[] = {
 }  // namespace
 
 std::span<const Tampering> state_tamperings() {
-  return kTable;
+  return kStateTamperings;
 }
 
 }  // namespace broadside::bench

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bench/mutants/specimen_parts.hpp"
@@ -7,8 +6,6 @@
 
 namespace broadside::bench {
 namespace {
-
-constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 // Adds an impulse along the contact's normal to both bodies, as a consistent engine would, and records it.
 void push(Specimen& r, Contact& c, double impulse_n_s) {
@@ -48,7 +45,7 @@ bool is_slow(const Contact& c) {
   return approach(c) < -0.05 && approach(c) > -0.25;
 }
 
-constexpr Tampering kTable[] = {
+constexpr Tampering kVelocityTamperings[] = {
     {"restitution", "restitution below the threshold speed",
      [](Specimen& r) {
        Contact& c = contact_that(r, is_slow);
@@ -157,7 +154,7 @@ constexpr Tampering kTable[] = {
 }  // namespace
 
 std::span<const Tampering> velocity_tamperings() {
-  return kTable;
+  return kVelocityTamperings;
 }
 
 }  // namespace broadside::bench

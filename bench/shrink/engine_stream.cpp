@@ -14,7 +14,7 @@ namespace {
 using core::bit;
 using core::Group;
 
-constexpr std::string_view kDriver = "octree-cpu";
+constexpr std::string_view kStreamDriver = "octree-cpu";
 
 std::vector<std::uint8_t> static_flags(const core::Scene& scene) {
   std::vector<std::uint8_t> flags;
@@ -58,7 +58,7 @@ core::Status EngineStream::load() {
       header_.notes["digest"] = note;
     return engine_.dynamics->load(scene_);
   }
-  auto driver = start(scene_, {find_engine(kDriver).value(), {}});
+  auto driver = start(scene_, {find_engine(kStreamDriver).value(), {}});
   if (!driver) return driver.error();
   driver_ = std::move(driver).value();
   header_.driver = driver_->header_.stamp.label();

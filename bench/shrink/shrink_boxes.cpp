@@ -22,7 +22,6 @@ using core::Pair;
 
 // Up to here comparing all pairs takes less than a millisecond.
 constexpr std::size_t kFewBoxes = 1000;
-constexpr int kAllDigits = 9;
 
 std::vector<Pair> overlapping(const std::vector<Box>& boxes) {
   if (boxes.size() > kFewBoxes) return validation::OverlapJoin().join(boxes, {});
@@ -43,9 +42,9 @@ struct Wrong {
   std::vector<Pair> extra;
 };
 
-class Shrinker {
+class BoxShrinker {
  public:
-  Shrinker(const PairFinder& find, const ShrinkLimits& limits) : find_(find), limits_(limits) {}
+  BoxShrinker(const PairFinder& find, const ShrinkLimits& limits) : find_(find), limits_(limits) {}
 
   core::Result<ShrunkBoxes> run(const std::vector<Box>& boxes) {
     const std::optional<Wrong> whole = judge(boxes);
@@ -154,7 +153,7 @@ class Shrinker {
 
 core::Result<ShrunkBoxes> shrink_boxes(const std::vector<Box>& boxes, const PairFinder& find,
                                        const ShrinkLimits& limits) {
-  return Shrinker(find, limits).run(boxes);
+  return BoxShrinker(find, limits).run(boxes);
 }
 
 }  // namespace broadside::bench

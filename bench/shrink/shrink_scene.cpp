@@ -26,8 +26,6 @@ using core::Scene;
 constexpr std::uint32_t kLongestPiece = 64;
 // Pieces stop growing once one takes this share of the time limit.
 constexpr double kPiecesInTime = 40.0;
-// Nine digits name every float: rounding to fewer is a change.
-constexpr int kAllDigits = 9;
 // Meshes larger than this lose their triangles only after a box of their extent was tried.
 constexpr std::uint64_t kManyNumbers = 2000;
 
@@ -44,9 +42,9 @@ bool has_clean_meshes(const Scene& scene) {
   });
 }
 
-class Shrinker {
+class SceneShrinker {
  public:
-  Shrinker(const Oracle& oracle, const ShrinkLimits& limits) : oracle_(oracle), limits_(limits) {}
+  SceneShrinker(const Oracle& oracle, const ShrinkLimits& limits) : oracle_(oracle), limits_(limits) {}
 
   core::Result<ShrunkScene> run(const Scene& scene) {
     if (core::Status s = find_fault(scene); !s) return s.error();
@@ -273,7 +271,7 @@ class Shrinker {
 }  // namespace
 
 core::Result<ShrunkScene> shrink_scene(const Scene& scene, const Oracle& oracle, const ShrinkLimits& limits) {
-  return Shrinker(oracle, limits).run(scene);
+  return SceneShrinker(oracle, limits).run(scene);
 }
 
 }  // namespace broadside::bench

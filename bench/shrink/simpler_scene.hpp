@@ -11,6 +11,9 @@
 
 namespace broadside::bench {
 
+// Nine digits name every float: rounding to fewer is a change.
+inline constexpr int kAllDigits = 9;
+
 // The scene with these of its bodies alone, in the scene's order, and the meshes and springs that they use.
 core::Scene with_bodies(const core::Scene& scene, std::span<const std::uint32_t> bodies);
 

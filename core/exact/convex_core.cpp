@@ -15,10 +15,6 @@ constexpr double kParallel = 1e-9;
 // Below this a direction between nearest points is made of rounding, m.
 constexpr double kNoDirection = 1e-12;
 
-double length(Point p) {
-  return std::sqrt(dot(p, p));
-}
-
 Point unit(Point p) {
   return (1.0 / length(p)) * p;
 }

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kShareOfSize = 0x1p-40;
 
-double length(Point p) {
-  return std::sqrt(dot(p, p));
-}
-
 struct Face {
   std::array<std::uint32_t, 3> corner{};
   std::array<std::uint32_t, 3> beside{};  // face across the edge from corner k to corner k + 1

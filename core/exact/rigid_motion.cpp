@@ -10,10 +10,6 @@ constexpr double kUnitRoundoff = 0x1p-53;
 
 }  // namespace
 
-double length(Point p) {
-  return std::sqrt(dot(p, p));
-}
-
 Placement placement_at(const RigidMotion& motion, double t) {
   Placement out = to_placement(motion.start);
   out.origin = out.origin + t * motion.displacement_m;

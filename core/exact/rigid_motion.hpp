@@ -12,8 +12,6 @@ struct RigidMotion {
   Point rotation_rad;    // the axis times the angle over the step, world axes
 };
 
-double length(Point p);
-
 // t: 0 to 1.
 Placement placement_at(const RigidMotion& motion, double t);
 

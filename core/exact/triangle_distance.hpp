@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "core/math/vec3.hpp"
 
@@ -27,6 +28,9 @@ constexpr Point operator*(double s, Point a) {
 }
 constexpr double dot(Point a, Point b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline double length(Point a) {
+  return std::sqrt(dot(a, a));
 }
 constexpr Point cross(Point a, Point b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -15,7 +15,7 @@ using core::Vec3;
 // boxes that would tell them apart.
 constexpr std::uint32_t kLeafTriangles = 4;
 
-constexpr Nearest kFar{std::numeric_limits<double>::infinity(), {}, {}};
+constexpr Nearest kBeyond{std::numeric_limits<double>::infinity(), {}, {}};
 
 Box box_of(const std::vector<Vec3>& vertices, const Triangle& t) {
   return core::grown(core::grown(core::grown(core::empty_box(), vertices[t[0]]), vertices[t[1]]), vertices[t[2]]);
@@ -102,7 +102,7 @@ Nearest nearest_of_trees(const TriangleTree& a, Vec3 xa, const TriangleTree& b, 
     return Visit{node_a, node_b,
                  squared_gap(core::translated(a.nodes()[node_a].box, xa), core::translated(b.nodes()[node_b].box, xb))};
   };
-  Nearest best = kFar;
+  Nearest best = kBeyond;
   std::vector<Visit> open{visit(0, 0)};
   while (!open.empty() && best.squared_m2 > 0.0) {
     const Visit now = open.back();
@@ -130,7 +130,7 @@ Nearest nearest_of_trees(const TriangleTree& a, Vec3 xa, const TriangleTree& b, 
 }
 
 Nearest nearest_by_brute_force(const TriangleTree& a, Vec3 xa, const TriangleTree& b, Vec3 xb) {
-  Nearest best = kFar;
+  Nearest best = kBeyond;
   visit_triangles(a, xa, 0, static_cast<std::uint32_t>(a.triangles().size()), b, xb, 0,
                   static_cast<std::uint32_t>(b.triangles().size()), best);
   return best;
@@ -145,7 +145,7 @@ Nearest nearest_vertices(const TriangleTree& a, Vec3 xa, const TriangleTree& b, 
     column[axis].assign(padded, std::numeric_limits<double>::infinity());
     for (std::size_t j = 0; j < b.vertices().size(); ++j) column[axis][j] = (b.vertices()[j] + xb)[axis];
   }
-  Nearest best = kFar;
+  Nearest best = kBeyond;
   for (const Vec3 v : a.vertices()) {
     const Point p = to_point(v + xa);
     std::array<double, kLanes> least;

@@ -3,13 +3,13 @@
 namespace broadside::core {
 namespace {
 
-struct Cell {
+struct OctreeCell {
   Vec3 min;
   Vec3 max;
 };
 
 // The octant of v in the cell: bit 0 for x, 1 for y, 2 for z. The cell shrinks to that octant.
-int descend(Cell& cell, Vec3 v) {
+int descend(OctreeCell& cell, Vec3 v) {
   int octant = 0;
   for (int k = 0; k < 3; ++k) {
     const float middle = 0.5F * (cell.min[k] + cell.max[k]);
@@ -33,7 +33,7 @@ BodyOctree build_body_octree(std::span<const Vec3> vertices) {
   std::array<std::uint32_t, 64> counts{};
   tree.leaf_of_vertex.reserve(vertices.size());
   for (const Vec3 v : vertices) {
-    Cell cell{tree.boxes[0].min, tree.boxes[0].max};
+    OctreeCell cell{tree.boxes[0].min, tree.boxes[0].max};
     const int level1 = descend(cell, v);
     const int leaf = 8 * level1 + descend(cell, v);
     Box& parent = tree.boxes[kLevelOffset[1] + level1];

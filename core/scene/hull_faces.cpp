@@ -16,10 +16,6 @@ using exact::Point;
 // the size.
 constexpr double kInPlane = 8.0 * 0x1p-24;
 
-double length(Point p) {
-  return std::sqrt(dot(p, p));
-}
-
 using Loop = std::vector<std::uint32_t>;
 
 class Faces {

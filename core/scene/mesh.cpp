@@ -4,18 +4,16 @@
 #include <cmath>
 #include <utility>
 
+#include "core/exact/triangle_distance.hpp"
+
 namespace broadside::core {
 namespace {
 
-struct Point {
-  double x, y, z;
-};
+using exact::Point;
+using exact::to_point;
 
-Point point(Vec3 v) {
-  return {v.x, v.y, v.z};
-}
 double distance(Point a, Point b) {
-  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
+  return length(a - b);
 }
 
 // The covering radius of a triangle by its three vertices, from its side lengths. Acute or right: the circumcenter is
@@ -52,16 +50,16 @@ float mean_edge_m(const Mesh& mesh) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   if (edges.empty()) return 0.0F;
   double sum = 0.0;
-  for (const auto& [p, q] : edges) sum += distance(point(mesh.vertices[p]), point(mesh.vertices[q]));
+  for (const auto& [p, q] : edges) sum += distance(to_point(mesh.vertices[p]), to_point(mesh.vertices[q]));
   return static_cast<float>(sum / static_cast<double>(edges.size()));
 }
 
 double covering_radius_m(const Mesh& mesh) {
   double largest = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Point a = point(mesh.vertices[t[0]]);
-    const Point b = point(mesh.vertices[t[1]]);
-    const Point c = point(mesh.vertices[t[2]]);
+    const Point a = to_point(mesh.vertices[t[0]]);
+    const Point b = to_point(mesh.vertices[t[1]]);
+    const Point c = to_point(mesh.vertices[t[2]]);
     largest = std::max(largest, triangle_covering_radius(distance(a, b), distance(b, c), distance(c, a)));
   }
   return largest;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/exact/triangle_distance.hpp"
+
 namespace broadside::core {
 namespace {
 
@@ -16,32 +18,11 @@ constexpr double kOnSurface = 8.0 * 0x1p-24;
 // in its own right.
 constexpr double kMostGap = 0.05;
 
-struct Point {
-  double x, y, z;
+using exact::Point;
+using exact::to_point;
 
-  double operator[](int axis) const { return axis == 0 ? x : (axis == 1 ? y : z); }
-};
-
-Point point(Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-Point operator+(Point p, Point q) {
-  return {p.x + q.x, p.y + q.y, p.z + q.z};
-}
-Point operator-(Point p, Point q) {
-  return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-Point operator*(double s, Point p) {
-  return {s * p.x, s * p.y, s * p.z};
-}
-double dot(Point p, Point q) {
-  return p.x * q.x + p.y * q.y + p.z * q.z;
-}
-Point cross(Point p, Point q) {
-  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-}
-double length(Point p) {
-  return std::sqrt(dot(p, p));
+double along(Point p, int axis) {
+  return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
 }
 
 // Every edge belongs to two triangles, once in each direction.
@@ -79,18 +60,17 @@ bool is_box(const Mesh& mesh, const Box& b) {
   // Triangles that cover the faces and nothing else: their area is the box's, and each lies in a face.
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Point p = point(mesh.vertices[t[0]]);
-    area += 0.5 * length(cross(point(mesh.vertices[t[1]]) - p, point(mesh.vertices[t[2]]) - p));
+    const Point p = to_point(mesh.vertices[t[0]]);
+    area += 0.5 * length(cross(to_point(mesh.vertices[t[1]]) - p, to_point(mesh.vertices[t[2]]) - p));
   }
-  const Point s = point(b.max) - point(b.min);
+  const Point s = to_point(b.max) - to_point(b.min);
   const double whole = 2.0 * (s.x * s.y + s.y * s.z + s.z * s.x);
   return std::abs(area - whole) <= 1e-5 * whole;
 }
 
 double distance_to_axis_segment(Point p, int axis, double half_length) {
   Point d = p;
-  const double along = std::clamp(p[axis], -half_length, half_length);
-  (axis == 0 ? d.x : (axis == 1 ? d.y : d.z)) -= along;
+  (axis == 0 ? d.x : (axis == 1 ? d.y : d.z)) -= std::clamp(along(p, axis), -half_length, half_length);
   return length(d);
 }
 
@@ -99,14 +79,14 @@ double distance_to_axis_segment(Point p, int axis, double half_length) {
 std::optional<double> swept_ball_gap(const Mesh& mesh, int axis, double half_length, double radius) {
   const double size = radius + half_length;
   for (const Vec3 v : mesh.vertices)
-    if (std::abs(distance_to_axis_segment(point(v), axis, half_length) - radius) > kOnSurface * size)
+    if (std::abs(distance_to_axis_segment(to_point(v), axis, half_length) - radius) > kOnSurface * size)
       return std::nullopt;
   // The surface bulges out between vertices, most in the middle of a facet or of an edge.
   double least = radius;
   for (const Triangle& t : mesh.triangles) {
-    const Point a = point(mesh.vertices[t[0]]);
-    const Point b = point(mesh.vertices[t[1]]);
-    const Point c = point(mesh.vertices[t[2]]);
+    const Point a = to_point(mesh.vertices[t[0]]);
+    const Point b = to_point(mesh.vertices[t[1]]);
+    const Point c = to_point(mesh.vertices[t[2]]);
     for (const Point middle : {(1.0 / 3.0) * (a + b + c), 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)})
       least = std::min(least, distance_to_axis_segment(middle, axis, half_length));
   }
@@ -121,13 +101,14 @@ std::optional<Primitive> cylinder(const Mesh& mesh, int axis, Vec3 half) {
   const auto from_axis = [axis](Point p) { return distance_to_axis_segment(p, axis, 1e30); };
   const double length_m = half[axis];
   double radius = 0.0;
-  for (const Vec3 v : mesh.vertices) radius = std::max(radius, from_axis(point(v)));
+  for (const Vec3 v : mesh.vertices) radius = std::max(radius, from_axis(to_point(v)));
   const double off = kOnSurface * (radius + length_m);
   double least = radius;
   for (const Triangle& t : mesh.triangles) {
-    const std::array<Point, 3> p{point(mesh.vertices[t[0]]), point(mesh.vertices[t[1]]), point(mesh.vertices[t[2]])};
+    const std::array<Point, 3> p{to_point(mesh.vertices[t[0]]), to_point(mesh.vertices[t[1]]),
+                                 to_point(mesh.vertices[t[2]])};
     const auto is_in_end = [&](double end) {
-      return std::all_of(p.begin(), p.end(), [&](Point q) { return std::abs(q[axis] - end) <= off; });
+      return std::all_of(p.begin(), p.end(), [&](Point q) { return std::abs(along(q, axis) - end) <= off; });
     };
     if (is_in_end(length_m) || is_in_end(-length_m)) continue;
     for (const Point q : p)
@@ -171,7 +152,7 @@ std::optional<Primitive> primitive_of(const Mesh& mesh) {
 
   // A sphere's vertices need not reach the ends of its axes, so the radius is that of the vertices.
   float radius = 0.0F;
-  for (const Vec3 v : mesh.vertices) radius = std::max(radius, static_cast<float>(length(point(v))));
+  for (const Vec3 v : mesh.vertices) radius = std::max(radius, static_cast<float>(length(to_point(v))));
   if (const auto gap = swept_ball_gap(mesh, 0, 0.0, radius))
     return Primitive{PrimitiveKind::kSphere, {radius, radius, radius}, radius, 0, *gap};
   const int axis = half.x == size ? 0 : (half.y == size ? 1 : 2);
@@ -189,14 +170,14 @@ std::optional<Primitive> primitive_of(const Mesh& mesh) {
 bool is_convex(const Mesh& mesh) {
   if (mesh.vertices.size() < 4 || !is_closed(mesh)) return false;
   const Box b = bounds(mesh);
-  const double size = length(point(b.max) - point(b.min));
+  const double size = length(to_point(b.max) - to_point(b.min));
   for (const Triangle& t : mesh.triangles) {
-    const Point a = point(mesh.vertices[t[0]]);
-    const Point normal = cross(point(mesh.vertices[t[1]]) - a, point(mesh.vertices[t[2]]) - a);
+    const Point a = to_point(mesh.vertices[t[0]]);
+    const Point normal = cross(to_point(mesh.vertices[t[1]]) - a, to_point(mesh.vertices[t[2]]) - a);
     const double scale = length(normal);
     if (!(scale > 0.0)) continue;
     for (const Vec3 v : mesh.vertices)
-      if (dot(point(v) - a, normal) > 4.0 * kOnSurface * size * scale) return false;
+      if (dot(to_point(v) - a, normal) > 4.0 * kOnSurface * size * scale) return false;
   }
   return true;
 }

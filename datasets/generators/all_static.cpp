@@ -8,7 +8,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kAllStaticKnobs[] = {
     {"fill", 1.0, 1e-6, 1000.0, "volume of the bodies' boxes over that of the cube"},
 };
 
@@ -34,7 +34,7 @@ SceneFamily static_family() {
           "static:cube:50",
           "N static bodies at random, many overlapping: no pair, and nothing moves",
           120,
-          kKnobs,
+          kAllStaticKnobs,
           all_static};
 }
 

@@ -6,7 +6,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kDominoRowKnobs[] = {
     {"gap", 0.1, 0.0, 10.0, "between bodies, as a share of the longest side"},
     {"speed_m_s", 5.0, 0.0, 50.0, "of the first, along the row, m/s"},
     {"restitution", 1.0, 0.0, 1.0, "of the bodies"},
@@ -26,8 +26,13 @@ core::Scene domino(const GivenScene& given) {
 }  // namespace
 
 SceneFamily domino_family() {
-  return {"domino", "domino:MESH:N", "domino:domino:20", "a row of N bodies; the first is pushed into the others", 600,
-          kKnobs,   domino};
+  return {"domino",
+          "domino:MESH:N",
+          "domino:domino:20",
+          "a row of N bodies; the first is pushed into the others",
+          600,
+          kDominoRowKnobs,
+          domino};
 }
 
 }  // namespace broadside::datasets

@@ -7,7 +7,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kDropKnobs[] = {
     {"speed_m_s", 1.0, 0.0, 1000.0, "at which bodies come down, m/s: at 200 they fall past the plate in a step"},
     {"thickness", 0.1, 0.01, 1.0, "of the plate, as a share of the longest side"},
 };
@@ -31,7 +31,7 @@ core::Scene drop(const GivenScene& given) {
 }  // namespace
 
 SceneFamily drop_family() {
-  return {"drop", "drop:MESH:N", "drop:brick:3", "N bodies come down on a thin plate", 120, kKnobs, drop};
+  return {"drop", "drop:MESH:N", "drop:brick:3", "N bodies come down on a thin plate", 120, kDropKnobs, drop};
 }
 
 }  // namespace broadside::datasets

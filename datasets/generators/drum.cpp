@@ -11,7 +11,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kDrumKnobs[] = {
     {"fill", 0.4, 0.05, 0.7, "share of the drum that the bodies and their gaps take"},
     {"depth", 2.2, 1.1, 100.0, "of the drum, in longest sides"},
 };
@@ -75,7 +75,7 @@ SceneFamily drum_family() {
           "drum:cube:50",
           "N bodies fall inside a horizontal drum of static boxes, which is at rest",
           600,
-          kKnobs,
+          kDrumKnobs,
           drum};
 }
 

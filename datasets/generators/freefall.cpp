@@ -5,7 +5,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kFreefallKnobs[] = {
     {"gap", 0.1, 0.0, 100.0, "between cells, as a share of the longest side"},
     {"drop_m", 1.0, 0.0, 1e6, "from the floor to the lowest boxes, m"},
     {"jitter", 0.45, 0.0, 10.0, "largest shift per axis as a share of the gap; below 0.5 no two boxes touch"},
@@ -29,7 +29,7 @@ SceneFamily freefall_family() {
           "freefall:bunny:50",
           "free-fall stacking: N bodies from a jittered grid onto the floor",
           kPaperFrames,
-          kKnobs,
+          kFreefallKnobs,
           freefall};
 }
 

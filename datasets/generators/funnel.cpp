@@ -9,7 +9,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kFunnelKnobs[] = {
     {"outlet", 1.6, 1.0, 100.0, "width of the opening, in longest sides"},
     {"drop_m", 3.0, 0.0, 1e6, "from the floor to the opening, m"},
     {"speed_m_s", 1.0, 0.0, 50.0, "sideways at the start, in random directions, m/s"},
@@ -65,7 +65,7 @@ SceneFamily funnel_family() {
           "funnel:cube:50",
           "N bodies fall through a square funnel of static steps; nothing rubs",
           600,
-          kKnobs,
+          kFunnelKnobs,
           funnel};
 }
 

@@ -9,7 +9,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kHopperKnobs[] = {
     {"opening", 1.0, 0.1, 1.0, "share of the bin's width that is open below; a body on the lip stays there"},
     {"drop_m", 2.0, 0.0, 1e6, "from the floor to the bin, m"},
     {"ground", 4.0, 1.0, 1000.0, "width of the floor in widths of the bin"},
@@ -53,9 +53,13 @@ core::Scene hopper(const GivenScene& given) {
 }  // namespace
 
 SceneFamily hopper_family() {
-  return {
-      "hopper", "hopper:MESH:N", "hopper:sphere:60", "N bodies leave an open bin above the floor and make a pile", 600,
-      kKnobs,   hopper};
+  return {"hopper",
+          "hopper:MESH:N",
+          "hopper:sphere:60",
+          "N bodies leave an open bin above the floor and make a pile",
+          600,
+          kHopperKnobs,
+          hopper};
 }
 
 }  // namespace broadside::datasets

@@ -13,7 +13,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kMixedSizesKnobs[] = {
     {"smallest", 0.25, 0.01, 1.0, "of the sizes, as a share of the longest side"},
     {"largest", 2.0, 1.0, 100.0,
      "of the sizes, as a share of the longest side; each is less frequent than the next smaller"},
@@ -52,7 +52,7 @@ SceneFamily mixed_sizes_family() {
           "mixed-sizes:cube:60",
           "free fall of one model in eight sizes, of one density",
           600,
-          kKnobs,
+          kMixedSizesKnobs,
           mixed_sizes};
 }
 

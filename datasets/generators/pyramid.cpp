@@ -6,7 +6,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kPyramidKnobs[] = {
     {"gap", 0.05, 0.0, 0.9, "between neighbors of a layer, as a share of the longest side"},
 };
 
@@ -32,9 +32,13 @@ core::Scene pyramid(const GivenScene& given) {
 }  // namespace
 
 SceneFamily pyramid_family() {
-  return {
-      "pyramid", "pyramid:MESH:N", "pyramid:cube:30", "N bodies as a square pyramid, each over the middle of four", 600,
-      kKnobs,    pyramid};
+  return {"pyramid",
+          "pyramid:MESH:N",
+          "pyramid:cube:30",
+          "N bodies as a square pyramid, each over the middle of four",
+          600,
+          kPyramidKnobs,
+          pyramid};
 }
 
 }  // namespace broadside::datasets

@@ -15,7 +15,7 @@ using core::Box;
 using core::Vec3;
 using Triple = std::array<double, 3>;
 
-Vec3 rounded(const Triple& p) {
+Vec3 rounded_start(const Triple& p) {
   return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
 }
 
@@ -93,13 +93,13 @@ Start stacked_grid(const Box& body, std::uint32_t count, const StackedGrid& grid
     Triple p;
     for (int k = 0; k < 3; ++k) p[k] = cell[k] * pitch - middle[k] + random.between(-grid.jitter, grid.jitter) * gap;
     p[1] += grid.drop_m + 0.5 * sides[1];
-    start.positions.push_back(rounded(p));
+    start.positions.push_back(rounded_start(p));
   }
   start.velocities.assign(count, Vec3{});
 
   const double width = grid.width_of_grid * static_cast<double>(g) * pitch;
   const double height = std::max(width, grid.drop_m + static_cast<double>(layers + 1) * pitch);
-  start.domain = {rounded({-0.5 * width, 0.0, -0.5 * width}), rounded({0.5 * width, height, 0.5 * width})};
+  start.domain = {rounded_start({-0.5 * width, 0.0, -0.5 * width}), rounded_start({0.5 * width, height, 0.5 * width})};
   return start;
 }
 
@@ -135,10 +135,10 @@ Start filled_cube(const Box& body, std::uint32_t count, const FilledCube& cube, 
       p[k] =
           (static_cast<double>(cell[k]) + 0.5) * side - 0.5 * width - middle[k] + random.between(-0.45, 0.45) * spare;
     }
-    start.positions.push_back(rounded(p));
+    start.positions.push_back(rounded_start(p));
     const RandomStream::Direction d = random.direction();
     const double speed = random.between(0.0, cube.top_speed_m_s);
-    start.velocities.push_back(rounded({speed * d.x, speed * d.y, speed * d.z}));
+    start.velocities.push_back(rounded_start({speed * d.x, speed * d.y, speed * d.z}));
   }
   const auto half = static_cast<float>(0.5 * width);
   start.domain = {{-half, -half, -half}, {half, half, half}};

@@ -7,7 +7,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kTowerKnobs[] = {
     {"gap", 0.0, 0.0, 10.0, "between bodies, as a share of the longest side"},
     {"offset", 0.1, 0.0, 0.45, "largest shift of a body to the side, as a share of the longest side"},
 };
@@ -31,7 +31,7 @@ core::Scene tower(const GivenScene& given) {
 }  // namespace
 
 SceneFamily tower_family() {
-  return {"tower", "tower:MESH:N", "tower:cube:10", "N bodies on top of each other", 600, kKnobs, tower};
+  return {"tower", "tower:MESH:N", "tower:cube:10", "N bodies on top of each other", 600, kTowerKnobs, tower};
 }
 
 }  // namespace broadside::datasets

@@ -7,7 +7,7 @@
 namespace broadside::datasets {
 namespace {
 
-constexpr SceneKnob kKnobs[] = {
+constexpr SceneKnob kWallKnobs[] = {
     {"speed_m_s", 15.0, 0.0, 50.0, "of the projectile, m/s"},
     {"projectile_mass_kg", 10.0, 1e-3, 1e6, "the others have 1 kg each"},
 };
@@ -37,8 +37,9 @@ core::Scene wall(const GivenScene& given) {
 }  // namespace
 
 SceneFamily wall_family() {
-  return {"wall", "wall:MESH:N", "wall:brick:40", "a wall of N bodies in running bond, and one more that hits it", 600,
-          kKnobs, wall};
+  return {
+      "wall",     "wall:MESH:N", "wall:brick:40", "a wall of N bodies in running bond, and one more that hits it", 600,
+      kWallKnobs, wall};
 }
 
 }  // namespace broadside::datasets

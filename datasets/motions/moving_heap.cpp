@@ -10,7 +10,7 @@ namespace broadside::datasets {
 namespace {
 
 constexpr std::uint64_t kTrianglesOfBody = 320;
-constexpr std::uint64_t kShapes = 8;
+constexpr std::uint64_t kShapeCount = 8;
 // Bodies of 1 m are free of each other whatever way they are turned: at most 1 m from side to side in any direction.
 constexpr double kPitch_m = 1.05;
 constexpr double kShrink = 0.35;  // of the way to the middle of each two by two by two places
@@ -35,7 +35,7 @@ core::Vec3 to_float(core::Vec3d p) {
 // Scaled so that no vertex is farther than half a meter from the origin.
 std::vector<core::Mesh> shapes(std::uint64_t seed) {
   std::vector<core::Mesh> out;
-  for (std::uint64_t k = 0; k < kShapes; ++k) {
+  for (std::uint64_t k = 0; k < kShapeCount; ++k) {
     core::Mesh mesh = lumpy_mesh(kTrianglesOfBody, core::splitmix64(seed + k)).value();
     double far = 0.0;
     for (const core::Vec3 v : mesh.vertices) far = std::max(far, static_cast<double>(core::length(v)));
@@ -60,7 +60,7 @@ continuous::MovingSurface moving_heap(std::uint64_t triangles, std::uint64_t see
   heap.name = "moving heap";
   heap.parts_meet_themselves = false;
   for (std::uint32_t b = 0; b < bodies; ++b) {
-    const core::Mesh& mesh = meshes[b % kShapes];
+    const core::Mesh& mesh = meshes[b % kShapeCount];
     const std::array<std::uint32_t, 3> at = {b % side, (b / side) % side, b / (side * side)};
     core::Vec3d place;
     core::Vec3d moved;

@@ -11,9 +11,9 @@ using core::Mesh;
 using core::Vec3;
 using Lattice = std::array<int, 3>;
 
-class Builder {
+class BoxBuilder {
  public:
-  Builder(std::array<double, 3> sides_m, Lattice segments) : sides_(sides_m), segments_(segments) {}
+  BoxBuilder(std::array<double, 3> sides_m, Lattice segments) : sides_(sides_m), segments_(segments) {}
 
   // The two faces across `axis`, each cell as two triangles that turn outward.
   void add_faces(int axis) {
@@ -75,7 +75,7 @@ core::Result<core::Mesh> box_mesh(std::array<double, 3> sides_m, std::array<int,
       return core::Error{"a side is cut into " + std::to_string(segments[k]) + " segments", "box mesh",
                          "give 1 to 1024 per axis"};
   }
-  Builder builder(sides_m, segments);
+  BoxBuilder builder(sides_m, segments);
   for (int axis = 0; axis < 3; ++axis) builder.add_faces(axis);
   Mesh mesh = builder.take();
   mesh.name = "box";

@@ -11,9 +11,9 @@ namespace broadside::datasets {
 namespace {
 
 // Lattice points of the octahedron |i| + |j| + |k| = f; the rim k = 0 exists once for each cap.
-class Builder {
+class CapsuleBuilder {
  public:
-  Builder(double radius_m, double half_length_m, int frequency)
+  CapsuleBuilder(double radius_m, double half_length_m, int frequency)
       : radius_(radius_m), half_length_(half_length_m), f_(frequency) {}
 
   core::Mesh take() {
@@ -78,7 +78,7 @@ core::Result<core::Mesh> capsule_mesh(double radius_m, double half_length_m, int
     return core::Error{"radius and half length must be finite and above 0", "capsule"};
   if (frequency < 2 || frequency > 512)
     return core::Error{"frequency is " + std::to_string(frequency), "capsule", "give 2 to 512"};
-  return Builder(radius_m, half_length_m, frequency).take();
+  return CapsuleBuilder(radius_m, half_length_m, frequency).take();
 }
 
 }  // namespace broadside::datasets

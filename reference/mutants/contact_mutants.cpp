@@ -43,7 +43,7 @@ void moved(Contact& c, float factor_a, float factor_b) {
   c.post_b.x = c.pre_b.x + factor_b * (c.post_b.x - c.pre_b.x);
 }
 
-std::span<const Mutant> table() {
+std::span<const Mutant> contact_table() {
   static const auto kTable = std::to_array<Mutant>({
       {"loses-a-contact",
        "the last pair of a frame that touches has no contact",
@@ -257,7 +257,7 @@ std::span<const Mutant> table() {
 }  // namespace
 
 std::span<const Mutant> contact_mutants() {
-  return table();
+  return contact_table();
 }
 
 }  // namespace broadside::reference

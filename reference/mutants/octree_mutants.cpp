@@ -11,7 +11,7 @@ using core::Box;
 using core::FrameRecord;
 using core::Vec3;
 
-std::span<const Mutant> table() {
+std::span<const Mutant> octree_table() {
   static const auto kTable = std::to_array<Mutant>({
       {"stores-one-level-high",
        "bodies are stored in the parent of their node",
@@ -93,7 +93,7 @@ std::span<const Mutant> table() {
 }  // namespace
 
 std::span<const Mutant> octree_mutants() {
-  return table();
+  return octree_table();
 }
 
 }  // namespace broadside::reference

@@ -75,7 +75,7 @@ float theta_of(const World& w, Pair p) {
 
 constexpr auto kEvery = [](Vec3, Vec3) { return true; };
 
-std::span<const Mutant> table() {
+std::span<const Mutant> pair_table() {
   static const auto kTable = std::to_array<Mutant>({
       {"drops-last-pair",
        "the last candidate of every frame is lost",
@@ -323,7 +323,7 @@ std::span<const Mutant> table() {
 }  // namespace
 
 std::span<const Mutant> pair_mutants() {
-  return table();
+  return pair_table();
 }
 
 }  // namespace broadside::reference

@@ -42,7 +42,7 @@ Vec3 spring_pull(const World& w, std::uint32_t body, float damping_factor) {
   return sum;
 }
 
-std::span<const Mutant> table() {
+std::span<const Mutant> state_table() {
   static const auto kTable = std::to_array<Mutant>({
       {"explicit-euler",
        "positions move with the velocity before gravity acted",
@@ -275,7 +275,7 @@ std::span<const Mutant> table() {
 }  // namespace
 
 std::span<const Mutant> state_mutants() {
-  return table();
+  return state_table();
 }
 
 }  // namespace broadside::reference

@@ -144,7 +144,7 @@ constexpr Respond kDividesByZero = [](const World&, const Application& a) {
   push_tangent(a, 0.0F);
 };
 
-std::span<const Mutant> table() {
+std::span<const Mutant> velocity_table() {
   static const auto kTable = std::to_array<Mutant>({
       {"bounces-below-threshold",
        "slow approaches bounce too",
@@ -283,7 +283,7 @@ std::span<const Mutant> table() {
 }  // namespace
 
 std::span<const Mutant> velocity_mutants() {
-  return table();
+  return velocity_table();
 }
 
 }  // namespace broadside::reference

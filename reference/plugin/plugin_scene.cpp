@@ -11,14 +11,14 @@ void to_c(float (&to)[3], core::Vec3 v) {
 
 static_assert(sizeof(core::Vec3) == 3 * sizeof(float) && sizeof(core::Triangle) == 3 * sizeof(std::uint32_t));
 
+}  // namespace
+
 broadside_mesh mesh_to_c(const core::Mesh& mesh) {
   return {.vertices = &mesh.vertices.data()->x,
           .vertex_count = mesh.vertices.size(),
           .triangles = mesh.triangles.data()->data(),
           .triangle_count = mesh.triangles.size()};
 }
-
-}  // namespace
 
 broadside_state state_to_c(core::Vec3 position, core::Quat orientation, core::Vec3 velocity, core::Vec3 angular) {
   broadside_state state{};

@@ -22,6 +22,7 @@ class PluginScene {
   broadside_scene scene_{};
 };
 
+broadside_mesh mesh_to_c(const core::Mesh& mesh);
 // Field by field: the C structs have no padding that could hide a difference.
 broadside_state state_to_c(core::Vec3 position, core::Quat orientation, core::Vec3 velocity, core::Vec3 angular);
 core::Vec3 vec3_from_c(const float (&v)[3]);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/scene/primitive.hpp"
+#include "reference/plugin/plugin_scene.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -41,13 +42,6 @@ broadside_shape shape_of(const core::Mesh& mesh) {
   const double along = primitive->half_extents[primitive->axis];
   shape.half_length = shape.kind == BROADSIDE_CAPSULE ? along - shape.radius : along;
   return shape;
-}
-
-broadside_mesh mesh_to_c(const core::Mesh& mesh) {
-  return {.vertices = &mesh.vertices.data()->x,
-          .vertex_count = mesh.vertices.size(),
-          .triangles = mesh.triangles.data()->data(),
-          .triangle_count = mesh.triangles.size()};
 }
 
 std::vector<broadside_wrench> wrenches_to_c(const core::Scene& scene) {

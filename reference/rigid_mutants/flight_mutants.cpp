@@ -34,7 +34,7 @@ void keep_spin(RigidBody& b, Vec spin) {
   b.angular_momentum = momentum_for(b, spin);
 }
 
-std::span<const RigidMutant> table() {
+std::span<const RigidMutant> flight_table() {
   static const auto kTable = std::to_array<RigidMutant>({
       {"does-nothing",
        "no body ever moves",
@@ -257,7 +257,7 @@ std::span<const RigidMutant> table() {
 }  // namespace
 
 std::span<const RigidMutant> flight_mutants() {
-  return table();
+  return flight_table();
 }
 
 std::unique_ptr<core::Dynamics> make_rigid_mutant(const RigidMutant& mutant, std::uint64_t run) {

@@ -52,7 +52,7 @@ void solve_for(StagedWorld& w, double (*least_speed)(const SolverPoint&, double 
   for (SolverPoint& p : w.points_) p.finish_solve();
 }
 
-std::span<const RigidMutant> table() {
+std::span<const RigidMutant> impulse_table() {
   static const auto kTable = std::to_array<RigidMutant>({
       {"one-sided-impulses",
        "impulses act on A alone",
@@ -263,7 +263,7 @@ std::span<const RigidMutant> table() {
 }  // namespace
 
 std::span<const RigidMutant> impulse_mutants() {
-  return table();
+  return impulse_table();
 }
 
 }  // namespace broadside::reference

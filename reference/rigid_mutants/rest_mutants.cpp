@@ -39,7 +39,7 @@ void touch_too_late(StagedPipeline& p) {
   p.sound_touch_bodies();
 }
 
-std::span<const RigidMutant> table() {
+std::span<const RigidMutant> rest_table() {
   static const auto kTable = [] {
     auto rows = std::to_array<RigidMutant>({
         {"twin: sleeps-in-the-air",
@@ -82,7 +82,7 @@ std::span<const RigidMutant> table() {
 }  // namespace
 
 std::span<const RigidMutant> rest_mutants() {
-  return table();
+  return rest_table();
 }
 
 }  // namespace broadside::reference

@@ -16,7 +16,7 @@ void for_points(FrameRecord& frame, const Change& change) {
   for (ContactPoint& p : frame.points) change(p);
 }
 
-std::span<const RigidMutant> table() {
+std::span<const RigidMutant> telling_table() {
   static const auto kTable = std::to_array<RigidMutant>({
       {"tells-flipped-normals",
        "normals are told from A to B",
@@ -121,7 +121,7 @@ std::span<const RigidMutant> table() {
 }  // namespace
 
 std::span<const RigidMutant> telling_mutants() {
-  return table();
+  return telling_table();
 }
 
 }  // namespace broadside::reference

@@ -27,7 +27,7 @@ void change_points(StagedWorld& w, double h, const Change& change) {
   for (SolverPoint& p : w.points_) change(p);
 }
 
-std::span<const RigidMutant> table() {
+std::span<const RigidMutant> touch_table() {
   static const auto kTable = std::to_array<RigidMutant>({
       {"ignores-a-pair",
        "the lower two of the stack never touch",
@@ -162,7 +162,7 @@ std::span<const RigidMutant> table() {
 }  // namespace
 
 std::span<const RigidMutant> touch_mutants() {
-  return table();
+  return touch_table();
 }
 
 }  // namespace broadside::reference

@@ -10,7 +10,7 @@ namespace {
 // 2048 counters of 4 bytes and as many open destinations: the most that fit a core's L1 and TLB.
 constexpr int kMostDigitBits = 11;
 // Under this, comparison sorting wins over clearing and summing the counters.
-constexpr std::size_t kSmall = 512;
+constexpr std::size_t kFewEntries = 512;
 
 struct Digit {
   unsigned shift;
@@ -37,7 +37,7 @@ void scatter(std::span<const KeyedId> from, KeyedId* to, Digit d, std::uint32_t*
 }  // namespace
 
 void sort_by_key(std::span<KeyedId> entries, std::span<KeyedId> scratch, int key_bits) {
-  if (entries.size() <= kSmall) {
+  if (entries.size() <= kFewEntries) {
     // Keys have no bits above key_bits, and ids of equal keys are already in order.
     std::sort(entries.begin(), entries.end());
     return;

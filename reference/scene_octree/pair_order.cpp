@@ -10,7 +10,7 @@ namespace broadside::reference {
 namespace {
 
 // Below this, one std::sort on one core is faster than starting the workers.
-constexpr std::size_t kSmall = 2048;
+constexpr std::size_t kFewPairs = 2048;
 // Buckets aim at 16 Ki pairs, 128 KiB: half of a common 256 KiB L2, since source and destination are both live.
 constexpr std::size_t kPairsPerBucket = std::size_t{1} << 14U;
 // More destinations than this and the dealing pass misses the TLB on every write.
@@ -53,7 +53,7 @@ void PairOrder::order(std::span<const std::span<const core::Pair>> blocks, std::
   std::size_t total = 0;
   for (const auto block : blocks) total += block.size();
   out.resize(total);
-  if (total <= kSmall) {
+  if (total <= kFewPairs) {
     core::Pair* to = out.data();
     for (const auto block : blocks) to = std::copy(block.begin(), block.end(), to);
     std::sort(out.begin(), out.end(), [](core::Pair a, core::Pair b) { return core::pair_key(a) < core::pair_key(b); });

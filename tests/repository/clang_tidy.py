@@ -6,11 +6,13 @@ sources that include it are left to --all, which .ci/nightly takes. Exit codes: 
 clang-tidy or the list of compile commands is absent.
 """
 
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -20,6 +22,7 @@ VERSION = "14"
 FOLDERS = ("core/", "reference/", "validation/", "datasets/", "reports/", "bench/")
 # Not compiled by the presets that have no CUDA, or built against an installed tree.
 LEFT_OUT = re.compile(r"/examples/|^bench/benchmarks/")
+INCLUDED = re.compile(r'^#include "(.+)"$', re.MULTILINE)
 FINDING = re.compile(r"^(/\S+?):(\d+):\d+: (?:warning|error): (.+)$", re.MULTILINE)
 
 
@@ -43,6 +46,18 @@ def sources_of(names, paths):
     """The sources to look at when these files changed."""
     candidates = {re.sub(r"\.hpp$", ".cpp", name) for name in names if name.endswith((".cpp", ".hpp"))}
     return sorted(name for name in candidates & set(paths) if name.startswith(FOLDERS) and not LEFT_OUT.search(name))
+
+
+def commands_of_files(build):
+    """The compile commands, with one for each file that a unit of several includes."""
+    commands = []
+    for command in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        unit = Path(command["directory"]) / command["file"]
+        files = [command["file"]]
+        if unit.parent.name == "Unity" and unit.exists():
+            files = INCLUDED.findall(unit.read_text(encoding="utf-8"))
+        commands += [{**command, "file": file, "command": command["command"].replace(command["file"], file)} for file in files]
+    return commands
 
 
 def findings(program, root, build, name):
@@ -70,8 +85,9 @@ def main(root, build, *what):
         names = sources_of(changed + git(root, "ls-files", "-o", "--exclude-standard").splitlines(), paths)
         print(f"{len(names)} sources changed since {since}")
     found = set()
-    with ThreadPoolExecutor(os.cpu_count()) as workers:
-        for more in workers.map(lambda name: findings(program, root, build, name), names):
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as workers:
+        (Path(folder) / "compile_commands.json").write_text(json.dumps(commands_of_files(build)), encoding="utf-8")
+        for more in workers.map(lambda name: findings(program, root, folder, name), names):
             for line in sorted(more - found):
                 print(line, flush=True)
             found |= more

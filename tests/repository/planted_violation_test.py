@@ -190,6 +190,18 @@ class PlantedViolation(unittest.TestCase):
         self.assertEqual(1, len(found), found)
         self.assertIn("core/a.cpp:2: invalid case style for variable 'BadName'", found.pop())
 
+    def test_files_of_a_unit_have_commands_of_their_own(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            build = Path(scratch).resolve()
+            (build / "Unity").mkdir()
+            unit = str(build / "Unity/unit_0.cxx")
+            Path(unit).write_text('#include "/a.cpp"\n\n#include "/b.cpp"\n', encoding="utf-8")
+            (build / "compile_commands.json").write_text(json.dumps(
+                [{"directory": str(build), "file": file, "command": f"c++ -O1 -c {file}"} for file in (unit, "/c.cpp")]), encoding="utf-8")
+            commands = clang_tidy.commands_of_files(build)
+        self.assertEqual([("/a.cpp", "c++ -O1 -c /a.cpp"), ("/b.cpp", "c++ -O1 -c /b.cpp"), ("/c.cpp", "c++ -O1 -c /c.cpp")],
+                         [(command["file"], command["command"]) for command in commands])
+
     def test_workflow_that_the_forge_cannot_run(self):
         def workflow(step, head="on: push"):
             text = f"name: a\n{head}\njobs:\n  b:\n    runs-on: c\n    timeout-minutes: 5\n    steps:\n      - {step}\n"

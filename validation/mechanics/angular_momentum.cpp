@@ -91,7 +91,7 @@ class AngularMomentum final : public Validator {
   Tally tally_{"angular-momentum", "angular momenta", kOrigin};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_angular_momentum(const Subject& subject) {
   if (std::string text = lacking_impulses(subject.header); !text.empty()) return text;
   return subject.header.scene.motion == core::Motion::kTranslate ? "the scene's bodies translate only" : "";
 }
@@ -105,7 +105,7 @@ ValidatorRow angular_momentum_row() {
       "torque from nowhere; points 10 cm off",
       core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints),
       0,
-      why_not,
+      why_not_angular_momentum,
       [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<AngularMomentum>(subject); },
       false,
       true};

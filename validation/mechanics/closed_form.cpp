@@ -50,7 +50,7 @@ class ClosedForm final : public Validator {
   Tally tally_{"closed-form", "errors against the exact answer", kOrigin};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_closed_form(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   const std::string& name = subject.header.scene.answer;
   if (name.empty()) return "the scene has no exact answer";
@@ -67,7 +67,7 @@ ValidatorRow closed_form_row() {
           "whatever is wrong and consistent",
           core::bit(core::Group::kBodies),
           0,
-          why_not,
+          why_not_closed_form,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<ClosedForm>(subject); },
           false,
           true};

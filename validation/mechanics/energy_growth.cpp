@@ -158,7 +158,7 @@ class EnergyGrowth final : public Validator {
   Tally tally_{"energy-growth", "changes of energy", kOrigin};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_energy_growth(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   if (subject.header.declaration.follows_method()) return "energy judges the work of each stage of the method";
   return {};
@@ -172,7 +172,7 @@ ValidatorRow energy_growth_row() {
           "restitution above 1; energy + 0.1 % a frame; exploding stacks",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints) | core::bit(core::Group::kContacts),
           0,
-          why_not,
+          why_not_energy_growth,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<EnergyGrowth>(subject); },
           false,
           true};

@@ -74,7 +74,7 @@ class Gyroscopic final : public Validator {
   Tally tally_{"gyroscopic", "angular momenta of free flight", kOrigin};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_gyroscopic(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   return subject.header.scene.motion == core::Motion::kTranslate ? "the scene's bodies translate only" : "";
 }
@@ -87,7 +87,7 @@ ValidatorRow gyroscopic_row() {
           "no gyroscopic torque; a sphere's inertia for a brick; w + 1 %/s",
           core::bit(core::Group::kBodies),
           0,
-          why_not,
+          why_not_gyroscopic,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Gyroscopic>(subject); },
           false,
           true};

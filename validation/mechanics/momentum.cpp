@@ -129,7 +129,7 @@ class Momentum final : public Validator {
   Tally tally_{"momentum", "momenta", kOfBodies};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_momentum(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   // METHOD clips velocities, and center-of-mass judges each of its applications.
   if (subject.header.declaration.follows_method()) return "center-of-mass judges each application of the method";
@@ -144,7 +144,7 @@ ValidatorRow momentum_row() {
           "an impulse on one side only; invented or lost momentum",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints),
           0,
-          why_not,
+          why_not_momentum,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Momentum>(subject); },
           false,
           true,

@@ -13,8 +13,8 @@ namespace broadside::validation {
 namespace {
 
 // Shares of the smaller body's smallest side.
-constexpr double kClassB = 0.05;
-constexpr double kClassC = 0.5;
+constexpr double kClassBShare = 0.05;
+constexpr double kClassCShare = 0.5;
 
 class Penetration final : public Validator {
  public:
@@ -34,7 +34,8 @@ class Penetration final : public Validator {
   }
 
   core::Verdict conclude() override {
-    const char* name = worst_share_ > kClassC ? "below C" : (worst_share_ > kClassB ? "C" : (is_beyond_a_ ? "B" : "A"));
+    const char* name =
+        worst_share_ > kClassCShare ? "below C" : (worst_share_ > kClassBShare ? "C" : (is_beyond_a_ ? "B" : "A"));
     return tally_.conclude("no two bodies with convex shapes came near each other, and none the ground",
                            std::string("class ") + name);
   }
@@ -100,7 +101,8 @@ class Penetration final : public Validator {
 
   // Whether the depth, of which only a bound is known, changes nothing in the verdict.
   bool holds_at_most(const Motion& m, double bound, double size, double approach) {
-    return (is_beyond_a_ || bound <= class_a(m, approach)) && tally_.check_bound(std::max(0.0, bound), kClassC * size);
+    return (is_beyond_a_ || bound <= class_a(m, approach)) &&
+           tally_.check_bound(std::max(0.0, bound), kClassCShare * size);
   }
 
   // depth_at_start(): at the start of the step.
@@ -111,8 +113,8 @@ class Penetration final : public Validator {
     const double share = depth / size;
     const std::pair bodies(where.bodies[0], where.bodies[1]);
     // What the scene itself put so deep may stay so.
-    if (m.step == 1 && share > kClassC)
-      if (const double start = depth_at_start(); start > kClassC * size) given_[bodies] = start + approach;
+    if (m.step == 1 && share > kClassCShare)
+      if (const double start = depth_at_start(); start > kClassCShare * size) given_[bodies] = start + approach;
     const auto given = given_.find(bodies);
     if (given != given_.end() && depth <= given->second) {
       tally_.check(depth, {given->second, "m", kGiven}, where);
@@ -120,7 +122,7 @@ class Penetration final : public Validator {
     }
     worst_share_ = std::max(worst_share_, share);
     is_beyond_a_ = is_beyond_a_ || depth > class_a(m, approach);
-    tally_.check(depth, {kClassC * size, "m", kOrigin}, where, [&] {
+    tally_.check(depth, {kClassCShare * size, "m", kOrigin}, where, [&] {
       return "a depth of " + number_text(depth) + " m is " + number_text(100.0 * share) + " % of the smaller body";
     });
   }
@@ -139,7 +141,7 @@ class Penetration final : public Validator {
   Tally tally_{"penetration", "overlaps", kOrigin};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_penetration(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   // How much of a depth an application corrects is a parameter of the scene there.
   if (subject.header.declaration.follows_method()) return "contraction judges each correction of the method";
@@ -154,7 +156,7 @@ ValidatorRow penetration_row() {
           "a body 3 m under the floor; an ignored pair",
           core::bit(core::Group::kBodies),
           0,
-          why_not,
+          why_not_penetration,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Penetration>(subject); },
           false,
           true};

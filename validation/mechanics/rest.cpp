@@ -64,7 +64,7 @@ class Rest final : public Validator {
   Tally tally_{"rest", "displacements", kOrigin};
 };
 
-std::string why_not(const Subject& subject) {
+std::string why_not_rest(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   return subject.header.scene.answer == kStands ? "" : "the scene does not say that it stands";
 }
@@ -77,7 +77,7 @@ ValidatorRow rest_row() {
           "a stack that creeps 1 mm/s; a collapse",
           core::bit(core::Group::kBodies),
           0,
-          why_not,
+          why_not_rest,
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Rest>(subject); },
           false,
           true};

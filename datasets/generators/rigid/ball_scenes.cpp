@@ -9,59 +9,59 @@ namespace {
 
 using core::Scene;
 
-constexpr double kStep_s = 1.0 / 480.0;
-constexpr double kMore = 1.01;  // a threshold and 1 %
-constexpr double kRadius_m = 0.5;
+constexpr double kBallStep_s = 1.0 / 480.0;
+constexpr double kBallMore = 1.01;  // a threshold and 1 %
+constexpr double kBallRadius_m = 0.5;
 
 Scene slip_to_roll() {
-  Scene scene = rigid_scene("slip-to-roll", kStep_s, 1.0);
-  add_ball(scene, kRadius_m, {0, 0.5F, 0}).velocity = {3.5F, 0, 0};
+  Scene scene = rigid_scene("slip-to-roll", kBallStep_s, 1.0);
+  add_ball(scene, kBallRadius_m, {0, 0.5F, 0}).velocity = {3.5F, 0, 0};
   set_surfaces(scene, 0.4, 0.0);
   return scene;
 }
 
 // tan(theta) = 1/2: rolls iff mu >= 2/7 tan(theta).
 Scene on_slope(double friction) {
-  Scene scene = rigid_scene("roll-incline", kStep_s, 1.5);
+  Scene scene = rigid_scene("roll-incline", kBallStep_s, 1.5);
   const Slope slope = slope_of(0.5);
-  add_ball(scene, kRadius_m, static_cast<float>(kRadius_m) * slope.normal);
+  add_ball(scene, kBallRadius_m, static_cast<float>(kBallRadius_m) * slope.normal);
   add_slope(scene, slope);
   set_surfaces(scene, friction, 0.0);
   return scene;
 }
 Scene rolls() {
-  return on_slope(1.0 / 7.0 * kMore);
+  return on_slope(1.0 / 7.0 * kBallMore);
 }
 Scene slips() {
-  return on_slope(1.0 / 7.0 / kMore);
+  return on_slope(1.0 / 7.0 / kBallMore);
 }
 
 // No gravity, so that the one impact is all there is: (3, -4) m/s on the floor with e = 1/2.
 Scene oblique(double friction) {
-  Scene scene = rigid_scene("oblique-bounce", kStep_s, 0.5);
+  Scene scene = rigid_scene("oblique-bounce", kBallStep_s, 0.5);
   scene.gravity_m_s2 = {};
-  add_ball(scene, kRadius_m, {0, 1.5F, 0}).velocity = {3, -4, 0};
+  add_ball(scene, kBallRadius_m, {0, 1.5F, 0}).velocity = {3, -4, 0};
   set_surfaces(scene, friction, 0.5);
   return scene;
 }
 // The threshold is mu (1 + e) v_n = 2/7 v_t: mu = 1/7.
 Scene oblique_rolls() {
-  return oblique(1.0 / 7.0 * kMore);
+  return oblique(1.0 / 7.0 * kBallMore);
 }
 Scene oblique_slips() {
-  return oblique(1.0 / 7.0 / kMore);
+  return oblique(1.0 / 7.0 / kBallMore);
 }
 
 // Rests after sqrt(2 h / g) (1 + e) / (1 - e) = 4.5 s; every approach bounces.
 Scene bounce() {
-  Scene scene = rigid_scene("bounce", kStep_s, 4.0);
-  add_ball(scene, kRadius_m, {0, 2.5F, 0});
+  Scene scene = rigid_scene("bounce", kBallStep_s, 4.0);
+  add_ball(scene, kBallRadius_m, {0, 2.5F, 0});
   set_surfaces(scene, 0.5, 0.75);
   scene.parameters.v_threshold_m_s = 0.0F;
   return scene;
 }
 
-constexpr std::array<SmallSceneRow, 6> kRows{{
+constexpr std::array<SmallSceneRow, 6> kBallRows{{
     {"rigid:sphere:slip-to-roll", "a ball starts to slip and rolls from 2 v0 / (7 mu g) on at 5/7 v0", slip_to_roll},
     {"rigid:sphere:roll-incline", "a ball on a plane, mu 1 % above 2/7 tan(theta): 5/7 g sin(theta)", rolls},
     {"rigid:sphere:slip-incline", "a ball on a plane, mu 1 % below 2/7 tan(theta): g (sin - mu cos)", slips},
@@ -74,7 +74,7 @@ constexpr std::array<SmallSceneRow, 6> kRows{{
 }  // namespace
 
 std::span<const SmallSceneRow> ball_scenes() {
-  return kRows;
+  return kBallRows;
 }
 
 }  // namespace broadside::datasets

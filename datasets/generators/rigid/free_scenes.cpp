@@ -56,7 +56,7 @@ Scene wound_up() {
   return scene;
 }
 
-constexpr std::array<SmallSceneRow, 5> kRows{{
+constexpr std::array<SmallSceneRow, 5> kFreeRows{{
     {"rigid:flight:box", "a box thrown, turning: x0 + v0 t + g t^2 / 2", thrown},
     {"rigid:flight:pushed", "a ball pushed by a constant force in flight", pushed},
     {"rigid:torque-free:box", "a free brick that starts near its middle axis: Jacobi's functions, period 6.05684 s",
@@ -68,7 +68,7 @@ constexpr std::array<SmallSceneRow, 5> kRows{{
 }  // namespace
 
 std::span<const SmallSceneRow> free_scenes() {
-  return kRows;
+  return kFreeRows;
 }
 
 }  // namespace broadside::datasets

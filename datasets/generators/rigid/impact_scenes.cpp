@@ -10,11 +10,11 @@ namespace {
 
 using core::Scene;
 
-constexpr double kStep_s = 1.0 / 480.0;
-constexpr float kRadius_m = 0.25F;
+constexpr double kImpactStep_s = 1.0 / 480.0;
+constexpr float kImpactRadius_m = 0.25F;
 
 Scene weightless(std::string answer, double seconds) {
-  Scene scene = rigid_scene(std::move(answer), kStep_s, seconds);
+  Scene scene = rigid_scene(std::move(answer), kImpactStep_s, seconds);
   scene.gravity_m_s2 = {};
   return scene;
 }
@@ -36,8 +36,8 @@ Scene rod() {
 // Elastic smooth balls of one mass; the first comes with 2 m/s along x, `offset_m` beside the center of the second.
 Scene two_balls(float offset_m) {
   Scene scene = weightless("billiards", 1.0);
-  add_ball(scene, kRadius_m, {-1, 10, 0}).velocity = {2, 0, 0};
-  add_ball(scene, kRadius_m, {0, 10 - offset_m, 0});
+  add_ball(scene, kImpactRadius_m, {-1, 10, 0}).velocity = {2, 0, 0};
+  add_ball(scene, kImpactRadius_m, {0, 10 - offset_m, 0});
   set_surfaces(scene, 0.0, 1.0);
   return scene;
 }
@@ -51,14 +51,14 @@ Scene off_center() {
 // Onto two that touch each other, in the middle: -1/5 of the speed is left, each takes 2/5 sqrt(3).
 Scene three_balls() {
   Scene scene = weightless("three-balls", 1.0);
-  add_ball(scene, kRadius_m, {-1, 10, 0}).velocity = {2, 0, 0};
-  add_ball(scene, kRadius_m, {0, 10.25F, 0});
-  add_ball(scene, kRadius_m, {0, 9.75F, 0});
+  add_ball(scene, kImpactRadius_m, {-1, 10, 0}).velocity = {2, 0, 0};
+  add_ball(scene, kImpactRadius_m, {0, 10.25F, 0});
+  add_ball(scene, kImpactRadius_m, {0, 9.75F, 0});
   set_surfaces(scene, 0.0, 1.0);
   return scene;
 }
 
-constexpr std::array<SmallSceneRow, 4> kRows{{
+constexpr std::array<SmallSceneRow, 4> kImpactRows{{
     {"rigid:rod:end-impact", "a slanted rod meets the floor: J = (1 + e) m v / (1 + 3 cos^2 phi)", rod},
     {"rigid:billiards:central", "two equal elastic balls head on: they change velocities", central},
     {"rigid:billiards:off-center", "two equal elastic balls off center: they part at a right angle", off_center},
@@ -68,7 +68,7 @@ constexpr std::array<SmallSceneRow, 4> kRows{{
 }  // namespace
 
 std::span<const SmallSceneRow> impact_scenes() {
-  return kRows;
+  return kImpactRows;
 }
 
 }  // namespace broadside::datasets

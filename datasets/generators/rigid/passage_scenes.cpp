@@ -42,7 +42,7 @@ Scene bullet() {
   return scene;
 }
 
-constexpr std::array<SmallSceneRow, 3> kRows{{
+constexpr std::array<SmallSceneRow, 3> kPassageRows{{
     {"rigid:two-spheres:fast", "a ball of 0.1 m at 200 m/s meets another one at 1/60 s a step", fast_balls},
     {"rigid:needle-through-plate", "the tip of a spinning needle meets a plate of 2 cm", needle},
     {"rigid:bullet-through-cards", "a bullet at 300 m/s meets ten cards of 3 mm: reported; passage", bullet},
@@ -51,7 +51,7 @@ constexpr std::array<SmallSceneRow, 3> kRows{{
 }  // namespace
 
 std::span<const SmallSceneRow> passage_scenes() {
-  return kRows;
+  return kPassageRows;
 }
 
 }  // namespace broadside::datasets

@@ -53,7 +53,7 @@ Scene disk() {
   return scene;
 }
 
-constexpr std::array<SmallSceneRow, 3> kRows{{
+constexpr std::array<SmallSceneRow, 3> kReportedRows{{
     {"rigid:painleve:rod", "a rough rod slides on its tip, mu = 2: reported; no NaN, no energy gained", painleve},
     {"rigid:billiards:cradle", "a ball onto four in a row: reported, since the rule of impact decides", cradle},
     {"rigid:disk:euler", "a leaning coin that rolls on its rim: reported", disk},
@@ -62,7 +62,7 @@ constexpr std::array<SmallSceneRow, 3> kRows{{
 }  // namespace
 
 std::span<const SmallSceneRow> reported_scenes() {
-  return kRows;
+  return kReportedRows;
 }
 
 }  // namespace broadside::datasets

@@ -10,13 +10,13 @@ namespace {
 
 using core::Scene;
 
-constexpr double kStep_s = 1.0 / 240.0;
-constexpr double kMore = 1.01;  // a threshold and 1 %
-constexpr double kG = 9.81;     // of kGravity
+constexpr double kSlopeStep_s = 1.0 / 240.0;
+constexpr double kSlopeMore = 1.01;  // a threshold and 1 %
+constexpr double kG = 9.81;          // of kGravity
 
 // A flat box on a plane of this slope.
 Scene on_slope(std::string answer, double tangent, double friction, std::array<double, 3> sides, double seconds) {
-  Scene scene = rigid_scene(std::move(answer), kStep_s, seconds);
+  Scene scene = rigid_scene(std::move(answer), kSlopeStep_s, seconds);
   const Slope slope = slope_of(tangent);
   add_box(scene, sides, static_cast<float>(0.5 * sides[1]) * slope.normal).orientation = slope.orientation;
   add_slope(scene, slope);
@@ -28,25 +28,25 @@ constexpr std::array<double, 3> kFlat{1.0, 0.25, 1.0};
 
 // tan(theta) = 1/2.
 Scene slides() {
-  return on_slope("incline", 0.5, 0.5 / kMore, kFlat, 2.0);
+  return on_slope("incline", 0.5, 0.5 / kSlopeMore, kFlat, 2.0);
 }
 Scene sticks() {
-  return on_slope("stands", 0.5, 0.5 * kMore, kFlat, 4.0);
+  return on_slope("stands", 0.5, 0.5 * kSlopeMore, kFlat, 4.0);
 }
 
 constexpr std::array<double, 3> kTall{0.5, 1.0, 0.5};  // b / h = 1/2
 constexpr double kRough = 1.0;
 
 Scene tips_on_slope() {
-  return on_slope("falls", 0.5 * kMore, kRough, kTall, 3.0);
+  return on_slope("falls", 0.5 * kSlopeMore, kRough, kTall, 3.0);
 }
 Scene stands_on_slope() {
-  return on_slope("stands", 0.5 / kMore, kRough, kTall, 3.0);
+  return on_slope("stands", 0.5 / kSlopeMore, kRough, kTall, 3.0);
 }
 
 // Pushed at its center of mass along x, on the floor.
 Scene pushed(std::string answer, double share_of_weight, double friction) {
-  Scene scene = rigid_scene(std::move(answer), kStep_s, 3.0);
+  Scene scene = rigid_scene(std::move(answer), kSlopeStep_s, 3.0);
   add_box(scene, kTall, {0, 0.5F, 0});
   set_surfaces(scene, friction, 0.0);
   scene.wrenches = {{0, core::WrenchAxes::kWorld, {static_cast<float>(share_of_weight * kG), 0, 0}, {}}};
@@ -54,10 +54,10 @@ Scene pushed(std::string answer, double share_of_weight, double friction) {
 }
 
 Scene tips() {
-  return pushed("falls", 0.5 * kMore, kRough);
+  return pushed("falls", 0.5 * kSlopeMore, kRough);
 }
 Scene does_not_tip() {
-  return pushed("stands", 0.5 / kMore, kRough);
+  return pushed("stands", 0.5 / kSlopeMore, kRough);
 }
 // mu < b / h: it slides before it would tip.
 Scene slides_first() {
@@ -66,8 +66,8 @@ Scene slides_first() {
 
 // v0^2 / (2 mu g) in every heading: 4 m/s, mu = 1/2.
 template <std::uint32_t heading>
-Scene slide() {
-  Scene scene = rigid_scene("slide", kStep_s, 1.25);
+Scene slide_heading() {
+  Scene scene = rigid_scene("slide", kSlopeStep_s, 1.25);
   const Turn turn = part_of_circle(heading, 16);
   add_box(scene, kFlat, {0, 0.125F, 0}).velocity = {static_cast<float>(4.0 * turn.cosine), 0,
                                                     static_cast<float>(4.0 * turn.sine)};
@@ -91,7 +91,7 @@ Scene ladder() {
   return scene;
 }
 
-constexpr std::array<SmallSceneRow, 24> kRows{{
+constexpr std::array<SmallSceneRow, 24> kSlopeRows{{
     {"rigid:incline:slide", "a box on a plane with mu 1 % below tan(theta): g (sin - mu cos)", slides},
     {"rigid:incline:stick", "a box on a plane with mu 1 % above tan(theta): it rests", sticks},
     {"rigid:tip:incline-tips", "a tall box on a plane 1 % steeper than b / h: it tips", tips_on_slope},
@@ -100,28 +100,28 @@ constexpr std::array<SmallSceneRow, 24> kRows{{
     {"rigid:tip:push-stands", "a tall box pushed 1 % less than m g b / h: it stands", does_not_tip},
     {"rigid:tip:push-slides", "a tall box pushed where mu < b / h: it slides upright", slides_first},
     {"rigid:ladder", "a ladder on a smooth wall and floor: leaves the wall at two thirds of its sine", ladder},
-    {"rigid:slide:heading-0", "a box slides v0^2 / (2 mu g) along x", slide<0>},
-    {"rigid:slide:heading-1", "the same at 1/16 of the circle", slide<1>},
-    {"rigid:slide:heading-2", "the same at 2/16 of the circle", slide<2>},
-    {"rigid:slide:heading-3", "the same at 3/16 of the circle", slide<3>},
-    {"rigid:slide:heading-4", "the same at 4/16 of the circle", slide<4>},
-    {"rigid:slide:heading-5", "the same at 5/16 of the circle", slide<5>},
-    {"rigid:slide:heading-6", "the same at 6/16 of the circle", slide<6>},
-    {"rigid:slide:heading-7", "the same at 7/16 of the circle", slide<7>},
-    {"rigid:slide:heading-8", "the same at 8/16 of the circle", slide<8>},
-    {"rigid:slide:heading-9", "the same at 9/16 of the circle", slide<9>},
-    {"rigid:slide:heading-10", "the same at 10/16 of the circle", slide<10>},
-    {"rigid:slide:heading-11", "the same at 11/16 of the circle", slide<11>},
-    {"rigid:slide:heading-12", "the same at 12/16 of the circle", slide<12>},
-    {"rigid:slide:heading-13", "the same at 13/16 of the circle", slide<13>},
-    {"rigid:slide:heading-14", "the same at 14/16 of the circle", slide<14>},
-    {"rigid:slide:heading-15", "the same at 15/16 of the circle", slide<15>},
+    {"rigid:slide:heading-0", "a box slides v0^2 / (2 mu g) along x", slide_heading<0>},
+    {"rigid:slide:heading-1", "the same at 1/16 of the circle", slide_heading<1>},
+    {"rigid:slide:heading-2", "the same at 2/16 of the circle", slide_heading<2>},
+    {"rigid:slide:heading-3", "the same at 3/16 of the circle", slide_heading<3>},
+    {"rigid:slide:heading-4", "the same at 4/16 of the circle", slide_heading<4>},
+    {"rigid:slide:heading-5", "the same at 5/16 of the circle", slide_heading<5>},
+    {"rigid:slide:heading-6", "the same at 6/16 of the circle", slide_heading<6>},
+    {"rigid:slide:heading-7", "the same at 7/16 of the circle", slide_heading<7>},
+    {"rigid:slide:heading-8", "the same at 8/16 of the circle", slide_heading<8>},
+    {"rigid:slide:heading-9", "the same at 9/16 of the circle", slide_heading<9>},
+    {"rigid:slide:heading-10", "the same at 10/16 of the circle", slide_heading<10>},
+    {"rigid:slide:heading-11", "the same at 11/16 of the circle", slide_heading<11>},
+    {"rigid:slide:heading-12", "the same at 12/16 of the circle", slide_heading<12>},
+    {"rigid:slide:heading-13", "the same at 13/16 of the circle", slide_heading<13>},
+    {"rigid:slide:heading-14", "the same at 14/16 of the circle", slide_heading<14>},
+    {"rigid:slide:heading-15", "the same at 15/16 of the circle", slide_heading<15>},
 }};
 
 }  // namespace
 
 std::span<const SmallSceneRow> slope_scenes() {
-  return kRows;
+  return kSlopeRows;
 }
 
 }  // namespace broadside::datasets

@@ -11,26 +11,26 @@ namespace {
 
 using core::Scene;
 
-constexpr double kStep_s = 1.0 / 60.0;
+constexpr double kStructureStep_s = 1.0 / 60.0;
 constexpr double kMinute_s = 60.0;
-constexpr double kMore = 1.01;  // a threshold and 1 %
+constexpr double kStructureMore = 1.01;  // a threshold and 1 %
 constexpr double kPi = 3.14159265358979323846;
 
-Scene stack(std::uint32_t count, double top_mass_kg) {
-  Scene scene = rigid_scene("stands", kStep_s, kMinute_s);
+Scene blocks_stacked(std::uint32_t count, double top_mass_kg) {
+  Scene scene = rigid_scene("stands", kStructureStep_s, kMinute_s);
   for (std::uint32_t k = 0; k < count; ++k)
     add_box(scene, {1.0, 1.0, 1.0}, {0, 0.5F + static_cast<float>(k), 0}, k + 1 == count ? top_mass_kg : 1.0);
   set_surfaces(scene, 0.5, 0.0);
   return scene;
 }
 Scene stack_5() {
-  return stack(5, 1.0);
+  return blocks_stacked(5, 1.0);
 }
 Scene stack_20() {
-  return stack(20, 1.0);
+  return blocks_stacked(20, 1.0);
 }
 Scene heavy_on_light() {
-  return stack(2, 1000.0);
+  return blocks_stacked(2, 1000.0);
 }
 
 // Two cards cut upright where they meet and level where they stand, 25 degrees from upright. With the push at the top
@@ -56,10 +56,10 @@ Scene tent(double share, std::string answer) {
   return scene;
 }
 Scene tent_stands() {
-  return tent(kMore, "stands");
+  return tent(kStructureMore, "stands");
 }
 Scene tent_falls() {
-  return tent(1.0 / kMore, "falls");
+  return tent(1.0 / kStructureMore, "falls");
 }
 
 // Books over the edge of a table, each at most L / (2 i) beyond the one below, the i-th from the top.
@@ -78,10 +78,10 @@ Scene overhang(std::uint32_t books, double share, std::string answer) {
   return scene;
 }
 Scene overhang_stands() {
-  return overhang(5, 1.0 / kMore, "stands");
+  return overhang(5, 1.0 / kStructureMore, "stands");
 }
 Scene overhang_falls() {
-  return overhang(5, kMore, "falls");
+  return overhang(5, kStructureMore, "falls");
 }
 
 // A semicircular arch of n stones with radial joints and straight sides, its middle line of 1 m radius. The least
@@ -110,19 +110,19 @@ Scene arch(std::uint32_t stones, double thickness, std::string answer, double se
   return scene;
 }
 Scene arch_25_stands() {
-  return arch(25, 0.10696 * kMore, "stands", 10.0);
+  return arch(25, 0.10696 * kStructureMore, "stands", 10.0);
 }
 Scene arch_25_falls() {
-  return arch(25, 0.10696 / kMore, "falls", 10.0);
+  return arch(25, 0.10696 / kStructureMore, "falls", 10.0);
 }
 Scene arch_7_stands() {
-  return arch(7, 0.09570 * kMore, "stands", 5.0);
+  return arch(7, 0.09570 * kStructureMore, "stands", 5.0);
 }
 Scene arch_7_falls() {
-  return arch(7, 0.09570 / kMore, "falls", 5.0);
+  return arch(7, 0.09570 / kStructureMore, "falls", 5.0);
 }
 
-constexpr std::array<SmallSceneRow, 11> kRows{{
+constexpr std::array<SmallSceneRow, 11> kStructureRows{{
     {"rigid:stack:5", "five cubes stand for a minute", stack_5},
     {"rigid:stack:20", "twenty cubes stand for a minute", stack_20},
     {"rigid:stack:1000-on-1", "1000 kg on 1 kg stands for a minute", heavy_on_light},
@@ -140,7 +140,7 @@ constexpr std::array<SmallSceneRow, 11> kRows{{
 }  // namespace
 
 std::span<const SmallSceneRow> structure_scenes() {
-  return kRows;
+  return kStructureRows;
 }
 
 }  // namespace broadside::datasets

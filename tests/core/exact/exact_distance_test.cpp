@@ -18,14 +18,14 @@ namespace {
 // barycentric coordinates of a flat triangle (height down to 1e-2 of its length) divide by.
 constexpr double kTolerance = 1e-10;
 
-double length(Point a) {
+double norm(Point a) {
   return std::sqrt(dot(a, a));
 }
 
 double distance_to_segment(Point p, Point a, Point b) {
   const Point u = b - a;
   const double t = dot(u, u) > 0.0 ? std::clamp(dot(p - a, u) / dot(u, u), 0.0, 1.0) : 0.0;
-  return length(p - (a + t * u));
+  return norm(p - (a + t * u));
 }
 
 // By barycentric coordinates; by its sides where its area is nearly zero.
@@ -39,13 +39,13 @@ bool lies_in(Point p, const Corners& t) {
   if (!(determinant > 1e-12)) return false;
   const double s = (dot(w, u) * dot(v, v) - dot(w, v) * dot(u, v)) / determinant;
   const double r = (dot(w, v) * dot(u, u) - dot(w, u) * dot(u, v)) / determinant;
-  return s > -kTolerance && r > -kTolerance && s + r < 1.0 + kTolerance && length(w - (s * u + r * v)) < kTolerance;
+  return s > -kTolerance && r > -kTolerance && s + r < 1.0 + kTolerance && norm(w - (s * u + r * v)) < kTolerance;
 }
 
 testing::AssertionResult is_certified(const Corners& a, const Corners& b, const Nearest& found) {
   if (!lies_in(found.on_a, a)) return testing::AssertionFailure() << "the first point is not in its triangle";
   if (!lies_in(found.on_b, b)) return testing::AssertionFailure() << "the second point is not in its triangle";
-  const double d = length(found.on_a - found.on_b);
+  const double d = norm(found.on_a - found.on_b);
   if (std::abs(d * d - found.squared_m2) > kTolerance) return testing::AssertionFailure() << "not their distance";
   if (d < 1e-5) return testing::AssertionSuccess();  // too short to have a direction
   const Point n = (1.0 / d) * (found.on_a - found.on_b);
@@ -143,7 +143,7 @@ TEST(TriangleTree, FindsTheLeastOverAllPairsOfTriangles) {
     const Nearest found = nearest_of_trees(a, xa, b, xb);
     EXPECT_EQ(found.squared_m2, least) << "trial " << trial;
     EXPECT_EQ(nearest_by_brute_force(a, xa, b, xb).squared_m2, least) << "trial " << trial;
-    EXPECT_NEAR(length(found.on_a - found.on_b), std::sqrt(least), kTolerance);
+    EXPECT_NEAR(norm(found.on_a - found.on_b), std::sqrt(least), kTolerance);
     apart += least > 0.0 ? 1 : 0;
   }
   EXPECT_GT(apart, 10);
