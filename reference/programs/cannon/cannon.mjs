@@ -112,7 +112,7 @@ function readPoints() {
 serve({
   id: "cannon", build: `cannon-es ${version}, double, node ${process.versions.node}`, what: "cannon-es as a program under Node",
   settings: [{ key: "iterations", default: 10, what: "iterations of the Gauss-Seidel solver" }],
-  declared: { motion: "rigid", detection_at: "start", contacts: "totals", integrator: "semi-implicit Euler", iterations: 10, friction: "pyramid",
+  declared: { motion: "rigid", detection_at: "start", contacts: "totals", integrator: "semi-implicit Euler", iterations: "setting:iterations", friction: "pyramid",
     contact_model: "compliant", contact_time_s: "0.05", correction: "velocity", precision: "f64" },
   stepSeconds: true, create: ([i]) => { iterations = i; }, begin, step, readPoints,
   readStates: () => bodies.map((body, k) => ({ position: originOf(scene.bodies[k], list(body.position), orientationOf(k)), orientation: orientationOf(k),
