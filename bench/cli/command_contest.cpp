@@ -2,19 +2,20 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <string>
 
+#include "bench/build_facts.hpp"
 #include "bench/campaign/manifest.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/campaign/run_cells.hpp"
 #include "bench/cell/more_than_zero.hpp"
 #include "bench/cell/scene_arguments.hpp"
 #include "bench/cli/commands.hpp"
+#include "bench/contest/cell_seconds.hpp"
 #include "bench/contest/contest_document.hpp"
 #include "bench/contest/missing_engines.hpp"
 #include "bench/fetched/fetched_engines.hpp"
@@ -32,6 +33,7 @@ struct ContestArguments {
   std::string out = "out/contest";
   std::uint32_t jobs = 1;  // cells at a time
   bool only_reports = false;
+  bool only_plans = false;
   bool installs = false;
 };
 
@@ -56,9 +58,7 @@ core::Status plan_into(const fs::path& folder, const ContestRequest& request) {
   return campaign::write_manifest(folder, manifest.value());
 }
 
-// Cells that take long come late in no order: the estimate is the mean so far.
-void show_progress(std::size_t done, std::size_t all, double seconds, const campaign::GroupEnd& end) {
-  const double left = done > 0 ? seconds / static_cast<double>(done) * static_cast<double>(all - done) : 0.0;
+void show_progress(std::size_t done, std::size_t all, double left, const campaign::GroupEnd& end) {
   const auto& work = end.cells.front().work;
   const std::string line = fmt::format("{} of {}, about {:.0f} min left: {} on {} {}", done, all, left / 60.0,
                                        work.engine, work.scene, end.word);
@@ -107,7 +107,39 @@ contest::InstallPath npm_path(bool yes) {
   return path;
 }
 
+// Runs what is missing, and keeps what each cell took beside the cells.
+core::Status run_cells_of(const ContestArguments& a, const campaign::Manifest& manifest) {
+  const fs::path folder = a.out;
+  auto taken = contest::CellSeconds::read(folder);
+  if (!taken) return taken.error();
+  const contest::CellSeconds kept = contest::CellSeconds::kept();
+  contest::Forecast forecast(kept, manifest, folder);
+  std::size_t done = 0;
+  const auto tell = [&](const campaign::GroupEnd& end) {
+    done += end.cells.size();
+    const campaign::CellWork& work = end.cells.front().work;
+    forecast.finish(work, end.seconds);
+    taken.value().set(work.scene, work.engine, end.seconds);
+    show_progress(done, manifest.cells.size(), forecast.left_s(a.jobs), end);
+  };
+  auto tally = campaign::run_cells(folder, {}, tell, a.jobs);
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\n");
+  if (!tally) return tally.error();
+  return taken.value().write(folder, fmt::format("{}; {} cells at a time", machine_line(), a.jobs));
+}
+
+// Cells and what they take, without a folder.
+core::Exit show_plan(const ContestArguments& a) {
+  auto campaign = contest::contest_campaign(a.request);
+  if (!campaign) return complain(campaign.error());
+  auto manifest = campaign::make_manifest(campaign.value());
+  if (!manifest) return complain(manifest.error());
+  fmt::print("{}", contest::plan_text(contest::CellSeconds::kept(), manifest.value(), a.jobs));
+  return core::Exit::kGood;
+}
+
 core::Exit run_contest(const ContestArguments& a) {
+  if (a.only_plans) return show_plan(a);
   const fs::path folder = a.out;
   if (core::Status s = prepare_folder(folder); !s) return complain(s.error());
   auto entrants = contest::entrants_of(a.request);
@@ -123,18 +155,8 @@ core::Exit run_contest(const ContestArguments& a) {
     if (core::Status s = plan_into(folder, a.request); !s) return complain(s.error());
   auto manifest = campaign::read_manifest(folder);
   if (!manifest) return complain(manifest.error());
-  const std::size_t all = manifest.value().cells.size();
-  if (!a.only_reports) {
-    std::size_t done = 0;
-    const auto start = std::chrono::steady_clock::now();
-    const auto tell = [&](const campaign::GroupEnd& end) {
-      done += end.cells.size();
-      show_progress(done, all, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), end);
-    };
-    auto tally = campaign::run_cells(folder, {}, tell, a.jobs);
-    if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\n");
-    if (!tally) return complain(tally.error());
-  }
+  if (!a.only_reports)
+    if (core::Status s = run_cells_of(a, manifest.value()); !s) return complain(s.error());
   auto merged = campaign::merge_cells(folder, folder);
   if (!merged) return complain(merged.error());
   auto rows = core::read_rows(folder);
@@ -184,6 +206,7 @@ void add_contest(CLI::App& program, core::Exit& exit) {
       ->capture_default_str();
   command->add_flag("--heaps", a->request.has_largest_heaps, "A heap of 10,000 boxes too: an hour more on two cores");
   command->add_flag("--yes", a->installs, "Install missing engines of npm without asking; no terminal, no question");
+  command->add_flag("--dry-run", a->only_plans, "Run nothing: how many cells, how long they take, and the dearest");
   command->add_flag("--only-report", a->only_reports, "Run nothing: make the page of the cells that are there");
   command->add_option("--out", a->out, "Folder for cells and page; a second call goes on in it")->capture_default_str();
   command->footer(

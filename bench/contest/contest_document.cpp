@@ -8,7 +8,6 @@
 #include <set>
 #include <string_view>
 
-#include "bench/contest/known_causes.hpp"
 #include "bench/contest/tunings.hpp"
 
 namespace broadside::bench::contest {
@@ -56,11 +55,12 @@ std::string file_name_of(const std::string& what, std::string scene) {
 }
 
 void add_verdicts(Document& document, const ContestTable& table) {
-  document.blocks.emplace_back(Heading{"Who is right", "verdicts"});
-  document.blocks.emplace_back(
+  if (table.scenes.empty()) return;
+  Fold fold{"The same in words: every cell, and how many laws met something there", "verdicts", false, {}};
+  fold.blocks.emplace_back(
       Paragraph{"Each scene at its own step. \"holds, 9 of 14\": 9 of the 14 laws of mechanics met something in the "
                 "trace and hold; the others had nothing to judge. A word in a place of its own is why an engine has no "
-                "trace there. What a law says, and its worked line, stand below."});
+                "trace there."});
   Table verdicts{"verdicts", "Laws of mechanics, by scene and engine", columns_of(table, {"scene"}), {}};
   for (const SceneTable& scene : table.scenes) {
     std::vector<TableCell> line{{scene.scene}};
@@ -72,29 +72,8 @@ void add_verdicts(Document& document, const ContestTable& table) {
     }
     verdicts.rows.push_back(std::move(line));
   }
-  document.blocks.emplace_back(std::move(verdicts));
-}
-
-void add_broken_laws(Document& document, const ContestTable& table) {
-  Notes broken;
-  std::size_t known = 0;
-  for (const SceneTable& scene : table.scenes)
-    for (const Entrant& e : table.entrants)
-      if (const Entry* entry = own_entry(scene, e.engine))
-        for (const core::Verdict& v : entry->broken) {
-          const std::string_view cause = known_cause(e.engine, v.validator, scene.scene);
-          known += cause.empty() ? 0 : 1;
-          broken.items.push_back(fmt::format("{}, {}, {}: {}: {}", scene.scene, e.engine, v.validator,
-                                             cause.empty() ? "not yet looked into" : cause, v.explanation));
-        }
-  if (broken.items.empty()) return;
-  document.blocks.emplace_back(Heading{"What was broken", "broken"});
-  document.blocks.emplace_back(Paragraph{fmt::format(
-      "A broken law is a defect of the engine, what it declares to be, a wrong setting of ours, or "
-      "an error of the law. Of these {} were looked into: the cause in a few words, or that none was found; "
-      "reference/README.md tells more. The other {} are not yet looked into.",
-      known, broken.items.size() - known)});
-  document.blocks.emplace_back(std::move(broken));
+  fold.blocks.emplace_back(std::move(verdicts));
+  document.blocks.emplace_back(std::move(fold));
 }
 
 void add_stability(Document& document, const ContestTable& table) {
@@ -125,7 +104,8 @@ void add_stability(Document& document, const ContestTable& table) {
   document.blocks.emplace_back(
       Paragraph{"Of the steps that ran: a scene's own, 1/60 s where it is longer, and shares and multiples of some "
                 "scenes' own. The table of verdicts is of their own step alone."});
-  document.blocks.emplace_back(std::move(stands));
+  document.blocks.emplace_back(
+      Fold{"The longest steps, by scene and engine", "stands_table", false, {std::move(stands)}});
 }
 
 namespace {
@@ -171,7 +151,7 @@ void add_determinism(Document& document, const ContestTable& table) {
       "Recording and timing are two runs of the same work on this machine. An engine that is deterministic "
       "ends both in the same digest. Where an engine has a number of threads, runs of one and of two must end alike "
       "too; the others run on one thread here."});
-  document.blocks.emplace_back(std::move(repeats));
+  document.blocks.emplace_back(Fold{"Repeats, by engine", "repeats_table", false, {std::move(repeats)}});
 }
 
 void add_tunings(Document& document, const ContestTable& table) {
@@ -191,7 +171,7 @@ void add_tunings(Document& document, const ContestTable& table) {
   document.blocks.emplace_back(
       Paragraph{"What an engine's own manual recommends beside what it ships, the same for all scenes. Where a manual "
                 "says \"more\" and no number, the number is ours."});
-  document.blocks.emplace_back(std::move(rows));
+  document.blocks.emplace_back(Fold{"Tunings, by engine", "tunings_table", false, {std::move(rows)}});
 }
 
 void add_declarations(Document& document, const ContestTable& table) {
@@ -216,7 +196,7 @@ void add_declarations(Document& document, const ContestTable& table) {
     }
     declared.rows.push_back(std::move(line));
   }
-  document.blocks.emplace_back(std::move(declared));
+  document.blocks.emplace_back(Fold{"Declarations side by side", "declarations_table", false, {std::move(declared)}});
 }
 
 Document contest_document(const ContestTable& table, const std::string& command) {
@@ -231,6 +211,9 @@ Document contest_document(const ContestTable& table, const std::string& command)
       here, table.scenes.size(), count.holds, count.breaks, count.absent);
   for (const Entrant& e : table.entrants)
     if (!e.absent.empty()) document.lead += fmt::format(" {} is absent ({}).", e.engine, e.absent);
+  add_overview(document, table);
+  add_causes(document, table);
+  add_families(document, table);
   add_verdicts(document, table);
   add_error_against_cost(document, table);
   add_energy_over_time(document, table);
@@ -239,7 +222,6 @@ Document contest_document(const ContestTable& table, const std::string& command)
   add_heaps(document, table);
   add_passages(document, table);
   add_determinism(document, table);
-  add_broken_laws(document, table);
   add_tunings(document, table);
   add_declarations(document, table);
   document.blocks.emplace_back(Heading{"How to repeat", "repeat"});

@@ -13,8 +13,10 @@ namespace broadside::bench::contest {
 Document contest_document(const ContestTable& table, const std::string& command);
 
 // One section each, in the order of the page; they add nothing where there is nothing to show.
+void add_overview(Document& document, const ContestTable& table);
+void add_causes(Document& document, const ContestTable& table);
+void add_families(Document& document, const ContestTable& table);
 void add_verdicts(Document& document, const ContestTable& table);
-void add_broken_laws(Document& document, const ContestTable& table);
 void add_error_against_cost(Document& document, const ContestTable& table);
 void add_energy_over_time(Document& document, const ContestTable& table);
 void add_stability(Document& document, const ContestTable& table);

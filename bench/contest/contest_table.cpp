@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/cell/step_suffix.hpp"
+#include "bench/contest/families.hpp"
 #include "bench/contest/passage_courses.hpp"
 
 namespace broadside::bench::contest {
@@ -63,6 +64,12 @@ void add_verdicts(Entry& entry, const core::CellVerdicts& judged) {
   entry.coverage = core::coverage_of(judged.verdicts);
   for (const core::Verdict& v : judged.verdicts) {
     if (v.outcome == core::Outcome::kFail) entry.broken.push_back(v);
+    // Above its limit is what holds where a limit is the least.
+    if (v.outcome == core::Outcome::kPass && share_of_limit(v) <= 1.0 &&
+        (!entry.has_nearest || share_of_limit(v) > share_of_limit(entry.nearest))) {
+      entry.nearest = v;
+      entry.has_nearest = true;
+    }
     entry.is_motion_proven = entry.is_motion_proven || core::proves_motion(v);
     const bool applied = v.outcome == core::Outcome::kPass || v.outcome == core::Outcome::kFail;
     if (v.validator == "closed-form" && applied) {

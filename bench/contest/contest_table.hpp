@@ -21,6 +21,8 @@ struct Entry {
   std::string reason;  // of a cell that was not recorded
   core::Coverage coverage;
   std::vector<core::Verdict> broken;  // laws that failed
+  core::Verdict nearest;              // of those that hold, the one that is nearest to its limit
+  bool has_nearest = false;
   bool is_motion_proven = false;
   bool stands = false;  // rest applied and holds
   bool has_rest = false;

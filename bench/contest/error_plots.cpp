@@ -44,8 +44,11 @@ Curve curve_of(const ContestTable& table, const std::string& label, const std::m
 
 void add_error_against_cost(Document& document, const ContestTable& table) {
   std::vector<Block> figures;
+  // Where engines ran at one step alone, a line is a mark: behind a fold.
+  Fold marks{"", "error_marks", false, {}};
   for (const SceneTable& scene : table.scenes) {
     LinePlot plot;
+    bool has_line = false;
     std::string unit;
     std::string words;
     for (const Entrant& e : table.entrants) {
@@ -57,17 +60,19 @@ void add_error_against_cost(Document& document, const ContestTable& table) {
         if (!entry.error_unit.empty()) unit = entry.error_unit;
       words +=
           fmt::format("{}: error {:.3g} {} at {:.3g} s a second. ", e.engine, curve.y.back(), unit, curve.x.back());
+      has_line = has_line || curve.x.size() > 1;
       plot.curves.push_back(std::move(curve));
     }
     if (plot.curves.empty()) continue;
     plot.text = {scene.scene, words, "cost, seconds of computing a simulated second", "largest error, " + unit};
     plot.x_scale = plot.y_scale = Scale::kLog;
     plot.y_from_zero = false;
-    figures.emplace_back(Figure{file_name_of("error", scene.scene), svg(plot, Placement::kFile),
-                                svg(plot, Placement::kInline),
-                                scene.scene + ": further down is more exact, further left is cheaper."});
+    auto& to = has_line ? figures : marks.blocks;
+    to.emplace_back(Figure{file_name_of("error", scene.scene), svg(plot, Placement::kFile),
+                           svg(plot, Placement::kInline),
+                           scene.scene + ": further down is more exact, further left is cheaper."});
   }
-  if (figures.empty()) return;
+  if (figures.empty() && marks.blocks.empty()) return;
   document.blocks.emplace_back(Heading{"Error against cost", "error"});
   document.blocks.emplace_back(Paragraph{
       "Each mark is one step of an engine on a scene with a closed answer: the error that is largest against "
@@ -79,6 +84,9 @@ void add_error_against_cost(Document& document, const ContestTable& table) {
                          table.cells_at_once)
            : std::string())});
   for (Block& figure : figures) document.blocks.push_back(std::move(figure));
+  if (marks.blocks.empty()) return;
+  marks.summary = fmt::format("{} scenes at their own step alone", marks.blocks.size());
+  document.blocks.emplace_back(std::move(marks));
 }
 
 }  // namespace broadside::bench::contest

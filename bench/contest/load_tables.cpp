@@ -59,7 +59,8 @@ void add_stacks(Document& document, const ContestTable& table) {
   document.blocks.emplace_back(
       Paragraph{"The largest creep since a scene settled, as the law rest measures it, and the deepest overlap. In "
                 "stack:1000-on-1 a body of 1000 kg stands on one of 1 kg."});
-  document.blocks.emplace_back(std::move(stacks));
+  document.blocks.emplace_back(
+      Fold{"Creep and depth, by scene and engine", "stacks_table", false, {std::move(stacks)}});
 }
 
 void add_heaps(Document& document, const ContestTable& table) {
@@ -77,7 +78,7 @@ void add_heaps(Document& document, const ContestTable& table) {
   document.blocks.emplace_back(
       Paragraph{"How far an engine's cost goes with the number of bodies. Red where a law is broken: such a time is no "
                 "result. Engines under Node are slower than their libraries are. contest --heaps adds 10,000 boxes."});
-  document.blocks.emplace_back(std::move(heaps));
+  document.blocks.emplace_back(Fold{"Time and depth, by scene and engine", "heaps_table", false, {std::move(heaps)}});
 }
 
 }  // namespace broadside::bench::contest

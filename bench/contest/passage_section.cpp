@@ -132,7 +132,7 @@ void add_passages(Document& document, const ContestTable& table) {
       "or was turned aside, before the obstacle. The fast scenes run at steps of 1/60 to 1/960 s; the mesh drops at 1 to "
       "200 m/s at 1/60 s."});
   for (Block& figure : figures) document.blocks.push_back(std::move(figure));
-  document.blocks.emplace_back(std::move(words));
+  document.blocks.emplace_back(Fold{"The same in words", "passages_table", false, {std::move(words)}});
 }
 
 }  // namespace broadside::bench::contest

@@ -28,6 +28,19 @@ bool has_deviation(const Table& table, std::size_t column) {
   return false;
 }
 
+core::Status write_files(const std::vector<Block>& blocks, const std::filesystem::path& folder) {
+  for (const Block& block : blocks) {
+    core::Status written = core::Done{};
+    if (const auto* table = std::get_if<Table>(&block))
+      written = core::write_whole_file(folder / (table->name + ".csv"), csv_text(*table));
+    if (const auto* figure = std::get_if<Figure>(&block))
+      written = core::write_whole_file(folder / (figure->name + ".svg"), figure->file_svg);
+    if (const auto* fold = std::get_if<Fold>(&block)) written = write_files(fold->blocks, folder);
+    if (!written) return written;
+  }
+  return core::Done{};
+}
+
 }  // namespace
 
 std::string csv_text(const Table& table) {
@@ -50,12 +63,7 @@ std::string csv_text(const Table& table) {
 }
 
 core::Status write_document(const Document& document, const std::filesystem::path& folder, const std::string& name) {
-  for (const Block& block : document.blocks) {
-    if (const auto* table = std::get_if<Table>(&block))
-      if (core::Status s = core::write_whole_file(folder / (table->name + ".csv"), csv_text(*table)); !s) return s;
-    if (const auto* figure = std::get_if<Figure>(&block))
-      if (core::Status s = core::write_whole_file(folder / (figure->name + ".svg"), figure->file_svg); !s) return s;
-  }
+  if (core::Status s = write_files(document.blocks, folder); !s) return s;
   if (core::Status s = core::write_whole_file(folder / (name + ".md"), markdown_text(document)); !s) return s;
   return core::write_whole_file(folder / (name + ".html"), html_text(document));
 }

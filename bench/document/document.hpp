@@ -8,12 +8,11 @@
 #include <variant>
 #include <vector>
 
+#include "bench/document/mosaic.hpp"
+#include "bench/document/tone.hpp"
 #include "core/result.hpp"
 
 namespace broadside::bench {
-
-// What a cell says at a glance: a color on the page, nothing elsewhere.
-enum class Tone { kPlain, kGood, kBad, kAbsent };
 
 struct TableCell {
   std::string text;  // as people read it
@@ -22,6 +21,7 @@ struct TableCell {
   double deviation = std::numeric_limits<double>::quiet_NaN();
   bool is_struck = false;  // a time without proof
   Tone tone = Tone::kPlain;
+  bool is_words = false;  // a sentence: set to the left, and wrapped
 };
 
 struct Table {
@@ -42,6 +42,7 @@ struct Paragraph {
 
 struct Notes {
   std::vector<std::string> items;
+  std::vector<std::string> ids = {};  // of the items' anchors; an empty one = it has none
 };
 
 struct Figure {
@@ -51,7 +52,16 @@ struct Figure {
   std::string caption;
 };
 
-using Block = std::variant<Heading, Paragraph, Notes, Table, Figure>;
+struct Fold;
+using Block = std::variant<Heading, Paragraph, Notes, Table, Figure, Mosaic, Fold>;
+
+// Blocks behind a line that opens them. On paper a closed fold is its line alone, but for one whose blocks are printed.
+struct Fold {
+  std::string summary;
+  std::string id;  // of the anchor
+  bool is_printed = false;
+  std::vector<Block> blocks;
+};
 
 struct Document {
   std::string title;
@@ -70,7 +80,7 @@ std::string markdown_text(const Document& document);
 // A column of means gets a second one, NAME_std.
 std::string csv_text(const Table& table);
 
-// FOLDER/NAME.html, NAME.md, one SVG per figure and one CSV per table; each appears whole.
+// FOLDER/NAME.html, NAME.md, one SVG per figure and one CSV per table, folded ones too; each appears whole.
 core::Status write_document(const Document& document, const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace broadside::bench

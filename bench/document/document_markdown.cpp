@@ -41,6 +41,17 @@ std::string as_markdown(const Figure& figure) {
   return "![" + markdown(figure.caption) + "](" + figure.name + ".svg)\n\n";
 }
 
+std::string as_markdown(const Mosaic& mosaic) {
+  return markdown_of(mosaic);
+}
+
+// Text has nothing to fold.
+std::string as_markdown(const Fold& fold) {
+  std::string out = "### " + markdown(fold.summary) + "\n\n";
+  for (const Block& block : fold.blocks) out += std::visit([](const auto& b) { return as_markdown(b); }, block);
+  return out;
+}
+
 }  // namespace
 
 std::string markdown_text(const Document& document) {

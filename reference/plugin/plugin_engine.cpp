@@ -86,7 +86,7 @@ core::Result<core::Engine> create_plugin_engine(const std::string& given, const 
   if (!opened) return opened.error();
   const std::shared_ptr<const PluginSource> source = opened.value();
   const broadside_engine2& table = source->table();
-  auto declaration = source->declaration(given);
+  auto declaration = source->declaration(given, &settings);
   if (!declaration) return declaration.error();
   std::vector<std::uint64_t> values;
   for (std::uint32_t k = 0; k < table.setting_count; ++k) values.push_back(settings.number(table.settings[k].key));

@@ -67,6 +67,20 @@ std::string_view declared(const broadside_engine2& e, std::string_view key) {
   return {};
 }
 
+// A value as it is, or that of the setting which it names.
+core::Result<std::string> value_of(const broadside_engine2& e, const broadside_declared& one, const std::string& where,
+                                   const core::Settings* settings) {
+  constexpr std::string_view kSetting = "setting:";
+  const std::string value = one.value;
+  if (!value.starts_with(kSetting)) return value;
+  const std::string key = value.substr(kSetting.size());
+  for (std::uint32_t k = 0; k < e.setting_count; ++k)
+    if (key == e.settings[k].key)
+      return std::to_string(settings != nullptr ? settings->number(key) : e.settings[k].default_value);
+  return Error{"it declares '" + std::string(one.key) + "' by the setting '" + key + "', which it has not", where,
+               "name one of its settings"};
+}
+
 // Laws choose by the declaration what they read, so it must say what is there.
 std::string fault_of_contacts(const broadside_engine2& e) {
   const std::string_view contacts = declared(e, "contacts");
@@ -129,12 +143,15 @@ std::string PluginSource::capabilities() const {
   return text;
 }
 
-core::Result<core::Declaration> PluginSource::declaration(const std::string& where) const {
+core::Result<core::Declaration> PluginSource::declaration(const std::string& where,
+                                                          const core::Settings* settings) const {
   if (version1() != nullptr) return offers_dynamics() ? core::method_declaration() : core::Declaration();
   std::map<std::string, std::string> given;
   for (std::uint32_t k = 0; k < table().declared_count; ++k) {
     const broadside_declared& one = table().declared[k];
-    if (!given.emplace(one.key, one.value).second)
+    auto value = value_of(table(), one, where, settings);
+    if (!value) return value.error();
+    if (!given.emplace(one.key, std::move(value).value()).second)
       return Error{"it declares '" + std::string(one.key) + "' twice", where, "declare each key once"};
   }
   return core::Declaration::parse(given, where);

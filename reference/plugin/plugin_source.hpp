@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/engine/declaration.hpp"
+#include "core/engine/settings.hpp"
 #include "core/plugin/broadside_engine_v2.h"
 #include "core/result.hpp"
 
@@ -40,9 +41,11 @@ class PluginSource {
   [[nodiscard]] bool offers_dynamics() const;
   // "broad narrow dynamics", for listings.
   [[nodiscard]] std::string capabilities() const;
-  // Of the dynamics. A library of version 1 declares nothing, and the laws of METHOD are held against it, as before
-  // there were declarations.
-  [[nodiscard]] core::Result<core::Declaration> declaration(const std::string& where) const;
+  // Of the dynamics with these settings, null for the defaults: a declared value "setting:KEY" is the value of the
+  // setting KEY. A library of version 1 declares nothing, and the laws of METHOD are held against it, as before there
+  // were declarations.
+  [[nodiscard]] core::Result<core::Declaration> declaration(const std::string& where,
+                                                            const core::Settings* settings = nullptr) const;
 };
 
 // What is wrong with the table; empty when nothing is. Everything that other functions here rely on.

@@ -26,8 +26,29 @@ function shapeOf(shape, mesh) {
   if (shape.kind === "sphere") return new CANNON.Sphere(shape.radius);
   const vertices = [], triangles = [];
   for (let k = 0; k < mesh.vertices.length; k += 3) vertices.push(vec3(mesh.vertices.slice(k, k + 3)));
-  for (let k = 0; k < mesh.triangles.length; k += 3) triangles.push(mesh.triangles.slice(k, k + 3));
-  return new CANNON.ConvexPolyhedron({ vertices, faces: triangles });
+  for (let k = 0; k < mesh.triangles.length; k += 3) triangles.push([...mesh.triangles.slice(k, k + 3)]);
+  return new CANNON.ConvexPolyhedron({ vertices, faces: polygonsOf(vertices, triangles) });
+}
+
+// The library clips a face by as many neighbors as it has edges, the first ones that share a vertex with it: right for the
+// four sides of a brick's face, wrong for its two triangles, whose points then lie outside the body. So triangles of one
+// plane are one polygon here: the edges of such triangles that have no reverse, one after another.
+function polygonsOf(vertices, triangles) {
+  const planes = [];
+  for (const face of triangles) {
+    const [a, b, c] = face.map((k) => vertices[k]);
+    const normal = b.vsub(a).cross(c.vsub(a)).unit();
+    const found = planes.find((p) => p.normal.dot(normal) > 1 - 1e-9 && Math.abs(p.normal.dot(a.vsub(p.point))) < 1e-6 * (a.length() + 1));
+    if (found) found.faces.push(face);
+    else planes.push({ normal, point: a, faces: [face] });
+  }
+  return planes.flatMap(({ faces }) => {
+    const edges = new Set(faces.flatMap(([a, b, c]) => [`${a} ${b}`, `${b} ${c}`, `${c} ${a}`]));
+    const next = new Map([...edges].map((e) => e.split(" ").map(Number)).filter(([a, b]) => !edges.has(`${b} ${a}`)));
+    const start = next.keys().next().value, polygon = [start];
+    for (let k = next.get(start); k !== undefined && k !== start && polygon.length < next.size; k = next.get(k)) polygon.push(k);
+    return polygon.length === next.size && next.get(polygon.at(-1)) === start ? [polygon] : faces;
+  });
 }
 
 // One material for each pair of coefficients.
@@ -112,7 +133,7 @@ function readPoints() {
 serve({
   id: "cannon", build: `cannon-es ${version}, double, node ${process.versions.node}`, what: "cannon-es as a program under Node",
   settings: [{ key: "iterations", default: 10, what: "iterations of the Gauss-Seidel solver" }],
-  declared: { motion: "rigid", detection_at: "start", contacts: "totals", integrator: "semi-implicit Euler", iterations: 10, friction: "pyramid",
+  declared: { motion: "rigid", detection_at: "start", contacts: "totals", integrator: "semi-implicit Euler", iterations: "setting:iterations", friction: "pyramid",
     contact_model: "compliant", contact_time_s: "0.05", correction: "velocity", precision: "f64" },
   stepSeconds: true, create: ([i]) => { iterations = i; }, begin, step, readPoints,
   readStates: () => bodies.map((body, k) => ({ position: originOf(scene.bodies[k], list(body.position), orientationOf(k)), orientation: orientationOf(k),

@@ -17,7 +17,7 @@ const AXIS = [[Math.SQRT1_2, 0, 0, -Math.SQRT1_2], [1, 0, 0, 0], [Math.SQRT1_2, 
 
 let world, scene, bodies;
 let colliders = [], ids = new Map(), detected = new Map();  // ids and poses at detection by handle
-let iterations = 0;
+let iterations = 4;
 
 function colliderOf(shape, mesh) {
   const h = shape.half_extents;
@@ -46,7 +46,7 @@ function begin(given) {
   world?.free();
   world = new RAPIER.World(xyz(scene.gravity));
   world.timestep = scene.dt;
-  if (iterations > 0) world.numSolverIterations = iterations;
+  world.numSolverIterations = iterations;
   colliders = [], ids = new Map(), detected = new Map();
   bodies = scene.bodies.map((b, k) => {
     const desc = (b.is_static ? RAPIER.RigidBodyDesc.fixed() : RAPIER.RigidBodyDesc.dynamic())
@@ -106,8 +106,8 @@ function readPoints() {
 
 serve({
   id: "rapier", build: `Rapier ${RAPIER.version()}, float, WebAssembly, node ${process.versions.node}`, what: "Rapier 3-D, deterministic build, as a program under Node",
-  settings: [{ key: "iterations", default: 0, what: "solver iterations; 0 = the library's own (4)" }],
-  declared: { motion: "rigid", detection_at: "start", contacts: "geometry", integrator: "semi-implicit Euler in substeps", substeps: 4, iterations: 4,
+  settings: [{ key: "iterations", default: 4, what: "solver iterations, which are its substeps" }],
+  declared: { motion: "rigid", detection_at: "start", contacts: "geometry", integrator: "semi-implicit Euler in substeps", substeps: "setting:iterations", iterations: 4,
     friction: "cone", contact_model: "rigid", correction: "velocity", precision: "f32" },
   stepSeconds: true, create: ([i]) => { iterations = i; }, begin, step, readPoints,
   readStates: () => bodies.map((body) => ({ position: list(body.translation()), orientation: orientationOf(body), velocity: list(body.linvel()), angular_velocity: list(body.angvel()) })),

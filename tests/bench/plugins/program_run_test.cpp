@@ -2,8 +2,11 @@
 // one says or does not say is one clear line with the right exit code.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -126,6 +129,20 @@ class Variable {
   const char* name_;
   std::string before_;
 };
+
+// An interpreter takes long to start: what a program says of itself is asked once in a tree of processes. The log has a
+// line a start: one to be described, one that runs in the child.
+TEST(ProgramRun, WhatItIsIsAskedOnceForAllProcessesOfARun) {
+  const ScratchFolder folder;
+  const std::string log = folder.text() + "/starts";
+  const Variable starts("BROADSIDE_TEST_STARTS", log.c_str());
+  const Variable told("BROADSIDE_DESCRIBED", "no JSON");
+  const Ended ended =
+      run_program({"run", "freefall:cube:3", "--frames", "5", "--engine", wrong("none"), "--out", folder.text()});
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  std::ifstream lines(log);
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(lines), {}, '\n'), 2);
+}
 
 Ended run_one_that_never_says_hello(const char* limit_s) {
   const Variable limit("BROADSIDE_HELLO_LIMIT_S", limit_s);

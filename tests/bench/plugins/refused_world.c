@@ -34,6 +34,8 @@ const broadside_engine2* broadside_engine_v2(void) {
     {"friction", "con"},
 #elif defined(UNKNOWN_KEY)
     {"frictoin", "cone"},
+#elif defined(UNKNOWN_SETTING)
+    {"substeps", "setting:sweeps"},
 #elif defined(DECLARED_TWICE)
     {"order", "1"},
     {"order", "2"},

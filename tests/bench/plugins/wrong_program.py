@@ -13,6 +13,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "core/plugin/client
 import broadside_engine  # noqa: E402
 
 FAULT = sys.argv[1]
+if log := os.environ.get("BROADSIDE_TEST_STARTS"):
+    with open(log, "a", encoding="utf-8") as file:
+        file.write("started\n")
 
 
 class World:

@@ -122,8 +122,10 @@ static int read_step_pairs(void* self, broadside_pair* pairs, uint64_t capacity,
 }
 
 const broadside_engine2* broadside_engine_v2(void) {
-  static const broadside_setting settings[] = {{"fault", 0, "what is wrong; 0 = nothing"}};
-  static const broadside_declared declared[] = {{"contacts", "totals"}, {"detection_at", "start"}};
+  static const broadside_setting settings[] = {{"fault", 0, "what is wrong; 0 = nothing"},
+                                               {"sweeps", 3, "it declares so many iterations"}};
+  static const broadside_declared declared[] = {
+      {"contacts", "totals"}, {"detection_at", "start"}, {"iterations", "setting:sweeps"}};
   static const broadside_engine2 engine = {
       .abi = BROADSIDE_ENGINE_ABI_2,
       .size = sizeof(broadside_engine2),
@@ -132,9 +134,9 @@ const broadside_engine2* broadside_engine_v2(void) {
       .what = "wrong on demand",
       .is_exact = 1,
       .settings = settings,
-      .setting_count = 1,
+      .setting_count = 2,
       .declared = declared,
-      .declared_count = 2,
+      .declared_count = 3,
       .create = create,
       .destroy = destroy,
       .last_error = last_error,

@@ -2,6 +2,7 @@
 // clear line.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -21,9 +22,11 @@ core::Scene scene(const std::string& spec) {
   return std::move(made).value();
 }
 
-core::Result<core::Engine> wrong_world(int fault) {
-  static const core::SettingRow row{"fault", "0", {}, "what is wrong"};
-  auto settings = core::Settings::parse("wrong-world", {&row, 1}, {{"fault", std::to_string(fault)}});
+core::Result<core::Engine> wrong_world(int fault, int sweeps = 3) {
+  static const std::array rows{core::SettingRow{"fault", "0", {}, "what is wrong"},
+                               core::SettingRow{"sweeps", "3", {}, "what it declares"}};
+  auto settings = core::Settings::parse("wrong-world", rows,
+                                        {{"fault", std::to_string(fault)}, {"sweeps", std::to_string(sweeps)}});
   return reference::create_plugin_engine(kFolder + "/libwrong_world.so", settings.value(), core::make_host_space());
 }
 
@@ -89,6 +92,12 @@ TEST(PluginWorld, StatesArriveInFloat64) {
   EXPECT_EQ(frame.boxes.size(), 3U);
 }
 
+// What depends on a setting is declared with it, or a law would judge by what the engine no longer is.
+TEST(PluginWorld, ASettingMayBeDeclared) {
+  EXPECT_EQ(wrong_world(0).value().declaration.number("iterations"), 3.0);
+  EXPECT_EQ(wrong_world(0, 16).value().declaration.number("iterations"), 16.0);
+}
+
 TEST(PluginWorld, TablesOfOtherHeadersAreRefusedOrRead) {
   const auto described = [](const std::string& name) {
     const auto description = reference::describe_plugin(kFolder + "/libworld_" + name + ".so");
@@ -100,6 +109,8 @@ TEST(PluginWorld, TablesOfOtherHeadersAreRefusedOrRead) {
   EXPECT_NE(described("unknown_word").find("'friction' cannot be declared as 'con'; did you mean 'cone'?"),
             std::string::npos);
   EXPECT_NE(described("unknown_key").find("a declaration has no key 'frictoin'"), std::string::npos);
+  EXPECT_NE(described("unknown_setting").find("'substeps' by the setting 'sweeps', which it has not"),
+            std::string::npos);
   EXPECT_NE(described("declared_twice").find("it declares 'order' twice"), std::string::npos);
   EXPECT_NE(described("no_points").find("declares contacts = totals and has no read_points"), std::string::npos);
   EXPECT_NE(described("no_text").find("build or what is not one line"), std::string::npos);
