@@ -72,7 +72,7 @@ constexpr std::string_view kForeseenSlip =
 constexpr std::string_view kDriven =
     "ours: a row of thin cards is driven together within one step; with sweep=fast this law holds";
 constexpr std::string_view kJoltEdge =
-    "box against slab: for one step the normal is along the slab, where the overlap is 5 m (findings/jolt_normal.toml)";
+    "for a step the normal is along the slab, 5 m deep, where an edge touches it (findings/jolt_normal.toml)";
 
 constexpr std::string_view kStackAtStep = "five cubes creep at 1/60 s; at 1/240 s they stand";
 constexpr std::string_view kTallStack =
@@ -190,6 +190,8 @@ constexpr std::array kRows{
         "friction fades below the 1 cm/s of slip that Simbody ships; with 1 mm/s it holds"},
     Row{"jolt", "contact-truth", "rigid:tip:incline", kJoltEdge},
     Row{"jolt", "energy-growth", "rigid:tip:incline", kJoltEdge},
+    Row{"jolt", "contact-truth", "rigid:arch:25",
+        "for a step the normal is along faces that are 0.2 m deep there (findings/jolt_normal.toml shows another)"},
     Row{"jolt", "rest", "rigid:overhang:", kBooksAtStep},
     Row{"jolt", "penetration", "rigid:disk:euler", "bodies may sink 0.02 m (mPenetrationSlop): half of this coin"},
     Row{"jolt", "rest", "rigid:arch:7", "1 % above the least thickness, a millimeter: at 1/960 s it stands"},
