@@ -65,8 +65,7 @@ core::Status BroadBuffers::reserve_buckets(std::uint64_t buckets, const char* wh
 core::Status BroadBuffers::load_bulk(std::size_t n, const BinsShape& bins, std::uint32_t blocks) {
   BulkView& bulk = bulk_;
   const std::uint64_t buckets = grid_buckets(n);
-  // Half of it is CoarseBoxes, four more than there are boxes; the other half BulkBodies.
-  BROADSIDE_TRY(bulk_entries_.reserve(n + 5, "boxes"));
+  BROADSIDE_TRY(bulk_entries_.reserve(n + 4, "boxes"));
   BROADSIDE_TRY(levels_.reserve(3, "boxes"));
   BROADSIDE_TRY(levels_.fill_bytes(0));
   bulk.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
@@ -182,9 +181,7 @@ void BroadBuffers::fill(BulkView& bulk) const {
   bulk.count = bucket_count_.data();
   bulk.begin = bucket_begin_.data();
   bulk.rank = rank_.data();
-  bulk.staged = bulk_entries_.data();
-  bulk.boxes = reinterpret_cast<CoarseBox*>(bulk.staged);
-  bulk.bodies = reinterpret_cast<BulkBody*>(bulk.staged + (bulk_entries_.capacity() + 1) / 2);
+  bulk.entries = bulk_entries_.data();
   bulk.levels = levels_.data();
   bulk.turns = bulk.levels + 2;
   bulk.bins.chunk_count = chunk_count_.data();

@@ -8,23 +8,16 @@
 namespace broadside::gpu {
 
 // Two corners, rounded: see bulk_cells.cuh.
-struct alignas(8) CoarseBox {
+struct CoarseBox {
   std::uint32_t min = 0;
   std::uint32_t max = 0;
 };
-struct alignas(16) TwoCoarseBoxes {
-  CoarseBox box[2];
-};
-// Whose box that is.
-struct alignas(8) BulkBody {
-  std::uint32_t body = 0;
-  std::uint32_t tag = 0;  // see bulk_cells.cuh
-};
 
-// A box on its way to its bucket.
+// A box in its bucket.
 struct alignas(16) BulkEntry {
   CoarseBox box;
-  BulkBody who;
+  std::uint32_t body = 0;
+  std::uint32_t tag = 0;  // see bulk_cells.cuh
 };
 
 // How many bins boxes go to: see bulk_bins.cuh.
@@ -48,7 +41,8 @@ struct BinsView {
   std::uint32_t* last_chunk = nullptr;     // [bins]
   std::uint32_t* cursor = nullptr;         // [bins] entries given out to blocks
   std::uint32_t* coarse_cursor = nullptr;  // [coarse bins] likewise
-  std::uint32_t* whole_bucket = nullptr;   // [bodies] where there are coarse bins: buckets of BulkView::staged
+  std::uint32_t* whole_bucket = nullptr;   // [bodies] where there are coarse bins: buckets of entries by coarse bin,
+                                           // which lie where those by bucket will
   BulkEntry* entries = nullptr;            // [bodies] by bin
   std::uint16_t* bucket = nullptr;         // [bodies] of these entries, within their group
 };
@@ -62,10 +56,7 @@ struct BulkView {
   std::uint32_t* count = nullptr;   // [buckets]; zero between frames
   std::uint32_t* begin = nullptr;   // [bucket_words(buckets)]
   std::uint32_t* rank = nullptr;    // [bodies] place within the bucket
-  // A box in its bucket is in two arrays: a search reads all boxes of a row, and few of their names.
-  CoarseBox* boxes = nullptr;       // [bodies + 4] by bucket, aligned to two
-  BulkBody* bodies = nullptr;       // [bodies] of these
-  BulkEntry* staged = nullptr;      // [bodies] the memory of both, before they are there: entries by coarse bin
+  BulkEntry* entries = nullptr;     // [bodies + 4] by bucket
   std::uint32_t* levels = nullptr;  // [2] bit k of the first: some body was on level k; of the second: see LevelMarks;
                                     // bits are only ever set
   std::uint32_t* turns = nullptr;   // [1] shares of the boxes given out to warps that look for their partners

@@ -203,7 +203,7 @@ core::Status KeptFinder::Impl::search_fat() {
     if (!fat.is_aborted()) break;
     BROADSIDE_TRY(fat.grow());
   }
-  view.order = fat.view().bulk.bodies;
+  view.order = fat.view().bulk.entries;
   view.candidates = fat.view().pairs.items;
   view.candidate_count = fat.found().count;
   BROADSIDE_TRY(launch_place(view, stream.get()));

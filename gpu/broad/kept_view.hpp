@@ -25,7 +25,7 @@ struct KeptView {
   const float* given = nullptr;       // [count][6] where launch_within finds them; null: in `now`
   PackedBox* fat = nullptr;           // [count] by number
   BoxMeasure* measure = nullptr;      // of the fat ones
-  const BulkBody* order = nullptr;    // [count] by place
+  const BulkEntry* order = nullptr;   // [count] by place
   PackedBox* placed = nullptr;        // [count] this frame's, by place
   std::uint32_t* place_of = nullptr;  // [count] by number
   core::Pair* candidates = nullptr;

@@ -1,5 +1,9 @@
 #include <cuda_runtime_api.h>
 
+#include <mutex>
+#include <set>
+#include <utility>
+
 #include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/device_choice.hpp"
 
@@ -23,16 +27,22 @@ core::Status use_device(int device) {
 
 core::Status let_reach(int device, int peer) {
   if (device == peer) return core::Done{};
+  // Once enabled it stays for the process. Asking again is an error of CUDA, which its checkers report.
+  static std::mutex mutex;
+  static std::set<std::pair<int, int>> enabled;
+  const std::lock_guard lock(mutex);
+  if (enabled.contains({device, peer})) return core::Done{};
   int can = 0;
   BROADSIDE_CUDA_TRY(cudaDeviceCanAccessPeer(&can, device, peer));
   if (can == 0) return core::Done{};
   BROADSIDE_TRY(use_device(device));
   const cudaError_t code = cudaDeviceEnablePeerAccess(peer, 0);
-  if (code == cudaErrorPeerAccessAlreadyEnabled) {
-    (void)cudaGetLastError();  // so that it does not fail the next call
-    return core::Done{};
-  }
-  return cuda_status(code, "reaching another device");
+  if (code == cudaErrorPeerAccessAlreadyEnabled)  // by somebody else in this process
+    (void)cudaGetLastError();                     // so that it does not fail the next call
+  else
+    BROADSIDE_TRY(cuda_status(code, "reaching another device"));
+  enabled.emplace(device, peer);
+  return core::Done{};
 }
 
 core::Status copy_between_devices(void* to, int to_device, const void* from, int from_device, std::size_t bytes,

@@ -76,7 +76,7 @@ struct BoxesToCoarseBins : BoxesToBins {
   __device__ std::uint32_t* cursor() const { return g.bins.coarse_cursor; }
   __device__ static Bucket written(std::uint32_t bucket) { return bucket; }
   __device__ void write(std::uint32_t to, const BulkEntry& entry, Bucket bucket) const {
-    g.staged[to] = entry;
+    g.entries[to] = entry;
     g.bins.whole_bucket[to] = bucket;
   }
 };
@@ -87,7 +87,7 @@ struct CoarseBinsToBins : BoxesToBins {
     std::uint32_t bucket;
   };
   static constexpr bool kIsByCoarseBin = true;
-  __device__ Item item(std::uint64_t k) const { return {g.staged[k], g.bins.whole_bucket[k]}; }
+  __device__ Item item(std::uint64_t k) const { return {g.entries[k], g.bins.whole_bucket[k]}; }
   __device__ BulkPlace place(const Item& item, std::uint64_t /*k*/) const { return {item.entry, item.bucket, {}, 0}; }
 };
 
@@ -280,7 +280,7 @@ __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
         staged[place[bucket_and_rank[k] & ((1U << kBucketBits) - 1U)] + rank - begin] = b.entries[begin + e];
       }
       __syncthreads();
-      for (std::uint32_t k = threadIdx.x; k < count; k += blockDim.x) put_entry(g, begin + k, staged[k]);
+      for (std::uint32_t k = threadIdx.x; k < count; k += blockDim.x) g.entries[begin + k] = staged[k];
     } else {  // one chunk has more than fits
       for (std::uint32_t e = threadIdx.x; e < count; e += blockDim.x)
         atomicAdd(&place[b.bucket[begin + e] - first_bucket], 1U);
@@ -288,7 +288,7 @@ __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
       place_in_bin(g, first_chunk, chunks, begin, place, room);
       __syncthreads();
       for (std::uint32_t e = threadIdx.x; e < count; e += blockDim.x)
-        put_entry(g, atomicAdd(&place[b.bucket[begin + e] - first_bucket], 1U), b.entries[begin + e]);
+        g.entries[atomicAdd(&place[b.bucket[begin + e] - first_bucket], 1U)] = b.entries[begin + e];
     }
     __syncthreads();
   }

@@ -1,7 +1,6 @@
 // The cell in which a box of bulk pairs lies: the loose octree of grid_stage.cuh for another search. Boxes lie on even
 // levels alone, each of a quarter of the cell's size to its whole: fewer levels to look at are worth more tests on
-// each. A box is rounded to two words: see bulk_search.cuh for what that is good
-// for.
+// each. An entry is half as large, a box rounded to two words: see bulk_search.cuh for what that is good for.
 #pragma once
 
 #include "gpu/broad/bulk_view.hpp"
@@ -107,6 +106,7 @@ struct LevelMarks {
 // which cell that is, where the level is not wide.
 constexpr int kLevelTagShift = 3 * kBlockTagBits;
 constexpr std::uint32_t kRowTag = ~kStaticTag;
+constexpr std::uint32_t kNoCellTag = 15U << kLevelTagShift;  // of no level
 
 __device__ inline std::uint32_t block_tag(const BulkView& g, TableCell c, int level) {
   return (c.x >> g.x_bits & kBlockTag) | (c.y >> g.axis_bits & kBlockTag) << kBlockTagBits |
@@ -142,11 +142,6 @@ __device__ inline bool surely_overlap(CoarseBox a, CoarseBox b) {
   return (((b.max - (a.min + kOnes)) | (a.max - kOnes - b.min)) & kCoarseSigns) == 0;
 }
 
-__device__ inline void put_entry(const BulkView& g, std::uint64_t place, const BulkEntry& entry) {
-  g.boxes[place] = entry.box;
-  g.bodies[place] = entry.who;
-}
-
 // Where a box goes.
 struct BulkPlace {
   BulkEntry entry;
@@ -161,8 +156,8 @@ __device__ inline BulkPlace place_of(const BulkView& g, const PackedBox& box, st
   const CellCorner fine_min = fine_corner(box.min, cells_per_m);
   place.cell = table_cell(g, cell_above(fine_min, 0), place.level);
   place.bucket = bucket_of(g, place.cell, place.level);
-  place.entry = {coarse_box(fine_min, fine_corner(box.max, cells_per_m), 0),
-                 {body, block_tag(g, place.cell, place.level) | (box.high_tag != 0 ? kStaticTag : 0U)}};
+  place.entry = {coarse_box(fine_min, fine_corner(box.max, cells_per_m), 0), body,
+                 block_tag(g, place.cell, place.level) | (box.high_tag != 0 ? kStaticTag : 0U)};
   return place;
 }
 

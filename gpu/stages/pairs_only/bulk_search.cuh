@@ -47,15 +47,15 @@ class BulkSearch {
   // The box at this place of the entries.
   __device__ void find_partners(std::uint32_t place, bool has_box, LevelMarks marks) {
     place_ = place;
-    BulkBody own;
+    BulkEntry entry;
     PackedBox box;
     if (has_box) {
-      own = g_.bodies[place];
-      box = boxes_[own.body];
+      entry = g_.entries[place];
+      box = boxes_[entry.body];
     }
-    body_ = own.body;
-    own_level_ = bulk_level_of_tag(own.tag);
-    static_tag_ = own.tag & kStaticTag;
+    body_ = entry.body;
+    own_level_ = bulk_level_of_tag(entry.tag);
+    static_tag_ = entry.tag & kStaticTag;
     const float cells_per_m = scaled(g_.cells_per_m, own_level_);
     fine_min_ = fine_corner(box.min, cells_per_m);
     fine_max_ = fine_corner(box.max, cells_per_m);
@@ -111,9 +111,6 @@ class BulkSearch {
         __any_sync(kFullWarp, looks && ((low.x ^ high.x) >> g_.x_bits | (low.y ^ high.y) >> g_.axis_bits |
                                         (low.z ^ high.z) >> g_.axis_bits) != 0);
     const std::uint32_t block = block_of(g_, low, level);
-    // Two static boxes are no pair.
-    settled_tag_ = block_tag(g_, low, level);
-    settled_mask_ = has_blocks ? 0U : kRowTag | static_tag_;
     const std::uint32_t rows_y = high.y - low.y + 1;
     const std::uint32_t rows_z = high.z - low.z + 1;
     for (std::uint32_t y = 0;; y += kRows) {
@@ -142,7 +139,7 @@ class BulkSearch {
             runs.end[j] = at[more + 1];
             work_.node();
           }
-          walk(runs, cell, level, has_blocks);
+          walk(runs, cell, level);
           if (!has_more_x) break;
           is_in_row = goes_on;
           cell.x += more + 1;
@@ -154,33 +151,28 @@ class BulkSearch {
   }
 
   // Notes what may be partners in three rows, the first of which begins at `cell`. A lane whose notes are full waits.
-  //
-  // Buckets are shared: a box of another row that happens to be here is found from its own. Its tag says which row that
-  // is. Where all rows are of one block the tags of what was noted are looked at later: what a warp waits for here is
-  // how many lines of memory its lanes read.
-  __device__ void walk(Runs& runs, TableCell cell, int level, bool has_blocks) {
+  __device__ void walk(Runs& runs, TableCell cell, int level) {
+    // Two static boxes are no pair.
     const std::uint32_t tag_mask = kRowTag | static_tag_;
     for (bool has_more = true; has_more;) {
       has_more = false;
 #pragma unroll
       for (std::uint32_t j = 0; j < kRows; ++j) {
+        // Buckets are shared: an entry of another row that happens to be here is found from its own.
         const std::uint32_t row_tag = block_tag(g_, {cell.x, cell.y + j, cell.z}, level);
         while (runs.k[j] < runs.end[j] && hits_ <= BulkNotes::kHits - kEntriesAtOnce) {
-          const std::uint32_t first = runs.k[j] & ~1U;
-          work_.tests(min(first + kEntriesAtOnce, runs.end[j]) - runs.k[j]);
-          TwoCoarseBoxes other[kEntriesAtOnce / 2];
+          work_.tests(min(kEntriesAtOnce, runs.end[j] - runs.k[j]));
+          BulkEntry other[kEntriesAtOnce];
 #pragma unroll
-          for (std::uint32_t k = 0; k < kEntriesAtOnce / 2; ++k)
-            other[k] = reinterpret_cast<const TwoCoarseBoxes*>(g_.boxes + first)[k];
+          for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) other[k] = g_.entries[runs.k[j] + k];
 #pragma unroll
           for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) {
-            bool is_noted =
-                first + k >= runs.k[j] && first + k < runs.end[j] && may_overlap(coarse_, other[k / 2].box[k % 2]);
-            if (has_blocks && is_noted) is_noted = ((g_.bodies[first + k].tag ^ row_tag) & tag_mask) == 0;
-            if (is_noted) notes_.hit[hits_][lane()] = first + k;
+            const bool is_noted = runs.k[j] + k < runs.end[j] && may_overlap(coarse_, other[k].box) &&
+                                  ((other[k].tag ^ row_tag) & tag_mask) == 0;
+            if (is_noted) notes_.hit[hits_][lane()] = runs.k[j] + k;
             hits_ += is_noted ? 1U : 0U;
           }
-          runs.k[j] = first + kEntriesAtOnce;
+          runs.k[j] += kEntriesAtOnce;
         }
         has_more = has_more || __any_sync(kFullWarp, runs.k[j] < runs.end[j]);
       }
@@ -190,16 +182,13 @@ class BulkSearch {
 
   // Of what was noted on this level: whose body it is, and whether the rounded boxes leave a doubt.
   __device__ void settle() {
-    std::uint32_t kept = settled_;
 #pragma unroll 2
     for (std::uint32_t k = settled_; k < hits_; ++k) {
-      const std::uint32_t at = notes_.hit[k][lane()];
-      const BulkBody other = g_.bodies[at];
-      const bool is_unsure = unsure_ != 0 || !surely_overlap(coarse_, g_.boxes[at]);
-      notes_.hit[kept][lane()] = is_unsure ? other.body | BulkNotes::kUnsure : other.body;
-      kept += ((other.tag ^ settled_tag_) & settled_mask_) == 0 ? 1U : 0U;
+      const BulkEntry other = g_.entries[notes_.hit[k][lane()]];
+      const bool is_unsure = unsure_ != 0 || !surely_overlap(coarse_, other.box);
+      notes_.hit[k][lane()] = is_unsure ? other.body | BulkNotes::kUnsure : other.body;
     }
-    settled_ = hits_ = kept;
+    settled_ = hits_;
   }
 
   // Passes on what each lane has noted, after a close look at what may be no pair.
@@ -244,11 +233,9 @@ class BulkSearch {
   std::uint32_t place_ = 0;
   int own_level_ = 0;
   std::uint32_t static_tag_ = 0;
-  std::uint32_t settled_tag_ = 0;   // of all that was noted on this level,
-  std::uint32_t settled_mask_ = 0;  // in these bits
-  std::uint32_t unsure_ = 0;        // whether cells of this level may be taken for others
-  std::uint32_t hits_ = 0;          // noted
-  std::uint32_t settled_ = 0;       // of them
+  std::uint32_t unsure_ = 0;   // whether cells of this level may be taken for others
+  std::uint32_t hits_ = 0;     // noted
+  std::uint32_t settled_ = 0;  // of them
 };
 
 // A share of the boxes, by their places among the entries.

@@ -11,10 +11,10 @@ namespace broadside::gpu {
 // Several boxes a thread at once: it waits for all their loads together.
 constexpr std::uint32_t kBoxesAtOnce = 4;
 
-// Runs are read by fours, also past their ends.
+// Runs are read by fours: four entries behind the last one hold a tag that matches no cell.
 template <typename Team>
 __device__ void end_entries(const Team& team, const BulkView& g, std::uint32_t count) {
-  if (team.rank() < 4) g.boxes[count + team.rank()] = {};
+  if (team.rank() < 4) g.entries[count + team.rank()] = {{}, 0, kNoCellTag};
 }
 
 // Counts boxes into buckets. The place within a bucket is whatever the order of the threads makes it: nothing that
@@ -66,7 +66,7 @@ __device__ void bulk_scatter(const Team& team, const BulkView& g, const PackedBo
     }
 #pragma unroll
     for (std::uint32_t k = 0; k < kBoxesAtOnce; ++k)
-      if (first + k * team.size() < count) put_entry(g, place[k], entry[k]);
+      if (first + k * team.size() < count) g.entries[place[k]] = entry[k];
   }
   end_entries(team, g, count);
 }

@@ -80,14 +80,12 @@ class CrossSearch {
       bool is_pair = false;
       core::Pair pair{};
       if (k < end) {
-        if (!is_short || may_overlap(coarse, view_.standing.boxes[k])) {
-          const BulkBody other = view_.standing.bodies[k];
-          // Buckets are shared: a box of another row that happens to be here is found from its own.
-          if (((other.tag ^ row_tag) & kRowTag) == 0) {
-            const PackedBox standing = view_.standing_boxes[other.body];
-            is_pair = core::overlaps(unpack(box), unpack(standing));
-            pair = core::make_pair_of(box.low_tag, standing.low_tag);
-          }
+        const BulkEntry other = view_.standing.entries[k];
+        // Buckets are shared: an entry of another row that happens to be here is found from its own.
+        if (((other.tag ^ row_tag) & kRowTag) == 0 && (!is_short || may_overlap(coarse, other.box))) {
+          const PackedBox standing = view_.standing_boxes[other.body];
+          is_pair = core::overlaps(unpack(box), unpack(standing));
+          pair = core::make_pair_of(box.low_tag, standing.low_tag);
         }
       }
       queue_.push(is_pair, pair);
