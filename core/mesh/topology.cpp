@@ -48,12 +48,12 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
   return sides;
 }
 
-using Point = std::array<double, 3>;
+using Coordinates = std::array<double, 3>;
 
-Point point(Vec3 v) {
+Coordinates point(Vec3 v) {
   return {v.x, v.y, v.z};
 }
-Point cross(const Point& a, const Point& b) {
+Coordinates cross(const Coordinates& a, const Coordinates& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -105,8 +105,8 @@ Topology topology(const Mesh& mesh) {
 double signed_volume_m3(const Mesh& mesh) {
   double six_volumes = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Point a = point(mesh.vertices[t[0]]);
-    const Point n = cross(point(mesh.vertices[t[1]]), point(mesh.vertices[t[2]]));
+    const Coordinates a = point(mesh.vertices[t[0]]);
+    const Coordinates n = cross(point(mesh.vertices[t[1]]), point(mesh.vertices[t[2]]));
     six_volumes += (a[0] * n[0] + a[1] * n[1]) + a[2] * n[2];
   }
   return six_volumes / 6.0;
@@ -115,11 +115,11 @@ double signed_volume_m3(const Mesh& mesh) {
 double area_m2(const Mesh& mesh) {
   double twice = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Point a = point(mesh.vertices[t[0]]);
-    Point p = point(mesh.vertices[t[1]]);
-    Point q = point(mesh.vertices[t[2]]);
+    const Coordinates a = point(mesh.vertices[t[0]]);
+    Coordinates p = point(mesh.vertices[t[1]]);
+    Coordinates q = point(mesh.vertices[t[2]]);
     for (int k = 0; k < 3; ++k) p[k] -= a[k], q[k] -= a[k];
-    const Point n = cross(p, q);
+    const Coordinates n = cross(p, q);
     twice += std::sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
   }
   return 0.5 * twice;

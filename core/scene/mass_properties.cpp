@@ -12,9 +12,9 @@
 namespace broadside::core {
 namespace {
 
-using Point = std::array<double, 3>;
+using Position = std::array<double, 3>;
 
-Point point_of(Vec3 v) {
+Position point_of(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
@@ -22,7 +22,7 @@ Point point_of(Vec3 v) {
 // triangle.
 struct Moments {
   double volume = 0.0;
-  Point first{};
+  Position first{};
   std::array<double, 6> second{};  // xx yy zz xy xz yz
 };
 
@@ -30,8 +30,8 @@ Moments moments_of(const Mesh& mesh) {
   constexpr std::array<std::array<int, 2>, 6> kAxes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
   Moments sum;
   for (const Triangle& t : mesh.triangles) {
-    const std::array<Point, 3> p{point_of(mesh.vertices[t[0]]), point_of(mesh.vertices[t[1]]),
-                                 point_of(mesh.vertices[t[2]])};
+    const std::array<Position, 3> p{point_of(mesh.vertices[t[0]]), point_of(mesh.vertices[t[1]]),
+                                    point_of(mesh.vertices[t[2]])};
     const double determinant = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
                                p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
                                p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
@@ -42,7 +42,7 @@ Moments moments_of(const Mesh& mesh) {
       const double total_i = p[0][i] + p[1][i] + p[2][i];
       const double total_j = p[0][j] + p[1][j] + p[2][j];
       double products = total_i * total_j;
-      for (const Point& q : p) products += q[i] * q[j];
+      for (const Position& q : p) products += q[i] * q[j];
       sum.second[e] += determinant / 120.0 * products;
     }
   }
@@ -53,7 +53,7 @@ MassProperties of_polyhedron(const Moments& m, double mass_kg) {
   const double density = mass_kg / m.volume;
   MassProperties out;
   for (std::size_t k = 0; k < 3; ++k) out.center_of_mass_m[k] = m.first[k] / m.volume;
-  const Point& c = out.center_of_mass_m;
+  const Position& c = out.center_of_mass_m;
   // Second moments about the center of mass.
   const auto about = [&](std::size_t e, std::size_t i, std::size_t j) {
     return density * m.second[e] - mass_kg * c[i] * c[j];
@@ -67,7 +67,7 @@ MassProperties of_polyhedron(const Moments& m, double mass_kg) {
 
 MassProperties of_primitive(const Primitive& p, double mass_kg) {
   MassProperties out;
-  const Point h = point_of(p.half_extents);
+  const Position h = point_of(p.half_extents);
   if (p.kind == PrimitiveKind::kBox) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double a = h[(k + 1) % 3];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "datasets/box_streams/box_of.hpp"
@@ -12,8 +13,6 @@ namespace broadside::datasets {
 namespace {
 
 using core::Box;
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct MovingState {
   RandomStream random{0};
@@ -57,7 +56,7 @@ std::vector<Box> heap_boxes(std::uint32_t n, std::uint64_t seed) {
   RandomStream random(seed);
   const auto in_heap = static_cast<std::uint32_t>(std::uint64_t{n} * 99 / 100 / kHeaps);
   // A cone as high as its radius holds pi r^3 / 3 lattice points of spacing 1.
-  const double radius = cube_root(3.0 * in_heap / kPi);
+  const double radius = cube_root(3.0 * in_heap / std::numbers::pi);
   const double width = std::max(16.0 * radius, 1.0);
   std::vector<Box> boxes;
   boxes.reserve(n);

@@ -34,21 +34,21 @@ Triple turned(const Triple& v, const Triple& u) {
 }
 
 // w x y z.
-using Turn = std::array<double, 4>;
+using TurnParts = std::array<double, 4>;
 
-Turn normalized(Turn q) {
+TurnParts normalized(TurnParts q) {
   const double norm = std::sqrt((q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]));
   for (double& c : q) c /= norm;
   return q;
 }
 
-Turn product(const Turn& p, const Turn& q) {
+TurnParts product(const TurnParts& p, const TurnParts& q) {
   return {p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3], p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
           p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1], p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
 }
 
 // Sides of the box around a unit cube that is turned by q: the sums of the rotation matrix's rows in magnitude.
-Triple sides_of_turned_cube(const Turn& q) {
+Triple sides_of_turned_cube(const TurnParts& q) {
   const auto [w, x, y, z] = q;
   return {std::abs(1.0 - 2.0 * (y * y + z * z)) + std::abs(2.0 * (x * y - w * z)) + std::abs(2.0 * (x * z + w * y)),
           std::abs(2.0 * (x * y + w * z)) + std::abs(1.0 - 2.0 * (x * x + z * z)) + std::abs(2.0 * (y * z - w * x)),
@@ -151,8 +151,8 @@ class BroadmarkWorld {
   std::vector<Triple> centers_;
   std::vector<Triple> velocities_;
   std::vector<Triple> sides_;
-  std::vector<Turn> turns_;  // of tumbling cubes, and their turn in one step
-  std::vector<Turn> spins_;
+  std::vector<TurnParts> turns_;  // of tumbling cubes, and their turn in one step
+  std::vector<TurnParts> spins_;
   std::vector<bool> is_resting_;
   std::vector<double> heights_;  // how high the pile is over each unit square of ground
   std::size_t cells_ = 0;

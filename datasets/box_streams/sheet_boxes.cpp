@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "datasets/circle.hpp"
@@ -13,11 +14,10 @@ constexpr std::uint32_t kPanels = 8;
 // A fold is bent over this share of a panel to each side of the line between two.
 constexpr double kBend = 0.1;
 constexpr double kLastFold_parts = 0.98;  // of a half turn
-constexpr double kPi = 3.14159265358979323846;
 
 // Of any angle, in turns.
 Turn of_turns(double turns) {
-  return turn_by(2.0 * kPi * (turns - std::floor(turns + 0.5)));
+  return turn_by(2.0 * std::numbers::pi * (turns - std::floor(turns + 0.5)));
 }
 
 // Of a place along the cloth in panels: how far it is bent there, from -1 to 1; neighbors bend to opposite sides.
@@ -43,7 +43,7 @@ struct Sheet {
   void place_vertices() {
     const double done = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 1.0;
     // Half of the angle between two panels' directions.
-    const double tilt = 0.5 * kPi * kLastFold_parts * done;
+    const double tilt = 0.5 * std::numbers::pi * kLastFold_parts * done;
     const double height = 0.2 + 0.004 * length;  // of the wrinkles
     double x = 0.0;
     double z = 0.0;

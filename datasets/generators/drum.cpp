@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,6 @@ constexpr SceneKnob kDrumKnobs[] = {
     {"depth", 2.2, 1.1, 100.0, "of the drum, in longest sides"},
 };
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kPitch = 1.1;  // of the bodies at the start, in longest sides
 
 // Centers in the plane of the drum's round side, from below, of cells that lie within the radius.
@@ -39,7 +39,8 @@ core::Scene drum(const GivenScene& given) {
   const double pitch = kPitch * longest;
   const double depth = given.knobs[1] * longest;
   const auto layers = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(depth / pitch));
-  double radius = std::sqrt(given.count * pitch * pitch * pitch / (kPi * depth * given.knobs[0])) + longest;
+  double radius =
+      std::sqrt(given.count * pitch * pitch * pitch / (std::numbers::pi * depth * given.knobs[0])) + longest;
   std::vector<std::array<double, 2>> cells = cells_within(radius, pitch);
   while (cells.size() * layers < given.count) cells = cells_within(radius *= 1.05, pitch);
 

@@ -89,9 +89,9 @@ class SceneFileReader {
   void read_motion(TableReader& top) {
     std::string word;
     if (!top.text("motion", word)) return;
-    constexpr std::array kMotions{core::Motion::kTranslate, core::Motion::kRigid};
+    constexpr std::array kMotionKinds{core::Motion::kTranslate, core::Motion::kRigid};
     std::vector<std::string_view> known;
-    for (const core::Motion motion : kMotions) {
+    for (const core::Motion motion : kMotionKinds) {
       known.push_back(core::motion_word(motion));
       if (known.back() == word) scene_.motion = motion;
     }

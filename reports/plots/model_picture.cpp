@@ -11,9 +11,9 @@
 namespace broadside::reports::plots {
 namespace {
 
-constexpr double kSide = 300.0;   // px of the picture's square
-constexpr double kHead = 30.0;    // px above it for the title
-constexpr double kMargin = 0.04;  // share of the square that stays empty around the model
+constexpr double kSide = 300.0;        // px of the picture's square
+constexpr double kHead = 30.0;         // px above it for the title
+constexpr double kModelMargin = 0.04;  // share of the square that stays empty around the model
 constexpr std::uint32_t kCells = 220;
 constexpr int kShades = 10;
 
@@ -33,7 +33,7 @@ Window window_of(const core::Mesh& mesh, std::span<const core::Box> boxes, const
   for (const core::Box& b : boxes)
     for (unsigned k = 0; k < 8 && !core::is_empty(b); ++k) add(corner_of(b, k));
   if (!(left <= right)) return {};
-  const double side = std::max({right - left, top - bottom, 1e-12}) * (1.0 + 2.0 * kMargin);
+  const double side = std::max({right - left, top - bottom, 1e-12}) * (1.0 + 2.0 * kModelMargin);
   return {0.5 * (left + right) - 0.5 * side, 0.5 * (bottom + top) + 0.5 * side, side};
 }
 

@@ -14,7 +14,7 @@ bool is_finite(Vec3d v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-core::Box joined(const core::Box& a, const core::Box& b) {
+core::Box joined_boxes(const core::Box& a, const core::Box& b) {
   core::Box box;
   for (int k = 0; k < 3; ++k) {
     box.min[k] = std::min(a.min[k], b.min[k]);
@@ -29,7 +29,7 @@ bool is_within(const core::Box& inner, const core::Box& outer) {
   return true;
 }
 
-bool meet(const core::Box& a, const core::Box& b) {
+bool do_boxes_meet(const core::Box& a, const core::Box& b) {
   for (int k = 0; k < 3; ++k)
     if (!(a.min[k] <= b.max[k] && b.min[k] <= a.max[k])) return false;
   return true;
@@ -199,7 +199,7 @@ core::Box MotionReader::predicted_box(std::size_t body) const {
   const core::Box start = box_around(s, f, grow, {});
   const core::Box drifted = box_around(s, f, grow, motion_.h * s.v);
   const core::Box fallen = box_around(s, f, grow, motion_.h * (s.v + motion_.h * motion_.bodies[body].acceleration));
-  return joined(joined(start, drifted), fallen);
+  return joined_boxes(joined_boxes(start, drifted), fallen);
 }
 
 core::Box MotionReader::swept_box(std::size_t body) const {
@@ -208,21 +208,22 @@ core::Box MotionReader::swept_box(std::size_t body) const {
   // Between two poses an extent is above both ends' by at most reach (1 - cos(angle / 2)).
   const double angle = angle_of(b.after.q * conjugate(b.before.q));
   const double grow = f.reach_m * std::min(1.0, angle * angle / 8.0) + margin_m_;
-  return joined(predicted_[body], joined(box_around(b.before, f, grow, {}), box_around(b.after, f, grow, {})));
+  return joined_boxes(predicted_[body],
+                      joined_boxes(box_around(b.before, f, grow, {}), box_around(b.after, f, grow, {})));
 }
 
 void MotionReader::find_touchable() {
   const core::Box& d = header_.scene.domain;
   for (std::size_t i = 0; i < facts_.size(); ++i) is_touchable_[i] = is_within(predicted_[i], d) ? 0 : 1;
   for (const core::Pair p : motion_.near)
-    if (meet(predicted_[p.i], predicted_[p.j])) is_touchable_[p.i] = is_touchable_[p.j] = 1;
+    if (do_boxes_meet(predicted_[p.i], predicted_[p.j])) is_touchable_[p.i] = is_touchable_[p.j] = 1;
   // What was deflected may meet what was not.
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
     for (const core::Pair p : motion_.near) {
       if (is_touchable_[p.i] == is_touchable_[p.j]) continue;
       const auto [from, to] = is_touchable_[p.i] != 0 ? std::pair(p.i, p.j) : std::pair(p.j, p.i);
-      if (!meet(swept_[from], predicted_[to])) continue;
+      if (!do_boxes_meet(swept_[from], predicted_[to])) continue;
       is_touchable_[to] = 1;
       is_changed = true;
     }

@@ -37,7 +37,7 @@ Scene slips() {
 }
 
 // No gravity, so that the one impact is all there is: (3, -4) m/s on the floor with e = 1/2.
-Scene oblique(double friction) {
+Scene oblique_bounce(double friction) {
   Scene scene = rigid_scene("oblique-bounce", kBallStep_s, 0.5);
   scene.gravity_m_s2 = {};
   add_ball(scene, kBallRadius_m, {0, 1.5F, 0}).velocity = {3, -4, 0};
@@ -46,10 +46,10 @@ Scene oblique(double friction) {
 }
 // The threshold is mu (1 + e) v_n = 2/7 v_t: mu = 1/7.
 Scene oblique_rolls() {
-  return oblique(1.0 / 7.0 * kBallMore);
+  return oblique_bounce(1.0 / 7.0 * kBallMore);
 }
 Scene oblique_slips() {
-  return oblique(1.0 / 7.0 / kBallMore);
+  return oblique_bounce(1.0 / 7.0 / kBallMore);
 }
 
 // Rests after sqrt(2 h / g) (1 + e) / (1 - e) = 4.5 s; every approach bounces.
