@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench/process/child.hpp"
 #include "gpu/runtime/device_space.hpp"
@@ -23,10 +24,16 @@ namespace {
 constexpr double kHelloLimit_s = 10.0;
 constexpr const char* kHelloVariable = "BROADSIDE_HELLO_LIMIT_S";
 
+// Plug-ins are named and described before any thread begins, so nothing writes the environment meanwhile.
+std::optional<std::string> variable(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
 core::Result<double> hello_limit_s() {
-  const char* given = std::getenv(kHelloVariable);
-  if (given == nullptr) return kHelloLimit_s;
-  const std::string_view text = given;
+  const std::optional<std::string> given = variable(kHelloVariable);
+  if (!given) return kHelloLimit_s;
+  const std::string_view text = *given;
   double seconds = 0.0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (fault != std::errc() || end != text.data() + text.size() || !(seconds > 0.0) || seconds > 86400.0)
@@ -141,8 +148,7 @@ core::Result<reference::PluginDescription> description_from(const std::string& j
 constexpr const char* kToldVariable = "BROADSIDE_DESCRIBED";
 
 nlohmann::json told_by_ancestors() {
-  const char* text = std::getenv(kToldVariable);
-  nlohmann::json told = nlohmann::json::parse(text == nullptr ? "{}" : text, nullptr, false);
+  nlohmann::json told = nlohmann::json::parse(variable(kToldVariable).value_or("{}"), nullptr, false);
   return told.is_object() ? told : nlohmann::json::object();
 }
 
@@ -172,7 +178,8 @@ core::Result<reference::PluginDescription> described(const std::string& path, bo
   auto description = description_from(ending.output, path);
   if (!description) return description;
   told[key] = ending.output;
-  setenv(kToldVariable, told.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str(), 1);
+  const std::string all = told.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  setenv(kToldVariable, all.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   return description;
 }
 

@@ -122,6 +122,10 @@ std::string plan_text(const CellSeconds& known, const campaign::Manifest& manife
     all += costs.back().seconds;
   }
   std::stable_sort(costs.begin(), costs.end(), [](const Cost& a, const Cost& b) { return a.seconds > b.seconds; });
+  // A sum that is mostly guessed is no estimate.
+  if (2 * unknown > costs.size())
+    return fmt::format("{} cells, of which {} were measured: too few for an estimate.\n", costs.size(),
+                       costs.size() - unknown);
   std::string text = fmt::format("{} cells, {:.0f} s of work: about {:.0f} min with --jobs {}.\n", costs.size(), all,
                                  all / 60.0 / static_cast<double>(std::max(jobs, 1U)), jobs);
   if (!known.origin().empty()) text += fmt::format("Measured: {}\n", known.origin());

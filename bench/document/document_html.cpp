@@ -27,6 +27,7 @@ constexpr std::string_view kBlockStyle = R"(
 .wide td.good { color: var(--pass) } .wide td.bad { color: var(--fail); font-weight: 600 } .wide td.away { color: var(--soft) }
 figure.drawing { margin: 1rem 0; display: inline-block; vertical-align: top; max-width: 100% }
 figure.drawing figcaption { font-size: .8rem; color: var(--soft); max-width: 40rem }
+.wide.worded tbody th { white-space: normal; overflow-wrap: normal; max-width: 34rem }
 .wide td.words { white-space: normal; text-align: left; min-width: 12rem }
 .fold { border-bottom: 1px solid var(--line) } .fold > summary { cursor: pointer; padding: .3rem 0; font-size: .875rem }
 .fold > summary:hover { color: var(--accent) } .fold .fold { border-bottom: 0 }

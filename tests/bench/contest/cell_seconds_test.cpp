@@ -42,6 +42,12 @@ TEST(CellSeconds, ThePlanSumsAndNamesTheDearest) {
   EXPECT_LT(text.find("60.0 s  b[x=1,y=2]"), text.find("24.0 s  c"));
 }
 
+TEST(CellSeconds, ASumThatIsMostlyGuessedIsNoEstimate) {
+  CellSeconds few;
+  few.set("a", "one", 4.0);
+  EXPECT_NE(plan_text(few, manifest(), 2).find("4 cells, of which 1 were measured: too few"), std::string::npos);
+}
+
 // A machine that takes twice as long for what it finished takes twice as long for what is left.
 TEST(CellSeconds, TheForecastGoesAtThePaceOfWhatIsFinished) {
   const CellSeconds of = known();
