@@ -42,7 +42,8 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
 
 // What came fast leaves. is_first: what stopped each point is noted. Brings the largest change of a point's speed.
 __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f,
-                                               const core::SoftStep& soft, bool is_first, const TeamSums& sums) {
+                                               const core::SoftStep& soft, bool is_first, float done,
+                                               const TeamSums& sums) {
   float largest = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
@@ -67,7 +68,7 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         }
         core::SolverBody a = load_place(f.bodies[c.a]);
         core::SolverBody b = load_place(f.bodies[c.b]);
-        with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, soft)); });
+        with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, soft, done)); });
         store_impulses(slot, c);
       });
   __syncwarp();

@@ -79,16 +79,17 @@ __device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const Ri
 __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                            float fastest) {
   const float done = core::kBounceDone * fastest;
+  const bool has_sweeps = done > 0.0F;
   float largest = fastest;
-  for (int k = 0; done > 0.0F && k < core::kMostBounceSweeps && largest > done; ++k, ++solve.sweep) {
+  for (int k = 0; has_sweeps && k < core::kMostBounceSweeps && largest > done; ++k, ++solve.sweep) {
     relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
     ++solve.done.bounce_sweeps;
     team.sync();
     largest = largest_of_turn(team, solve);
   }
   largest = fastest;
-  for (int k = 0; done > 0.0F && k < core::kMostBounceSweeps && largest > done; ++k) {
-    sweep_bouncing(team, f, solve.soft, k == 0, solve.sums);
+  for (int k = 0; has_sweeps && k < core::kMostBounceSweeps && largest > done; ++k) {
+    sweep_bouncing(team, f, solve.soft, k == 0, done, solve.sums);
     ++solve.done.bounce_sweeps;
     team.sync();
     largest = largest_of_turn(team, solve);

@@ -201,7 +201,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     visit_by_color(fast_begin_, [&](std::size_t n) {
       of_places_[n] = change(fast_[n], [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
         if (k == 0) core::note_stopping(c);
-        return core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers) : 0.0F;
+        return core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers, done) : 0.0F;
       });
     });
     ++bounce_sweeps_;
