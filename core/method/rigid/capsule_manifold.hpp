@@ -36,7 +36,7 @@ BROADSIDE_HD void capsules(const PlacedShape& a, const PlacedShape& b, float rou
   const SegmentPolytope sb = segment_polytope(b);
   const float ball_a = a.shape->radius_m;
   const float ball_b = b.shape->radius_m;
-  const NearestDirection direction = nearest_direction(sa, sb, {0.0F, 1.0F, 0.0F}, 0.0F, 3.0e38F);
+  const NearestDirection direction = nearest_direction(sa, sb, {0.0F, 1.0F, 0.0F}, 0.0F, rounding_m, 3.0e38F);
   const NearestFeatures& near = direction.features;
   const float distance = sqrtf(near.squared_m2);
   out.count = 0;

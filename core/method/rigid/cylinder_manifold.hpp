@@ -305,7 +305,8 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
       const int fineness = (pass + 1) / 2;
       prism = cylinder_polytope(cylinder, fineness, pass == 0 ? -n : near.features.on_a - cylinder.center);
       polytope = polytope_of(other, kind, fineness, pass == 0 ? n : near.features.on_b - other.center);
-      near = nearest_direction(prism, polytope, axis.normal, axis.gap_m, reach_m + ball + 2.0F * rounding_m);
+      near =
+          nearest_direction(prism, polytope, axis.normal, axis.gap_m, rounding_m, reach_m + ball + 2.0F * rounding_m);
       if (!(near.gap_m > -3.0e38F)) break;
     }
     if (!(near.gap_m > -3.0e38F)) return;

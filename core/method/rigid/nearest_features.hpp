@@ -1,7 +1,7 @@
 // The nearest points of two polytopes that are apart, by their corners and edges.
 //
 // A corner over a face is found by separating axes. What is left are two edges, a corner and an edge, and two corners:
-// all of them are tried.
+// all of them are tried, of large hulls those alone that near_bound.hpp leaves.
 #pragma once
 
 #include <cmath>
@@ -10,42 +10,11 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/corner_layer.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/near_bound.hpp"
 
 namespace broadside::core {
-
-template <typename Polytope>
-BROADSIDE_HD int lowest_corner(const Polytope& p, Vec3 direction) {
-  const Vec3 local = p.local(direction);
-  int lowest = 0;
-  float least = 3.402823e38F;
-  for (int k = 0; k < p.corner_count(); ++k) {
-    const float along = p.height(k, local);
-    if (!(along < least)) continue;
-    least = along;
-    lowest = k;
-  }
-  return lowest;
-}
-
-// The part of a body that may be within a distance of the other one: corners and edges up to a height above the body's
-// lowest corner along a direction, seen from the other body.
-struct Layer {
-  Vec3 direction;  // as local() gives it
-  float top = 3.402823e38F;
-};
-
-template <typename Polytope>
-BROADSIDE_HD bool reaches_into(const Polytope& p, const Layer& layer, int from, int to) {
-  return p.height(from, layer.direction) <= layer.top || p.height(to, layer.direction) <= layer.top;
-}
-
-// thickness_m: above the lowest corner along the unit direction.
-template <typename Polytope>
-BROADSIDE_HD Layer layer_of(const Polytope& p, Vec3 direction, float thickness_m) {
-  const Vec3 local = p.local(direction);
-  return {local, p.height(lowest_corner(p, direction), local) + thickness_m};
-}
 
 // How far A is above B along a unit direction.
 template <typename PolytopeA, typename PolytopeB>
@@ -63,14 +32,6 @@ struct NearestFeatures {
   Vec3 along_a;
   Vec3 along_b;
 };
-
-// Where the point of the segment from p to q nearest to x is: 0 at p, 1 at q.
-BROADSIDE_HD float share_nearest(Vec3 x, Vec3 p, Vec3 q) {
-  const Vec3 along = q - p;
-  const float squared = dot(along, along);
-  const float share = squared > 0.0F ? dot(x - p, along) / squared : 0.0F;
-  return share <= 0.0F ? 0.0F : (share >= 1.0F ? 1.0F : share);
-}
 
 namespace nearest_detail {
 
@@ -210,8 +171,14 @@ struct NearestDirection {
 // compute the direction between them, the one along which the bodies are farther apart is the better one.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b, Vec3 parting,
-                                                       float parted_m, float reach_m) {
+                                                       float parted_m, float rounding_m, float reach_m) {
   NearestDirection best;
+  if (has_many_edges(a, b) && parted_m > 0.0F) {
+    const NearBound bound = near_bound(a, b, parting, parted_m);
+    parting = bound.parting;
+    parted_m = bound.parted_m;
+    reach_m = fminf(reach_m, bound.farthest_m + 4.0F * rounding_m);
+  }
   const float thickness = reach_m - parted_m > 0.0F ? reach_m - parted_m : 0.0F;
   const Layer near_a = layer_of(a, parting, thickness);
   const Layer near_b = layer_of(b, -parting, thickness);

@@ -11,6 +11,7 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/near_bound.hpp"
 #include "core/method/rigid/nearest_features.hpp"
 #include "core/method/rigid/separating_axis.hpp"
 
@@ -158,11 +159,18 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
   Layer near_a;
   Layer near_b;
   if (a.edge_count() * b.edge_count() > axes_detail::kFewEdgePairs && best.kind != AxisKind::kNone) {
-    farthest = fmaxf(reach_m, -best.gap_m) + rounding_m;
-    float thickness = farthest - best.gap_m;
+    NearBound bound{best.normal, best.gap_m, fmaxf(reach_m, -best.gap_m)};
+    if (has_many_edges(a, b) && best.gap_m > 0.0F) {
+      bound = near_bound(a, b, best.normal, best.gap_m);
+      bound.farthest_m = fminf(reach_m, bound.farthest_m + 3.0F * rounding_m);
+      // No axis is wider than the bodies are apart.
+      if (!(bound.farthest_m > best.gap_m + 4.0F * rounding_m)) return best;
+    }
+    farthest = bound.farthest_m + rounding_m;
+    float thickness = farthest - bound.parted_m;
     for (int halvings = 0; halvings < axes_detail::kMostHalvings; ++halvings) {
-      near_a = layer_of(a, best.normal, thickness);
-      near_b = layer_of(b, -best.normal, thickness);
+      near_a = layer_of(a, bound.parting, thickness);
+      near_b = layer_of(b, -bound.parting, thickness);
       if (axes_detail::edges_in(a, near_a) * axes_detail::edges_in(b, near_b) <= axes_detail::kMostEdgePairs) break;
       thickness = 0.5F * thickness;
     }

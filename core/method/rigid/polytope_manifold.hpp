@@ -104,7 +104,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
   const bool is_shown = has_witness || polytope_detail::least_gap(area) <= axis.gap_m + 2.0F * rounding_m;
   if (!is_shown) {
     const NearestDirection near =
-        nearest_direction(a, b, axis.normal, axis.gap_m, reach_m + balls_m + 2.0F * rounding_m);
+        nearest_direction(a, b, axis.normal, axis.gap_m, rounding_m, reach_m + balls_m + 2.0F * rounding_m);
     if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near
     has_witness = true;
     witness.gap_m = axis.gap_m;

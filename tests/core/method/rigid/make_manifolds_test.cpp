@@ -111,6 +111,31 @@ TEST(Manifolds, OfRandomPairsAgreeWithTheExactDistance) {
   }
 }
 
+// So many edges that a bound on the distance says which of them are looked at: of round hulls and of flat ones, with a
+// reach that leaves all of them.
+TEST(Manifolds, OfHullsWithManyEdgesAgreeWithTheExactDistance) {
+  Draw draw(7);
+  const auto many_edges = [&draw] {
+    const Vec3 sides{draw.between(0.1F, 1.0F), draw.between(0.1F, 1.0F), 1.0F};
+    std::vector<Vec3> points;
+    for (int k = 0; k < 32; ++k) {
+      const Vec3 p = normalized(draw.in_cube(1.0F));
+      points.push_back({sides.x * p.x, sides.y * p.y, sides.z * p.z});
+    }
+    return hull(*exact::convex_hull(points));
+  };
+  for (int trial = 0; trial < 21; ++trial) {
+    Subject a = many_edges();
+    Subject b = many_edges();
+    ASSERT_GT(a.shape.hull.edge_count * b.shape.hull.edge_count, 4096U);
+    a.pose = {draw.in_cube(1.0F), draw.turn()};
+    b.pose = {draw.in_cube(1.0F), draw.turn()};
+    const double distances[] = {-0.01, 0.0, 1e-6, 1e-4, 0.01, 0.05, 0.3};
+    bring_near(a, b, normalized(draw.in_cube(1.0F)), distances[trial % 7]);
+    ASSERT_TRUE(is_right(a, b, 2.0F)) << "trial " << trial << "\n" << text_of(a) << "\n" << text_of(b);
+  }
+}
+
 // Parallel faces and edges, corners on faces and on corners: sizes and places on a lattice, axes to axes.
 TEST(Manifolds, OfSpecialPositionsAgreeWithTheExactDistance) {
   for (const Family& family : families()) {

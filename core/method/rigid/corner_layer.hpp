@@ -1,0 +1,51 @@
+// The corners of a polytope that are lowest along a direction, and the layer above them.
+#pragma once
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/cross.hpp"
+
+namespace broadside::core {
+
+template <typename Polytope>
+BROADSIDE_HD int lowest_corner(const Polytope& p, Vec3 direction) {
+  const Vec3 local = p.local(direction);
+  int lowest = 0;
+  float least = 3.402823e38F;
+  for (int k = 0; k < p.corner_count(); ++k) {
+    const float along = p.height(k, local);
+    if (!(along < least)) continue;
+    least = along;
+    lowest = k;
+  }
+  return lowest;
+}
+
+// The part of a body that may be within a distance of the other one: corners and edges up to a height above the body's
+// lowest corner along a direction, seen from the other body.
+struct Layer {
+  Vec3 direction;  // as local() gives it
+  float top = 3.402823e38F;
+};
+
+template <typename Polytope>
+BROADSIDE_HD bool reaches_into(const Polytope& p, const Layer& layer, int from, int to) {
+  return p.height(from, layer.direction) <= layer.top || p.height(to, layer.direction) <= layer.top;
+}
+
+// thickness_m: above the lowest corner along the unit direction.
+template <typename Polytope>
+BROADSIDE_HD Layer layer_of(const Polytope& p, Vec3 direction, float thickness_m) {
+  const Vec3 local = p.local(direction);
+  return {local, p.height(lowest_corner(p, direction), local) + thickness_m};
+}
+
+// Where the point of the segment from p to q nearest to x is: 0 at p, 1 at q.
+BROADSIDE_HD float share_nearest(Vec3 x, Vec3 p, Vec3 q) {
+  const Vec3 along = q - p;
+  const float squared = dot(along, along);
+  const float share = squared > 0.0F ? dot(x - p, along) / squared : 0.0F;
+  return share <= 0.0F ? 0.0F : (share >= 1.0F ? 1.0F : share);
+}
+
+}  // namespace broadside::core

@@ -1,0 +1,58 @@
+// Between which two numbers the distance of two polytopes is: what is farther than the larger one need not be looked
+// at.
+//
+// Gilbert, An iterative procedure for computing the minimum of a quadratic form on a convex set (1966): a point of the
+// difference of both bodies moves toward the corner that is farthest against it, and stays on the segment between.
+#pragma once
+
+#include <cmath>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/corner_layer.hpp"
+#include "core/method/rigid/cross.hpp"
+
+namespace broadside::core {
+
+// Whether looking for a bound costs less than trying all pairs of edges: not for boxes and for the prisms that stand
+// for cylinders.
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD bool has_many_edges(const PolytopeA& a, const PolytopeB& b) {
+  constexpr int kManyEdgePairs = 4096;
+  return a.edge_count() * b.edge_count() > kManyEdgePairs;
+}
+
+struct NearBound {
+  Vec3 parting;             // unit, from B to A
+  float parted_m = 0.0F;    // the bodies are apart by at least this much along it
+  float farthest_m = 0.0F;  // and nowhere need be farther apart than this
+};
+
+// Of bodies that are parted by parted_m > 0 along the unit direction.
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m) {
+  // More steps thin the layer that is searched by less than they cost: each looks at all corners.
+  constexpr int kMostSteps = 24;
+  constexpr float kThin = 0x1p-7F;
+  NearBound bound{parting, parted_m, 3.402823e38F};
+  Vec3 x = a.corner(lowest_corner(a, parting)) - b.corner(lowest_corner(b, -parting));
+  for (int step = 0; step < kMostSteps; ++step) {
+    const float distance = length(x);
+    bound.farthest_m = fminf(bound.farthest_m, distance);
+    if (!(distance > 0.0F)) break;
+    const Vec3 n = (1.0F / distance) * x;
+    const Vec3 corner = a.corner(lowest_corner(a, n)) - b.corner(lowest_corner(b, -n));
+    const float gap = dot(n, corner);
+    if (gap > bound.parted_m) {
+      bound.parted_m = gap;
+      bound.parting = n;
+    }
+    if (bound.farthest_m - bound.parted_m <= kThin * bound.farthest_m) break;
+    const float share = share_nearest({}, x, corner);
+    if (!(share > 0.0F)) break;
+    x = x + share * (corner - x);
+  }
+  return bound;
+}
+
+}  // namespace broadside::core
