@@ -75,6 +75,26 @@ TEST(RigidOnHost, BouncesAndWrenches) {
   compare("rigid:flight:pushed", 10);
 }
 
+// Both say how many sweeps they took.
+TEST(RigidOnHost, SweepsAreCountedAlike) {
+  const core::Scene scene = scene_of("freefall:cube:12[rigid=1]");
+  RigidPipeline subject{{}};
+  const auto twin = twin_of({});
+  ASSERT_TRUE(subject.load(scene).ok() && twin->load(scene).ok());
+  for (int k = 0; k < 35; ++k) ASSERT_TRUE(subject.step(scene.dt_s).ok() && twin->step(scene.dt_s).ok());
+  const auto counts_of = [](const core::Dynamics& dynamics) {
+    std::map<std::string, std::uint64_t> counts;
+    for (const core::Counter& counter : dynamics.counters()) counts[std::string(counter.name)] = counter.count;
+    return counts;
+  };
+  auto of_gpu = counts_of(subject);
+  auto of_twin = counts_of(*twin);
+  EXPECT_GT(of_gpu["solver: sweeps of bounces"], 0U);
+  for (const char* name : {"solver: sweeps", "solver: sweeps of bounces"})
+    EXPECT_EQ(of_gpu[name], of_twin[name]) << name;
+  EXPECT_GT(of_gpu["solver: waits"], of_gpu["solver: sweeps"]);
+}
+
 TEST(RigidOnHost, EveryStartAndLevel) {
   for (const core::LevelsRow& row : core::kLevels) {
     SCOPED_TRACE(row.name);
