@@ -80,9 +80,11 @@ TEST(PassageCourses, ThePageSaysWhatWentThrough) {
   Document document;
   add_passages(document, table);
   const auto words = std::find_if(document.blocks.begin(), document.blocks.end(),
-                                  [](const Block& b) { return std::holds_alternative<Table>(b); });
+                                  [](const Block& b) { return std::holds_alternative<Fold>(b); });
   ASSERT_NE(words, document.blocks.end());
-  const Table& lines = std::get<Table>(*words);
+  const auto& inside = std::get<Fold>(*words).blocks;
+  ASSERT_EQ(inside.size(), 1U);
+  const Table& lines = std::get<Table>(inside[0]);
   ASSERT_EQ(lines.rows.size(), drop.runs.size());
   EXPECT_EQ(lines.rows[0][2].text, "held");
   EXPECT_EQ(lines.rows[1][2].text, "through");
