@@ -2,11 +2,14 @@
 // Prints one JSON line a set and number of parts: medians over the repetitions, ms, by the host's clock.
 //   broadside_gpu_spread REPETITIONS N[,N]... KIND[,KIND]...      e.g. broadside_gpu_spread 10 10000000,100000000
 //   uniform
+// Steps of the search (count_ms, place_ms, scatter_ms, find_ms) are those of the part that took longest.
 // Of each set first one device's share of the boxes on one device, for weak scaling; then all on one, for the digest
 // and strong scaling; then all on all devices. KIND may be mesh:NAME: copies of a mesh, of about N boxes together.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <future>
 #include <numeric>
 #include <sstream>
 #include <string>
@@ -69,7 +72,7 @@ bool race(const char* what, const std::string& kind, const std::vector<Box>& box
   const std::vector<std::uint8_t> is_static(boxes.size());
   gpu::SpreadFinder finder({cut.parts(), cut.parts()});
   if (core::Status s = finder.load_cut(boxes, is_static, cut); !s) return complain(s.error());
-  std::vector<double> whole, borders, exchange, search;
+  std::vector<double> whole, borders, exchange, search, count, place, scatter, find;
   // The first ones let arrays grow.
   for (int k = -3; k < repetitions; ++k) {
     if (core::Status s = finder.find(); !s) return complain(s.error());
@@ -77,6 +80,9 @@ bool race(const char* what, const std::string& kind, const std::vector<Box>& box
     const gpu::SpreadTime t = finder.time();
     whole.push_back(t.whole_s() * 1e3), borders.push_back(t.borders_s * 1e3);
     exchange.push_back(t.exchange_s * 1e3), search.push_back(t.search_s * 1e3);
+    const gpu::FindTime steps = finder.slowest_steps();
+    count.push_back(steps.count_s * 1e3), place.push_back(steps.place_s * 1e3);
+    scatter.push_back(steps.scatter_s * 1e3), find.push_back(steps.find_s * 1e3);
   }
   auto digest = finder.digest();
   if (!digest) return complain(digest.error());
@@ -85,23 +91,40 @@ bool race(const char* what, const std::string& kind, const std::vector<Box>& box
   std::printf(
       "{\"what\": \"%s\", \"boxes\": \"%s\", \"n\": %zu, \"parts\": %u, \"pairs\": %llu, \"digest\": \"0x%016llx\", "
       "\"ms\": %.4f, \"least_ms\": %.4f, \"most_ms\": %.4f, \"borders_ms\": %.4f, \"exchange_ms\": %.4f, "
-      "\"search_ms\": %.4f, \"bytes_between\": %llu, \"bytes_needed\": %llu, \"device_bytes\": %llu}\n",
+      "\"search_ms\": %.4f, \"count_ms\": %.4f, \"place_ms\": %.4f, \"scatter_ms\": %.4f, \"find_ms\": %.4f, "
+      "\"bytes_between\": %llu, \"bytes_needed\": %llu, \"device_bytes\": %llu}\n",
       what, kind.c_str(), boxes.size(), cut.parts(), static_cast<unsigned long long>(finder.pair_count()),
       static_cast<unsigned long long>(digest.value()), median(whole), *least, *most, median(borders), median(exchange),
-      median(search), static_cast<unsigned long long>(counters[0].count / (repetitions + 3U)),
+      median(search), median(count), median(place), median(scatter), median(find),
+      static_cast<unsigned long long>(counters[0].count / (repetitions + 3U)),
       static_cast<unsigned long long>(counters[1].count / (repetitions + 3U)),
       static_cast<unsigned long long>(counters[2].count));
   std::fflush(stdout);
   return true;
 }
 
-bool race_kind(const std::string& kind, std::uint64_t n, std::uint32_t devices, int repetitions) {
-  auto made = boxes_of(kind, n);
-  if (!made) return complain(made.error());
-  std::vector<Box>& boxes = made.value();
-  const core::SpaceCut cut = put_part_by_part(boxes, devices);
-  bool is_good = race("one", kind, boxes, {}, repetitions);
-  if (devices > 1) is_good = race("all", kind, boxes, cut, repetitions) && is_good;
+struct Request {
+  std::string kind;
+  std::uint64_t n = 0;
+  std::uint32_t parts = 1;
+};
+struct MadeSet {
+  std::vector<Box> boxes;
+  core::SpaceCut cut;
+};
+
+core::Status make_set(const Request& wanted, MadeSet& set) {
+  auto made = boxes_of(wanted.kind, wanted.n);
+  if (!made) return made.error();
+  set.boxes = std::move(made).value();
+  set.cut = put_part_by_part(set.boxes, wanted.parts);
+  return core::Done{};
+}
+
+// A set that does not fit on one device is said, and raced on all.
+bool race_set(const Request& wanted, const MadeSet& set, int repetitions) {
+  bool is_good = race("one", wanted.kind, set.boxes, {}, repetitions);
+  if (wanted.parts > 1) is_good = race("all", wanted.kind, set.boxes, set.cut, repetitions) && is_good;
   return is_good;
 }
 
@@ -116,14 +139,28 @@ int main(int count, char** given) {
   auto devices = gpu::device_count();
   if (!devices) return bench::complain(devices.error()), 4;
   const auto all = static_cast<std::uint32_t>(devices.value());
-  bool is_good = true;
+  std::vector<bench::Request> wanted;
   for (const std::string& kind : bench::list_of(given[3])) {
     for (const std::string& n : bench::list_of(given[2])) {
       const std::uint64_t boxes = std::strtoull(n.c_str(), nullptr, 10);
       // What one device has when all have this many: weak scaling.
-      if (all > 1) is_good = bench::race_kind(kind, boxes / all, 1, repetitions) && is_good;
-      is_good = bench::race_kind(kind, boxes, all, repetitions) && is_good;
+      if (all > 1) wanted.push_back({kind, boxes / all, 1});
+      wanted.push_back({kind, boxes, all});
     }
+  }
+  // Making a set takes longer than racing on it, so the next one is made meanwhile, by a thread of its own.
+  bench::MadeSet made[2];
+  std::future<core::Status> next;
+  const auto start = [&](std::size_t k) {
+    next = std::async(std::launch::async, bench::make_set, std::cref(wanted[k]), std::ref(made[k % 2]));
+  };
+  if (!wanted.empty()) start(0);
+  bool is_good = true;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const core::Status status = next.get();
+    if (k + 1 < wanted.size()) start(k + 1);
+    is_good =
+        (status ? bench::race_set(wanted[k], made[k % 2], repetitions) : bench::complain(status.error())) && is_good;
   }
   return is_good ? 0 : 1;
 }

@@ -21,14 +21,15 @@ constexpr float kSlack = 1.0F + 0x1p-10F;
 // Inverted it is still a normal number.
 constexpr float kMostCell_m = 0x1p125F;
 
-// The size of the grid's largest cells: a box may grow by a few units in the last place when it is placed, and a cell
-// must be many such units of the coordinates, whatever it holds (see grid_level).
-float grid_cell_m(const BoxFacts& facts) {
-  constexpr float kLeastShare = 0x1p-17F;
+// The size of the largest cells. A box may grow by a few units in the last place when it is placed, and a cell must be
+// many such units of the coordinates, whatever it holds. Bulk pairs allow for that rounding in their search
+// (bulk_search.cuh), so there a cell may be as small as any box's may be: 2^-18 of the coordinates, see bulk_level.
+float largest_cell_m(Start start, const BoxFacts& facts) {
+  const float least_share = start == Start::kBulk ? 0x1p-18F : 0x1p-17F;
   // Halved twenty times, or inverted, it is still a normal number.
   constexpr float kLeast = 0x1p-100F;
   const float wanted =
-      std::max({facts.largest_side_m * kSlack * facts.cell_scale, facts.coordinate_range_m * kLeastShare, kLeast});
+      std::max({facts.largest_side_m * kSlack * facts.cell_scale, facts.coordinate_range_m * least_share, kLeast});
   return std::min(wanted, kMostCell_m);
 }
 
@@ -129,7 +130,7 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
 
 void BroadBuffers::refit(const BoxFacts& facts) {
   GridView& grid = view_.grid;
-  grid.cell_m = grid_cell_m(facts);
+  grid.cell_m = largest_cell_m(view_.start, facts);
   grid.cells_per_m = 1.0F / grid.cell_m;
   // Half a cell of room below, so that what lies a little outside is still near in the table.
   for (int axis = 0; axis < 3; ++axis)

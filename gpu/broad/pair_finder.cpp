@@ -341,20 +341,9 @@ const core::PassPlan& PairFinder::plan() const {
 FindTime PairFinder::find_time() const {
   FindTime time;
   time.whole_s = impl_->timer.elapsed_s();
-  const auto add = [&time](const Outcome& outcome) {
-    const auto seconds = [&outcome](FindStep step) {
-      const auto k = static_cast<std::size_t>(step);
-      const unsigned long long begin_ns = k == 0 ? outcome.begin_ns : outcome.stage_end_ns[k - 1];
-      return static_cast<double>(outcome.stage_end_ns[k] - begin_ns) * 1e-9;
-    };
-    time.count_s += seconds(FindStep::kCount);
-    time.place_s += seconds(FindStep::kPlace);
-    time.scatter_s += seconds(FindStep::kScatter);
-    time.find_s += seconds(FindStep::kSearch);
-  };
-  if (impl_->is_apart) add(impl_->apart.outcome());
+  if (impl_->is_apart) time.add_steps(impl_->apart.outcome());
   if (!impl_->is_apart)
-    for (std::size_t k = 0; k < impl_->active; ++k) add(impl_->searches[k]->outcome());
+    for (std::size_t k = 0; k < impl_->active; ++k) time.add_steps(impl_->searches[k]->outcome());
   return time;
 }
 

@@ -11,19 +11,10 @@
 #include "core/engine/search_path.hpp"
 #include "core/engine/work_counting.hpp"
 #include "core/method/box_passes.hpp"
+#include "gpu/broad/find_time.hpp"
 #include "gpu/broad/pair_finder_options.hpp"
 
 namespace broadside::gpu {
-
-// Where the time of the last find() went. `whole_s` is the time between two events around the launches; the stages are
-// read off the GPU's clock within it; of several passes, their sums.
-struct FindTime {
-  double whole_s = 0.0;
-  double count_s = 0.0;    // boxes into cells
-  double place_s = 0.0;    // cells into memory
-  double scatter_s = 0.0;  // boxes by cell
-  double find_s = 0.0;
-};
 
 // update() copies the boxes to the device and is charged for it; find() leaves the pairs on the device, in no order;
 // read_back() copies and sorts them. Boxes that are not finite, or have min > max, are refused.
@@ -54,6 +45,7 @@ class PairFinder final : public core::BroadPhase,
   void count_work() override;
   [[nodiscard]] std::string path() const override;
 
+  // Of the last find().
   [[nodiscard]] FindTime find_time() const;
   // Of the boxes that were given last.
   [[nodiscard]] const core::PassPlan& plan() const;

@@ -40,6 +40,7 @@ class PartSearch {
   core::Result<std::uint64_t> digest();
   [[nodiscard]] std::uint64_t guests() const { return guests_; }
   [[nodiscard]] std::uint64_t bytes() const { return search_.bytes() + out_.bytes(); }
+  [[nodiscard]] bool has_searched() const { return has_searched_; }
   [[nodiscard]] const Outcome& outcome() const { return search_.outcome(); }
 
  private:

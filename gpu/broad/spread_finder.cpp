@@ -169,6 +169,17 @@ SpreadTime SpreadFinder::time() const {
   return impl_->time;
 }
 
+FindTime SpreadFinder::slowest_steps() const {
+  FindTime slowest;
+  for (const auto& part : impl_->parts) {
+    if (!part->has_searched()) continue;
+    FindTime own;
+    own.add_steps(part->outcome());
+    if (own.steps_s() >= slowest.steps_s()) slowest = own;
+  }
+  return slowest;
+}
+
 std::uint64_t SpreadFinder::pair_count() const {
   std::uint64_t count = 0;
   for (const auto& part : impl_->parts) count += part->found().count;

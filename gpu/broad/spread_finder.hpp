@@ -8,6 +8,7 @@
 #include "core/engine/broad_phase.hpp"
 #include "core/engine/search_path.hpp"
 #include "core/engine/space_parts.hpp"
+#include "gpu/broad/find_time.hpp"
 
 namespace broadside::gpu {
 
@@ -45,6 +46,8 @@ class SpreadFinder final : public core::BroadPhase, public core::TellsPath {
                         const core::SpaceCut& cut);
 
   [[nodiscard]] SpreadTime time() const;
+  // Steps of the part whose search took longest, by its GPU's clock.
+  [[nodiscard]] FindTime slowest_steps() const;
   [[nodiscard]] std::uint64_t pair_count() const;
   // Of the pairs by the numbers that boxes have part by part, in the order of the caller's: the caller's own where its
   // boxes come part by part.

@@ -70,5 +70,25 @@ TEST(FittedCellsOnHost, AreTheLargestBoxsWhereThatIsBest) {
   EXPECT_EQ(fitted_cell_scale({}, {}), 1.0F);
 }
 
+// A crowd in a world that is 200,000 times as wide as a box: cells were made half as large again as the boxes, because
+// of the coordinates alone, and a crowd far from the origin has but a few bits for where a box is.
+TEST(FittedCellsOnHost, AreNoLargerInAWideWorld) {
+  constexpr float kFar = 200'000.0F;
+  for (const float at : {0.0F, kFar}) {
+    tests::Draw draw(4);
+    tests::BoxCase c;
+    for (int k = 0; k < 1200; ++k)
+      c.boxes.push_back(tests::box_at({at + draw.between(0, 11), draw.between(0, 11), draw.between(0, 11)},
+                                      {draw.between(0.8F, 1.1F), draw.between(0.8F, 1.1F), draw.between(0.8F, 1.1F)}));
+    tests::BoxCase alone = c;
+    alone.is_static.resize(alone.boxes.size());
+    for (const float stray : {-kFar, 0.5F * kFar, kFar - 2.0F})
+      c.boxes.push_back(tests::box_at({stray, -stray, 0.25F * stray}, {1.0F, 1.0F, 1.0F}));
+    c.is_static.resize(c.boxes.size());
+    if (at == 0.0F) EXPECT_LT(tests_with(c, 1.0F), tests_with(alone, 1.0F) * 11 / 10);
+    tests_with(c, 1.41421356F);
+  }
+}
+
 }  // namespace
 }  // namespace broadside::gpu
