@@ -1,5 +1,7 @@
 #include "gpu/rigid/told_frame.hpp"
 
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "gpu/runtime/device_choice.hpp"
@@ -7,36 +9,52 @@
 namespace broadside::gpu {
 namespace {
 
-core::DeviceFrame columns_of(const RigidLeft& left, const ToldBody* bodies, const core::ContactPoint* points,
-                             std::uint64_t point_count) {
+template <typename T>
+core::DeviceColumn column(std::string_view path, const T* rows, std::uint64_t count) {
+  return {path,      rows,
+          count,     sizeof(T) / sizeof(float),
+          sizeof(T), !std::is_integral_v<T> && !std::is_same_v<T, core::Pair>};
+}
+
+core::DeviceFrame columns_of(const RigidLeft& left, const ToldView& told, std::uint64_t points) {
   const std::uint64_t n = left.bodies.state.size();
-  constexpr std::size_t kBody = sizeof(ToldBody);
-  constexpr std::size_t kPoint = sizeof(core::ContactPoint);
   core::DeviceFrame frame;
-  frame.columns = {
-      {"body/position", &bodies->position, n, 3, kBody, true},
-      {"body/orientation", &bodies->orientation, n, 4, kBody, true},
-      {"body/velocity", &bodies->velocity, n, 3, kBody, true},
-      {"body/angular_velocity", &bodies->angular_velocity, n, 3, kBody, true},
-      {"pairs/pairs", left.pairs.data(), left.pair_count, 2, sizeof(core::Pair), false},
-      {"confirmed/pairs", left.buffers.confirmed().data(), left.counts.confirmed, 2, sizeof(core::Pair), false},
-      {"point/a", &points->a, point_count, 1, kPoint, false},
-      {"point/b", &points->b, point_count, 1, kPoint, false},
-      {"point/point", &points->point, point_count, 3, kPoint, true},
-      {"point/normal", &points->normal, point_count, 3, kPoint, true},
-      {"point/gap", &points->gap_m, point_count, 1, kPoint, true},
-      {"point/impulse", &points->impulse, point_count, 3, kPoint, true},
-      {"point/feature", &points->feature, point_count, 1, kPoint, false}};
+  frame.columns = {column("body/position", told.bodies.position, n),
+                   column("body/orientation", told.bodies.orientation, n),
+                   column("body/velocity", told.bodies.velocity, n),
+                   column("body/angular_velocity", told.bodies.angular_velocity, n),
+                   column("pairs/pairs", left.pairs.data(), left.pair_count),
+                   column("confirmed/pairs", left.buffers.confirmed().data(), left.counts.confirmed),
+                   column("point/a", told.points.a, points),
+                   column("point/b", told.points.b, points),
+                   column("point/point", told.points.point, points),
+                   column("point/normal", told.points.normal, points),
+                   column("point/gap", told.points.gap_m, points),
+                   column("point/impulse", told.points.impulse, points),
+                   column("point/feature", told.points.feature, points)};
   return frame;
 }
 
 }  // namespace
 
+core::Status ToldFrame::reserve(std::size_t bodies, std::size_t points) {
+  BROADSIDE_TRY(bodies_.position.reserve(bodies, "states"));
+  BROADSIDE_TRY(bodies_.orientation.reserve(bodies, "states"));
+  BROADSIDE_TRY(bodies_.velocity.reserve(bodies, "states"));
+  BROADSIDE_TRY(bodies_.angular_velocity.reserve(bodies, "states"));
+  BROADSIDE_TRY(points_.a.reserve(points, "points"));
+  BROADSIDE_TRY(points_.b.reserve(points, "points"));
+  BROADSIDE_TRY(points_.point.reserve(points, "points"));
+  BROADSIDE_TRY(points_.normal.reserve(points, "points"));
+  BROADSIDE_TRY(points_.gap.reserve(points, "points"));
+  BROADSIDE_TRY(points_.impulse.reserve(points, "points"));
+  BROADSIDE_TRY(points_.feature.reserve(points, "points"));
+  return points_.count.reserve(1, "points");
+}
+
 core::Result<core::DeviceFrame> ToldFrame::tell(const RigidLeft& left, StreamHandle stream) {
-  BROADSIDE_TRY(bodies_.reserve(left.bodies.state.size(), "states"));
-  BROADSIDE_TRY(points_.reserve(4 * left.counts.patches, "points"));
-  BROADSIDE_TRY(point_count_.reserve(1, "points"));
-  BROADSIDE_TRY(point_count_.fill_bytes(0));
+  BROADSIDE_TRY(reserve(left.bodies.state.size(), 4 * left.counts.patches));
+  BROADSIDE_TRY(points_.count.fill_bytes(0));
   BROADSIDE_TRY(mass_.upload(left.bodies.mass, "masses"));
   BROADSIDE_TRY(static_spin_.upload(left.bodies.static_spin, "masses"));
   BROADSIDE_TRY(wait_for_device("the columns of a frame"));
@@ -49,14 +67,16 @@ core::Result<core::DeviceFrame> ToldFrame::tell(const RigidLeft& left, StreamHan
   view.static_spin = static_spin_.data();
   view.patches = left.buffers.patches().data();
   view.impulses = left.buffers.impulses().data();
-  view.bodies = bodies_.data();
-  view.points = points_.data();
-  view.point_count = point_count_.data();
+  view.bodies = {bodies_.position.data(), bodies_.orientation.data(), bodies_.velocity.data(),
+                 bodies_.angular_velocity.data()};
+  view.points = {points_.a.data(),   points_.b.data(),       points_.point.data(),  points_.normal.data(),
+                 points_.gap.data(), points_.impulse.data(), points_.feature.data()};
+  view.point_count = points_.count.data();
   BROADSIDE_TRY(launch_told(view, stream));
   BROADSIDE_TRY(wait_for_stream(stream, "the columns of a frame"));
   std::vector<std::uint32_t> point_count;
-  BROADSIDE_TRY(point_count_.download(point_count, 1));
-  core::DeviceFrame frame = columns_of(left, bodies_.data(), points_.data(), point_count[0]);
+  BROADSIDE_TRY(points_.count.download(point_count, 1));
+  core::DeviceFrame frame = columns_of(left, view, point_count[0]);
   auto device = current_device();
   if (!device.ok()) return device.error();
   frame.device = device.value();

@@ -1,6 +1,7 @@
 // A frame of turning bodies as columns of the trace that lie on the device. Made when somebody asks.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/engine/frame_on_device.hpp"
@@ -15,9 +16,19 @@ class ToldFrame {
   core::Result<core::DeviceFrame> tell(const RigidLeft& left, StreamHandle stream);
 
  private:
-  DeviceBuffer<ToldBody> bodies_;
-  DeviceBuffer<core::ContactPoint> points_;
-  DeviceBuffer<std::uint32_t> point_count_;
+  struct Bodies {
+    DeviceBuffer<core::Vec3> position, velocity, angular_velocity;
+    DeviceBuffer<core::Quat> orientation;
+  };
+  struct Points {
+    DeviceBuffer<std::uint32_t> a, b, feature, count;
+    DeviceBuffer<core::Vec3> point, normal, impulse;
+    DeviceBuffer<float> gap;
+  };
+  core::Status reserve(std::size_t bodies, std::size_t points);
+
+  Bodies bodies_;
+  Points points_;
   DeviceBuffer<core::RigidMass> mass_;
   DeviceBuffer<core::Vec3> static_spin_;
 };

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "core/contact_point.hpp"
 #include "core/math/quat.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/rigid_state.hpp"
@@ -12,12 +11,22 @@
 
 namespace broadside::gpu {
 
-// Of one body, in the units and frame of the trace.
-struct ToldBody {
-  core::Vec3 position;  // of the mesh's origin
-  core::Quat orientation;
-  core::Vec3 velocity;
-  core::Vec3 angular_velocity;
+// A column each, because some libraries take packed rows alone. In the units and frame of the trace.
+struct ToldBodies {
+  core::Vec3* position = nullptr;  // of the mesh's origin
+  core::Quat* orientation = nullptr;
+  core::Vec3* velocity = nullptr;
+  core::Vec3* angular_velocity = nullptr;
+};
+
+struct ToldPoints {
+  std::uint32_t* a = nullptr;
+  std::uint32_t* b = nullptr;
+  core::Vec3* point = nullptr;
+  core::Vec3* normal = nullptr;
+  float* gap_m = nullptr;
+  core::Vec3* impulse = nullptr;
+  std::uint32_t* feature = nullptr;
 };
 
 struct ToldView {
@@ -29,8 +38,8 @@ struct ToldView {
   const core::Vec3* static_spin = nullptr;  // rad/s
   const core::ContactPatch* patches = nullptr;
   const core::Vec3* impulses = nullptr;  // [4 * patches] N s
-  ToldBody* bodies = nullptr;            // [body_count]
-  core::ContactPoint* points = nullptr;  // room for 4 * patch_count
+  ToldBodies bodies;                     // [body_count]
+  ToldPoints points;                     // room for 4 * patch_count
   std::uint32_t* point_count = nullptr;  // 0 before the launch
 };
 

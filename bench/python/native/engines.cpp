@@ -52,8 +52,11 @@ class HeldDynamics {
     auto* const there = dynamic_cast<core::FrameOnDevice*>(engine_.dynamics.get());
     if (there == nullptr)
       throw Raised({"its states are in the host's memory", engine_.id, "read() gives them without a copy"});
-    const std::lock_guard lock(mutex_);
-    const core::DeviceFrame frame = take(there->frame_on_device());
+    const core::DeviceFrame frame = [&] {
+      const py::gil_scoped_release others_run;
+      const std::lock_guard lock(mutex_);
+      return take(there->frame_on_device());
+    }();
     py::list columns;
     for (const core::DeviceColumn& c : frame.columns)
       columns.append(py::make_tuple(std::string(c.path), reinterpret_cast<std::uint64_t>(c.data), c.rows, c.width,

@@ -2,28 +2,42 @@
 // order in which threads find a place.
 #pragma once
 
+#include "core/contact_point.hpp"
 #include "core/method/rigid/told_point.hpp"
 #include "gpu/rigid/told_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 
 namespace broadside::gpu {
 
-__device__ inline ToldBody told_body(const core::RigidState& s, const core::RigidMass& mass, core::Vec3 static_spin) {
-  return {core::mesh_origin(mass, s), s.q, s.v,
-          mass.inverse_mass > 0.0F ? core::angular_velocity(mass, s) : static_spin};
+__device__ inline void tell_body(const ToldView& view, std::uint64_t i) {
+  const core::RigidState& s = view.state[i];
+  const core::RigidMass& mass = view.mass[i];
+  view.bodies.position[i] = core::mesh_origin(mass, s);
+  view.bodies.orientation[i] = s.q;
+  view.bodies.velocity[i] = s.v;
+  view.bodies.angular_velocity[i] = mass.inverse_mass > 0.0F ? core::angular_velocity(mass, s) : view.static_spin[i];
+}
+
+__device__ inline void tell_point(const ToldPoints& to, std::uint32_t row, const core::ContactPoint& told) {
+  to.a[row] = told.a;
+  to.b[row] = told.b;
+  to.point[row] = told.point;
+  to.normal[row] = told.normal;
+  to.gap_m[row] = told.gap_m;
+  to.impulse[row] = told.impulse;
+  to.feature[row] = told.feature;
 }
 
 __device__ inline void run_told(const ToldView& view) {
   const GridPlaces grid;
-  for (std::uint64_t i = grid.rank(); i < view.body_count; i += grid.size())
-    view.bodies[i] = told_body(view.state[i], view.mass[i], view.static_spin[i]);
+  for (std::uint64_t i = grid.rank(); i < view.body_count; i += grid.size()) tell_body(view, i);
   for (std::uint64_t k = grid.rank(); k < view.patch_count; k += grid.size()) {
     const core::ContactPatch patch = view.patches[k];
     for (int point = 0; point < patch.manifold.count; ++point) {
       const core::Vec3 impulse = view.impulses[4 * k + static_cast<std::uint64_t>(point)];
       core::ContactPoint told;
       if (core::told_point(patch, point, impulse, view.detected[patch.a].x, told))
-        view.points[atomicAdd(view.point_count, 1U)] = told;
+        tell_point(view.points, atomicAdd(view.point_count, 1U), told);
     }
   }
 }

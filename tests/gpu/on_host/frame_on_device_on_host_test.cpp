@@ -108,6 +108,8 @@ TEST(FrameOnDeviceOnHost, OfTurningBodiesIsWhatIsReadBack) {
     EXPECT_TRUE(sorted(column<core::Pair>(there.value(), "pairs/pairs")) == frame.pairs);
     EXPECT_TRUE(sorted(column<core::Pair>(there.value(), "confirmed/pairs")) == frame.confirmed);
     EXPECT_TRUE(points_of(there.value()) == points_of(frame));
+    for (const core::DeviceColumn& c : there.value().columns)
+      EXPECT_EQ(c.row_bytes, c.width * sizeof(float)) << c.path << ": JAX takes packed rows alone";
     points_seen += frame.points.size();
   }
   EXPECT_GT(points_seen, 0U);
