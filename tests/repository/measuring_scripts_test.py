@@ -230,6 +230,16 @@ class GpuPage(unittest.TestCase):
             self.assertEqual(subprocess.run(command, check=False).returncode, 0)
             with open(out, encoding="utf-8") as file:
                 result = json.load(file)
+            # A later run of other sets keeps these beside its own, and says of which run they are.
+            later = {**rows[0], "n": 70, "ms": 9.0}
+            with open(os.path.join(folder, "later"), "w", encoding="utf-8") as file:
+                file.write(json.dumps(later) + "\n" + json.dumps({**rows[0], "ms": 0.5}))
+            again = [*command, "--beside", out]
+            again[3] = os.path.join(folder, "later")
+            self.assertEqual(subprocess.run(again, check=False).returncode, 0)
+            with open(out, encoding="utf-8") as file:
+                self.assertEqual([(r["n"], r["ms"], "run" in r) for r in json.load(file)["rows"]],
+                                 [(70, 9.0, False), (50, 0.5, False), (100, 1.5, True), (100, 1.0, True)])
             rows[2]["digest"] = "0x2"
             with open(os.path.join(folder, "rows"), "w", encoding="utf-8") as file:
                 file.write("\n".join(map(json.dumps, rows)))
@@ -240,6 +250,10 @@ class GpuPage(unittest.TestCase):
         self.assertIn("| heaps | 100 | 8 | 1.5 | 1 | 75 % | 75 % | 0.1 | 0 | 0.9 | 3.20 (2.80) | yes |", page)
         result["rows"][2]["digest"] = "0x2"
         self.assertIn("| 3.20 (2.80) | NO |", self.page_of({"card_spread.json": result}))
+        result["rows"][2]["run"] = "by another build"
+        page = self.page_of({"card_spread.json": result})
+        self.assertIn("| NO | earlier 1 |", page)
+        self.assertIn("Earlier 1: by another build.", page)
 
     def test_a_figure_stands_beside_its_gpu_its_date_and_its_command(self):
         row = {"scene": "freefall:bunny:50", "label": "tree", "fps_median": 64390.0, "fps_least": 64000.0,
