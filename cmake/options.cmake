@@ -6,6 +6,7 @@ option(BROADSIDE_CGAL "Build what needs CGAL: mesh decimation for 'broadside fet
 set(BROADSIDE_REPORT_HTML ON CACHE STRING
   "ON: the report's HTML page, with charts and the 3-D view where npm is there; REQUIRED: fail without npm; OFF: no page")
 option(BROADSIDE_BENCHMARKS "Build the Google Benchmark suites" OFF)
+option(BROADSIDE_MPI "Build broadside_mpi_pairs: pairs of boxes that are spread over processes" OFF)
 option(BROADSIDE_WARNINGS_AS_ERRORS "Treat warnings in our own targets as errors" ON)
 set(BROADSIDE_SANITIZE "" CACHE STRING "Sanitizers for our own targets, e.g. address,undefined or thread")
 

@@ -138,7 +138,6 @@ core::Status ApartSearch::launch(StreamHandle stream) {
   cross_.standing = standing_.view().bulk;
   cross_.standing_boxes = standing_.view().boxes;
   cross_.moving_boxes = moving.boxes;
-  cross_.order = moving.bulk.entries;
   cross_.count = moving.box_count;
   cross_.near_count = near_.data();
   cross_.near = near_.data() + 1;

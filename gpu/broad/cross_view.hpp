@@ -36,9 +36,8 @@ struct CrossView {
   const PackedBox* standing_boxes = nullptr;  // low_tag = the caller's number, as of the others
   StandingCells cells;
   const PackedBox* moving_boxes = nullptr;
-  const BulkEntry* order = nullptr;     // of the moving ones: neighbors in space side by side
   std::uint32_t count = 0;              // of them
-  std::uint32_t* near = nullptr;        // [count] moving boxes that may have partners, by their place in the order
+  std::uint32_t* near = nullptr;        // [count] moving boxes that may have partners
   std::uint32_t* near_count = nullptr;  // of them; zero between frames
   // Behind what is there: the pairs that the moving ones have among each other.
   AppendView<core::Pair> pairs;

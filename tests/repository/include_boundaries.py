@@ -32,6 +32,7 @@ ROOMS = {
     "contest": {"cell", "document", "process", "record", "campaign"},
     "fetched": {"process"},
     "benchmarks": {"record"},
+    "mpi": {"cell", "process"},
     "python": {"cell", "process", "record"},
     "cli": {"cell", "process", "record", "mutants", "timing", "agree", "candidates", "converge", "forensics", "shrink", "bisect", "campaign",
             "document", "paper", "contest", "fetched"},

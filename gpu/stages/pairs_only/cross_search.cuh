@@ -1,9 +1,9 @@
 // Looks for the partners that moving boxes have among standing ones, in the table of these. Most moving boxes have
-// none, and the others lie side by side in the order of boxes: a warp that took neighbors would have all the work or
-// none. So first a lane a box finds those that may have partners; then a warp takes one of these, and looks at every
-// level that has standing boxes: at coarser levels at the rows of cells that bulk_search.cuh looks at; at finer ones,
-// where the box is longer than a cell, at all cells that it covers. Lanes share rows, and boxes are compared as they
-// are.
+// none, and the others often lie side by side: a warp that took neighbors would have all the work or none. So first a
+// lane a box finds those that may have partners; then a warp takes one of these, and looks at every level that has
+// standing boxes: at coarser levels at the rows of cells that bulk_search.cuh looks at; at finer ones, where the box is
+// longer than a cell, at all cells that it covers. A lane looks a row up, some lanes share what it has, and boxes are
+// compared as they are.
 //
 // A standing box of a level is no longer than its cells. So it overlaps only where its lower corner lies between a cell
 // before the moving box and the moving box's end: the bound of BulkSearch::lowest_cell holds whatever the other's size.
@@ -41,6 +41,12 @@ class CrossSearch {
   static constexpr std::uint32_t kLanesOfRow = 8;
   static constexpr std::uint32_t kRowsAtOnce = 32 / kLanesOfRow;
 
+  struct Run {
+    std::uint32_t k = 0;
+    std::uint32_t end = 0;
+    std::uint32_t row_tag = 0;
+  };
+
   __device__ void look_at_level(const PackedBox& box, int level) {
     const BulkView& g = view_.standing;
     const float cells_per_m = scaled(g.cells_per_m, level);
@@ -55,22 +61,35 @@ class CrossSearch {
     // corners are less than the four cells that rounded boxes can tell.
     const bool is_short = high.x - low.x < 3 && rows_y < 4 && rows_z < 4;
     const CoarseBox coarse = coarse_box(fine_min, fine_max, 0);
-    for (std::uint32_t first = 0; first < rows_y * rows_z; first += kRowsAtOnce) {
-      const std::uint32_t row = first + lane() / kLanesOfRow;
+    // A lane a row looks up where its run of entries is; few rows have any.
+    for (std::uint32_t first = 0; first < rows_y * rows_z; first += 32) {
+      const std::uint32_t row = first + lane();
       TableCell cell{low.x, low.y + row % rows_y, low.z + row / rows_y};
       for (bool is_in_row = row < rows_y * rows_z; __any_sync(kFullWarp, is_in_row);) {
         const std::uint32_t more = min(high.x - cell.x, row_mask(g) - (cell.x & row_mask(g)));
-        std::uint32_t k = 0;
-        std::uint32_t end = 0;
+        Run run;
         if (is_in_row) {
           const std::uint32_t* at = g.begin + bucket_place(bucket_of(g, cell, level));
-          k = at[0] + lane() % kLanesOfRow;
-          end = at[more + 1];
+          run = {at[0], at[more + 1], block_tag(g, cell, level)};
         }
-        walk(box, k, end, block_tag(g, cell, level), is_short, coarse);
+        walk_runs(box, run, is_short, coarse);
         is_in_row = is_in_row && high.x - cell.x != more;
         cell.x += more + 1;
       }
+    }
+  }
+
+  // Every lane's own run, some at a time, each by some lanes.
+  __device__ void walk_runs(const PackedBox& box, const Run& own, bool is_short, CoarseBox coarse) {
+    for (unsigned left = __ballot_sync(kFullWarp, own.k < own.end); left != 0;) {
+      unsigned rest = left;
+      for (std::uint32_t before = lane() / kLanesOfRow; before > 0; --before) rest &= rest - 1U;
+      const std::uint32_t from = rest != 0 ? static_cast<std::uint32_t>(__ffs(static_cast<int>(rest))) - 1U : 0U;
+      const std::uint32_t k = __shfl_sync(kFullWarp, own.k, from) + lane() % kLanesOfRow;
+      const std::uint32_t end = __shfl_sync(kFullWarp, own.end, from);
+      const std::uint32_t row_tag = __shfl_sync(kFullWarp, own.row_tag, from);
+      walk(box, k, rest != 0 ? end : k, row_tag, is_short, coarse);
+      for (std::uint32_t done = 0; done < kRowsAtOnce; ++done) left &= left - 1U;
     }
   }
 
@@ -100,7 +119,7 @@ class CrossSearch {
 __device__ inline void note_near_boxes(const GridTeam& grid, const CrossView& view) {
   for (std::uint64_t first = warp_rank(grid) * 32; first < view.count; first += warp_count(grid) * 32) {
     const std::uint64_t place = first + lane();
-    const bool is_near = place < view.count && may_have_standing(view.cells, view.moving_boxes[view.order[place].body]);
+    const bool is_near = place < view.count && may_have_standing(view.cells, view.moving_boxes[place]);
     const unsigned all = __ballot_sync(kFullWarp, is_near);
     if (all == 0) continue;
     std::uint32_t to = 0;
@@ -118,7 +137,7 @@ __device__ inline void run_cross(const CrossView& view, unsigned char* shared) {
   CrossSearch search(view, reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32]);
   const std::uint32_t near_count = *static_cast<const volatile std::uint32_t*>(view.near_count);
   for (std::uint64_t k = warp_rank(grid); k < near_count; k += warp_count(grid))
-    search.find_partners(view.moving_boxes[view.order[view.near[k]].body]);
+    search.find_partners(view.moving_boxes[view.near[k]]);
   search.flush();
   grid.sync();
   if (grid.rank() != 0) return;
