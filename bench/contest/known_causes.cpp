@@ -65,8 +65,6 @@ constexpr std::string_view kArchOf25Iterates =
     "1 % above the least thickness, a millimeter: it falls with 200 iterations and more too, and why was not found";
 constexpr std::string_view kEtgsRebound =
     "eTGS loses a rebound, depending on where in a step bodies touch (findings/no_rebound.toml)";
-constexpr std::string_view kSubstepsRound =
-    "ours: 16 iterations are 16 substeps that round, which this law does not count";
 constexpr std::string_view kForeseenSlip =
     "elliptic cones oppose slip and acceleration together, so single points push aside from their slip";
 constexpr std::string_view kDriven =
@@ -252,9 +250,6 @@ constexpr std::array kRows{
         "balls push before they touch, so that the line of centers is an earlier one; six times less at an eighth of the step"},
     Row{"rapier", "rest", "rigid:stack:1000-on-1", kMassRatio},
     Row{"rapier", "rest", "rigid:arch:7", kThinArch},
-    Row{"rapier[iterations", "closed-form", "rigid:flight:", kSubstepsRound},
-    Row{"rapier[iterations", "closed-form", "rigid:spin-up", kSubstepsRound},
-    Row{"rapier[iterations", "energy-growth", "rigid:torque-free:", kSubstepsRound},
     Row{"rapier", "rest", "rigid:stack:20", kTallCreep},
     Row{"rapier", "rest", "rigid:arch:25", kArchOf25Iterates},
     Row{"rapier", "closed-form", "rigid:rod:end-impact", kTwoCorners},
