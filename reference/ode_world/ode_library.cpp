@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <atomic>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -20,8 +21,12 @@ void hear_message(int, const char* text, va_list) {
   if (std::strstr(text, "LCP internal error") != nullptr) ++lcp_errors;
 }
 
+// A step that was left by an exception leaves jobs behind, which ODE would complain about when it is closed.
+std::atomic<bool> was_left_early = false;
+
 // ODE would end the program after either of these.
 [[noreturn]] void hear_error(int, const char* text, va_list arguments) {
+  was_left_early = true;
   char line[256];
   std::vsnprintf(line, sizeof line, text, arguments);
   throw std::runtime_error(line);
@@ -35,7 +40,9 @@ struct Library {
     dSetErrorHandler(hear_error);
     dSetDebugHandler(hear_error);
   }
-  ~Library() { dCloseODE(); }
+  ~Library() {
+    if (!was_left_early) dCloseODE();
+  }
 };
 
 // Of a new world.

@@ -36,6 +36,12 @@ plain::Quaternion product(plain::Quaternion p, plain::Quaternion q) {
           p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x, p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};
 }
 
+// ODE's step divides by the length of normals.
+bool is_usable(const dContactGeom& c) {
+  const auto squared = [](const dReal* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
+  return std::isfinite(squared(c.pos)) && std::isfinite(c.depth) && std::abs(squared(c.normal) - 1.0) < 0.5;
+}
+
 core::Box rounded_outward(const dReal* box) {
   const auto down = [](double v) {
     const auto f = static_cast<float>(v);
@@ -106,6 +112,9 @@ class OdeWorld final : public core::Dynamics {
       enter_ode();
       record_.begin_step();
       collide();
+      if (!strange_.empty())
+        return core::Error{strange_, "ode-world: step", "see the engine's known defects in reference/README.md",
+                           core::Exit::kMissing};
       apply_wrenches();
       forget_lcp_errors();
       // QuickStep reorders constraints by a random number whose seed is the whole process's.
@@ -235,6 +244,12 @@ class OdeWorld final : public core::Dynamics {
     for (int k = 0; k < count; ++k) {
       dContact contact{};
       contact.geom = points[static_cast<std::size_t>(k)];
+      // A step with such a point ends in states that are no numbers, or in an assertion that names no body.
+      if (!is_usable(contact.geom)) {
+        strange_ = "dCollide gave a point of contact without a direction, between body " + std::to_string(first) +
+                   " and " + (core::is_face(second) ? "a face" : "body " + std::to_string(second));
+        return;
+      }
       // Without dContactApprox1 mu would be a force, not a coefficient.
       contact.surface.mode = dContactApprox1 | dContactBounce;
       contact.surface.mu = surface.mu_kinetic;
@@ -271,6 +286,7 @@ class OdeWorld final : public core::Dynamics {
   WorldRecord record_;
   std::unique_ptr<World> world_;
   std::deque<Touch> touches_;  // addresses stay while it grows
+  std::string strange_;        // what ODE found that no step can begin with
   unsigned long seed_ = 0;
 };
 

@@ -21,7 +21,9 @@ struct Friction {
 class FrictionCone final : public Validator {
  public:
   explicit FrictionCone(const Subject& subject)
-      : scene_(subject.header.scene), model_(subject.header.declaration.text("friction")) {}
+      : scene_(subject.header.scene),
+        model_(subject.header.declaration.text("friction")),
+        has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
@@ -61,6 +63,18 @@ class FrictionCone final : public Validator {
     const Change own = change_by(m, body, Vec3d(p.point), Vec3d(p.impulse));
     const double arm = length(Vec3d(p.point) - m.bodies[body].before.x);
     return std::max(0.0, pushed_[body].dv - length(own.dv)) + arm * std::max(0.0, pushed_[body].dw - length(own.dw));
+  }
+
+  // How much the point's own impulse changed its slip at most. In substeps that impulse is a sum: the slip that its
+  // first part opposed differs from that at the end by what its later parts did.
+  [[nodiscard]] static double change_by_own(const Motion& m, const core::ContactPoint& p) {
+    double sum = 0.0;
+    for (const std::uint32_t body : {p.a, p.b}) {
+      if (core::is_face(body)) continue;
+      const Change own = change_by(m, body, Vec3d(p.point), Vec3d(p.impulse));
+      sum += length(own.dv) + length(Vec3d(p.point) - m.bodies[body].before.x) * length(own.dw);
+    }
+    return sum;
   }
 
   // How far the slip at the end may be from that at the moment at which friction acted: what gravity, the other
@@ -107,7 +121,8 @@ class FrictionCone final : public Validator {
     }
     // Friction acts against the slip at some moment of the step, which differs from that at the end by at most `open`;
     // so turned to the friction's direction, the slip is off by at most twice that.
-    tally_.check(length(slip + (sliding / drag) * tangent), {2.0 * open, "m/s", kDirection}, where, [&] {
+    const double turned = open + (has_substeps_ ? change_by_own(m, p) : 0.0);
+    tally_.check(length(slip + (sliding / drag) * tangent), {2.0 * turned, "m/s", kDirection}, where, [&] {
       return "friction " + vector_text(tangent) + " N s on A, which slides at " + vector_text(slip) + " m/s";
     });
     if (model_ != "regularized" && slid_on) judge_least(mu, push, drag, open, sliding, off, where, worked);
@@ -138,9 +153,10 @@ class FrictionCone final : public Validator {
 
   static constexpr std::string_view kDirection =
       "friction acts against the slip at some moment of the step: twice 2 |g| h and what turning and other impulses "
-      "change";
+      "change, and in substeps its own";
   const core::Scene& scene_;
   std::string_view model_;
+  bool has_substeps_;
   std::vector<Pushed> pushed_;
   Tally tally_{"friction-cone", "impulses of points", "Coulomb's cone of the scene's friction"};
 };

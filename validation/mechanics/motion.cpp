@@ -142,6 +142,7 @@ MotionReader::MotionReader(const core::TraceHeader& header)
   motion_.h = header.scene.dt_s;
   motion_.gravity = Vec3d(header.scene.gravity_m_s2);
   motion_.u = state_roundoff(header);
+  motion_.substeps = header.declaration.number("substeps");
   motion_.facts = facts_;
   motion_.turns = header.scene.motion == core::Motion::kRigid;
   motion_.bodies.resize(facts_.size());

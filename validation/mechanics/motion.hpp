@@ -81,6 +81,7 @@ struct Motion {
   double h = 0.0;               // s
   Vec3d gravity;                // m/s^2
   double u = 0.0;               // unit roundoff of the states
+  double substeps = 1.0;        // declared: how often a step updates and rounds the states
   bool turns = false;           // the scene's bodies may turn
   double strongest_pull = 0.0;  // m/s^2; the largest acceleration of gravity and wrenches
   std::span<const BodyFacts> facts;

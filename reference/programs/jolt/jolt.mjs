@@ -12,7 +12,8 @@ import { createRequire } from "node:module";
 import { FIRST_FACE, serve } from "../../../core/plugin/clients/broadside_engine.mjs";
 import { add, dot, facesOf, frictionOf, pointOf, refuse, scaled, sub, wrenchesOf } from "../rigid_bodies.mjs";
 
-const Jolt = await initJolt();
+// What the library prints goes to standard error: standard output carries the protocol.
+const Jolt = await initJolt({ print: console.error, printErr: console.error });
 const version = JSON.parse(readFileSync(createRequire(import.meta.url).resolve("jolt-physics/package.json"))).version;
 const SHAPES = { box: "moving", sphere: "moving", capsule: "moving", cylinder: "moving", convex: "moving", mesh: "static" };
 const STATIC = 0, MOVING = 1;
@@ -27,11 +28,15 @@ const list = (v) => [v.GetX(), v.GetY(), v.GetZ()];
 let hasGyroscopic = false, isTuned = false;
 let scene, jolt, bodies, bodyInterface;
 let points = [], ids = new Map();  // of bodies and faces, by Jolt's number
+// The binding reserves room for all contacts of a step in temporary memory of a fixed size: the library's own number fits.
+const MOST_MANIFOLDS = 10240;
+let manifolds = 0, mostManifolds = 0;
 
 const numberOf = (body) => body.GetID().GetIndexAndSequenceNumber();
 
 // A manifold's normal points from body 1 to body 2.
 function note(body1, body2, manifold) {
+  ++manifolds;
   const [one, two] = [body1, body2].map((pointer) => ids.get(numberOf(Jolt.wrapPointer(pointer, Jolt.Body))));
   const m = Jolt.wrapPointer(manifold, Jolt.ContactManifold), n = list(m.mWorldSpaceNormal);
   for (let k = 0; k < m.mRelativeContactPointsOn1.size(); ++k) {
@@ -84,7 +89,8 @@ function settingsOf(shape, mesh) {
 function worldFor(count) {
   const settings = new Jolt.JoltSettings();
   settings.mMaxBodies = count + 16;
-  settings.mMaxBodyPairs = settings.mMaxContactConstraints = Math.max(1024, 32 * count);
+  settings.mMaxBodyPairs = Math.max(1024, 32 * count);
+  settings.mMaxContactConstraints = mostManifolds = Math.min(MOST_MANIFOLDS, Math.max(1024, 32 * count));
   const pairs = new Jolt.ObjectLayerPairFilterTable(2);
   pairs.EnableCollision(STATIC, MOVING), pairs.EnableCollision(MOVING, MOVING);
   const layers = new Jolt.BroadPhaseLayerInterfaceTable(2, 2);
@@ -161,12 +167,14 @@ function step(h) {
     const { force, torque } = wrenchesOf(scene, k, orientationOf(bodies[k]));
     bodies[k].AddForce(vec3(force)), bodies[k].AddTorque(vec3(torque));
   }
-  points = [];
+  points = [], manifolds = 0;
   // A step of 1/60 s as a float is a little longer than 1/60.
   const collisionSteps = isTuned ? Math.max(1, Math.ceil(60 * h - 1e-6)) : 1;
   const start = performance.now();
   jolt.Step(h, collisionSteps);
-  return (performance.now() - start) / 1000;
+  const end = performance.now();
+  if (manifolds > collisionSteps * mostManifolds) throw new Error(`Jolt has room for ${mostManifolds} contacts of a step, and met ${manifolds}`);
+  return (end - start) / 1000;
 }
 
 serve({

@@ -52,6 +52,21 @@ TEST(Ballistic, LooksAtNoBodyThatMayTouch) {
   expect_nothing_met("ballistic", only_static(), "no moving body touched nothing");
 }
 
+// The flight of `fallen` as a scene with an exact answer, by an engine of so many substeps a step.
+Specimen answered_fall(const std::string& substeps, double off) {
+  Specimen r = fallen(off, 0);
+  r.header.scene.answer = "flight";
+  r.header.declaration = core::Declaration::of({{"precision", "f32"}, {"substeps", substeps}});
+  return r;
+}
+
+TEST(ClosedForm, AllowsTheRoundingOfEverySubstep) {
+  // 4 u of |v| + |g| h = 1/4 m/s, each time that a substep adds to the velocity.
+  for (const int substeps : {1, 16})
+    expect_limit("closed-form", substeps * 4 * kU / 4,
+                 [&](double off) { return answered_fall(std::to_string(substeps), off); }, {"velocity is off by "});
+}
+
 // A body that spins about z by 16 rad/s turns by 1/4 rad.
 Specimen turned(double more, const std::string& motion = "rigid") {
   Specimen r = one_step(1);

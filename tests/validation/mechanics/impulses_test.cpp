@@ -132,6 +132,18 @@ TEST(FrictionCone, OpposesWhatSlides) {
                {"friction (-0.4", "slides at (4, 0, 0) m/s"});
 }
 
+TEST(FrictionCone, TakesTheImpulseOfSubstepsForASum) {
+  // What the point's own impulse changes comes on top: |J| / m, and on an arm of 1/2 m a spin of 1/2 m x 1/2 N s / 1 kg
+  // m^2.
+  const double own = std::sqrt(1.25) + 0.5 * 0.25;
+  const auto in_substeps = [](double chord) {
+    Specimen r = slides(0.5, 2 * std::asin(chord / 8));
+    r.header.declaration = core::Declaration::of({{"precision", "f32"}, {"substeps", "8"}});
+    return r;
+  };
+  expect_limit("friction-cone", 4 * kG * kStep + 2 * own, in_substeps, {"slides at (4, 0, 0) m/s"});
+}
+
 TEST(FrictionCone, DoesNotFallShortWhereSomethingSlides) {
   // mu J n, less the share 2 x 2 g h / 4 m/s that may be another direction's: 0.4375 N s.
   EXPECT_EQ(law("friction-cone", slides(0.4376, 0)).outcome, core::Outcome::kPass);

@@ -34,9 +34,9 @@ inline double one_step_late(double acceleration, const Motion& m) {
   return acceleration * m.h * time_of(m);
 }
 
-// Rounding of a state that n operations a step have summed.
+// Rounding of a state that n operations a substep have summed: each declared substep adds to the state and rounds it.
 inline double rounding_over(const Motion& m, double operations, double magnitude) {
-  return m.rounding_of(operations * static_cast<double>(m.step)) * magnitude;
+  return m.rounding_of(operations * m.substeps * static_cast<double>(m.step)) * magnitude;
 }
 
 // What body 0 lies on: the first static body, whose y axis is its normal, or the floor.
