@@ -57,6 +57,26 @@ engine = {"engine": "an-engine", "build": "1.0", "absent": "", "by_separation": 
 print(json.dumps({"pairs": option("--pairs") if "--pairs" in arguments else "boxes", "engines": [engine]}))
 """
 
+# `broadside time`: every frame takes as long as the program's name says, in microseconds.
+PRETENDED_TIMES = """
+import json, os, sys
+arguments = sys.argv[1:]
+option = lambda name: arguments[arguments.index(name) + 1]
+if arguments[1].startswith("freefall"):
+    sys.exit("no device")
+rows = []
+for k, word in enumerate(arguments):
+    if arguments[k - 1] != "--engine":
+        continue
+    settings = word[len("octree-gpu["):-1]
+    if "vertex_stage" not in settings:
+        settings += ",vertex_stage=on"
+    frame = float(os.path.basename(os.path.dirname(sys.argv[0]))) * 1e-6
+    rows.append({"stamp": {"settings": settings, "machine": "a machine", "broadside_build": "a build"}, "final_digest": 7,
+                 "stages": [{"stage": "frame", "seconds": [frame] * int(option("--frames"))}]})
+json.dump({"rows": rows}, open(option("--out"), "w"))
+"""
+
 
 def program(folder, text):
     path = os.path.join(folder, "program")
@@ -263,6 +283,27 @@ class GpuPage(unittest.TestCase):
                                          "command": "gpu/measure broadside t4.json", "rows": [row]}})
         for said in ("NVIDIA T4, driver 1.2", "2001-02-03", "`gpu/measure broadside t4.json`", "| 6.08 |", "| 64 215 |"):
             self.assertIn(said, page)
+
+    def test_two_builds_take_turns_and_their_rows_stand_side_by_side(self):
+        with tempfile.TemporaryDirectory() as folder:
+            programs = []
+            for frame_us in ("10", "20"):
+                os.mkdir(os.path.join(folder, frame_us))
+                programs.append(program(os.path.join(folder, frame_us), PRETENDED_TIMES))
+            out = os.path.join(folder, "card_before-after.json")
+            script = [sys.executable, "-B", os.path.join(GPU, "before_after"), *programs, out, "--frames", "10", "--rounds", "2"]
+            subprocess.run([*script, "--only", "move:bunny:300"], check=True, capture_output=True)
+            with open(out, encoding="utf-8") as file:
+                kept = json.load(file)
+            done = subprocess.run([*script, "--only", "freefall:bunny:50"], check=False, capture_output=True, text=True)
+        self.assertEqual(len(kept["rows"]), 7)
+        self.assertEqual({row["change_percent"] for row in kept["rows"]}, {-50.0})
+        self.assertEqual((done.returncode, "not measured: before: no device" in done.stderr), (3, True), done.stderr)
+        page = self.page_of({"card_before-after.json": kept})
+        self.assertIn("| randommove:bunny:300 | tree | 100 000 | 50 000 | -50.0 % | 0.0 % | 2 | yes |", page)
+        self.assertIn("Of 7 rows 7 are slower by more than their spread and 0 faster", page)
+        kept["rows"][0]["is_same_digest"] = False
+        self.assertIn("| NO |", self.page_of({"card_before-after.json": kept}))
 
     def test_what_failed_or_was_not_measured_is_named(self):
         page = self.page_of({
