@@ -40,6 +40,7 @@ struct BuildsRequest {
   std::string repository = ".";
   std::string program;           // within a build that is a folder
   std::filesystem::path folder;  // trees and logs of commits lie in it
+  int lock = -1;                 // of the folder's FolderLock
 };
 
 // Files or folders as they are given; each must be there.

@@ -30,6 +30,9 @@ class CommitBuilds final : public Builds {
       return core::Error{"there is no such folder", request_.repository, "name a git repository with --repository"};
     request_.repository = fs::canonical(request_.repository).string();
     if (core::Status s = prepare_folder(request_.folder / "logs"); !s) return s;
+    if (!git({"rev-parse", "--git-dir"}))
+      return core::Error{"it is no git repository", request_.repository,
+                         "name one with --repository; for builds that are there leave --build away"};
     auto good = commit(request_.good);
     if (!good) return good.error();
     auto bad = commit(request_.bad);
@@ -66,10 +69,10 @@ class CommitBuilds final : public Builds {
     tree.holds.reset();
     if (core::Status s = check_out(tree, k); !s) return s.error();
     const fs::path log = fs::absolute(request_.folder) / "logs" / (list_[k].name + ".build.log");
-    auto code = run_in_shell(request_.command, tree.root, log);
+    auto code = run_in_shell(request_.command, tree.root, log, request_.lock);
     if (!code) return code.error();
     if (code.value() != 0) {
-      made.fault = fmt::format("does not build: exit code {}: {}", code.value(), last_line(log));
+      made.fault = fmt::format("does not build: exit code {}{}", code.value(), said_in(log));
     } else if (!request_.program.empty() && !fs::exists(made.place.program)) {
       made.fault = "was built, and there is no " + request_.program;
     } else {
@@ -80,17 +83,17 @@ class CommitBuilds final : public Builds {
 
  private:
   core::Status check_out(const Tree& tree, std::size_t k) const {
-    if (!fs::exists(tree.root / ".git")) {
-      std::error_code ignored;
-      fs::remove_all(tree.root, ignored);  // a clone that was cut off
-      if (auto done = git({"clone", "--quiet", "--shared", "--no-checkout", request_.repository, tree.root.string()});
-          !done)
-        return done.error();
-    }
     std::error_code ignored;
     if (!request_.program.empty()) fs::remove(tree.root / request_.program, ignored);
-    const auto done = git({"-C", tree.root.string(), "checkout", "--quiet", "--force", "--detach", list_[k].identity});
-    if (!done) return done.error();
+    const std::vector<std::string> words{"-C",      tree.root.string(), "checkout",       "--quiet",
+                                         "--force", "--detach",         list_[k].identity};
+    if (fs::exists(tree.root / ".git") && git(words).ok()) return core::Done{};
+    // There is none yet, or one whose making or checking out was cut off, which leaves git's own locks behind.
+    fs::remove_all(tree.root, ignored);
+    if (auto done = git({"clone", "--quiet", "--shared", "--no-checkout", request_.repository, tree.root.string()});
+        !done)
+      return done.error();
+    if (auto done = git(words); !done) return done.error();
     return core::Done{};
   }
 

@@ -17,7 +17,7 @@ constexpr const char* kControl = "control";
 
 // Everything that the answer depends on; another text is another bisection.
 std::string question_text(const Builds& builds, const Question& q) {
-  std::string text = q.command + "\n";
+  std::string text = q.command + "\n" + (q.made_by.empty() ? "" : "made by: " + q.made_by + "\n");
   text += fmt::format("times: {} {} {} {}\n", q.times.delta, q.times.processes, q.times.most, q.work.frames);
   for (const Build& build : builds.list()) text += build.name + " " + build.identity + "\n";
   return text;
@@ -51,11 +51,12 @@ core::Result<Seen> Observer::run(std::size_t k, const fs::path& folder) {
   if (core::Status s = empty_folder(folder); !s) return s.error();
   const fs::path out = fs::absolute(folder);
   const fs::path log = out / "command.log";
-  const auto code = run_in_shell(filled_in(question_.command, made.value().place, out), fs::current_path(), log);
+  const auto code =
+      run_in_shell(filled_in(question_.command, made.value().place, out), fs::current_path(), log, question_.work.lock);
   if (!code) return code.error();
   const bool is_skipped = code.value() >= 125 && code.value() <= 127;
   return Seen{!is_skipped, code.value(),
-              is_skipped ? fmt::format("the command exits {}: {}", code.value(), last_line(log)) : ""};
+              is_skipped ? fmt::format("the command exits {}{}", code.value(), said_in(log)) : ""};
 }
 
 core::Result<Shown<Observation>> Observer::observe(std::size_t k, const std::string& name) {

@@ -19,6 +19,7 @@ namespace broadside::bench::bisect {
 
 struct Question {
   std::string command;  // with {build} or {program}, and {out}
+  std::string made_by;  // what builds a commit, and where the program is in it; empty: builds are given
   std::vector<Quantity> quantities;
   TimedWork work;
   TimeSettings times;

@@ -1,6 +1,7 @@
 #include "bench/bisect/shell_command.hpp"
 
 #include <array>
+#include <fstream>
 #include <utility>
 
 #include "bench/process/interrupt.hpp"
@@ -35,13 +36,23 @@ std::string filled_in(const std::string& command, const BuildPlace& place, const
 }
 
 core::Result<int> run_in_shell(const std::string& text, const std::filesystem::path& folder,
-                               const std::filesystem::path& log) {
+                               const std::filesystem::path& log, int lock) {
   // The second line keeps the shell from becoming the command, so that a signal ends the command alone.
-  auto code =
-      run_program("/bin/sh", {"-c", "cd -- " + quoted(folder.string()) + " || exit 126\n" + text + "\nexit $?"}, log);
+  auto code = run_program("/bin/sh", {"-c", "cd -- " + quoted(folder.string()) + " || exit 126\n" + text + "\nexit $?"},
+                          log, lock);
   if (is_interrupted())
     return core::Error{"interrupted: the same command goes on from here", "bisect", "", core::Exit::kMissing};
   return code;
+}
+
+std::string said_in(const std::filesystem::path& log) {
+  std::ifstream in(log);
+  std::string last;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("error:") != std::string::npos || line.find("error[") != std::string::npos) return ": " + line;
+    if (!line.empty()) last = line;
+  }
+  return last.empty() ? "" : ": " + last;
 }
 
 }  // namespace broadside::bench::bisect

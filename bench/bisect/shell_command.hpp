@@ -21,8 +21,12 @@ std::string filled_in(const std::string& command, const BuildPlace& place, const
 std::string quoted(const std::string& text);
 
 // Runs text in a shell with a folder as its working folder; its output goes to the log. Returns the exit code, which is
-// 128 and the signal's number where a signal ended the command.
+// 128 and the signal's number where a signal ended the command. `lock`: of the FolderLock, which the command keeps.
 core::Result<int> run_in_shell(const std::string& text, const std::filesystem::path& folder,
-                               const std::filesystem::path& log);
+                               const std::filesystem::path& log, int lock);
+
+// What a log says of a failure, after ": " - the first line that a compiler calls an error, otherwise the last line.
+// Empty where the log is.
+std::string said_in(const std::filesystem::path& log);
 
 }  // namespace broadside::bench::bisect

@@ -46,17 +46,17 @@ core::Status write_side(const fs::path& folder, const core::RunRows& rows) {
 }
 
 // Runs the command once and adds its samples under the number of the pair; cells and verdicts are those of the first.
-core::Status time_once(const std::string& command, const BuildPlace& place, std::uint64_t pair, const fs::path& folder,
+core::Status time_once(const TimedWork& work, const BuildPlace& place, std::uint64_t pair, const fs::path& folder,
                        core::RunRows& rows) {
   const fs::path out = fs::absolute(folder) / ("pair-" + std::to_string(pair));
   if (core::Status s = prepare_folder(out); !s) return s;
   const fs::path log = folder / "command.log";
-  const auto code = run_in_shell(filled_in(command, place, out), fs::current_path(), log);
+  const auto code = run_in_shell(filled_in(work.command, place, out), fs::current_path(), log, work.lock);
   if (!code) return code.error();
   auto own = core::read_rows(out);
   if (!own) return own.error();
   if (own.value().samples.empty())
-    return core::Error{fmt::format("the command exits {} and leaves no samples.json: {}", code.value(), last_line(log)),
+    return core::Error{fmt::format("the command exits {} and leaves no samples.json{}", code.value(), said_in(log)),
                        place.build.string(), "let it call 'broadside time ... --out {out}/samples.json'",
                        core::Exit::kMissing};
   for (core::Sample& sample : own.value().samples) {
@@ -85,7 +85,7 @@ core::Status time_command(const TimedWork& work, const TimeSettings& settings, c
       ++pairs;
       for (const bool is_first : {true, false}) {
         const bool is_good = is_first == (pairs % 2 == 1);
-        if (core::Status s = time_once(work.command, is_good ? good : build, pairs, folders[is_good ? 0 : 1],
+        if (core::Status s = time_once(work, is_good ? good : build, pairs, folders[is_good ? 0 : 1],
                                        is_good ? rows.base : rows.head);
             !s)
           return s;

@@ -27,6 +27,7 @@ struct TimedWork {
   bool allow_stand_in = false;
   std::uint64_t frames = 0;
   std::string command;
+  int lock = -1;  // of the folder's FolderLock
 };
 
 // Both builds' rows lie in the folder afterwards, in base/ and head/.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/bisect/bisection.hpp"
+#include "bench/bisect/folder_lock.hpp"
 #include "bench/cell/more_than_zero.hpp"
 #include "bench/cli/commands.hpp"
 #include "core/whole_file.hpp"
@@ -52,12 +53,16 @@ core::Status complete(BisectArguments& a) {
   if (question.times.most < question.times.processes) question.times.most = question.times.processes;
   for (const bisect::QuantityWord& row : bisect::kQuantityWords)
     if (std::find(a.on.begin(), a.on.end(), row.word) != a.on.end()) question.quantities.push_back(row.quantity);
+  if (!a.builds.command.empty()) question.made_by = a.builds.command + "\n" + a.builds.program;
   a.builds.folder = question.folder = a.folder;
   return core::Done{};
 }
 
 core::Exit find(BisectArguments& a) {
   if (core::Status s = complete(a); !s) return complain(s.error());
+  auto lock = bisect::FolderLock::take(a.folder);
+  if (!lock) return complain(lock.error());
+  a.builds.lock = a.question.work.lock = lock.value().descriptor();
   auto builds = a.builds.command.empty() ? bisect::given_builds(a.builds) : bisect::commit_builds(a.builds);
   if (!builds) return complain(builds.error());
   const auto found = bisect::bisect(*builds.value(), a.question);

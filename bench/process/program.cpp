@@ -21,8 +21,8 @@ std::string last_line(const std::filesystem::path& log) {
 }
 
 core::Result<int> run_program(const std::string& program, const std::vector<std::string>& arguments,
-                              const std::filesystem::path& log) {
-  auto running = RunningProgram::start(program, arguments, log);
+                              const std::filesystem::path& log, int inherited) {
+  auto running = RunningProgram::start(program, arguments, log, inherited);
   if (!running) return running.error();
   return running.value().wait();
 }

@@ -16,7 +16,7 @@ using core::Group;
 
 constexpr std::string_view kStreamDriver = "octree-cpu";
 
-std::vector<std::uint8_t> static_flags(const core::Scene& scene) {
+std::vector<std::uint8_t> flags_of_statics(const core::Scene& scene) {
   std::vector<std::uint8_t> flags;
   for (const core::Body& body : scene.bodies) flags.push_back(body.inverse_mass > 0.0F ? 0 : 1);
   return flags;
@@ -95,7 +95,7 @@ core::Result<core::FrameRecord> EngineStream::next() {
 
 core::Status EngineStream::find_pairs(core::FrameRecord& frame) {
   core::BroadPhase& broad = *engine_.broad_phase;
-  core::Status status = is_loaded_ ? broad.update(frame.boxes) : broad.load(frame.boxes, static_flags(scene_));
+  core::Status status = is_loaded_ ? broad.update(frame.boxes) : broad.load(frame.boxes, flags_of_statics(scene_));
   is_loaded_ = true;
   if (status.ok()) status = broad.find();
   if (!status) return status;

@@ -134,6 +134,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
   d.sweeps = d.bounce_sweeps = d.waits = 0;
   d.last = {};
+  d.told.forget();
   d.times = {};
   d.view = {};
   d.pairs_view = {};
@@ -296,7 +297,7 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
 core::Result<core::DeviceFrame> RigidPipeline::frame_on_device() {
   Impl& d = *impl_;
   if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
-  return d.told.tell(d.left(), d.stream);
+  return d.told.tell(d.left(), d.steps, d.stream);
 }
 
 std::uint32_t RigidPipeline::groups() const {

@@ -2,7 +2,6 @@
 
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 #include "gpu/runtime/device_choice.hpp"
 
@@ -37,27 +36,36 @@ core::DeviceFrame columns_of(const RigidLeft& left, const ToldView& told, std::u
 
 }  // namespace
 
-core::Status ToldFrame::reserve(std::size_t bodies, std::size_t points) {
-  BROADSIDE_TRY(bodies_.position.reserve(bodies, "states"));
-  BROADSIDE_TRY(bodies_.orientation.reserve(bodies, "states"));
-  BROADSIDE_TRY(bodies_.velocity.reserve(bodies, "states"));
-  BROADSIDE_TRY(bodies_.angular_velocity.reserve(bodies, "states"));
-  BROADSIDE_TRY(points_.a.reserve(points, "points"));
+core::Status ToldFrame::prepare(const RigidLeft& left) {
+  const std::size_t n = left.bodies.state.size();
+  BROADSIDE_TRY(bodies_.position.reserve(n, "states"));
+  BROADSIDE_TRY(bodies_.orientation.reserve(n, "states"));
+  BROADSIDE_TRY(bodies_.velocity.reserve(n, "states"));
+  BROADSIDE_TRY(bodies_.angular_velocity.reserve(n, "states"));
+  BROADSIDE_TRY(mass_.upload(left.bodies.mass, "masses"));
+  BROADSIDE_TRY(static_spin_.upload(left.bodies.static_spin, "masses"));
+  BROADSIDE_TRY(words_.reserve(2, "points"));
+  BROADSIDE_TRY(words_.fill_bytes(0));
+  BROADSIDE_TRY(told_points_.allocate());
+  BROADSIDE_TRY(wait_for_device("the columns of a frame"));
+  is_ready_ = true;
+  return core::Done{};
+}
+
+// More than is asked for, because memory that grows by a little each step costs more than the columns.
+core::Status ToldFrame::reserve_points(std::size_t points) {
+  if (points_.a.data() != nullptr && points <= points_.a.capacity()) return core::Done{};
+  points += points / 2;
   BROADSIDE_TRY(points_.b.reserve(points, "points"));
   BROADSIDE_TRY(points_.point.reserve(points, "points"));
   BROADSIDE_TRY(points_.normal.reserve(points, "points"));
   BROADSIDE_TRY(points_.gap.reserve(points, "points"));
   BROADSIDE_TRY(points_.impulse.reserve(points, "points"));
   BROADSIDE_TRY(points_.feature.reserve(points, "points"));
-  return points_.count.reserve(1, "points");
+  return points_.a.reserve(points, "points");  // last: its size says that all have room
 }
 
-core::Result<core::DeviceFrame> ToldFrame::tell(const RigidLeft& left, StreamHandle stream) {
-  BROADSIDE_TRY(reserve(left.bodies.state.size(), 4 * left.counts.patches));
-  BROADSIDE_TRY(points_.count.fill_bytes(0));
-  BROADSIDE_TRY(mass_.upload(left.bodies.mass, "masses"));
-  BROADSIDE_TRY(static_spin_.upload(left.bodies.static_spin, "masses"));
-  BROADSIDE_TRY(wait_for_device("the columns of a frame"));
+ToldView ToldFrame::view_of(const RigidLeft& left) const {
   ToldView view;
   view.body_count = static_cast<std::uint32_t>(left.bodies.state.size());
   view.patch_count = left.counts.patches;
@@ -71,16 +79,27 @@ core::Result<core::DeviceFrame> ToldFrame::tell(const RigidLeft& left, StreamHan
                  bodies_.angular_velocity.data()};
   view.points = {points_.a.data(),   points_.b.data(),       points_.point.data(),  points_.normal.data(),
                  points_.gap.data(), points_.impulse.data(), points_.feature.data()};
-  view.point_count = points_.count.data();
+  view.point_count = words_.data();
+  view.blocks_done = words_.data() + 1;
+  view.told_points = told_points_.device(0);
+  return view;
+}
+
+core::Result<core::DeviceFrame> ToldFrame::tell(const RigidLeft& left, std::uint64_t step, StreamHandle stream) {
+  if (is_told_ && step == step_) return frame_;
+  is_told_ = false;
+  if (!is_ready_) BROADSIDE_TRY(prepare(left));
+  BROADSIDE_TRY(reserve_points(4 * left.counts.patches));
+  const ToldView view = view_of(left);
   BROADSIDE_TRY(launch_told(view, stream));
   BROADSIDE_TRY(wait_for_stream(stream, "the columns of a frame"));
-  std::vector<std::uint32_t> point_count;
-  BROADSIDE_TRY(points_.count.download(point_count, 1));
-  core::DeviceFrame frame = columns_of(left, view, point_count[0]);
   auto device = current_device();
   if (!device.ok()) return device.error();
-  frame.device = device.value();
-  return frame;
+  frame_ = columns_of(left, view, told_points_[0]);
+  frame_.device = device.value();
+  is_told_ = true;
+  step_ = step;
+  return frame_;
 }
 
 }  // namespace broadside::gpu

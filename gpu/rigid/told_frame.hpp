@@ -7,13 +7,17 @@
 #include "core/engine/frame_on_device.hpp"
 #include "gpu/rigid/rigid_read_back.hpp"
 #include "gpu/rigid/told_view.hpp"
+#include "gpu/runtime/host_side.hpp"
 
 namespace broadside::gpu {
 
 class ToldFrame {
  public:
-  // Valid until the next call, and as long as the buffers of what was left. Synchronizes.
-  core::Result<core::DeviceFrame> tell(const RigidLeft& left, StreamHandle stream);
+  // Another scene was loaded.
+  void forget() { is_ready_ = is_told_ = false; }
+  // Valid until the next step or load, and as long as the buffers of what was left. The first call after a step
+  // launches and waits; others of this step give the same columns.
+  core::Result<core::DeviceFrame> tell(const RigidLeft& left, std::uint64_t step, StreamHandle stream);
 
  private:
   struct Bodies {
@@ -21,16 +25,24 @@ class ToldFrame {
     DeviceBuffer<core::Quat> orientation;
   };
   struct Points {
-    DeviceBuffer<std::uint32_t> a, b, feature, count;
+    DeviceBuffer<std::uint32_t> a, b, feature;
     DeviceBuffer<core::Vec3> point, normal, impulse;
     DeviceBuffer<float> gap;
   };
-  core::Status reserve(std::size_t bodies, std::size_t points);
+  core::Status prepare(const RigidLeft& left);
+  core::Status reserve_points(std::size_t points);
+  [[nodiscard]] ToldView view_of(const RigidLeft& left) const;
 
   Bodies bodies_;
   Points points_;
+  DeviceBuffer<std::uint32_t> words_;  // points so far, blocks that are done
+  Mapped<std::uint32_t, 1> told_points_;
   DeviceBuffer<core::RigidMass> mass_;
   DeviceBuffer<core::Vec3> static_spin_;
+  bool is_ready_ = false;  // of the loaded scene: masses are there, bodies have room
+  bool is_told_ = false;
+  std::uint64_t step_ = 0;  // that frame_ is of
+  core::DeviceFrame frame_;
 };
 
 }  // namespace broadside::gpu

@@ -40,7 +40,10 @@ struct ToldView {
   const core::Vec3* impulses = nullptr;  // [4 * patches] N s
   ToldBodies bodies;                     // [body_count]
   ToldPoints points;                     // room for 4 * patch_count
-  std::uint32_t* point_count = nullptr;  // 0 before the launch
+  // Both 0 before a launch, and after it.
+  std::uint32_t* point_count = nullptr;
+  std::uint32_t* blocks_done = nullptr;
+  std::uint32_t* told_points = nullptr;  // the host's memory: points that were told
 };
 
 // Asynchronous.

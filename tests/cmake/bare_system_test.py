@@ -9,6 +9,7 @@ Needs root (for chroot), mmdebstrap, and a machine whose programs Debian 12 can 
 """
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -28,18 +29,19 @@ mkdir -p {at} && cd {at}
 test -s demo/report.html && test -s demo/junit.xml && test -s demo/octree-cpu.h5 && test -d demo/turning
 {broadside} check demo/octree-cpu.h5 >/dev/null
 """
-# The page of the gate, with git remotes that are folders: a push to main, then a change whose sweep ends too early.
+# The page of the gate as a reader walks through it, with git remotes that are folders: its campaign and its two commands, on a push to
+# main, then on a change whose sweep ends too early.
+PAGE = ROOT / ".github/actions/gate/README.md"
 GATE = """
 cd /srv && git config --global user.name t && git config --global user.email t@t
 git init -q --bare -b main remote.git && git clone -q remote.git user 2>&1 && cd user && git checkout -q -B main
-cp /usr/share/broadside/examples/sweep.c . && printf 'out/\\n*.so\\n' >.gitignore
-printf 'name = "gate"\\nscenes = ["randommove:cube:40"]\\nengines = ["./libsweep.so"]\\nframes = 20\\nagainst = "all-pairs"\\nstand_in = true\\n' >c.toml
-make_engine() { cc -shared -fPIC -o libsweep.so sweep.c; }
-git add -A && git commit -q -m 'An engine' && git push -q origin main && make_engine
-broadside-gate c.toml --base main --keep
-git checkout -q -b faster && sed -i 's/min\\[0\\] > s->boxes/min[0] + 0.3f > s->boxes/' sweep.c && git commit -q -a -m Faster && make_engine
-code=0; broadside-gate c.toml --base main >said || code=$?
-test $code -eq 1 && grep -q '^::error file=c.toml,line=2,title=candidate-set' said && test -s out/gate/report.html
+cp /usr/share/broadside/examples/sweep.c . && mv /srv/campaign.toml . && printf 'out/\n*.so\n' >.gitignore
+printf 'libmine.so: sweep.c\n\tcc -shared -fPIC -o $@ $<\n' >Makefile
+git add -A && git commit -q -m 'An engine' && git push -q origin main && make -s libmine.so
+{on_main}
+git checkout -q -b faster && sed -i 's/min\[0\] > s->boxes/min[0] + 0.3f > s->boxes/' sweep.c && git commit -q -a -m Faster && make -s libmine.so
+code=0; {on_change} >said || code=$?
+test $code -eq 1 && grep -q '^::error file=campaign.toml,line=3,title=candidate-set' said && test -s out/gate/report.html
 """
 # On a system that starts services, apt-get would start them in the chroot as well: none is wanted.
 INSTALL = "export DEBIAN_FRONTEND=noninteractive; apt-get -qq update; apt-get -qq install -y --no-install-recommends "
@@ -111,8 +113,11 @@ def from_debian_packages(work, bare, packages, build):
         system.run(INSTALL + "gcc libc6-dev")
         system.run("cd /srv && cc -shared -fPIC -o libsweep.so /usr/share/broadside/examples/sweep.c && "
                    "broadside pairs boxes:mixed:500 --engine octree-cpu --engine ./libsweep.so")
-        system.run(INSTALL + "git python3")
-        system.run(GATE)
+        system.run(INSTALL + "git python3 make")
+        page = PAGE.read_text(encoding="utf-8")
+        (system.root / "srv/campaign.toml").write_text(re.search(r"```toml\n(.*?)```", page, re.DOTALL).group(1), encoding="utf-8")
+        on_main, on_change = (line.split("#")[0].strip() for line in page.splitlines() if line.startswith("broadside-gate "))
+        system.run(GATE.format(on_main=on_main, on_change=on_change))
         from_wheel(system, packages)
         # What the packages need stays; the program itself comes from an installed tree now.
         system.run("dpkg --purge broadside-dev broadside")

@@ -15,7 +15,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .device import DeviceRows
+    from .device import DeviceFrame, DeviceRows
     from .errors import BadInput, Error, Internal, LawBroken, Missing
     from .in_process import BroadPhase, Dynamics, engines, find_pairs
     from .program_engine import engine
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 # Where each name is. A module is loaded when a name of it is first asked for: the process of a Python engine asks for
 # `engine` alone, and has ten seconds to say hello, so it does not load what judges and simulates.
 _PLACES = {
-    "device": ["DeviceRows"],
+    "device": ["DeviceFrame", "DeviceRows"],
     "errors": ["BadInput", "Error", "Internal", "LawBroken", "Missing"],
     "in_process": ["BroadPhase", "Dynamics", "engines", "find_pairs"],
     "program_engine": ["engine"],

@@ -9,6 +9,7 @@ engine's memory: its next call writes there again, so work that reads them must 
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from . import native
@@ -57,14 +58,19 @@ class DeviceRows:
     Nothing is copied. Valid until the engine's next call; keeps the engine alive.
     """
 
+    __slots__ = ("shape", "dtype", "_address", "_place", "_owner", "_row_bytes")
+
     def __init__(self, address: int, shape: tuple[int, int], dtype: str, place: tuple[int, int], owner: Any,
                  row_bytes: int | None = None):
         self.shape, self.dtype, self._address, self._place, self._owner = shape, dtype, address, place, owner
         self._row_bytes = row_bytes or 4 * shape[1]
-        if place[0] == CUDA:  # of the host's memory there is none
-            self.__cuda_array_interface__ = {
-                "shape": shape, "typestr": "<u4" if dtype == "uint32" else "<f4", "data": (address, True),
-                "strides": (self._row_bytes, 4), "version": 3, "stream": None}
+
+    @property
+    def __cuda_array_interface__(self) -> dict[str, Any]:
+        if self._place[0] != CUDA:
+            raise AttributeError("rows in the host's memory have no __cuda_array_interface__")
+        return {"shape": self.shape, "typestr": "<u4" if self.dtype == "uint32" else "<f4",
+                "data": (self._address, True), "strides": (self._row_bytes, 4), "version": 3, "stream": None}
 
     @property
     def padded(self) -> DeviceRows:
@@ -88,3 +94,26 @@ class DeviceRows:
         """A capsule; the rows are complete on every stream, so none is waited for."""
         is_float = self.dtype == "float32"
         return native.given_rows(self._address, *self.shape, self._row_bytes, is_float, *self._place, self)
+
+
+class DeviceFrame(Mapping[str, DeviceRows]):
+    """Columns of a frame on a GPU by name; rows are made when they are asked for, so that few cost little."""
+
+    __slots__ = ("_columns", "_place", "_owner")
+
+    def __init__(self, columns: dict[str, tuple], device: int, owner: Any):
+        self._columns, self._place, self._owner = columns, (CUDA, device), owner
+
+    def __getitem__(self, path: str) -> DeviceRows:
+        address, rows, width, row_bytes, is_float = self._columns[path]
+        kind = "float32" if is_float else "uint32"
+        return DeviceRows(address, (rows, width), kind, self._place, self._owner, row_bytes)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __repr__(self) -> str:
+        return f"<frame on DLPack device {self._place}: {', '.join(self._columns)}>"

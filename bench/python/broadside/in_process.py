@@ -9,7 +9,7 @@ import numpy as np
 
 from . import native
 from .arrays import fitted, host_array
-from .device import CUDA, DeviceBoxes, DeviceRows, is_on_gpu
+from .device import CUDA, DeviceBoxes, DeviceFrame, DeviceRows, is_on_gpu
 from .errors import BadInput
 from .scene_builder import Scene, scene as make_scene
 
@@ -97,17 +97,16 @@ class Dynamics:
         """Advances by `count` steps of the scene's dt_s."""
         self._held.step(count)
 
-    def read_on_device(self) -> dict[str, DeviceRows]:
+    def read_on_device(self) -> DeviceFrame:
         """States, pairs and points of a GPU engine where they lie, until its next step; complete for every stream.
 
-        By the names of a trace's columns: body/position and body/velocity [n, 3] float32 and pairs/pairs [rows, 2] always;
-        where bodies turn also body/orientation [n, 4], body/angular_velocity, confirmed/pairs and point/* (point/gap,
-        point/a, point/b and point/feature are [rows, 1]). Bodies are in the scene's order, pairs and points in none.
+        By the names of a trace's columns: body/position and body/velocity [n, 3] float32 and pairs/pairs [rows, 2]
+        always; where bodies turn also body/orientation [n, 4], body/angular_velocity, confirmed/pairs and point/*
+        (point/gap, point/a, point/b and point/feature are [rows, 1]). Bodies are in the scene's order, pairs and points
+        in none. Where bodies turn the first call after a step writes the columns, and others give the same.
         """
         columns, device = self._held.frame_on_device()
-        return {path: DeviceRows(address, (rows, width), "float32" if is_float else "uint32", (CUDA, device), self._held,
-                                 row_bytes)
-                for path, address, rows, width, row_bytes, is_float in columns}
+        return DeviceFrame(columns, device, self._held)
 
     def read(self) -> State:
         """The State after the last step; its arrays stay as they are when the engine goes on."""

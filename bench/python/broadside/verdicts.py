@@ -115,13 +115,38 @@ class Verdicts(Sequence[Verdict]):
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        rows = []
-        for judgement in self._judgements:
-            rows.append(f'<tr><th colspan="6" style="text-align:left">{html.escape(judgement.label)} on '
-                        f"{html.escape(judgement.scene)}</th></tr>")
-            rows += [_html_row(_verdict(facts)) for facts in judgement.verdicts()]
-        head = "".join(f"<th>{name}</th>" for name in ("law", "outcome", "measured", "limit", "where", "why"))
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+        tables = [_html_table(judgement, [_verdict(facts) for facts in judgement.verdicts()])
+                  for judgement in self._judgements]
+        return "<div>" + "".join(tables) + "</div>"
+
+
+FIRST_FACE = 0xFFFFFFF0  # faces of the domain are bodies from here on
+
+# Rows are tinted and no text has a color of its own, so that the table is read on light pages and on dark ones.
+_TINTS = {"pass": "rgba(0,150,70,.10)", "fail": "rgba(225,30,30,.20)", "inconclusive": "rgba(235,160,0,.20)"}
+_CELL = 'style="text-align:left;vertical-align:top;padding:2px 8px"'
+_SHORT = _CELL[:-1] + ';white-space:nowrap"'
+
+
+def _html_table(judgement, verdicts):
+    judged = [verdict for verdict in verdicts if verdict.outcome in _TINTS]
+    counts = [(sum(v.outcome == outcome for v in judged), word)
+              for outcome, word in (("fail", "broken"), ("inconclusive", "in doubt"), ("pass", "kept"))]
+    said = ", ".join(f"{count} {word}" for count, word in counts if count) or "no law was judged"
+    title = f"<b>{html.escape(judgement.label)}</b> on {html.escape(judgement.scene)}: {said}"
+    head = "".join(f"<th {_CELL}>{name}</th>" for name in ("law", "outcome", "measured", "limit", "where", "why"))
+    rows = "".join(_html_row(verdict) for verdict in judged)
+    table = f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>" if judged else ""
+    return f"<p>{title}</p>{table}{_html_rest([v for v in verdicts if v.outcome not in _TINTS])}"
+
+
+def _html_rest(verdicts):
+    """Laws that do not apply, folded."""
+    if not verdicts:
+        return ""
+    lines = "".join(f"<li>{html.escape(v.law)}: {html.escape(v.explanation)}</li>" for v in verdicts)
+    what = "law does" if len(verdicts) == 1 else "laws do"
+    return f"<details><summary>{len(verdicts)} {what} not apply</summary><ul>{lines}</ul></details>"
 
 
 def _number(value, unit):
@@ -129,15 +154,21 @@ def _number(value, unit):
     return html.escape(f"{text} {unit}".strip())
 
 
+def _body(number):
+    return str(number) if number < FIRST_FACE else f"face {number - FIRST_FACE}"
+
+
 def _html_row(verdict):
-    weight = "font-weight:bold" if verdict.outcome in ("fail", "inconclusive") else ""
-    judged = verdict.outcome != "not applicable"
     where = [] if verdict.step is None else [f"step {verdict.step}"]
-    where += [f"bodies {', '.join(map(str, verdict.bodies))}"] if verdict.bodies else []
-    cells = (html.escape(verdict.law), verdict.outcome, _number(verdict.measured, verdict.unit) if judged else "",
-             _number(verdict.limit, verdict.unit) if judged else "", ", ".join(where),
-             html.escape(verdict.origin if judged else verdict.explanation))
-    return f'<tr style="{weight}">' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+    if verdict.bodies:
+        where.append(f"bodies {', '.join(map(_body, verdict.bodies))}")
+    limit = html.escape(verdict.origin)
+    why = limit if verdict.outcome == "pass" else f"{html.escape(verdict.explanation)} <i>(limit: {limit})</i>"
+    outcome = verdict.outcome if verdict.outcome == "pass" else f"<b>{verdict.outcome}</b>"
+    short = (html.escape(verdict.law), outcome, _number(verdict.measured, verdict.unit),
+             _number(verdict.limit, verdict.unit))
+    cells = "".join(f"<td {_SHORT}>{cell}</td>" for cell in (*short, ", ".join(where)))
+    return f'<tr style="background:{_TINTS[verdict.outcome]}">{cells}<td {_CELL}>{why}</td></tr>'
 
 
 def check(traces: Any, laws: Sequence[str] = (), against: Any = None) -> Verdicts:

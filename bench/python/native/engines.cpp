@@ -46,8 +46,8 @@ class HeldDynamics {
     for (std::uint64_t k = 0; k < count; ++k, ++steps_) take(engine_.dynamics->step(scene_.scene->dt_s));
   }
 
-  // Columns of the frame on the device that it runs on: path, address, rows, numbers of a row, bytes from row to row,
-  // whether they are floats; and the device.
+  // Columns of the frame on the device that it runs on, by path: address, rows, numbers of a row, bytes from row to
+  // row, whether they are floats; and the device.
   py::tuple frame_on_device() {
     auto* const there = dynamic_cast<core::FrameOnDevice*>(engine_.dynamics.get());
     if (there == nullptr)
@@ -57,10 +57,10 @@ class HeldDynamics {
       const std::lock_guard lock(mutex_);
       return take(there->frame_on_device());
     }();
-    py::list columns;
+    py::dict columns;
     for (const core::DeviceColumn& c : frame.columns)
-      columns.append(py::make_tuple(std::string(c.path), reinterpret_cast<std::uint64_t>(c.data), c.rows, c.width,
-                                    c.row_bytes, c.is_float));
+      columns[py::str(c.path.data(), c.path.size())] =
+          py::make_tuple(reinterpret_cast<std::uint64_t>(c.data), c.rows, c.width, c.row_bytes, c.is_float);
     return py::make_tuple(columns, frame.device);
   }
 

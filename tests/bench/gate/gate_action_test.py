@@ -122,6 +122,9 @@ def the_page_shows_what_is_there():
     steps = workflow["jobs"]["gate"]["steps"]
     gate = [step for step in steps if "actions/gate@" in step.get("uses", "")]
     assert len(gate) == 1 and set(gate[0]["with"]) <= set(action["inputs"]), gate
+    campaign = re.search(r"```toml\n(.*?)```", text, re.DOTALL).group(1)
+    count = [sum(not line.startswith("#") for line in part.splitlines()) for part in (campaign, block)]
+    assert f"{count[0]} lines of campaign and {count[1]} of workflow" in text, count
     for name in action["inputs"]:
         assert f"`{name}`" in text, f"the page does not explain the input {name}"
 

@@ -51,11 +51,11 @@ def test_several_traces(falling, too_heavy):
 
 
 class Cells(HTMLParser):
-    """Every open tag is closed, and the text of each cell."""
+    """Every open tag is closed; the text of each cell, and other text."""
 
     def __init__(self):
         super().__init__()
-        self.open, self.cells = [], []
+        self.open, self.cells, self.texts = [], [], []
 
     def handle_starttag(self, tag, attrs):
         self.open.append(tag)
@@ -66,7 +66,10 @@ class Cells(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data):
-        self.cells[-1] += data
+        if self.open[-1] in ("td", "th", "b", "i") and "table" in self.open:
+            self.cells[-1] += data
+        else:
+            self.texts.append(data)
 
 
 def test_html_for_notebooks(too_heavy):
@@ -76,6 +79,10 @@ def test_html_for_notebooks(too_heavy):
     at = page.cells.index("ballistic")
     assert page.cells[at + 1:at + 3] == ["fail", "0.0312 m/s"]
     assert page.cells[at + 4] == "step 1, bodies 0"
+    assert "g h + F h / m = -0.125 m/s" in page.cells[at + 5], "a broken law shows the numbers that went in"
+    said = "".join(page.texts)
+    assert "heavy on falling: 2 broken, " in said and " do not apply" in said
+    assert "color:" not in broadside.check(too_heavy)._repr_html_(), "text has the page's color, light or dark"
 
 
 def test_files(too_heavy, tmp_path):

@@ -115,6 +115,27 @@ TEST(FrameOnDeviceOnHost, OfTurningBodiesIsWhatIsReadBack) {
   EXPECT_GT(points_seen, 0U);
 }
 
+TEST(FrameOnDeviceOnHost, IsMadeOnceAStepAndAgainOfAnotherScene) {
+  auto tip = datasets::make_scene("rigid:tip:push-tips", {});
+  auto stack = datasets::make_scene("rigid:stack:3", {});
+  ASSERT_TRUE(tip.ok() && stack.ok());
+  PipelineByMotion pipeline = octree_gpu();
+  for (const core::Scene* scene : {&tip.value(), &stack.value()}) {
+    ASSERT_TRUE(pipeline.load(*scene).ok());
+    for (int step = 0; step < 2; ++step) {
+      core::FrameRecord frame;
+      ASSERT_TRUE(pipeline.read_back(frame, core::RecordLevel::kFull).ok());
+      for (int call = 0; call < 2; ++call) {
+        auto there = pipeline.frame_on_device();
+        ASSERT_TRUE(there.ok());
+        EXPECT_TRUE(column<core::Vec3>(there.value(), "body/position") == frame.position);
+        EXPECT_TRUE(points_of(there.value()) == points_of(frame));
+      }
+      ASSERT_TRUE(pipeline.step(scene->dt_s).ok());
+    }
+  }
+}
+
 TEST(FrameOnDeviceOnHost, OfNoSceneIsRefused) {
   PipelineByMotion pipeline = octree_gpu();
   EXPECT_FALSE(pipeline.frame_on_device().ok());
