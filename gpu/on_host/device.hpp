@@ -81,6 +81,7 @@ inline void __syncwarp() {
   on_host::exchange(0);
 }
 inline void __threadfence_block() {}
+inline void __threadfence() {}
 
 template <typename T>
 T on_host_shuffle(T value, unsigned lane) {

@@ -1,5 +1,4 @@
 // What a frame of turning bodies tells, on fibers of the host: two blocks of two warps.
-#include "gpu/on_host/fence.hpp"
 #include "gpu/stages/rigid/told_stage.cuh"
 
 namespace broadside::gpu {

@@ -229,8 +229,8 @@ TEST(Bisection, OneWaitsForWhatAKilledOneStartedAndMendsItsClone) {
   };
   // The first build outlives the bisection, which it kills, by two seconds.
   const std::string build = "if [ ! -f '" + log.string() + "' ]; then touch .git/index.lock; echo killed > '" +
-                            log.string() + "'; kill -9 $(cut -d ' ' -f 4 /proc/$PPID/stat); sleep 2; echo late >> '" +
-                            log.string() + "'; exit 1; fi; sh ./build.sh; echo built >> '" + log.string() + "'";
+                            log.string() + "'; kill -9 $PPID; sleep 2; echo late >> '" + log.string() +
+                            "'; exit 1; fi; sh ./build.sh; echo built >> '" + log.string() + "'";
   EXPECT_EQ(run_program(arguments(build)).exit_code, -1);
   const Ended ended = run_program(arguments(build));
   EXPECT_EQ(ended.exit_code, 1) << ended.out << ended.err;

@@ -117,7 +117,7 @@ TEST(FrameOnDeviceOnHost, OfTurningBodiesIsWhatIsReadBack) {
 
 TEST(FrameOnDeviceOnHost, IsMadeOnceAStepAndAgainOfAnotherScene) {
   auto tip = datasets::make_scene("rigid:tip:push-tips", {});
-  auto stack = datasets::make_scene("rigid:stack:3", {});
+  auto stack = datasets::make_scene("rigid:stack:5", {});
   ASSERT_TRUE(tip.ok() && stack.ok());
   PipelineByMotion pipeline = octree_gpu();
   for (const core::Scene* scene : {&tip.value(), &stack.value()}) {
