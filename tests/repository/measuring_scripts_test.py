@@ -318,6 +318,20 @@ class GpuPage(unittest.TestCase):
         self.assertIn("- racecheck, pile: exit 9: 3 hazards", page)
         self.assertIn("Date: not recorded", page)
 
+    def test_cells_for_which_no_time_is_left_are_not_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "out.json")
+            idle = program(folder, "import time\ntime.sleep(60)\n")
+            done = subprocess.run([os.path.join(GPU, "agreement"), idle, out, "--matrix", "--budget", "1", "--jobs", "2"],
+                                  capture_output=True, text=True, check=False, timeout=50)
+            with open(out, encoding="utf-8") as file:
+                rows = json.load(file)["rows"]
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("0 of 90 cells agree", done.stdout)
+        self.assertEqual({row["outcome"] for row in rows}, {"not measured"})
+        self.assertEqual(sum(row["why"] == "no time was left" for row in rows), 88)
+        self.assertEqual({row["scene"].split(":")[1] for row in rows[:40]}, {"cube", "brick", "domino", "sphere"})
+
     def test_a_results_file_names_its_command_without_folders(self):
         with tempfile.TemporaryDirectory() as folder:
             row, out = os.path.join(folder, "a.row"), os.path.join(folder, "out.json")
