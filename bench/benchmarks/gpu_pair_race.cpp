@@ -1,9 +1,11 @@
 // The GPU's broad phase on the boxes of the races: boxes on the device, pairs in memory, in any order. Prints one JSON
 // line a set: medians over the repetitions, ms.
 //   broadside_gpu_race [LARGEST_N [REPETITIONS [KIND [SMALLEST_N [ORDER]]]]]
-// KIND: uniform, heaps, mixed; or hard: surfaces, long thin boxes, uneven worlds, each of one size. Numbers go from
+// KIND: uniform, heaps, mixed; or hard: surfaces, long thin boxes, uneven worlds, each of one size; or one set by its
+// whole name, mesh:bunny:2000. Numbers go from
 // SMALLEST_N to LARGEST_N by tens. ORDER: how boxes are put in order, to compare: at-once, bulk pairs without bins;
-// coarse, in two steps however few bins there are; bulk, as bulk pairs from 4096 boxes on.
+// coarse, in two steps however few bins there are; bulk, as bulk pairs from 4096 boxes on; lanes1, lanes4, so
+// many lanes a box, also as bulk pairs from 4096 boxes on; scale1, cells as large as the largest box.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +36,9 @@ constexpr double kWarmUpS = 0.3;
 gpu::PairFinderOptions options_of(const std::string& order) {
   gpu::PairFinderOptions options;
   if (order == "at-once") options.least_for_bins = 0xFFFFFFFFU;
-  if (order == "bulk") options.least_for_bulk = 4096;
+  if (order.starts_with("lanes")) options.lanes_per_box = static_cast<std::uint32_t>(std::atoi(order.c_str() + 5));
+  if (order == "bulk" || order.starts_with("lanes")) options.least_for_bulk = 4096;
+  if (order == "scale1") options.cell_scale = 1.0F;
   if (order == "coarse") options.most_bins_at_once = 1024;  // two coarse bins have fewer, at any number of boxes
   return options;
 }
@@ -103,6 +107,8 @@ int main(int count, char** given) {
   const long smallest = count > 4 ? std::max(1L, std::atol(given[4])) : 1000;
   const std::string order = count > 5 ? given[5] : "default";
   bool is_good = true;
+  if (count > 3 && std::string(given[3]).find(':') != std::string::npos)
+    return broadside::bench::race(given[3], given[3], 0, repetitions, order) ? 0 : 1;
   for (const std::string kind : {"uniform", "heaps", "mixed"})
     for (long n = smallest; n <= largest; n *= 10)
       if (count <= 3 || kind == given[3])

@@ -3,11 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "gpu/broad/shared_boxes.hpp"
+
 namespace broadside::gpu {
 namespace {
 
 // Some eight overlaps a box in the densest scenes of the campaign; a frame that finds more is found again.
 constexpr std::uint64_t kPairsPerBox = 8;
+
+// Shares are of sets too large to need more than one.
+std::uint32_t lanes_for(const BoxFacts& facts, const PairFinderOptions& options) {
+  return options.has_shares ? 1 : facts.lanes_per_box;
+}
 
 }  // namespace
 
@@ -27,7 +34,9 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   BROADSIDE_TRY(pairs_.reserve(first_room(options), "pairs"));
   const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
   const BinLimits limits{options.least_for_bins, options.most_bins_at_once};
+  lanes_per_box_ = lanes_for(facts, options);
   auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, limits)
+               : can_share()                     ? bulk_launch_shape(count_, buckets, limits, lanes_per_box_)
                                                  : pairs_launch_shape(start_, count_, buckets, limits);
   if (!shape.ok()) return shape.error();
   shape_ = shape.value();
@@ -58,7 +67,9 @@ core::Result<PackedBox*> BoxSearch::move_to_room_for(std::size_t boxes, std::siz
 }
 
 core::Status BoxSearch::load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new) {
-  if (is_new || facts.count != count_ || options.start(facts) != start_) BROADSIDE_TRY(reserve(facts, options));
+  const bool is_as_before =
+      facts.count == count_ && options.start(facts) == start_ && lanes_for(facts, options) == lanes_per_box_;
+  if (is_new || !is_as_before) BROADSIDE_TRY(reserve(facts, options));
   broad_.refit(facts);
   settle_ = {};
   return core::Done{};
@@ -104,7 +115,7 @@ core::Status BoxSearch::settle(StreamHandle stream) {
 
 core::Status BoxSearch::launch(StreamHandle stream) {
   fill_view();
-  BROADSIDE_TRY(launch_pairs(view_, shape_, stream));
+  BROADSIDE_TRY(can_share() ? launch_bulk(view_, shape_, lanes_per_box_, stream) : launch_pairs(view_, shape_, stream));
   return settle(stream);
 }
 

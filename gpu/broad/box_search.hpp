@@ -40,6 +40,8 @@ class BoxSearch {
   // Where the options say that there are shares. `share`: names, places, and whether the boxes are in order already.
   core::Status launch_share(const NamedPairsView& share, StreamHandle stream);
   [[nodiscard]] bool can_share() const { return start_ == Start::kBulk; }
+  [[nodiscard]] Start start() const { return start_; }
+  [[nodiscard]] std::uint32_t lanes_per_box() const { return lanes_per_box_; }
   [[nodiscard]] std::uint32_t box_count() const { return count_; }
   [[nodiscard]] std::uint32_t multiprocessors() const { return shape_.search.multiprocessors; }
   // After a search of shares: what it left on the device.
@@ -75,6 +77,7 @@ class BoxSearch {
   SettleView settle_;
   Start start_ = Start::kNone;
   std::uint32_t count_ = 0;
+  std::uint32_t lanes_per_box_ = 1;
   Mapped<Outcome, 1> outcome_;
   BroadBuffers broad_;
   DeviceBuffer<PackedBox> boxes_;

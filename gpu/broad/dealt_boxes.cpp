@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "gpu/broad/fitted_cells.hpp"
 #include "gpu/broad/searched_boxes.hpp"
 
 namespace broadside::gpu {
@@ -54,6 +55,13 @@ core::Status DealtBoxes::take(std::span<const core::Box> boxes, std::span<const 
     if (part > 0) facts.low_corner[cut.axis] = std::max(bounds.min[cut.axis], cut.faces[part - 1] - all.largest_side_m);
   }
   return core::Done{};
+}
+
+float DealtBoxes::fitted_cell_scale(std::span<const core::Box> boxes) const {
+  BoxFacts all;
+  for (const BoxFacts& facts : facts_) all.largest_side_m = std::max(all.largest_side_m, facts.largest_side_m);
+  all.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(boxes.size(), 0xFFFFFFFFU));
+  return bulk_fit(boxes, all).cell_scale;
 }
 
 }  // namespace broadside::gpu

@@ -24,6 +24,11 @@ class DealtBoxes {
   // An error names the first that is no box, by the caller's number.
   core::Status take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
                     const core::SpaceCut& cut);
+  // What fits all boxes of a set: fitted_cells.hpp.
+  [[nodiscard]] float fitted_cell_scale(std::span<const core::Box> boxes) const;
+  void set_cell_scale(float scale) {
+    for (BoxFacts& facts : facts_) facts.cell_scale = scale;
+  }
 
   [[nodiscard]] std::uint32_t parts() const { return static_cast<std::uint32_t>(facts_.size()); }
   [[nodiscard]] std::span<const PackedBox> boxes(std::uint32_t part) const {

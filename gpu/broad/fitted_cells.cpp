@@ -6,12 +6,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "gpu/broad/shared_boxes.hpp"
+
 namespace broadside::gpu {
 namespace {
 
 using core::Box;
 
 constexpr std::size_t kSample = 1024;
+// Of more boxes than that a thousand are no neighbors of each other. There a thousand look at a larger sample.
+constexpr std::size_t kLeastForLookers = 1U << 20U;
+constexpr std::size_t kBoxesPerSampled = 64;
+constexpr std::size_t kMostSampled = 1U << 20U;
 // Half an octave apart.
 constexpr std::array<float, 4> kScales{1.0F, 1.41421356F, 2.0F, 2.82842712F};
 // Tests that were counted in the sample: below, their number is off by a tenth by chance.
@@ -58,8 +64,70 @@ bool looks_at(const Seen& a, const Seen& b) {
          low[2] <= b.cell[2] && b.cell[2] <= high[2];
 }
 
+// What looking for partners of a sample of boxes comes to.
+struct Looked {
+  double tests = 0.0;  // of pairs within the sample
+  double rows = 0.0;   // of cells, a box
+};
+
+std::uint32_t levels_of(const std::vector<Seen>& sample) {
+  std::uint32_t levels = 0;
+  for (const Seen& s : sample) levels |= 1U << static_cast<unsigned>(s.level);
+  return levels;
+}
+
+// Rows of cells that a box looks at: on its own level some half of those around it, where two boxes would find each
+// other twice.
+double rows_of(const Seen& s, std::uint32_t levels) {
+  double rows = 0.0;
+  for (int level = 0; level <= s.level; ++level) {
+    if ((levels >> static_cast<unsigned>(level) & 1U) == 0) continue;
+    const auto cells = [&](int axis) { return static_cast<double>(s.high[level][axis] - s.low[level][axis] + 1); };
+    rows += (level == s.level ? 0.5 : 1.0) * cells(1) * cells(2);
+  }
+  return rows;
+}
+
+// Which cell of which level that is; cells whose numbers differ by a multiple of 2^20 are seldom both in a sample.
+// Cells that follow each other in z have keys that do, but for one in 2^20 far from the origin.
+std::uint64_t key_of(int level, std::int64_t x, std::int64_t y, std::int64_t z) {
+  constexpr std::uint64_t kMask = (1U << 20U) - 1U;
+  const auto bits = [](std::int64_t v) { return static_cast<std::uint64_t>(v + (1 << 19)) & kMask; };
+  return ((static_cast<std::uint64_t>(level) << 20U | bits(x)) << 20U | bits(y)) << 20U | bits(z);
+}
+
+// What some boxes of the sample, evenly chosen, look at in all of it, counted as the search does: boxes of coarser
+// levels, and of each two of one level one from the other. So it is a share of the tests of all.
+Looked look_by_some(const std::vector<Box>& sample, double largest_cell_m) {
+  std::vector<std::uint64_t> cells;
+  cells.reserve(sample.size());
+  std::uint32_t levels = 0;
+  for (const Box& box : sample) {
+    const Seen s = seen(box, largest_cell_m);
+    cells.push_back(key_of(s.level, s.cell[0], s.cell[1], s.cell[2]));
+    levels |= 1U << static_cast<unsigned>(s.level);
+  }
+  std::sort(cells.begin(), cells.end());
+  Looked all;
+  for (std::size_t k = 0; k < kSample; ++k) {
+    const Seen s = seen(sample[k * sample.size() / kSample], largest_cell_m);
+    all.rows += rows_of(s, levels) / static_cast<double>(kSample);
+    for (int level = 0; level <= s.level; ++level) {
+      if ((levels >> static_cast<unsigned>(level) & 1U) == 0) continue;
+      const double weight = level == s.level ? 0.5 : 1.0;
+      for (std::int64_t x = s.low[level][0]; x <= s.high[level][0]; ++x)
+        for (std::int64_t y = s.low[level][1]; y <= s.high[level][1]; ++y) {
+          const auto first = std::lower_bound(cells.begin(), cells.end(), key_of(level, x, y, s.low[level][2]));
+          const auto last = std::upper_bound(first, cells.end(), key_of(level, x, y, s.high[level][2]));
+          all.tests += weight * static_cast<double>(last - first);
+        }
+    }
+  }
+  return all;
+}
+
 // Pairs of the sample of which one looks at the other.
-double tests_of(const std::vector<Box>& sample, double largest_cell_m) {
+Looked look_by_all(const std::vector<Box>& sample, double largest_cell_m) {
   std::vector<Seen> all;
   all.reserve(sample.size());
   for (const Box& box : sample) all.push_back(seen(box, largest_cell_m));
@@ -67,39 +135,58 @@ double tests_of(const std::vector<Box>& sample, double largest_cell_m) {
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size(); ++j)
       tests += (all[i].level >= all[j].level ? looks_at(all[i], all[j]) : looks_at(all[j], all[i])) ? 1 : 0;
-  return static_cast<double>(tests);
+  Looked looked;
+  looked.tests = static_cast<double>(tests);
+  const std::uint32_t levels = levels_of(all);
+  for (const Seen& s : all) looked.rows += rows_of(s, levels) / static_cast<double>(all.size());
+  return looked;
 }
+
+// Rows of cells with fewer tests than that are done at one step or two by one lane; the other three would wait.
+constexpr double kLongRow = 10.0;
+// Of more boxes every warp has several turns, and those of a crowd do not last longer than all others together.
+constexpr std::uint32_t kMostSharedBoxes = 300'000;
 
 }  // namespace
 
-float fitted_cell_scale(std::span<const Box> boxes, const BoxFacts& facts) {
+BulkFit bulk_fit(std::span<const Box> boxes, const BoxFacts& facts) {
   std::vector<Box> sample;
   for (const std::uint32_t k : boxes_to_fit_by(boxes.size())) sample.push_back(boxes[k]);
-  return cell_scale_by_sample(sample, facts);
+  return bulk_fit_by_sample(sample, facts);
 }
 
 std::vector<std::uint32_t> boxes_to_fit_by(std::size_t count) {
   std::vector<std::uint32_t> which;
   if (count < 2 * kSample) return which;
-  for (std::size_t k = 0; k < kSample; ++k) which.push_back(static_cast<std::uint32_t>(k * count / kSample));
+  const bool has_lookers = count >= kLeastForLookers;
+  const std::size_t size = has_lookers ? std::min(count / kBoxesPerSampled, kMostSampled) : kSample;
+  which.reserve(size);
+  for (std::size_t k = 0; k < size; ++k) which.push_back(static_cast<std::uint32_t>(k * count / size));
   return which;
 }
 
-float cell_scale_by_sample(const std::vector<Box>& sample, const BoxFacts& facts) {
-  if (sample.empty() || !(facts.largest_side_m > 0.0F)) return 1.0F;
-  double least = 0.0;
-  float best = 1.0F;
+BulkFit bulk_fit_by_sample(const std::vector<Box>& sample, const BoxFacts& facts) {
+  BulkFit fit;
+  if (sample.empty() || !(facts.largest_side_m > 0.0F)) return fit;
+  const auto look = sample.size() > kSample ? look_by_some : look_by_all;
+  Looked best;
+  double worthwhile = 0.0;
   for (const float scale : kScales) {
-    const double tests = tests_of(sample, static_cast<double>(facts.largest_side_m) * scale);
+    const Looked looked = look(sample, static_cast<double>(facts.largest_side_m) * scale);
     if (scale == 1.0F) {
-      if (tests < kLeastCounted) return 1.0F;
-      least = kWorthwhile * tests;
-    } else if (tests < least) {
-      least = tests;
-      best = scale;
+      if (looked.tests < kLeastCounted) return fit;
+      best = looked;
+      worthwhile = kWorthwhile * looked.tests;
+    } else if (looked.tests < std::min(best.tests, worthwhile)) {
+      best = looked;
+      fit.cell_scale = scale;
     }
   }
-  return best;
+  // Each of the sample stands for as many boxes: so many times more others are in its cells.
+  const double boxes_per_sampled = static_cast<double>(facts.count) / static_cast<double>(sample.size());
+  const double tests_a_box = best.tests / static_cast<double>(kSample) * boxes_per_sampled;
+  if (facts.count <= kMostSharedBoxes && tests_a_box >= kLongRow * best.rows) fit.lanes_per_box = kLanesOfCrowd;
+  return fit;
 }
 
 }  // namespace broadside::gpu

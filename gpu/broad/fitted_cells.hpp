@@ -1,9 +1,15 @@
-// How much larger than the largest box the largest cells of bulk pairs are made.
+// How much larger than the largest box the largest cells of bulk pairs are made, and how many lanes look for the
+// partners of a box.
 //
 // A box lies in cells of its own size to four times that, since bulk pairs have even levels alone. Whether most boxes
 // of a set are little or much shorter than their cells depends on how their sizes compare with the largest one. Larger
 // cells move all levels together. What that does to the number of tests is not to be told from the sizes alone, so it
 // is counted in a sample.
+//
+// A warp is done when the slowest of its lanes is, and all warps when the slowest of them is. Boxes that lie together
+// in the order lie together in space, so a warp in a crowd has all the work. Where boxes are so few that most warps
+// have only one turn, four lanes a box share that work out to more warps. What they can share is a row of cells: where
+// its entries are few, most lanes would wait.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +22,17 @@
 
 namespace broadside::gpu {
 
-// From 1 to below 4; 1 where nothing else promises a fifth less work, or where a sample of a thousand is too thin to
+struct BulkFit {
+  float cell_scale = 1.0F;  // from 1 to below 4
+  std::uint32_t lanes_per_box = 1;
+};
+
+// Cells are scaled by 1 where nothing else promises a fifth less work, or where a sample of a thousand is too thin to
 // tell. Sound boxes; the same boxes give the same answer. It takes some milliseconds.
-float fitted_cell_scale(std::span<const core::Box> boxes, const BoxFacts& facts);
+BulkFit bulk_fit(std::span<const core::Box> boxes, const BoxFacts& facts);
 
 // The same where the boxes are elsewhere: which of them are looked at, and the answer from these.
 std::vector<std::uint32_t> boxes_to_fit_by(std::size_t count);
-float cell_scale_by_sample(const std::vector<core::Box>& sample, const BoxFacts& facts);
+BulkFit bulk_fit_by_sample(const std::vector<core::Box>& sample, const BoxFacts& facts);
 
 }  // namespace broadside::gpu

@@ -1,6 +1,7 @@
 #include "gpu/broad/pair_finder.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,8 +33,9 @@ struct PairFinder::Impl {
   bool may_be_apart = false;
   bool is_apart = false;  // in the place of the searches
   std::uint64_t chunked_pairs = 0;
-  float cell_scale = 1.0F;  // of the boxes that were loaded
-  bool is_by_host = false;  // boxes of the device that were loaded need passes, which the host makes
+  BulkFit fit;                            // of the boxes that were loaded
+  std::vector<std::uint32_t> pass_lanes;  // of their passes: lanes a box
+  bool is_by_host = false;                // boxes of the device that were loaded need passes, which the host makes
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
   WorkCounter work;
@@ -46,8 +48,8 @@ struct PairFinder::Impl {
   core::Status place_on_device(const core::DeviceBoxes& given, bool is_new);
   core::Status fit_to(const core::DeviceBoxes& given, const BoxFacts& facts);
   core::Status place_by_host(const core::DeviceBoxes& given, bool is_new);
-  core::Status load_search(std::size_t k, bool is_new);
-  [[nodiscard]] float fitted_scale(std::span<const Box> given) const;
+  core::Status load_search(std::size_t k, bool is_new, const PairFinderOptions& own);
+  [[nodiscard]] BulkFit with_wishes(BulkFit own) const;
   BoxSearch& search(std::size_t k);
   core::Status launch();
   core::Result<bool> grow();
@@ -57,6 +59,7 @@ struct PairFinder::Impl {
   [[nodiscard]] std::uint32_t least_for_passes() const {
     return std::max(options.least_for_grid, options.least_for_passes);
   }
+  [[nodiscard]] std::string words_of_search() const;
   [[nodiscard]] bool is_chunked() const { return options.pairs_at_once != 0; }
 };
 
@@ -89,14 +92,16 @@ BoxSearch& PairFinder::Impl::search(std::size_t k) {
   return *searches[k];
 }
 
-core::Status PairFinder::Impl::load_search(std::size_t k, bool is_new) {
+core::Status PairFinder::Impl::load_search(std::size_t k, bool is_new, const PairFinderOptions& own) {
   bytes_to_device += (boxes.searched().size() + boxes.given().size()) * sizeof(PackedBox);
-  return search(k).load(boxes, options, is_new);
+  return search(k).load(boxes, own, is_new);
 }
 
-// Cells fit the boxes of bulk pairs; more frames than one decide whether it pays, so updates take what was loaded.
-float PairFinder::Impl::fitted_scale(std::span<const Box> given) const {
-  return options.start(boxes.facts()) == Start::kBulk ? fitted_cell_scale(given, boxes.facts()) : 1.0F;
+// What the options say of bulk pairs, in the place of what was found out.
+BulkFit PairFinder::Impl::with_wishes(BulkFit own) const {
+  if (options.cell_scale != 0.0F) own.cell_scale = options.cell_scale;
+  if (options.lanes_per_box != 0) own.lanes_per_box = options.lanes_per_box;
+  return own;
 }
 
 core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
@@ -113,13 +118,22 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
   }
   active = std::max<std::size_t>(1, plan.passes.size());
   if (plan.is_plain()) {
-    if (is_new) cell_scale = options.cell_scale != 0.0F ? options.cell_scale : fitted_scale(given);
-    boxes.set_cell_scale(cell_scale);
-    return load_search(0, is_new);
+    // More frames than one decide whether it pays, so updates take what was loaded.
+    const bool is_bulk = options.start(boxes.facts()) == Start::kBulk;
+    if (is_new) fit = with_wishes(is_bulk ? bulk_fit(given, boxes.facts()) : BulkFit{});
+    boxes.fit(fit.cell_scale, fit.lanes_per_box);
+    return load_search(0, is_new, options);
   }
+  PairFinderOptions own = options;
+  if (plan.is_logarithmic()) own.least_for_bulk = std::min(own.least_for_bulk, kLeastBoxesOfExponentsForBulk);
+  pass_lanes.resize(active, 1);
   for (std::size_t k = 0; k < active; ++k) {
     boxes.take(given, is_static, plan, plan.passes[k]);
-    BROADSIDE_TRY(load_search(k, is_new));
+    const bool is_bulk = own.start(boxes.facts()) == Start::kBulk;
+    // Cells are as large as a pass makes its boxes.
+    if (is_new && is_bulk) pass_lanes[k] = with_wishes(bulk_fit_by_sample(boxes.sample(), boxes.facts())).lanes_per_box;
+    boxes.fit(1.0F, pass_lanes[k]);
+    BROADSIDE_TRY(load_search(k, is_new, own));
   }
   return core::Done{};
 }
@@ -132,11 +146,11 @@ core::Status PairFinder::Impl::fit_to(const core::DeviceBoxes& given, const BoxF
     if (!sample.ok()) return sample.error();
     is_by_host = !core::plan_passes_by_sample(sample.value(), facts.count, facts.coordinate_range_m).is_plain();
   }
-  cell_scale = options.cell_scale != 0.0F ? options.cell_scale : 1.0F;
-  if (is_by_host || options.cell_scale != 0.0F || options.start(facts) != Start::kBulk) return core::Done{};
+  fit = with_wishes({});
+  if (is_by_host || options.start(facts) != Start::kBulk) return core::Done{};
   auto sample = packing.gather(given, boxes_to_fit_by(facts.count), stream);
   if (!sample.ok()) return sample.error();
-  cell_scale = cell_scale_by_sample(sample.value(), facts);
+  fit = with_wishes(bulk_fit_by_sample(sample.value(), facts));
   return core::Done{};
 }
 
@@ -163,7 +177,8 @@ core::Status PairFinder::Impl::place_on_device(const core::DeviceBoxes& given, b
   BoxFacts fitted = facts.value();
   if (is_new) BROADSIDE_TRY(fit_to(given, fitted));
   if (is_by_host) return place_by_host(given, is_new);
-  fitted.cell_scale = cell_scale;
+  fitted.cell_scale = fit.cell_scale;
+  fitted.lanes_per_box = fit.lanes_per_box;
   return search(0).load_packed(fitted, options, is_new);
 }
 
@@ -329,9 +344,23 @@ void PairFinder::count_work() {
   impl_->work.ask();
 }
 
+// Where boxes are bulk pairs, also how large their cells are, and how many lanes look for a box's partners, pass by
+// pass.
+std::string PairFinder::Impl::words_of_search() const {
+  std::string words = core::words_of(plan);
+  if (active == 0 || active > searches.size()) return words;
+  if (searches[0]->start() == Start::kTiles) return words + ", every pair of them";
+  if (searches[0]->start() != Start::kBulk) return words;
+  char cells[60];
+  std::snprintf(cells, sizeof cells, "cells %.3g times as long as the longest, ", static_cast<double>(fit.cell_scale));
+  words += (plan.is_plain() ? std::string("; ") + cells : "; ") + "lanes a box:";
+  for (std::size_t k = 0; k < active; ++k) words += " " + std::to_string(searches[k]->lanes_per_box());
+  return words;
+}
+
 std::string PairFinder::path() const {
   if (impl_->is_apart) return "static boxes in a table that is kept, moving ones in a table of each frame";
-  return core::words_of(impl_->plan);
+  return impl_->words_of_search();
 }
 
 const core::PassPlan& PairFinder::plan() const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "gpu/broad/fitted_cells.hpp"
+
 namespace broadside::gpu {
 
 using core::Box;
@@ -79,6 +81,12 @@ void SearchedBoxes::take(std::span<const Box> boxes, std::span<const std::uint8_
     given_.push_back(pack(boxes[i], static_cast<std::uint32_t>(i), group << 1U | (is_static[i] != 0 ? 1U : 0U)));
   }
   facts_ = facts_of_all_.all();
+}
+
+std::vector<core::Box> SearchedBoxes::sample() const {
+  std::vector<core::Box> some;
+  for (const std::uint32_t k : boxes_to_fit_by(searched_.size())) some.push_back(unpack(searched_[k]));
+  return some;
 }
 
 }  // namespace broadside::gpu

@@ -41,10 +41,15 @@ class SearchedBoxes {
   void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::PassPlan& plan,
             const core::BoxPass& pass);
 
-  void set_cell_scale(float scale) { facts_.cell_scale = scale; }
+  void fit(float cell_scale, std::uint32_t lanes_per_box) {
+    facts_.cell_scale = cell_scale;
+    facts_.lanes_per_box = lanes_per_box;
+  }
 
   [[nodiscard]] const BoxFacts& facts() const { return facts_; }
   [[nodiscard]] std::span<const PackedBox> searched() const { return searched_; }
+  // Some of the searched boxes, to fit cells and lanes by.
+  [[nodiscard]] std::vector<core::Box> sample() const;
   // Empty where boxes are searched as they are; else as SettleView has them.
   [[nodiscard]] std::span<const PackedBox> given() const { return given_; }
   [[nodiscard]] std::uint32_t owned() const { return owned_; }

@@ -29,10 +29,11 @@ struct SpreadFinder::Impl {
   DealtBoxes dealt;
   std::vector<std::unique_ptr<PartSearch>> parts;
   std::uint32_t devices = 0;
+  float cell_scale = 1.0F;  // of the boxes that were loaded
   SpreadTime time;
   std::uint64_t guests = 0;  // since load
 
-  core::Status deal(std::span<const core::Box> boxes);
+  core::Status deal(std::span<const core::Box> boxes, bool is_new);
   core::Status find_borders();
   core::Status exchange();
   core::Status search();
@@ -43,8 +44,10 @@ SpreadFinder::SpreadFinder(const SpreadOptions& options) : impl_(std::make_uniqu
 }
 SpreadFinder::~SpreadFinder() = default;
 
-core::Status SpreadFinder::Impl::deal(std::span<const core::Box> boxes) {
+core::Status SpreadFinder::Impl::deal(std::span<const core::Box> boxes, bool is_new) {
   BROADSIDE_TRY(dealt.take(boxes, is_static, cut));
+  if (is_new) cell_scale = dealt.fitted_cell_scale(boxes);
+  dealt.set_cell_scale(cell_scale);
   for (std::uint32_t k = 0; k < dealt.parts(); ++k) {
     BROADSIDE_TRY(check_box_limit(dealt.facts(k).count));
     BROADSIDE_TRY(parts[k]->load(dealt.boxes(k), dealt.facts(k), dealt.base(k), cut));
@@ -81,14 +84,14 @@ core::Status SpreadFinder::load_cut(std::span<const core::Box> boxes, std::span<
   d.parts.clear();
   for (std::uint32_t k = 0; k < cut.parts(); ++k)
     d.parts.push_back(std::make_unique<PartSearch>(static_cast<int>(k % d.devices), k));
-  return d.deal(boxes);
+  return d.deal(boxes, true);
 }
 
 core::Status SpreadFinder::update(std::span<const core::Box> boxes) {
   Impl& d = *impl_;
   if (boxes.size() != d.is_static.size()) return another_count(boxes.size(), d.is_static.size());
   const DeviceScope scope;
-  return d.deal(boxes);
+  return d.deal(boxes, false);
 }
 
 core::Status SpreadFinder::Impl::find_borders() {

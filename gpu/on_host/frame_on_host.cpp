@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "gpu/broad/named_pairs_view.hpp"
+#include "gpu/broad/shared_boxes.hpp"
 #include "gpu/frame/frame_kernel.hpp"
 #include "gpu/stages/digest.cuh"
 #include "gpu/stages/grid_frame.cuh"
@@ -72,12 +73,25 @@ core::Status launch_sort(const PairsView& view, const PairsShape& shape, StreamH
 }
 
 core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream) {
+  if (view.broad.start == Start::kBulk) return launch_bulk(view, shape, 1, stream);
+  on_host::run(launch_of(shape.search), shape.search.shared_bytes,
+               [&](unsigned char* shared) { run_pairs<false>(view, shared); });
+  return core::Done{};
+}
+
+core::Result<PairsShape> bulk_launch_shape(std::uint32_t boxes, std::uint32_t buckets, const BinLimits& limits,
+                                           std::uint32_t /*lanes_per_box*/) {
+  return pairs_launch_shape(Start::kBulk, boxes, buckets, limits);
+}
+
+core::Status launch_bulk(const PairsView& view, const PairsShape& shape, std::uint32_t lanes_per_box,
+                         StreamHandle stream) {
   if (shape.bins.bins != 0) BROADSIDE_TRY(launch_sort(view, shape, stream));
   on_host::run(launch_of(shape.search), shape.search.shared_bytes, [&](unsigned char* shared) {
-    if (view.broad.start == Start::kBulk)
-      run_pairs<true>(view, shared);
+    if (lanes_per_box == 1)
+      run_pairs<true, 1>(view, shared);
     else
-      run_pairs<false>(view, shared);
+      run_pairs<true, kLanesOfCrowd>(view, shared);
   });
   return core::Done{};
 }

@@ -2,9 +2,10 @@
 // box looks at its own level and at those of larger cells, so that a giant's many overlaps are spread over its many
 // partners.
 //
-// A lane takes a box. Row of cells by row it walks the entries in which partners may be, and notes those whose rounded
-// boxes overlap its own. Of most of these the rounded boxes say that they are partners; at the others it looks closely.
-// Lanes of a warp have boxes of neighboring cells, so what they read is mostly the same.
+// A lane takes a box, or where boxes are few and have many others in their cells, four lanes do, each a share of
+// every run of entries. Row of cells by row it walks the entries in which partners may be, and notes those whose
+// rounded boxes overlap its own. Of most of these the rounded boxes say that they are partners; at the others it looks
+// closely. Lanes of a warp have boxes of neighboring cells, so what they read is mostly the same.
 //
 // Why there are two searches: this one does the least work a box, and waits for all of a box's rows one after another.
 // With tens of thousands of boxes enough warps are there to hide that; with fewer the search of grid_stage.cuh, where
@@ -36,8 +37,9 @@ struct OwnNumbers {
   }
 };
 
-// A lane's search for the partners of one box after the other. Every call is by the whole warp.
-template <typename Work, typename Names = OwnNumbers>
+// A lane's search for the partners of one box after the other. Every call is by the whole warp. `kLanes` neighboring
+// lanes have the same box: a power of two.
+template <typename Work, typename Names = OwnNumbers, std::uint32_t kLanes = 1>
 class BulkSearch {
  public:
   __device__ BulkSearch(const BulkView& g, const PackedBox* boxes, BulkNotes& notes, AppendView<core::Pair> out,
@@ -137,7 +139,8 @@ class BulkSearch {
             const std::uint32_t* at = g_.begin + bucket_place(bucket);
             runs.k[j] = is_own_row && on >= 0 ? place_ + 1 : at[0];
             runs.end[j] = at[more + 1];
-            work_.node();
+            if (lane() % kLanes == 0) work_.node();
+            runs.k[j] += lane() % kLanes * kEntriesAtOnce;
           }
           walk(runs, cell, level);
           if (!has_more_x) break;
@@ -172,7 +175,7 @@ class BulkSearch {
             if (is_noted) notes_.hit[hits_][lane()] = runs.k[j] + k;
             hits_ += is_noted ? 1U : 0U;
           }
-          runs.k[j] += kEntriesAtOnce;
+          runs.k[j] += kEntriesAtOnce * kLanes;
         }
         has_more = has_more || __any_sync(kFullWarp, runs.k[j] < runs.end[j]);
       }
@@ -246,17 +249,17 @@ struct BulkSlice {
 
 // Warps take boxes as they are done with others: of a crowd one box has many partners, outside of it few. `g.turns` is
 // zero before.
-template <typename Team, typename Names = OwnNumbers>
+template <std::uint32_t kLanes = 1, typename Team, typename Names = OwnNumbers>
 __device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* boxes, BulkSlice slice,
                           BulkNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded,
                           Names names = {}) {
   const volatile std::uint32_t* known = g.levels;
   const LevelMarks marks{known[0], known[1]};
-  BulkSearch<Uncounted, Names> search(g, boxes, notes, out, demanded, names);
+  BulkSearch<Uncounted, Names, kLanes> search(g, boxes, notes, out, demanded, names);
   const std::uint64_t count = slice.end - slice.first;
   // Of few boxes a warp takes fewer than it has lanes: it is done when the slowest of them is.
   const std::uint64_t warps = warp_count(team);
-  std::uint32_t width = 32;
+  std::uint32_t width = 32 / kLanes;
   while (width > 4 && count <= warps * (width / 2)) width /= 2;
   // Of many, as many turns at once as leave some sixteen: all warps take from one word, some 2 ns each.
   const std::uint32_t turns = min(static_cast<std::uint32_t>(count / (team.size() * 16)), 3U) + 1;
@@ -266,8 +269,9 @@ __device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* 
     std::uint64_t next = 0;
     if (lane() == 0) next = (warps + atomicAdd(g.turns, 1U)) * width * turns;
     for (std::uint32_t k = 0; k < turns; ++k) {
-      const std::uint64_t place = first + k * width + lane();
-      search.find_partners(static_cast<std::uint32_t>(slice.first + place), lane() < width && place < count, marks);
+      const std::uint32_t own = lane() / kLanes;
+      const std::uint64_t place = first + k * width + own;
+      search.find_partners(static_cast<std::uint32_t>(slice.first + place), own < width && place < count, marks);
     }
     first = __shfl_sync(kFullWarp, next, 0);
   }

@@ -26,8 +26,8 @@ struct PairsScratch<true> {
   BulkNotes notes;
 };
 
-// Boxes in, pairs out. kIsBulk: the search is that of Start::kBulk.
-template <bool kIsBulk>
+// Boxes in, pairs out. kIsBulk: the search is that of Start::kBulk, by kLanes lanes a box.
+template <bool kIsBulk, std::uint32_t kLanes = 1>
 __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
   auto& scratch = reinterpret_cast<PairsScratch<kIsBulk>*>(shared)[threadIdx.x / 32];
@@ -54,7 +54,7 @@ __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
       grid.sync();
     }
     mark_end(grid, view.outcome, FindStep::kScatter);
-    bulk_find(grid, bulk, view.boxes, {0, view.box_count}, scratch.notes, view.pairs, &view.counters->pairs);
+    bulk_find<kLanes>(grid, bulk, view.boxes, {0, view.box_count}, scratch.notes, view.pairs, &view.counters->pairs);
   } else {
     has_room = find_candidates(grid, view.broad, view.boxes, view.box_count, view.pairs, view.counters, scratch.queue,
                                view.outcome);

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "datasets/box_streams/box_sets.hpp"
+#include "datasets/box_streams/box_sweeps.hpp"
 #include "gpu/broad/fitted_cells.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "gpu/broad/searched_boxes.hpp"
+#include "gpu/broad/shared_boxes.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
@@ -65,9 +67,44 @@ TEST(FittedCellsOnHost, AreTheLargestBoxsWhereThatIsBest) {
     FactsOfBoxes facts;
     const std::vector<Box> boxes = make(20'000, 1);
     for (const Box& box : boxes) facts.add(box);
-    EXPECT_EQ(fitted_cell_scale(boxes, facts.all()), 1.0F);
+    EXPECT_EQ(bulk_fit(boxes, facts.all()).cell_scale, 1.0F);
+    EXPECT_EQ(bulk_fit(boxes, facts.all()).lanes_per_box, 1U);
   }
-  EXPECT_EQ(fitted_cell_scale({}, {}), 1.0F);
+  EXPECT_EQ(bulk_fit({}, {}).cell_scale, 1.0F);
+}
+
+// A thousand of a million boxes are no neighbors of each other, but a thousand have some in a larger sample.
+// Boxes whose cells have many others, on one level; of sizes over three orders a box meets as many, a few on each
+// level.
+TEST(FittedCellsOnHost, FourLanesWhereRowsOfCellsAreLong) {
+  FactsOfBoxes crowded;
+  FactsOfBoxes mixed;
+  const std::vector<Box> crowd = datasets::boxes_of_density(20'000, 1, 4.0);
+  const std::vector<Box> sizes = datasets::mixed_boxes(100'000, 1);
+  for (const Box& box : crowd) crowded.add(box);
+  for (const Box& box : sizes) mixed.add(box);
+  EXPECT_EQ(bulk_fit(crowd, crowded.all()).lanes_per_box, kLanesOfCrowd);
+  EXPECT_EQ(bulk_fit(sizes, mixed.all()).lanes_per_box, 1U);
+}
+
+TEST(FittedCellsOnHost, AreFoundOutOfAMillionBoxesToo) {
+  constexpr std::uint32_t kMany = 1'100'000;
+  FactsOfBoxes facts;
+  std::vector<Box> boxes = datasets::uniform_boxes(kMany, 1);
+  for (const Box& box : boxes) facts.add(box);
+  EXPECT_EQ(bulk_fit(boxes, facts.all()).cell_scale, 1.0F);
+  // Around the origin, nearly four times shorter than the largest one.
+  tests::Draw draw(3);
+  boxes.clear();
+  for (std::uint32_t k = 0; k < kMany; ++k) {
+    const float s = k == 0 ? 1.0F : 0.27F;
+    boxes.push_back(tests::box_at({draw.between(-19, 19), draw.between(-19, 19), draw.between(-19, 19)}, {s, s, s}));
+  }
+  facts = {};
+  for (const Box& box : boxes) facts.add(box);
+  const BulkFit fit = bulk_fit(boxes, facts.all());
+  EXPECT_EQ(fit.cell_scale, 1.41421356F);
+  EXPECT_EQ(fit.lanes_per_box, 1U) << "there are enough boxes for all lanes";
 }
 
 // A crowd in a world that is 200,000 times as wide as a box: cells were made half as large again as the boxes, because

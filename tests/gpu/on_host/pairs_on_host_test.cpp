@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/broad/pair_finder.hpp"
+#include "gpu/broad/shared_boxes.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
@@ -29,6 +30,12 @@ PairFinderOptions by_coarse_bins() {
   return options;
 }
 
+PairFinderOptions by_four_lanes() {
+  PairFinderOptions options = starting_at(Broad::kTree, 50, 50, kNever);
+  options.lanes_per_box = kLanesOfCrowd;
+  return options;
+}
+
 void expect_exact(const std::vector<Box>& boxes) {
   std::vector<std::uint8_t> is_static(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) is_static[i] = i % 7 == 0 ? 1 : 0;
@@ -37,9 +44,13 @@ void expect_exact(const std::vector<Box>& boxes) {
     for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
       if (core::overlaps(boxes[i], boxes[j]) && (is_static[i] == 0 || is_static[j] == 0)) expected.push_back({i, j});
   const std::pair<const char*, PairFinderOptions> subjects[] = {
-      {"grid", starting_at(Broad::kTree, 50, kNever, kNever)}, {"many", starting_at(Broad::kTree, 50, 50, kNever)},
-      {"bins", starting_at(Broad::kTree, 50, 50, 50)},         {"coarse bins", by_coarse_bins()},
-      {"octree", starting_at(Broad::kOctree, 50, 50, 50)},     {"hash", starting_at(Broad::kHash, 50, 50, 50)},
+      {"grid", starting_at(Broad::kTree, 50, kNever, kNever)},
+      {"many", starting_at(Broad::kTree, 50, 50, kNever)},
+      {"bins", starting_at(Broad::kTree, 50, 50, 50)},
+      {"coarse bins", by_coarse_bins()},
+      {"four lanes a box", by_four_lanes()},
+      {"octree", starting_at(Broad::kOctree, 50, 50, 50)},
+      {"hash", starting_at(Broad::kHash, 50, 50, 50)},
   };
   for (const auto& [name, options] : subjects) {
     PairFinder subject(options);
