@@ -83,6 +83,13 @@ TEST(ContestTable, HasAnEntryForEachStep) {
   EXPECT_NEAR(half.cost, 0.002 * 120, 1e-12);
 }
 
+TEST(ContestTable, AnEngineThatHasCellsIsNotAbsentWhereItIsMissing) {
+  const ContestTable elsewhere =
+      contest_table(rows(), {{"mine", "not installed"}, {"theirs", "not installed"}}, {{"rigid:a", 1.0 / 60}});
+  EXPECT_EQ(elsewhere.entrants[0].absent, "");
+  EXPECT_EQ(elsewhere.entrants[1].absent, "not installed");
+}
+
 TEST(ContestTable, SaysWhatIsBrokenAndHowMuchApplied) {
   const ContestTable t = table();
   EXPECT_EQ(entry_text(t.scenes[0].entries.at("mine").at("")), "breaks rest; 2 of 3");
