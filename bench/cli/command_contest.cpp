@@ -149,7 +149,7 @@ core::Exit run_contest(const ContestArguments& a) {
     if (!entrants) return complain(entrants.error());
   }
   for (const contest::Entrant& e : entrants.value())
-    if (!e.absent.empty()) fmt::print("{}: {}\n", e.engine, e.absent);
+    if (!a.only_reports && !e.absent.empty()) fmt::print("{}: {}\n", e.engine, e.absent);
   // A page of cells that another machine or another build did is made of the manifest that they were done from.
   if (!a.only_reports || !fs::exists(folder / "manifest.json"))
     if (core::Status s = plan_into(folder, a.request); !s) return complain(s.error());

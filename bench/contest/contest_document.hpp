@@ -20,6 +20,7 @@ void add_verdicts(Document& document, const ContestTable& table);
 void add_error_against_cost(Document& document, const ContestTable& table);
 void add_energy_over_time(Document& document, const ContestTable& table);
 void add_stability(Document& document, const ContestTable& table);
+void add_other_steps(Document& document, const ContestTable& table);
 void add_stacks(Document& document, const ContestTable& table);
 void add_passages(Document& document, const ContestTable& table);
 void add_heaps(Document& document, const ContestTable& table);

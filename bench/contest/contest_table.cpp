@@ -162,6 +162,9 @@ ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>
     if (!cell.stamp.engine_build.empty()) table.builds[label] = cell.stamp.engine_build;
     place.entries[label][step] = std::move(entry);
   }
+  // A page of cells that another machine did is made where its engines may be missing.
+  for (Entrant& e : table.entrants)
+    if (table.builds.count(e.engine) > 0) e.absent.clear();
   return table;
 }
 

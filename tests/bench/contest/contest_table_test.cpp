@@ -83,6 +83,13 @@ TEST(ContestTable, HasAnEntryForEachStep) {
   EXPECT_NEAR(half.cost, 0.002 * 120, 1e-12);
 }
 
+TEST(ContestTable, AnEngineThatHasCellsIsNotAbsentWhereItIsMissing) {
+  const ContestTable elsewhere =
+      contest_table(rows(), {{"mine", "not installed"}, {"theirs", "not installed"}}, {{"rigid:a", 1.0 / 60}});
+  EXPECT_EQ(elsewhere.entrants[0].absent, "");
+  EXPECT_EQ(elsewhere.entrants[1].absent, "not installed");
+}
+
 TEST(ContestTable, SaysWhatIsBrokenAndHowMuchApplied) {
   const ContestTable t = table();
   EXPECT_EQ(entry_text(t.scenes[0].entries.at("mine").at("")), "breaks rest; 2 of 3");
@@ -151,6 +158,20 @@ TEST(ContestTable, WhatIsBrokenHasItsCauseOrIsNotYetLookedInto) {
   EXPECT_TRUE(known_cause("ode-world", "penetration", "rigid:billiards:cradle").empty());
   EXPECT_FALSE(known_cause("ode-world[solver=dantzig]", "penetration", "rigid:billiards:cradle").empty());
   EXPECT_TRUE(known_cause("plain-rigid", "momentum", "rigid:bounce").empty());
+}
+
+// rest is broken at the scene's own step alone, so another step has it in no line; passage at the other step alone.
+TEST(ContestTable, TellsWhatIsBrokenAtOtherStepsAlone) {
+  core::RunRows all = rows();
+  const auto page = [](const core::RunRows& r) {
+    return html_text(contest_document(contest_table(r, {{"mine", ""}}, {{"rigid:a", 1.0 / 60}}), "x"));
+  };
+  EXPECT_EQ(page(all).find("and are broken at another"), std::string::npos);
+  all.verdicts[1].verdicts[1].outcome = Outcome::kFail;
+  EXPECT_EQ(page(all).find("and are broken at another"), std::string::npos);
+  all.verdicts[1].verdicts[2] = verdict("passage", Outcome::kFail, 3.0);
+  EXPECT_NE(page(all).find("1 laws hold at a scene"), std::string::npos);
+  EXPECT_NE(page(all).find("in steps of 1/120 s"), std::string::npos);
 }
 
 // Each engine has a row as it ships, and each second row is an entrant.
