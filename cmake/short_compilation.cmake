@@ -3,16 +3,42 @@
 # change of one file compiles that file alone, and a file that forgot an include is found.
 option(BROADSIDE_SHORT_COMPILATION "Compile small files of a room together" ON)
 
+# Headers that take seconds to read and that some files of a room include: CLI11's and nlohmann's.
+set(broadside_large_headers "^#include <(CLI/CLI|nlohmann/json)[.]hpp>")
+
+# broadside_by_large_headers(OUT SOURCE...)
+# The sources in another order: those that read the same large headers stand together, so that fewer units read them.
+function(broadside_by_large_headers out)
+  foreach(source ${ARGN})
+    set(read "")
+    if(EXISTS ${source})
+      file(STRINGS ${source} read REGEX "${broadside_large_headers}")
+    endif()
+    if(read MATCHES "CLI/CLI" AND read MATCHES "nlohmann")
+      list(APPEND both ${source})
+    elseif(read MATCHES "CLI/CLI")
+      list(APPEND command_line ${source})
+    elseif(read MATCHES "nlohmann")
+      list(APPEND json ${source})
+    else()
+      list(APPEND neither ${source})
+    endif()
+  endforeach()
+  set(${out} ${command_line} ${both} ${json} ${neither} PARENT_SCOPE)
+endfunction()
+
 # broadside_compile_together(TARGET SIZE SOURCE...)
-# Compiles these sources in units of SIZE files, in the order given. Names in the unnamed namespaces of a room are
-# therefore distinct. No unit may be so large that the others wait for it. A source with flags of its own stays alone.
+# Compiles these sources in units of SIZE files, in the order given but for large headers. Names in the unnamed namespaces
+# of a room are therefore distinct. No unit may be so large that the others wait for it. A source with flags of its own
+# stays alone.
 function(broadside_compile_together target size)
   if(NOT BROADSIDE_SHORT_COMPILATION)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  broadside_by_large_headers(sources ${ARGN})
   set(place 0)
-  foreach(source ${ARGN})
+  foreach(source ${sources})
     get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
     get_source_file_property(options ${source} COMPILE_OPTIONS)
     get_source_file_property(is_left_out ${source} HEADER_FILE_ONLY)

@@ -8,20 +8,20 @@
 namespace broadside::core {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // The column, or the name of what is wrong with it.
-std::string read_numbers(const Json& row, std::string_view key, std::size_t count, std::vector<double>& out) {
+std::string read_numbers(const OrderedJson& row, std::string_view key, std::size_t count, std::vector<double>& out) {
   const auto at = row.find(std::string(key));
   if (at == row.end() || !at->is_array() || at->size() != count) return std::string(key) + " has not one number a step";
-  for (const Json& number : *at) {
+  for (const OrderedJson& number : *at) {
     if (!number.is_number()) return std::string(key) + " holds something that is no number";
     out.push_back(number.get<double>());
   }
   return "";
 }
 
-std::string read_series(const Json& row, EnergySeries& series) {
+std::string read_series(const OrderedJson& row, EnergySeries& series) {
   if (!row.is_object()) return "a row is not an object";
   for (const auto& [key, text] :
        {std::pair{"trace_file", &series.trace_file}, {"scene_name", &series.scene_name}, {"label", &series.label}}) {
@@ -31,7 +31,7 @@ std::string read_series(const Json& row, EnergySeries& series) {
   }
   const auto steps = row.find("step");
   if (steps == row.end() || !steps->is_array()) return "step is not a list";
-  for (const Json& step : *steps) {
+  for (const OrderedJson& step : *steps) {
     if (!step.is_number_unsigned()) return "step holds something that is no whole number";
     series.step.push_back(step.get<std::uint64_t>());
   }
@@ -44,16 +44,16 @@ std::string read_series(const Json& row, EnergySeries& series) {
 }  // namespace
 
 Status write_energy(const std::filesystem::path& file, const std::vector<EnergySeries>& series) {
-  Json rows = Json::array();
+  OrderedJson rows = OrderedJson::array();
   for (const EnergySeries& s : series) {
-    Json row{{"trace_file", s.trace_file}, {"scene_name", s.scene_name}, {"label", s.label}, {"unit", "J"}};
+    OrderedJson row{{"trace_file", s.trace_file}, {"scene_name", s.scene_name}, {"label", s.label}, {"unit", "J"}};
     row["step"] = s.step;
     for (std::size_t k = 0; k < kEnergyColumnCount; ++k) row[std::string(kEnergyColumns[k])] = s.joule[k];
     rows.push_back(std::move(row));
   }
-  const Json all{{"format", "broadside-energy"}, {"version", 1}, {"rows", std::move(rows)}};
+  const OrderedJson all{{"format", "broadside-energy"}, {"version", 1}, {"rows", std::move(rows)}};
   // Text that is not UTF-8 is replaced, as in the other rows.
-  return write_whole_file(file, all.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return write_whole_file(file, all.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 Result<std::vector<EnergySeries>> read_energy(const std::filesystem::path& folder) {
@@ -65,14 +65,14 @@ Result<std::vector<EnergySeries>> read_energy(const std::filesystem::path& folde
   const auto malformed = [&file](const std::string& what) {
     return Error{what, file.string(), "write it again: broadside check TRACE --energy " + file.string()};
   };
-  const Json all = Json::parse(text.value(), nullptr, false);
+  const OrderedJson all = OrderedJson::parse(text.value(), nullptr, false);
   if (all.is_discarded() || !all.is_object()) return malformed("it is not JSON");
-  if (all.value("format", Json()) != "broadside-energy" || all.value("version", Json()) != 1)
+  if (all.value("format", OrderedJson()) != "broadside-energy" || all.value("version", OrderedJson()) != 1)
     return malformed("it is not of format broadside-energy, version 1");
   const auto rows = all.find("rows");
   if (rows == all.end() || !rows->is_array()) return malformed("it has no list of rows");
   std::vector<EnergySeries> series;
-  for (const Json& row : *rows)
+  for (const OrderedJson& row : *rows)
     if (std::string wrong = read_series(row, series.emplace_back()); !wrong.empty())
       return malformed("row " + std::to_string(series.size() - 1) + ": " + wrong);
   return series;

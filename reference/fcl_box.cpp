@@ -16,6 +16,7 @@
 #include "reference/turned_shapes.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
+#include "reference/vendor_vector.hpp"
 #include "reference/worker_count.hpp"
 
 namespace broadside::reference {
@@ -25,7 +26,7 @@ using core::Separation;
 using core::Status;
 using Vector = fcl::Vector3<double>;
 
-constexpr std::string_view kId = "fcl-box";
+constexpr std::string_view kFclBoxId = "fcl-box";
 
 // The world box in float, as the pipeline has it; center and sides are exact in double.
 struct PlacedBox {
@@ -40,11 +41,7 @@ struct PlacedBox {
   }
 };
 
-core::Vec3 to_core(const Vector& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-Separation measure_one(const core::Box& box_a, const core::Box& box_b) {
+Separation measure_boxes(const core::Box& box_a, const core::Box& box_b) {
   const PlacedBox a(box_a);
   const PlacedBox b(box_b);
   Separation out;
@@ -57,8 +54,8 @@ Separation measure_one(const core::Box& box_a, const core::Box& box_b) {
       const fcl::Contact<double>& contact = touch.getContact(k);
       if (k > 0 && -contact.penetration_depth >= out.distance_m) continue;
       out.distance_m = std::min(0.0, -contact.penetration_depth);
-      out.normal = to_core(-contact.normal);  // FCL's points from A to B
-      out.witness_a = out.witness_b = to_core(contact.pos);
+      out.normal = core_vector(-contact.normal);  // FCL's points from A to B
+      out.witness_a = out.witness_b = core_vector(contact.pos);
     }
     return out;
   }
@@ -66,10 +63,10 @@ Separation measure_one(const core::Box& box_a, const core::Box& box_b) {
   fcl::DistanceResult<double> near;
   fcl::distance(&a.shape, a.pose, &b.shape, b.pose, distance_request, near);
   out.distance_m = std::max(0.0, near.min_distance);
-  out.witness_a = to_core(near.nearest_points[0]);
-  out.witness_b = to_core(near.nearest_points[1]);
+  out.witness_a = core_vector(near.nearest_points[0]);
+  out.witness_b = core_vector(near.nearest_points[1]);
   const Vector from_b_to_a = near.nearest_points[0] - near.nearest_points[1];
-  if (from_b_to_a.norm() > 0.0) out.normal = to_core(from_b_to_a.normalized());
+  if (from_b_to_a.norm() > 0.0) out.normal = core_vector(from_b_to_a.normalized());
   return out;
 }
 
@@ -85,15 +82,15 @@ class FclBox final : public core::NarrowPhase {
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, boxes_.body_count()); !status) return status;
+    if (Status status = check_pairs(kFclBoxId, pairs, poses, boxes_.body_count()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("fcl-box: measure", [&]() -> Status {
       const std::vector<const core::Box*> boxes = boxes_.of(pairs, poses);
       arena_.execute([&] {
         tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
           const auto [i, j] = pairs[k];
-          separations_[k] = measure_one(core::translated(*boxes[i], poses[i].position),
-                                        core::translated(*boxes[j], poses[j].position));
+          separations_[k] = measure_boxes(core::translated(*boxes[i], poses[i].position),
+                                          core::translated(*boxes[j], poses[j].position));
         });
       });
       return core::Done{};
@@ -109,16 +106,16 @@ class FclBox final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> fcl_box_settings() {
   static const std::array<core::SettingRow, 1> rows{{
       threads_setting(),
   }};
   return rows;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> make_fcl_box(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kFclBoxId;
   engine.build = fcl_build();
   engine.settings = settings;
   const int workers = worker_count(settings.number("threads"));
@@ -136,12 +133,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow fcl_box_row() {
-  return {.id = kId,
+  return {.id = kFclBoxId,
           .capabilities = "narrow",
           .what = "FCL's box against box on the axis-aligned boxes of bodies: depth and direction, or distance",
-          .settings = setting_rows(),
+          .settings = fcl_box_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = make_fcl_box,
           .absent = [] { return std::string(); }};
 }
 

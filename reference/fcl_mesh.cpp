@@ -18,6 +18,7 @@
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
 #include "reference/vendor_defects.hpp"
+#include "reference/vendor_vector.hpp"
 #include "reference/worker_count.hpp"
 
 namespace broadside::reference {
@@ -27,7 +28,7 @@ using core::Separation;
 using core::Status;
 using Model = fcl::BVHModel<fcl::OBBRSS<double>>;
 
-constexpr std::string_view kId = "fcl-mesh";
+constexpr std::string_view kFclMeshId = "fcl-mesh";
 
 std::unique_ptr<Model> make_model(const core::Mesh& mesh) {
   std::vector<fcl::Vector3<double>> vertices;
@@ -46,7 +47,7 @@ std::unique_ptr<Model> make_model(const core::Mesh& mesh) {
 }
 
 // Normalized in double: a float quaternion is a unit only to 1e-7, and FCL takes the matrix as it is.
-fcl::Transform3<double> transform(const core::Pose& pose) {
+fcl::Transform3<double> mesh_pose(const core::Pose& pose) {
   const core::Quat q = pose.orientation;
   fcl::Transform3<double> t = fcl::Transform3<double>::Identity();
   t.linear() = fcl::Quaternion<double>(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
@@ -54,23 +55,19 @@ fcl::Transform3<double> transform(const core::Pose& pose) {
   return t;
 }
 
-core::Vec3 to_core(const fcl::Vector3<double>& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-Separation measure_one(const Model& a, const fcl::Transform3<double>& pose_a, const Model& b,
-                       const fcl::Transform3<double>& pose_b, bool asks_collide) {
+Separation measure_meshes(const Model& a, const fcl::Transform3<double>& pose_a, const Model& b,
+                          const fcl::Transform3<double>& pose_b, bool asks_collide) {
   Separation out;
   fcl::DistanceRequest<double> distance_request(/*enable_nearest_points_=*/true);
   fcl::DistanceResult<double> near;
   fcl::distance(&a, pose_a, &b, pose_b, distance_request, near);
   // FCL has no penetration depth for meshes: any value below zero becomes 0, "overlap of unknown depth".
   out.distance_m = std::max(0.0, near.min_distance);
-  out.witness_a = to_core(near.nearest_points[0]);
-  out.witness_b = to_core(near.nearest_points[1]);
+  out.witness_a = core_vector(near.nearest_points[0]);
+  out.witness_b = core_vector(near.nearest_points[1]);
   if (out.distance_m > 0.0) {
     const fcl::Vector3<double> from_b_to_a = near.nearest_points[0] - near.nearest_points[1];
-    if (from_b_to_a.norm() > 0.0) out.normal = to_core(from_b_to_a.normalized());
+    if (from_b_to_a.norm() > 0.0) out.normal = core_vector(from_b_to_a.normalized());
   }
   if (!asks_collide) {
     out.is_touching = out.distance_m == 0.0;
@@ -100,14 +97,14 @@ class FclMesh final : public core::NarrowPhase {
   // Pairs are independent and FCL keeps its state in the call's own objects, so they run side by side, each into its
   // own slot: the answer does not depend on the number of workers.
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, model_of_body_.size()); !status) return status;
+    if (Status status = check_pairs(kFclMeshId, pairs, poses, model_of_body_.size()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("fcl-mesh: measure", [&]() -> Status {
       arena_.execute([&] {
         tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
           const auto [i, j] = pairs[k];
-          separations_[k] = measure_one(*model_of_body_[i], transform(poses[i]), *model_of_body_[j],
-                                        transform(poses[j]), asks_collide_);
+          separations_[k] = measure_meshes(*model_of_body_[i], mesh_pose(poses[i]), *model_of_body_[j],
+                                           mesh_pose(poses[j]), asks_collide_);
           no_depth_->note(separations_[k].is_touching ? 1 : 0, 1);
         });
       });
@@ -126,7 +123,7 @@ class FclMesh final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> fcl_mesh_settings() {
   static const std::array<core::SettingRow, 2> rows{{
       {"query",
        "both",
@@ -137,9 +134,9 @@ std::span<const core::SettingRow> setting_rows() {
   return rows;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> make_fcl_mesh(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kFclMeshId;
   engine.build = fcl_build();
   engine.settings = settings;
   const int workers = worker_count(settings.number("threads"));
@@ -159,12 +156,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow fcl_mesh_row() {
-  return {.id = kId,
+  return {.id = kFclMeshId,
           .capabilities = "narrow",
           .what = "FCL's distance and collide on triangle meshes (OBBRSS trees)",
-          .settings = setting_rows(),
+          .settings = fcl_mesh_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = make_fcl_mesh,
           .absent = [] { return std::string(); }};
 }
 

@@ -21,6 +21,7 @@
 #include "reference/pair_check.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
+#include "reference/vendor_vector.hpp"
 #include "reference/worker_count.hpp"
 
 namespace broadside::reference {
@@ -31,7 +32,7 @@ using core::Status;
 using Vector = fcl::Vector3<double>;
 using Transform = fcl::Transform3<double>;
 
-constexpr std::string_view kId = "fcl-shapes";
+constexpr std::string_view kFclShapesId = "fcl-shapes";
 
 // A shape of FCL and its pose in the body: FCL's capsules lie along z.
 struct BodyShape {
@@ -83,16 +84,12 @@ std::optional<BodyShape> shape_of(const core::Mesh& mesh) {
 }
 
 // Normalized in double: a float quaternion is a unit only to 1e-7, and FCL takes the matrix as it is.
-Transform transform(const core::Pose& pose) {
+Transform shape_pose(const core::Pose& pose) {
   const core::Quat q = pose.orientation;
   Transform t = Transform::Identity();
   t.linear() = fcl::Quaternion<double>(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
   t.translation() = Vector(pose.position.x, pose.position.y, pose.position.z);
   return t;
-}
-
-core::Vec3 to_core(const Vector& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 struct Placed {
@@ -116,8 +113,8 @@ bool collide(const Placed& a, const Placed& b, const Query& query, Separation& o
     const fcl::Contact<double>& contact = touch.getContact(k);
     if (k > 0 && contact.penetration_depth <= deepest) continue;
     deepest = contact.penetration_depth;
-    out.normal = to_core(-contact.normal);  // FCL's points from A to B
-    out.witness_a = out.witness_b = to_core(contact.pos);
+    out.normal = core_vector(-contact.normal);  // FCL's points from A to B
+    out.witness_a = out.witness_b = core_vector(contact.pos);
   }
   out.is_touching = true;
   out.distance_m = -deepest;
@@ -132,8 +129,8 @@ Separation measure_one(const Placed& a, const Placed& b, const Query& query) {
   fcl::DistanceResult<double> near;
   fcl::distance(a.geometry, a.pose, b.geometry, b.pose, request, near);
   out.distance_m = near.min_distance;
-  out.witness_a = to_core(near.nearest_points[0]);
-  out.witness_b = to_core(near.nearest_points[1]);
+  out.witness_a = core_vector(near.nearest_points[0]);
+  out.witness_b = core_vector(near.nearest_points[1]);
   out.is_touching = near.min_distance <= 0.0;
   Vector from_b_to_a = near.nearest_points[0] - near.nearest_points[1];
   // In overlap the nearest points have passed each other. With the independent solver they do not lie on the surfaces
@@ -144,7 +141,7 @@ Separation measure_one(const Placed& a, const Placed& b, const Query& query) {
     return out;
   }
   if (out.is_touching) from_b_to_a = -from_b_to_a;
-  if (from_b_to_a.norm() > 0.0) out.normal = to_core(from_b_to_a.normalized());
+  if (from_b_to_a.norm() > 0.0) out.normal = core_vector(from_b_to_a.normalized());
   return out;
 }
 
@@ -158,7 +155,7 @@ class FclShapes final : public core::NarrowPhase {
       mesh_of_body_.clear();
       for (const auto& mesh : scene.meshes) {
         auto shape = shape_of(*mesh);
-        if (!shape) return no_shape(kId, *mesh);
+        if (!shape) return no_shape(kFclShapesId, *mesh);
         shapes_.push_back(std::move(*shape));
       }
       for (const core::Body& body : scene.bodies) mesh_of_body_.push_back(body.mesh);
@@ -167,7 +164,7 @@ class FclShapes final : public core::NarrowPhase {
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    if (Status status = check_pairs(kFclShapesId, pairs, poses, mesh_of_body_.size()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("fcl-shapes: measure", [&]() -> Status {
       arena_.execute([&] {
@@ -184,7 +181,7 @@ class FclShapes final : public core::NarrowPhase {
  private:
   [[nodiscard]] Placed place(std::uint32_t body, std::span<const core::Pose> poses) const {
     const BodyShape& shape = shapes_[mesh_of_body_[body]];
-    return {shape.geometry.get(), transform(poses[body]) * shape.in_body};
+    return {shape.geometry.get(), shape_pose(poses[body]) * shape.in_body};
   }
 
   Query query_;
@@ -194,7 +191,7 @@ class FclShapes final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> fcl_shapes_settings() {
   static const std::array<core::SettingRow, 3> rows{{
       {"query",
        "distance",
@@ -220,12 +217,12 @@ core::EquivalenceCard card_of(const core::Scene& scene, const Query& query, int 
   return card;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> make_fcl_shapes(const core::Settings& settings) {
   const Query query{settings.text("query") == "distance",
                     settings.text("solver") == "indep" ? fcl::GST_INDEP : fcl::GST_LIBCCD};
   const int workers = worker_count(settings.number("threads"));
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kFclShapesId;
   engine.build = fcl_build();
   engine.settings = settings;
   engine.narrow_phase = std::make_unique<FclShapes>(query, workers);
@@ -236,12 +233,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow fcl_shapes_row() {
-  return {.id = kId,
+  return {.id = kFclShapesId,
           .capabilities = "narrow",
           .what = "FCL on boxes, spheres, capsules and convex meshes: signed distance with both of its solvers",
-          .settings = setting_rows(),
+          .settings = fcl_shapes_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = make_fcl_shapes,
           .absent = [] { return std::string(); }};
 }
 

@@ -14,7 +14,7 @@
 namespace broadside::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kTableRows = 40;
 
@@ -32,31 +32,31 @@ std::string_view kind_word(SeriesKind kind) {
   return "line";
 }
 
-Json numbers(const std::vector<double>& values) {
-  Json array = Json::array();
+OrderedJson numbers(const std::vector<double>& values) {
+  OrderedJson array = OrderedJson::array();
   for (const double value : values) array.push_back(short_number(value));
   return array;
 }
 
-Json to_json(const Axis& axis) {
-  Json json{{"name", printable(axis.name)}, {"unit", printable(axis.unit)}};
+OrderedJson to_json(const Axis& axis) {
+  OrderedJson json{{"name", printable(axis.name)}, {"unit", printable(axis.unit)}};
   if (axis.is_log) json["log"] = true;
   if (axis.from_zero) json["from_zero"] = true;
   if (!axis.categories.empty()) {
-    json["categories"] = Json::array();
+    json["categories"] = OrderedJson::array();
     for (const std::string& name : axis.categories) json["categories"].push_back(printable(name));
   }
   return json;
 }
 
-Json to_json(const Chart& chart) {
-  Json json{{"title", printable(chart.title)}, {"description", printable(chart.description)}};
+OrderedJson to_json(const Chart& chart) {
+  OrderedJson json{{"title", printable(chart.title)}, {"description", printable(chart.description)}};
   json["x"] = to_json(chart.x);
   json["y"] = to_json(chart.y);
   json["zoom"] = chart.has_zoom;
-  json["series"] = Json::array();
+  json["series"] = OrderedJson::array();
   for (const Series& s : chart.series) {
-    Json one{{"name", printable(s.name)}, {"kind", kind_word(s.kind)}, {"x", numbers(s.x)}, {"y", numbers(s.y)}};
+    OrderedJson one{{"name", printable(s.name)}, {"kind", kind_word(s.kind)}, {"x", numbers(s.x)}, {"y", numbers(s.y)}};
     if (!s.low.empty()) {
       one["low"] = numbers(s.low);
       one["high"] = numbers(s.high);
@@ -64,7 +64,7 @@ Json to_json(const Chart& chart) {
     if (!s.stack.empty()) one["stack"] = printable(s.stack);
     json["series"].push_back(std::move(one));
   }
-  json["marks"] = Json::array();
+  json["marks"] = OrderedJson::array();
   for (const ChartMark& mark : chart.marks)
     json["marks"].push_back({{"text", printable(mark.text)}, {mark.is_on_y ? "y" : "x", short_number(mark.at)}});
   return json;
@@ -90,7 +90,7 @@ std::string csv_cell(const std::string& text) {
 }
 
 std::string csv_number(double value) {
-  return std::isfinite(value) ? Json(value).dump() : "";
+  return std::isfinite(value) ? OrderedJson(value).dump() : "";
 }
 
 }  // namespace
@@ -143,9 +143,9 @@ std::string ChartBook::figure(Chart chart) {
 }
 
 std::string ChartBook::json() const {
-  Json all = Json::array();
+  OrderedJson all = OrderedJson::array();
   for (const Chart& chart : charts_) all.push_back(to_json(chart));
-  return script_safe(all.dump(-1, ' ', true, Json::error_handler_t::replace));
+  return script_safe(all.dump(-1, ' ', true, OrderedJson::error_handler_t::replace));
 }
 
 std::string chart_csv(const Chart& chart) {

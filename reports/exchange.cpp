@@ -14,10 +14,10 @@
 namespace broadside::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-std::string dumped(const Json& json) {
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string dumped(const OrderedJson& json) {
+  return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::string name_of(const core::Stamp& stamp, const std::string& stage) {
@@ -52,13 +52,13 @@ std::string csv_line(const std::vector<std::string>& cells) {
 }
 
 std::string number(double value) {
-  return std::isfinite(value) ? Json(value).dump() : "";
+  return std::isfinite(value) ? OrderedJson(value).dump() : "";
 }
 
 }  // namespace
 
 std::string google_benchmark_json(const core::RunRows& rows) {
-  Json benchmarks = Json::array();
+  OrderedJson benchmarks = OrderedJson::array();
   std::map<std::string, std::size_t> repetitions;
   std::set<std::string> builds;
   for (const core::Sample& sample : rows.samples)
@@ -88,14 +88,14 @@ std::string google_benchmark_json(const core::RunRows& rows) {
                             {"time_unit", "ns"}});
     }
   }
-  Json context{{"executable", "broadside"}, {"cpu_time", "not measured: repeats real_time"}};
+  OrderedJson context{{"executable", "broadside"}, {"cpu_time", "not measured: repeats real_time"}};
   if (!rows.samples.empty()) context["machine"] = printable(rows.samples.front().stamp.machine);
   if (!builds.empty()) context["build"] = printable(*builds.begin());
   return dumped({{"context", std::move(context)}, {"benchmarks", std::move(benchmarks)}});
 }
 
 std::string smaller_is_better_json(const core::RunRows& rows) {
-  Json all = Json::array();
+  OrderedJson all = OrderedJson::array();
   for (const Timing& timing : pool_samples(rows)) {
     if (!timing.admission.is_admitted || timing.frame.count == 0) continue;
     all.push_back({{"name", name_of(timing.stamp, "median frame")},

@@ -8,7 +8,7 @@
 namespace broadside::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string change_share(const ChangePoint& change) {
   if (change.before == 0.0) return "";
@@ -49,12 +49,12 @@ std::string history_text(const std::vector<HistorySeries>& series) {
 }
 
 std::string history_json(const std::vector<HistorySeries>& series) {
-  Json all = Json::array();
+  OrderedJson all = OrderedJson::array();
   for (const HistorySeries& s : series) {
-    Json points = Json::array();
+    OrderedJson points = OrderedJson::array();
     for (const HistoryPoint& p : s.points)
       points.push_back({{"run", p.run}, {"at", p.at}, {"build", p.build}, {"value", p.value}});
-    Json changes = Json::array();
+    OrderedJson changes = OrderedJson::array();
     for (const ChangePoint& c : s.changes)
       changes.push_back({{"run", s.points[c.index].run}, {"before", c.before}, {"after", c.after}, {"p", c.p}});
     all.push_back({{"machine", s.machine},
@@ -65,8 +65,8 @@ std::string history_json(const std::vector<HistorySeries>& series) {
                    {"points", std::move(points)},
                    {"changes", std::move(changes)}});
   }
-  const Json document{{"format", "broadside-history"}, {"version", 1}, {"series", std::move(all)}};
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const OrderedJson document{{"format", "broadside-history"}, {"version", 1}, {"series", std::move(all)}};
+  return document.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace broadside::reports

@@ -15,7 +15,7 @@ namespace {
 
 using core::Box;
 using core::Vec3;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using Words = std::vector<std::uint16_t>;
 
 constexpr double kMostWord = 65535.0;
@@ -49,8 +49,8 @@ struct Grid {
           static_cast<std::uint16_t>(std::isfinite(cells) ? std::clamp(std::round(cells), 0.0, kMostWord) : 0.0));
     }
   }
-  [[nodiscard]] Json min_json() const { return {min[0], min[1], min[2]}; }
-  [[nodiscard]] Json cell_json() const { return {cell[0], cell[1], cell[2]}; }
+  [[nodiscard]] OrderedJson min_json() const { return {min[0], min[1], min[2]}; }
+  [[nodiscard]] OrderedJson cell_json() const { return {cell[0], cell[1], cell[2]}; }
 };
 
 // From -1 to 1.
@@ -88,7 +88,7 @@ class Extent {
   Box box_ = core::empty_box();
 };
 
-Json to_json(const PlaybackShape& shape) {
+OrderedJson to_json(const PlaybackShape& shape) {
   Extent extent;
   for (const auto& level : shape.levels)
     for (const Box& box : level) {
@@ -97,7 +97,7 @@ Json to_json(const PlaybackShape& shape) {
     }
   for (const Vec3 v : shape.vertices) extent.add(v);
   const Grid grid = extent.grid();
-  Json levels = Json::array();
+  OrderedJson levels = OrderedJson::array();
   for (const auto& level : shape.levels) {
     Words words;
     for (const Box& box : level) {
@@ -123,7 +123,7 @@ std::uint16_t short_name(std::uint32_t body, std::size_t body_count) {
   return static_cast<std::uint16_t>(core::is_face(body) ? body_count + (body - core::kFirstFace) : body);
 }
 
-Json to_json(const Playback& p) {
+OrderedJson to_json(const Playback& p) {
   const std::size_t bodies = p.shape_of_body.size();
   Extent extent;
   float deepest = 0.0F;
@@ -136,7 +136,7 @@ Json to_json(const Playback& p) {
   }
   const Grid grid = extent.grid();
   const double depth_cell = std::max(static_cast<double>(deepest), 1e-30) / kMostWord;
-  Json steps = Json::array();
+  OrderedJson steps = OrderedJson::array();
   Words positions;
   Words turns;
   Words pairs;
@@ -165,17 +165,17 @@ Json to_json(const Playback& p) {
   }
   Words shape_of_body;
   for (const std::uint32_t s : p.shape_of_body) shape_of_body.push_back(static_cast<std::uint16_t>(s));
-  Json shapes = Json::array();
+  OrderedJson shapes = OrderedJson::array();
   for (const PlaybackShape& shape : p.shapes) shapes.push_back(to_json(shape));
-  Json marks = Json::array();
+  OrderedJson marks = OrderedJson::array();
   for (const PlaybackMark& mark : p.marks) {
-    Json named = Json::array();
+    OrderedJson named = OrderedJson::array();
     for (const std::uint32_t body : mark.bodies) named.push_back(short_name(body, bodies));
     marks.push_back({{"text", printable(mark.text)}, {"step", mark.step}, {"bodies", std::move(named)}});
   }
   const auto corner = [](Vec3 v) {
-    return Json{short_number(static_cast<double>(v.x)), short_number(static_cast<double>(v.y)),
-                short_number(static_cast<double>(v.z))};
+    return OrderedJson{short_number(static_cast<double>(v.x)), short_number(static_cast<double>(v.y)),
+                       short_number(static_cast<double>(v.z))};
   };
   return {{"name", printable(p.stamp.scene_name + ": " + p.stamp.label())},
           {"domain", {{"min", corner(p.domain.min)}, {"max", corner(p.domain.max)}}},
@@ -213,9 +213,9 @@ std::uint64_t playback_bytes(const Playback& playback) {
 }
 
 std::string playbacks_json(const std::vector<Playback>& playbacks) {
-  Json all = Json::array();
+  OrderedJson all = OrderedJson::array();
   for (const Playback& playback : playbacks) all.push_back(to_json(playback));
-  return script_safe(all.dump(-1, ' ', true, Json::error_handler_t::replace));
+  return script_safe(all.dump(-1, ' ', true, OrderedJson::error_handler_t::replace));
 }
 
 }  // namespace broadside::reports

@@ -9,13 +9,13 @@
 namespace broadside::bench {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr std::string_view kFormat = "broadside-pair";
 constexpr std::string_view kMotionFormat = "broadside-motion";
 
-json body_of(const core::Mesh& mesh, const core::Pose& pose) {
-  json vertices = json::array();
+Json body_of(const core::Mesh& mesh, const core::Pose& pose) {
+  Json vertices = Json::array();
   for (const core::Vec3 v : mesh.vertices) vertices.push_back({v.x, v.y, v.z});
   const core::Quat q = pose.orientation;
   return {{"mesh", mesh.name},
@@ -25,16 +25,16 @@ json body_of(const core::Mesh& mesh, const core::Pose& pose) {
           {"orientation", {q.w, q.x, q.y, q.z}}};
 }
 
-core::Vec3 vector_of(const json& v) {
+core::Vec3 vector_of(const Json& v) {
   return {v.at(0).get<float>(), v.at(1).get<float>(), v.at(2).get<float>()};
 }
 
-std::shared_ptr<const core::Mesh> mesh_of(const json& body) {
+std::shared_ptr<const core::Mesh> mesh_of(const Json& body) {
   core::Mesh mesh;
   mesh.name = body.at("mesh").get<std::string>();
   mesh.source = "a saved pair";
-  for (const json& v : body.at("vertices")) mesh.vertices.push_back(vector_of(v));
-  for (const json& t : body.at("triangles")) {
+  for (const Json& v : body.at("vertices")) mesh.vertices.push_back(vector_of(v));
+  for (const Json& t : body.at("triangles")) {
     mesh.triangles.push_back(t.get<core::Triangle>());
     for (const std::uint32_t v : mesh.triangles.back())
       if (v >= mesh.vertices.size()) throw std::out_of_range("a triangle names a vertex that is not there");
@@ -43,14 +43,14 @@ std::shared_ptr<const core::Mesh> mesh_of(const json& body) {
   return std::make_shared<const core::Mesh>(std::move(mesh));
 }
 
-core::Pose pose_of(const json& body) {
-  const json& q = body.at("orientation");
+core::Pose pose_of(const Json& body) {
+  const Json& q = body.at("orientation");
   return {vector_of(body.at("position")),
           {q.at(0).get<float>(), q.at(1).get<float>(), q.at(2).get<float>(), q.at(3).get<float>()}};
 }
 
-json moving_body_of(const core::Mesh& mesh, const exact::RigidMotion& motion) {
-  json out = body_of(mesh, motion.start);
+Json moving_body_of(const core::Mesh& mesh, const exact::RigidMotion& motion) {
+  Json out = body_of(mesh, motion.start);
   const exact::Point& d = motion.displacement_m;
   const exact::Point& r = motion.rotation_rad;
   out["displacement"] = {d.x, d.y, d.z};
@@ -58,8 +58,8 @@ json moving_body_of(const core::Mesh& mesh, const exact::RigidMotion& motion) {
   return out;
 }
 
-exact::RigidMotion motion_of(const json& body) {
-  const auto point = [](const json& v) {
+exact::RigidMotion motion_of(const Json& body) {
+  const auto point = [](const Json& v) {
     return exact::Point{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
   };
   return {pose_of(body), point(body.at("displacement")), point(body.at("rotation"))};
@@ -71,7 +71,7 @@ core::Result<Case> read_saved(const std::filesystem::path& file, std::string_vie
   std::ifstream in(file);
   if (!in) return core::Error{"cannot be read", file.string(), "give a file that agree saved"};
   try {
-    const json saved = json::parse(in);
+    const Json saved = Json::parse(in);
     if (saved.at("format") != format || saved.at("version") != 1)
       return core::Error{"it is no saved case '" + std::string(format) + "' of version 1", file.string(),
                          "give a file that agree saved"};
@@ -84,7 +84,7 @@ core::Result<Case> read_saved(const std::filesystem::path& file, std::string_vie
 }  // namespace
 
 core::Status write_case(const PairSource& source, const TestPair& pair, const std::filesystem::path& file) {
-  const json out{{"format", kFormat},
+  const Json out{{"format", kFormat},
                  {"version", 1},
                  {"is_convex", source.has_depth()},
                  {"distance_m", pair.distance_m},
@@ -94,7 +94,7 @@ core::Status write_case(const PairSource& source, const TestPair& pair, const st
 }
 
 core::Result<Case> read_case(const std::filesystem::path& file) {
-  return read_saved<Case>(file, kFormat, [](const json& saved) -> core::Result<Case> {
+  return read_saved<Case>(file, kFormat, [](const Json& saved) -> core::Result<Case> {
     auto source = PairSource::of_case({mesh_of(saved.at("a")), mesh_of(saved.at("b"))}, saved.at("is_convex"));
     if (!source) return source.error();
     TestPair pair;
@@ -108,7 +108,7 @@ core::Result<Case> read_case(const std::filesystem::path& file) {
 }
 
 core::Status write_motion_case(const BodySource& source, const MotionTest& test, const std::filesystem::path& file) {
-  const json out{{"format", kMotionFormat},
+  const Json out{{"format", kMotionFormat},
                  {"version", 1},
                  {"are_solid", source.are_solid()},
                  {"a", moving_body_of(*source.meshes()[test.a.mesh], test.a.motion)},
@@ -117,7 +117,7 @@ core::Status write_motion_case(const BodySource& source, const MotionTest& test,
 }
 
 core::Result<MotionCase> read_motion_case(const std::filesystem::path& file) {
-  return read_saved<MotionCase>(file, kMotionFormat, [](const json& saved) -> core::Result<MotionCase> {
+  return read_saved<MotionCase>(file, kMotionFormat, [](const Json& saved) -> core::Result<MotionCase> {
     BodySource source = BodySource::of_meshes({mesh_of(saved.at("a")), mesh_of(saved.at("b"))}, saved.at("are_solid"));
     MotionTest test;
     test.a = {0, motion_of(saved.at("a"))};

@@ -10,7 +10,7 @@
 namespace broadside::bench {
 namespace {
 
-using json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string row_text(std::string_view name, const AgreementBin& bin) {
   return fmt::format("  {:<20} {:>8}  {}\n", name, bin.pairs(), agreement_text(bin));
@@ -46,8 +46,8 @@ std::string study_text(const EngineStudy& study) {
   return out;
 }
 
-json bin_json(const AgreementBin& bin) {
-  json counts = json::object();
+OrderedJson bin_json(const AgreementBin& bin) {
+  OrderedJson counts = OrderedJson::object();
   for (std::size_t k = 0; k < kAgreements.size(); ++k)
     if (bin.count[k] > 0) counts[std::string(kAgreements[k])] = bin.count[k];
   const double median = bin.median_s();
@@ -55,7 +55,7 @@ json bin_json(const AgreementBin& bin) {
           {"verdicts", counts},
           {"error_decades_from_1e-8_m", bin.error},
           {"angle_decades_from_1e-6_rad", bin.angle},
-          {"median_s", std::isnan(median) ? json(nullptr) : json(median)}};
+          {"median_s", std::isnan(median) ? OrderedJson(nullptr) : OrderedJson(median)}};
 }
 
 // Over all separations; the report draws it.
@@ -99,10 +99,10 @@ std::string agreement_tables(const std::vector<EngineStudy>& studies) {
 }
 
 std::string agreement_json(const std::vector<EngineStudy>& studies, std::string_view kind, std::uint64_t seed) {
-  json engines = json::array();
+  OrderedJson engines = OrderedJson::array();
   for (const EngineStudy& study : studies) {
-    json bins = json::object();
-    json forms = json::object();
+    OrderedJson bins = OrderedJson::object();
+    OrderedJson forms = OrderedJson::object();
     for (std::size_t k = 0; k < std::size(kSeparations); ++k)
       bins[std::string(kSeparations[k])] = bin_json(study.table.by_separation[k]);
     for (std::size_t k = 0; k < std::size(kDegeneracies); ++k)
@@ -115,8 +115,8 @@ std::string agreement_json(const std::vector<EngineStudy>& studies, std::string_
                        {"words", study.words},
                        {"repeat", study.repeats}});
   }
-  return json{{"format", "broadside-agreement"},    {"version", 1},      {"pairs", kind}, {"seed", seed},
-              {"touching_band_m", kTouchingBand_m}, {"engines", engines}}
+  return OrderedJson{{"format", "broadside-agreement"},    {"version", 1},      {"pairs", kind}, {"seed", seed},
+                     {"touching_band_m", kTouchingBand_m}, {"engines", engines}}
       .dump(2);
 }
 

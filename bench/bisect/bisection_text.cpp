@@ -7,7 +7,7 @@
 namespace broadside::bench::bisect {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // Where the results of a build lie.
 std::string results(const Question& question, const Answer& answer, const Build& build) {
@@ -65,16 +65,16 @@ std::string body(const Builds& builds, const Question& question, const Answer& a
   return text;
 }
 
-json build_json(const Build& build) {
+Json build_json(const Build& build) {
   return {{"name", build.name}, {"title", build.title}, {"identity", build.identity}};
 }
 
-json answer_json(const Builds& builds, const Question& question, const Answer& answer) {
+Json answer_json(const Builds& builds, const Question& question, const Answer& answer) {
   constexpr std::string_view kEndings[] = {"found", "same", "unsteady", "untold"};
-  json row{{"quantity", quantity_word(answer.quantity)},
+  Json row{{"quantity", quantity_word(answer.quantity)},
            {"ending", kEndings[static_cast<std::size_t>(answer.ending)]},
            {"reason", answer.reason},
-           {"differences", json::array()}};
+           {"differences", Json::array()}};
   for (const Difference& d : answer.differences)
     row["differences"].push_back(
         {{"scene", d.scene}, {"label", d.label}, {"subject", d.subject}, {"was", d.was}, {"is", d.is}});
@@ -85,7 +85,7 @@ json answer_json(const Builds& builds, const Question& question, const Answer& a
   row["first_changed"] = build_json(after);
   row["last_unchanged"]["results"] = results(question, answer, before);
   row["first_changed"]["results"] = results(question, answer, after);
-  row["not_judged"] = json::array();
+  row["not_judged"] = Json::array();
   for (const std::size_t k : answer.where.unknown) row["not_judged"].push_back(build_json(builds.list()[k]));
   row["traces"] = answer.traces;
   return row;
@@ -102,15 +102,15 @@ std::string bisection_text(const Builds& builds, const Question& question, const
 }
 
 std::string bisection_json(const Builds& builds, const Question& question, const Bisection& bisection) {
-  json document{{"format", "broadside-bisection-result"},
+  Json document{{"format", "broadside-bisection-result"},
                 {"version", 1},
                 {"exit", static_cast<int>(bisection.exit())},
                 {"command", question.command},
                 {"builds", builds.list().size()},
                 {"skipped", bisection.skipped},
-                {"answers", json::array()}};
+                {"answers", Json::array()}};
   for (const Answer& answer : bisection.answers) document["answers"].push_back(answer_json(builds, question, answer));
-  return document.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string bisection_markdown(const Builds& builds, const Question& question, const Bisection& bisection) {

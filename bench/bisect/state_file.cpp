@@ -8,21 +8,21 @@
 namespace broadside::bench::bisect {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr const char* kFile = "bisect.json";
-constexpr const char* kFormat = "broadside-bisection";
-constexpr int kVersion = 1;
+constexpr const char* kStateFormat = "broadside-bisection";
+constexpr int kStateVersion = 1;
 constexpr std::size_t kDeepest = 8;  // it has 4 levels
 
-json to_json(const std::map<std::string, Seen>& all) {
-  json rows = json::object();
+Json json_of_seen(const std::map<std::string, Seen>& all) {
+  Json rows = Json::object();
   for (const auto& [name, seen] : all)
     rows[name] = {{"judged", seen.is_judged}, {"exit", seen.exit_code}, {"reason", seen.reason}};
   return rows;
 }
 
-std::map<std::string, Seen> from_json(const json& rows) {
+std::map<std::string, Seen> seen_from_json(const Json& rows) {
   std::map<std::string, Seen> all;
   for (const auto& [name, row] : rows.items())
     all[name] = {.is_judged = row.at("judged"), .exit_code = row.at("exit"), .reason = row.at("reason")};
@@ -42,26 +42,26 @@ core::Result<State> read_state(const std::filesystem::path& folder, const std::s
   if (core::json_depth(text.value()) > kDeepest)
     return core::Error{"it is damaged: it nests too deep", file.string(), advice};
   try {
-    const json document = json::parse(text.value());
-    if (document.at("format") != kFormat || document.at("version") != kVersion)
+    const Json document = Json::parse(text.value());
+    if (document.at("format") != kStateFormat || document.at("version") != kStateVersion)
       return core::Error{"it is no bisection of this version", file.string(), advice};
     if (document.at("question") != question)
       return core::Error{"it holds a bisection of other builds, or of another command", file.string(), advice};
-    state.seen = from_json(document.at("seen"));
-    state.timed = from_json(document.at("timed"));
-  } catch (const json::exception& e) {
+    state.seen = seen_from_json(document.at("seen"));
+    state.timed = seen_from_json(document.at("timed"));
+  } catch (const Json::exception& e) {
     return core::Error{std::string("it is damaged: ") + e.what(), file.string(), advice};
   }
   return state;
 }
 
 core::Status write_state(const std::filesystem::path& folder, const State& state) {
-  const json document{{"format", kFormat},
-                      {"version", kVersion},
+  const Json document{{"format", kStateFormat},
+                      {"version", kStateVersion},
                       {"question", state.question},
-                      {"seen", to_json(state.seen)},
-                      {"timed", to_json(state.timed)}};
-  return core::write_whole_file(folder / kFile, document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+                      {"seen", json_of_seen(state.seen)},
+                      {"timed", json_of_seen(state.timed)}};
+  return core::write_whole_file(folder / kFile, document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace broadside::bench::bisect

@@ -19,7 +19,7 @@
 namespace broadside::bench::campaign {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr const char* kFormat = "broadside-campaign";
 constexpr int kVersion = 2;
@@ -32,7 +32,7 @@ core::Result<std::uint64_t> digest_of_scene(const CellWork& work) {
   return core::scene_digest(scene.value());
 }
 
-json to_json(const ManifestCell& cell) {
+Json to_json(const ManifestCell& cell) {
   return {{"id", cell.id},
           {"scene", cell.work.scene},
           {"engine", cell.work.engine},
@@ -46,7 +46,7 @@ json to_json(const ManifestCell& cell) {
           {"turns", cell.turns}};
 }
 
-ManifestCell from_json(const json& row) {
+ManifestCell from_json(const Json& row) {
   return {.id = row.at("id"),
           .work = {.scene = row.at("scene"),
                    .engine = row.at("engine"),
@@ -64,9 +64,9 @@ bool is_id(const std::string& text) {
   return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-core::Status read_cells(const json& rows, const std::filesystem::path& file, Manifest& manifest) {
+core::Status read_cells(const Json& rows, const std::filesystem::path& file, Manifest& manifest) {
   std::set<std::string> ids;
-  for (const json& row : rows) {
+  for (const Json& row : rows) {
     const auto bad = [&](const std::string& what) {
       return core::Error{"cell " + std::to_string(manifest.cells.size()) + what, file.string(), "plan it again"};
     };
@@ -112,11 +112,11 @@ core::Result<Manifest> make_manifest(const CampaignFile& campaign) {
 }
 
 core::Status write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
-  json rows = json::array();
+  Json rows = Json::array();
   for (const ManifestCell& cell : manifest.cells) rows.push_back(to_json(cell));
-  json document{
+  Json document{
       {"format", kFormat}, {"version", kVersion}, {"name", manifest.name}, {"build", manifest.build}, {"cells", rows}};
-  if (manifest.job) document[std::string(manifest.job->key())] = json::parse(manifest.job->text());
+  if (manifest.job) document[std::string(manifest.job->key())] = Json::parse(manifest.job->text());
   return core::write_whole_file(folder / "manifest.json", document.dump(1) + "\n");
 }
 
@@ -129,7 +129,7 @@ core::Result<Manifest> read_manifest(const std::filesystem::path& folder) {
     return core::Error{"it is damaged: it nests more than " + std::to_string(kDeepestManifest) + " levels deep",
                        file.string(), "plan it again"};
   try {
-    const json document = json::parse(text.value());
+    const Json document = Json::parse(text.value());
     if (document.at("format") != kFormat)
       return core::Error{"it is no campaign's manifest", file.string(), "check the path"};
     if (document.at("version") != kVersion)
@@ -145,7 +145,7 @@ core::Result<Manifest> read_manifest(const std::filesystem::path& folder) {
     }
     if (core::Status s = read_cells(document.at("cells"), file, manifest); !s) return s.error();
     return manifest;
-  } catch (const json::exception& e) {
+  } catch (const Json::exception& e) {
     return core::Error{std::string("it is damaged: ") + e.what(), file.string(), "plan it again"};
   }
 }

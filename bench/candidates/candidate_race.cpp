@@ -51,7 +51,7 @@ void fill(CandidateRow& row, const continuous::FeaturePairs& found) {
   row.digest = continuous::digest_of(found);
 }
 
-core::Result<CandidateRow> row_of_json(const std::string& text) {
+core::Result<CandidateRow> candidate_row_of(const std::string& text) {
   try {
     const auto out = nlohmann::json::parse(text).at(0);
     CandidateRow row;
@@ -75,7 +75,7 @@ core::Result<CandidateRow> row_of_child(const MotionSource& source, const CellSp
   if (!source.end.empty()) args.insert(args.end(), {"--to", source.end});
   auto answer = ask_child(std::move(args), cell, limits);
   if (!answer) return answer.error();
-  if (answer.value().absent.empty()) return row_of_json(answer.value().output);
+  if (answer.value().absent.empty()) return candidate_row_of(answer.value().output);
   CandidateRow row;
   row.label = label_of(cell);
   row.absent = std::move(answer.value().absent);

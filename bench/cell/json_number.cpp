@@ -7,23 +7,23 @@
 namespace broadside::bench {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-std::string shown(const json& value) {
+std::string shown(const Json& value) {
   return value.is_number() ? value.dump() : std::string("a value of type ") + value.type_name();
 }
 
 }  // namespace
 
-std::uint32_t whole_number(const json& row, const char* key, std::uint32_t least, std::uint32_t most) {
-  const json& value = row.at(key);
+std::uint32_t whole_number(const Json& row, const char* key, std::uint32_t least, std::uint32_t most) {
+  const Json& value = row.at(key);
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least || value.get<std::uint64_t>() > most)
     throw RefusedNumber{fmt::format("{} is {}, not a whole number from {} to {}", key, shown(value), least, most)};
   return value.get<std::uint32_t>();
 }
 
-double positive_number(const json& row, const char* key, double most) {
-  const json& value = row.at(key);
+double positive_number(const Json& row, const char* key, double most) {
+  const Json& value = row.at(key);
   if (!value.is_number() || !(value.get<double>() > 0.0) || value.get<double>() > most)
     throw RefusedNumber{fmt::format("{} is {}, not a number above 0 and up to {:g}", key, shown(value), most)};
   return value.get<double>();

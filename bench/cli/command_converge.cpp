@@ -20,7 +20,7 @@ namespace broadside::bench {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kStepSizes = 3;  // h, h/2, h/4
 
@@ -66,14 +66,14 @@ core::Result<fs::path> recorded_part(const core::Scene& whole, int part, const C
   return own / cell.trace_file;
 }
 
-Json convergence_json(const Convergence& c, const core::Verdict& v, const core::Scene& scene,
-                      const std::string& engine) {
-  Json figures = Json::array();
+OrderedJson convergence_json(const Convergence& c, const core::Verdict& v, const core::Scene& scene,
+                             const std::string& engine) {
+  OrderedJson figures = OrderedJson::array();
   for (const FigureErrors& f : c.figures) {
-    Json orders = Json::array();
+    OrderedJson orders = OrderedJson::array();
     for (std::size_t k = 1; k < f.error.size(); ++k) {
       const double order = observed_order(f, k);
-      orders.push_back(std::isfinite(order) ? Json(order) : Json(nullptr));
+      orders.push_back(std::isfinite(order) ? OrderedJson(order) : OrderedJson(nullptr));
     }
     figures.push_back({{"what", f.what},
                        {"unit", f.unit},
@@ -149,7 +149,7 @@ core::Exit converge(const ConvergeArguments& a) {
   fmt::print("converge: {} of {} on {}: {}\n", core::outcome_word(verdict.outcome), engine, scene.value().name,
              verdict.explanation);
   if (!a.json.empty()) {
-    const Json json = convergence_json(measured.value(), verdict, scene.value(), engine);
+    const OrderedJson json = convergence_json(measured.value(), verdict, scene.value(), engine);
     if (core::Status s = core::write_whole_file(a.json, json.dump(2) + "\n"); !s) return complain(s.error());
   }
   return exit_of_convergence(verdict.outcome);

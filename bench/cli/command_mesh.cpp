@@ -12,10 +12,10 @@
 namespace broadside::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json facts_of(const core::Mesh& mesh, const datasets::MeshFacts& f) {
-  const auto triple = [](core::Vec3 v) { return Json{v.x, v.y, v.z}; };
+OrderedJson facts_of(const core::Mesh& mesh, const datasets::MeshFacts& f) {
+  const auto triple = [](core::Vec3 v) { return OrderedJson{v.x, v.y, v.z}; };
   const core::Topology& t = f.topology;
   return {{"name", mesh.name},
           {"source", mesh.source},
@@ -33,8 +33,8 @@ Json facts_of(const core::Mesh& mesh, const datasets::MeshFacts& f) {
           {"misoriented_edges", t.misoriented_edges},
           {"degenerate_triangles", f.dropped.collapsed_triangles + f.dropped.zero_area_triangles},
           {"dropped_on_reading", f.dropped.text()},
-          {"self_intersecting_pairs",
-           f.self_intersecting_pairs ? Json(*f.self_intersecting_pairs) : Json("not counted: built without CGAL")},
+          {"self_intersecting_pairs", f.self_intersecting_pairs ? OrderedJson(*f.self_intersecting_pairs)
+                                                                : OrderedJson("not counted: built without CGAL")},
           {"min", triple(f.bounds.min)},
           {"max", triple(f.bounds.max)},
           {"area", f.area_m2},
@@ -43,13 +43,13 @@ Json facts_of(const core::Mesh& mesh, const datasets::MeshFacts& f) {
           {"covering_radius", f.covering_radius_m}};
 }
 
-std::string fact_text(const Json& value) {
+std::string fact_text(const OrderedJson& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return fmt::format("{:.9g}", value.get<double>());
   if (!value.is_array()) return value.dump();
   std::string text;
-  for (const Json& item : value) text += (text.empty() ? "" : " ") + fmt::format("{:.9g}", item.get<double>());
+  for (const OrderedJson& item : value) text += (text.empty() ? "" : " ") + fmt::format("{:.9g}", item.get<double>());
   return text;
 }
 
@@ -57,7 +57,7 @@ core::Exit show_mesh(const std::string& name, bool as_json) {
   auto loaded = datasets::acquire_loaded_mesh(name, datasets::MeshOptions::from_environment());
   if (!loaded) return complain(loaded.error());
   const core::Mesh& mesh = loaded.value().mesh;
-  const Json facts = facts_of(mesh, datasets::mesh_facts(mesh, loaded.value().dropped, true));
+  const OrderedJson facts = facts_of(mesh, datasets::mesh_facts(mesh, loaded.value().dropped, true));
   if (as_json) {
     fmt::print("{}\n", facts.dump(2));
     return core::Exit::kGood;

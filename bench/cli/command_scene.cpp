@@ -23,16 +23,16 @@ struct SceneCommand {
   bool as_json = false;
 };
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json triple(core::Vec3 v) {
+OrderedJson triple(core::Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-Json facts_of(const core::Scene& scene) {
+OrderedJson facts_of(const core::Scene& scene) {
   std::uint64_t still = 0;
   for (const core::Body& body : scene.bodies) still += body.inverse_mass > 0.0F ? 0 : 1;
-  Json meshes = Json::array();
+  OrderedJson meshes = OrderedJson::array();
   for (const auto& mesh : scene.meshes)
     meshes.push_back({{"name", mesh->name},
                       {"source", mesh->source},
@@ -58,12 +58,12 @@ Json facts_of(const core::Scene& scene) {
           {"meshes", meshes}};
 }
 
-void print_facts(const Json& facts) {
+void print_facts(const OrderedJson& facts) {
   for (const auto& [key, value] : facts.items())
     if (key != "meshes" && key != "inertia_notes")
       fmt::print("{:<14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-  for (const Json& note : facts["inertia_notes"]) fmt::print("note           {}\n", note.get<std::string>());
-  for (const Json& mesh : facts["meshes"])
+  for (const OrderedJson& note : facts["inertia_notes"]) fmt::print("note           {}\n", note.get<std::string>());
+  for (const OrderedJson& mesh : facts["meshes"])
     fmt::print("mesh           {}: {} vertices, {} triangles, {}{}\n", mesh["name"].get<std::string>(),
                mesh["vertices"].get<std::uint64_t>(), mesh["triangles"].get<std::uint64_t>(),
                mesh["source"].get<std::string>(), mesh["stand_in"].get<bool>() ? " (STAND-IN)" : "");
@@ -105,7 +105,7 @@ core::Status write_picture(const core::Scene& scene, const SceneCommand& a) {
 core::Exit show_scene(const SceneCommand& a) {
   auto scene = a.scene.make();
   if (!scene) return complain(scene.error());
-  const Json facts = facts_of(scene.value());
+  const OrderedJson facts = facts_of(scene.value());
   if (a.as_json)
     fmt::print("{}\n", facts.dump(2));
   else

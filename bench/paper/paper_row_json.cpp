@@ -14,42 +14,42 @@
 namespace broadside::bench::paper {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr const char* kFormat = "broadside-paper";
 
 // JSON has no number that is not finite; null stands for it.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+OrderedJson number(double value) {
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
 }
-double number_of(const Json& json) {
+double number_of(const OrderedJson& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
 // Times keep eight digits, more than any clock here resolves, so files stay small.
-Json time(double seconds) {
+OrderedJson time(double seconds) {
   if (!std::isfinite(seconds)) return nullptr;
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%.8g", seconds);
   return std::strtod(text.data(), nullptr);
 }
 
-Json to_json(const PaperRun& run) {
-  Json json{{"window_s", Json::array()}, {"stage_s", Json::object()}};
+OrderedJson to_json(const PaperRun& run) {
+  OrderedJson json{{"window_s", OrderedJson::array()}, {"stage_s", OrderedJson::object()}};
   for (const double s : run.window_s) json["window_s"].push_back(time(s));
   for (const auto& [stage, s] : run.stage_s) json["stage_s"][stage] = time(s);
   return json;
 }
 
-PaperRun run_of(const Json& json) {
+PaperRun run_of(const OrderedJson& json) {
   PaperRun run;
-  for (const Json& s : json.at("window_s")) run.window_s.push_back(number_of(s));
+  for (const OrderedJson& s : json.at("window_s")) run.window_s.push_back(number_of(s));
   for (const auto& [stage, s] : json.at("stage_s").items()) run.stage_s[stage] = number_of(s);
   return run;
 }
 
-Json to_json(const core::PenetrationStatistics& w) {
+OrderedJson to_json(const core::PenetrationStatistics& w) {
   return {w.first_step,
           w.last_step,
           w.frames,
@@ -60,53 +60,53 @@ Json to_json(const core::PenetrationStatistics& w) {
           number(w.share_above_slop)};
 }
 
-core::PenetrationStatistics window_of(const Json& json) {
+core::PenetrationStatistics window_of(const OrderedJson& json) {
   return {json.at(0).get<std::uint64_t>(), json.at(1).get<std::uint64_t>(),
           json.at(2).get<std::uint64_t>(), json.at(3).get<std::uint64_t>(),
           json.at(4).get<std::uint64_t>(), number_of(json.at(5)),
           number_of(json.at(6)),           number_of(json.at(7))};
 }
 
-std::uint64_t digest_of(const Json& json) {
+std::uint64_t digest_of(const OrderedJson& json) {
   return std::strtoull(json.get<std::string>().c_str(), nullptr, 16);
 }
 
-Json to_json(const PaperRow& row, std::size_t facts) {
-  Json json{{"experiments", row.experiments},
-            {"model", row.model},
-            {"count", row.count},
-            {"method", row.method},
-            {"scene", row.stamp.scene_name},
-            {"scene_digest", reports::hexadecimal(row.stamp.scene_digest)},
-            {"engine", row.stamp.engine},
-            {"settings", row.stamp.settings},
-            {"settings_short", row.stamp.settings_short},
-            {"facts", facts},
-            {"mesh", row.mesh},
-            {"is_stand_in", row.is_stand_in},
-            {"absence", row.absence},
-            {"frames", row.frames},
-            {"judged", row.judged},
-            {"passed", row.passed},
-            {"failed", row.failed},
-            {"is_admitted", row.is_admitted},
-            {"refusal", row.refusal},
-            {"caveat", row.caveat},
-            {"final_digest", reports::hexadecimal(row.final_digest)},
-            {"window_frames", row.window_frames},
-            {"runs", Json::array()},
-            {"penetration", Json::array()},
-            {"pairs", row.pairs},
-            {"memory_bytes", row.memory_bytes},
-            {"memory_kind", row.memory_kind},
-            {"spent_s", row.spent_s}};
+OrderedJson to_json(const PaperRow& row, std::size_t facts) {
+  OrderedJson json{{"experiments", row.experiments},
+                   {"model", row.model},
+                   {"count", row.count},
+                   {"method", row.method},
+                   {"scene", row.stamp.scene_name},
+                   {"scene_digest", reports::hexadecimal(row.stamp.scene_digest)},
+                   {"engine", row.stamp.engine},
+                   {"settings", row.stamp.settings},
+                   {"settings_short", row.stamp.settings_short},
+                   {"facts", facts},
+                   {"mesh", row.mesh},
+                   {"is_stand_in", row.is_stand_in},
+                   {"absence", row.absence},
+                   {"frames", row.frames},
+                   {"judged", row.judged},
+                   {"passed", row.passed},
+                   {"failed", row.failed},
+                   {"is_admitted", row.is_admitted},
+                   {"refusal", row.refusal},
+                   {"caveat", row.caveat},
+                   {"final_digest", reports::hexadecimal(row.final_digest)},
+                   {"window_frames", row.window_frames},
+                   {"runs", OrderedJson::array()},
+                   {"penetration", OrderedJson::array()},
+                   {"pairs", row.pairs},
+                   {"memory_bytes", row.memory_bytes},
+                   {"memory_kind", row.memory_kind},
+                   {"spent_s", row.spent_s}};
   if (row.beta > 0.0) json["beta"] = row.beta, json["delta_m"] = row.delta_m;
   for (const PaperRun& run : row.runs) json["runs"].push_back(to_json(run));
   for (const auto& window : row.penetration) json["penetration"].push_back(to_json(window));
   return json;
 }
 
-PaperRow row_of(const Json& json, const Json& facts) {
+PaperRow row_of(const OrderedJson& json, const OrderedJson& facts) {
   PaperRow row;
   json.at("experiments").get_to(row.experiments);
   json.at("model").get_to(row.model);
@@ -117,7 +117,7 @@ PaperRow row_of(const Json& json, const Json& facts) {
   json.at("engine").get_to(row.stamp.engine);
   json.at("settings").get_to(row.stamp.settings);
   json.at("settings_short").get_to(row.stamp.settings_short);
-  const Json& shared = facts.at(json.at("facts").get<std::size_t>());
+  const OrderedJson& shared = facts.at(json.at("facts").get<std::size_t>());
   shared.at("machine").get_to(row.stamp.machine);
   shared.at("build").get_to(row.stamp.broadside_build);
   shared.at("engine_build").get_to(row.stamp.engine_build);
@@ -134,8 +134,8 @@ PaperRow row_of(const Json& json, const Json& facts) {
   row.final_digest = digest_of(json.at("final_digest"));
   json.at("window_frames").get_to(row.window_frames);
   if (row.window_frames == 0) throw std::invalid_argument("window_frames is 0");
-  for (const Json& run : json.at("runs")) row.runs.push_back(run_of(run));
-  for (const Json& window : json.at("penetration")) row.penetration.push_back(window_of(window));
+  for (const OrderedJson& run : json.at("runs")) row.runs.push_back(run_of(run));
+  for (const OrderedJson& window : json.at("penetration")) row.penetration.push_back(window_of(window));
   json.at("pairs").get_to(row.pairs);
   json.at("memory_bytes").get_to(row.memory_bytes);
   json.at("memory_kind").get_to(row.memory_kind);
@@ -151,7 +151,8 @@ PaperRow row_of(const Json& json, const Json& facts) {
 
 core::Status write_paper_rows(const std::filesystem::path& file, const std::vector<PaperRow>& rows) {
   std::vector<std::tuple<std::string, std::string, std::string>> facts;
-  Json out{{"format", kFormat}, {"version", kVersion}, {"facts", Json::array()}, {"rows", Json::array()}};
+  OrderedJson out{
+      {"format", kFormat}, {"version", kVersion}, {"facts", OrderedJson::array()}, {"rows", OrderedJson::array()}};
   for (const PaperRow& row : rows) {
     const auto own = std::tuple(row.stamp.machine, row.stamp.broadside_build, row.stamp.engine_build);
     const auto found = std::find(facts.begin(), facts.end(), own);
@@ -167,7 +168,7 @@ core::Status write_paper_rows(const std::filesystem::path& file, const std::vect
   std::string text = "{\"format\":\"" + std::string(kFormat) + "\",\"version\":" + std::to_string(kVersion) +
                      ",\n\"facts\":" + out["facts"].dump() + ",\n\"rows\":[";
   for (std::size_t k = 0; k < rows.size(); ++k)
-    text += (k == 0 ? "\n" : ",\n") + out["rows"][k].dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += (k == 0 ? "\n" : ",\n") + out["rows"][k].dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   return core::write_whole_file(file, text + "\n]}\n");
 }
 
@@ -176,13 +177,13 @@ core::Result<std::vector<PaperRow>> read_paper_rows(const std::filesystem::path&
   if (!text) return text.error();
   std::size_t at = 0;
   try {
-    const Json json = Json::parse(text.value());
+    const OrderedJson json = OrderedJson::parse(text.value());
     if (json.at("format") != kFormat)
       return core::Error{"it holds no rows of the paper's experiments", file.string(), "name a rows.json of 'paper'"};
     if (json.at("version") != kVersion)
       return core::Error{"it is of another version", file.string(), "make it again with this program"};
     std::vector<PaperRow> rows;
-    for (const Json& row : json.at("rows")) {
+    for (const OrderedJson& row : json.at("rows")) {
       ++at;
       rows.push_back(row_of(row, json.at("facts")));
     }

@@ -15,21 +15,21 @@
 namespace broadside::core {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // Offsets and lengths beyond this are refused; sums and products of those below it do not overflow.
 constexpr std::uint64_t kLargestNumber = std::uint64_t{1} << 40U;
 constexpr std::uint64_t kLargestStride = 1U << 16U;
 
 // The array of this name; empty where there is none.
-const json& list_of(const json& document, const char* name) {
-  static const json kNone = json::array();
+const Json& list_of(const Json& document, const char* name) {
+  static const Json kNone = Json::array();
   const auto found = document.find(name);
   return found == document.end() || !found->is_array() ? kNone : *found;
 }
 
 // A whole number up to kLargestNumber, or what stands for a missing one; none where it is something else.
-std::optional<std::uint64_t> whole(const json& object, const char* key, std::optional<std::uint64_t> missing) {
+std::optional<std::uint64_t> whole(const Json& object, const char* key, std::optional<std::uint64_t> missing) {
   if (!object.is_object()) return std::nullopt;
   const auto found = object.find(key);
   if (found == object.end()) return missing;
@@ -37,8 +37,8 @@ std::optional<std::uint64_t> whole(const json& object, const char* key, std::opt
   return found->get<std::uint64_t>();
 }
 
-json only(const json& object, std::initializer_list<const char*> keys) {
-  json kept = json::object();
+Json only(const Json& object, std::initializer_list<const char*> keys) {
+  Json kept = Json::object();
   if (!object.is_object()) return kept;
   for (const char* key : keys)
     if (const auto found = object.find(key); found != object.end()) kept[key] = *found;
@@ -47,20 +47,20 @@ json only(const json& object, std::initializer_list<const char*> keys) {
 
 class GltfCheck {
  public:
-  GltfCheck(const std::filesystem::path& path, const json& document, const GltfFile& file)
+  GltfCheck(const std::filesystem::path& path, const Json& document, const GltfFile& file)
       : path_(path), document_(document), file_(file) {}
 
   Status run() {
     if (Status s = check_version(); !s) return s;
     if (std::string wrong = wrong_with_nodes(document_, kDeepestGltfNode); !wrong.empty()) return bad(wrong);
-    const json& meshes = list_of(document_, "meshes");
+    const Json& meshes = list_of(document_, "meshes");
     for (std::size_t m = 0; m < meshes.size(); ++m)
       if (Status s = check_mesh(meshes[m], m); !s) return s;
     return check_amount();
   }
 
   [[nodiscard]] std::string kept() const {
-    json kept = only(document_, {"scene", "buffers"});
+    Json kept = only(document_, {"scene", "buffers"});
     kept["asset"] = {{"version", "2.0"}};
     keep("scenes", {"name", "nodes"}, kept);
     keep("nodes", {"name", "children", "mesh", "matrix", "translation", "rotation", "scale"}, kept);
@@ -68,9 +68,9 @@ class GltfCheck {
     keep("bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"}, kept);
     keep("buffers", {"byteLength", "uri"}, kept);
     keep("meshes", {"name", "primitives"}, kept);
-    for (json& mesh : kept["meshes"])
-      for (json& primitive : mesh["primitives"]) {
-        const json attributes = only(primitive["attributes"], {"POSITION"});
+    for (Json& mesh : kept["meshes"])
+      for (Json& primitive : mesh["primitives"]) {
+        const Json attributes = only(primitive["attributes"], {"POSITION"});
         primitive = only(primitive, {"indices", "mode"});
         primitive["attributes"] = attributes;
       }
@@ -85,9 +85,9 @@ class GltfCheck {
     return {what, path_.string(), advice};
   }
 
-  void keep(const char* name, std::initializer_list<const char*> keys, json& kept) const {
-    json list = json::array();
-    for (const json& object : list_of(document_, name)) list.push_back(only(object, keys));
+  void keep(const char* name, std::initializer_list<const char*> keys, Json& kept) const {
+    Json list = Json::array();
+    for (const Json& object : list_of(document_, name)) list.push_back(only(object, keys));
     kept[name] = std::move(list);
   }
 
@@ -101,9 +101,9 @@ class GltfCheck {
     return Done{};
   }
 
-  Status check_mesh(const json& mesh, std::size_t number) {
+  Status check_mesh(const Json& mesh, std::size_t number) {
     std::uint64_t elements = 0;
-    for (const json& primitive : list_of(mesh, "primitives")) {
+    for (const Json& primitive : list_of(mesh, "primitives")) {
       const std::string where = "mesh " + std::to_string(number);
       if (!primitive.is_object()) return bad(where + " has a primitive that is no object");
       const auto attributes = primitive.find("attributes");
@@ -122,7 +122,7 @@ class GltfCheck {
   enum class Use { kPosition, kIndex };
 
   // Bytes of an element; 0 where it is of another type.
-  static std::uint64_t bytes_of(const json& accessor, Use use) {
+  static std::uint64_t bytes_of(const Json& accessor, Use use) {
     const auto type = accessor.find("type");
     const auto component = whole(accessor, "componentType", {});
     if (type == accessor.end() || !type->is_string() || !component) return 0;
@@ -133,9 +133,9 @@ class GltfCheck {
 
   Status check_accessor(std::uint64_t number, Use use, std::uint64_t& elements) {
     const std::string where = "accessor " + std::to_string(number);
-    const json& accessors = list_of(document_, "accessors");
+    const Json& accessors = list_of(document_, "accessors");
     if (number >= accessors.size()) return bad(where + " does not exist");
-    const json& accessor = accessors[number];
+    const Json& accessor = accessors[number];
     const auto count = whole(accessor, "count", {});
     const auto start = whole(accessor, "byteOffset", 0);
     if (!count || !start || *count == 0) return bad(where + " has no count, or an offset that is no number");
@@ -155,10 +155,10 @@ class GltfCheck {
 
   Status check_range(const std::string& where, std::uint64_t number, std::uint64_t start, std::uint64_t count,
                      std::uint64_t size) {
-    const json& views = list_of(document_, "bufferViews");
+    const Json& views = list_of(document_, "bufferViews");
     if (number >= views.size())
       return bad(where + " names bufferView " + std::to_string(number) + ", which does not exist");
-    const json& view = views[number];
+    const Json& view = views[number];
     const auto offset = whole(view, "byteOffset", 0);
     const auto length = whole(view, "byteLength", {});
     const auto stride = whole(view, "byteStride", size);
@@ -166,7 +166,7 @@ class GltfCheck {
     if (!offset || !length || !stride || !buffer || *stride > kLargestStride || *stride < size)
       return bad("bufferView " + std::to_string(number) + " has an offset, length or stride that is no proper number");
     if (start + *stride * (count - 1) + size > *length) return bad(where + " ends outside its bufferView");
-    const json& buffers = list_of(document_, "buffers");
+    const Json& buffers = list_of(document_, "buffers");
     if (*buffer >= buffers.size()) return bad("buffer " + std::to_string(*buffer) + " does not exist");
     const auto bytes = whole(buffers[*buffer], "byteLength", {});
     if (!bytes || *offset + *length > *bytes)
@@ -174,7 +174,7 @@ class GltfCheck {
     return check_buffer(buffers[*buffer], *buffer, *bytes);
   }
 
-  Status check_buffer(const json& buffer, std::uint64_t number, std::uint64_t bytes) {
+  Status check_buffer(const Json& buffer, std::uint64_t number, std::uint64_t bytes) {
     const std::string where = "buffer " + std::to_string(number);
     if (!buffer.contains("uri")) {
       const bool is_body = file_.is_binary && number == 0 && bytes <= file_.body.size();
@@ -202,7 +202,7 @@ class GltfCheck {
 
   Status check_amount() {
     std::uint64_t shown = 0;
-    for (const json& node : list_of(document_, "nodes")) {
+    for (const Json& node : list_of(document_, "nodes")) {
       if (!node.contains("mesh")) continue;
       const auto mesh = whole(node, "mesh", {});
       if (!mesh || *mesh >= elements_of_mesh_.size()) return bad("a node shows a mesh that does not exist");
@@ -219,7 +219,7 @@ class GltfCheck {
   }
 
   const std::filesystem::path& path_;
-  const json& document_;
+  const Json& document_;
   const GltfFile& file_;
   std::vector<std::uint64_t> elements_of_mesh_;
 };
@@ -235,7 +235,7 @@ Result<std::string> checked_gltf(const std::filesystem::path& path, bool is_bina
   if (const std::size_t depth = json_depth(file.json); depth > kDeepestGltfJson)
     return bad("its JSON nests " + std::to_string(depth) + " levels deep, and " + std::to_string(kDeepestGltfJson) +
                " are the most that are read");
-  const json document = json::parse(file.json.begin(), file.json.end(), nullptr, false);
+  const Json document = Json::parse(file.json.begin(), file.json.end(), nullptr, false);
   if (document.is_discarded() || !document.is_object()) return bad("its text is not a JSON object");
   GltfCheck check(path, document, file);
   if (Status s = check.run(); !s) return s.error();

@@ -8,7 +8,7 @@
 namespace broadside::core {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 std::string text_of(std::size_t number) {
   return "node " + std::to_string(number);
@@ -16,14 +16,14 @@ std::string text_of(std::size_t number) {
 
 class NodeTree {
  public:
-  std::string read(const json& nodes) {
+  std::string read(const Json& nodes) {
     children_.resize(nodes.size());
     has_parent_.resize(nodes.size(), false);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (!nodes[k].is_object()) return text_of(k) + " is no object";
       if (!nodes[k].contains("children")) continue;
       if (!nodes[k]["children"].is_array()) return text_of(k) + " has children that are no list";
-      for (const json& child : nodes[k]["children"]) {
+      for (const Json& child : nodes[k]["children"]) {
         if (!is_node(child)) return text_of(k) + " has a child that does not exist";
         const auto number = child.get<std::size_t>();
         if (has_parent_[number]) return text_of(number) + " has two parents, and nodes form a tree";
@@ -51,12 +51,12 @@ class NodeTree {
     return reached == children_.size() ? "" : "a node is within itself, and nodes form a tree";
   }
 
-  [[nodiscard]] std::string check_scene(const json& scene) const {
+  [[nodiscard]] std::string check_scene(const Json& scene) const {
     if (!scene.is_object()) return "a scene is no object";
     if (!scene.contains("nodes")) return {};
     if (!scene["nodes"].is_array()) return "a scene's nodes are no list";
     std::vector<bool> is_listed(children_.size(), false);
-    for (const json& entry : scene["nodes"]) {
+    for (const Json& entry : scene["nodes"]) {
       if (!is_node(entry)) return "a scene lists a node that does not exist";
       const auto number = entry.get<std::size_t>();
       if (has_parent_[number] || is_listed[number])
@@ -67,7 +67,7 @@ class NodeTree {
   }
 
  private:
-  [[nodiscard]] bool is_node(const json& number) const {
+  [[nodiscard]] bool is_node(const Json& number) const {
     return number.is_number_unsigned() && number.get<std::uint64_t>() < children_.size();
   }
 
@@ -77,13 +77,13 @@ class NodeTree {
 
 }  // namespace
 
-std::string wrong_with_nodes(const json& document, std::size_t deepest) {
+std::string wrong_with_nodes(const Json& document, std::size_t deepest) {
   for (const char* name : {"nodes", "scenes"})
     if (document.contains(name) && !document[name].is_array()) return std::string("its ") + name + " are no list";
   NodeTree tree;
-  if (std::string wrong = tree.read(document.value("nodes", json::array())); !wrong.empty()) return wrong;
+  if (std::string wrong = tree.read(document.value("nodes", Json::array())); !wrong.empty()) return wrong;
   if (std::string wrong = tree.check_depth(deepest); !wrong.empty()) return wrong;
-  for (const json& scene : document.value("scenes", json::array()))
+  for (const Json& scene : document.value("scenes", Json::array()))
     if (std::string wrong = tree.check_scene(scene); !wrong.empty()) return wrong;
   return {};
 }

@@ -12,10 +12,10 @@ namespace broadside::datasets {
 namespace {
 
 // Predicates are exact for the floats that the vertices are.
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Segment = Kernel::Segment_3;
-using Facet = Kernel::Triangle_3;
+using PredicateKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using FacetPoint = PredicateKernel::Point_3;
+using Segment = PredicateKernel::Segment_3;
+using Facet = PredicateKernel::Triangle_3;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
 // What two triangles share, by the places of their corners.
@@ -47,7 +47,7 @@ Shared shared_corners(const core::Triangle& a, const core::Triangle& b) {
 }
 
 // Corner k of a triangle.
-using Corners = std::array<Point, 3>;
+using Corners = std::array<FacetPoint, 3>;
 
 bool cross(const core::Triangle& ta, const core::Triangle& tb, const Corners& a, const Corners& b) {
   const Facet fa(a[0], a[1], a[2]);
@@ -62,10 +62,10 @@ bool cross(const core::Triangle& ta, const core::Triangle& tb, const Corners& a,
              CGAL::do_intersect(fa, Segment(b[s.in_b[1]], b[s.in_b[2]]));
     case 2: {
       // Beyond the shared side, they overlap only when folded flat onto each other.
-      const Point& p = a[s.in_a[0]];
-      const Point& q = a[s.in_a[1]];
-      const Point& r = a[s.in_a[2]];
-      const Point& t = b[s.in_b[2]];
+      const FacetPoint& p = a[s.in_a[0]];
+      const FacetPoint& q = a[s.in_a[1]];
+      const FacetPoint& r = a[s.in_a[2]];
+      const FacetPoint& t = b[s.in_b[2]];
       return CGAL::coplanar(p, q, r, t) && CGAL::coplanar_orientation(p, q, r, t) == CGAL::POSITIVE;
     }
     default:
@@ -82,7 +82,7 @@ core::Result<std::uint64_t> self_intersecting_pairs(const core::Mesh& mesh) {
     Corners c;
     for (int k = 0; k < 3; ++k) {
       const core::Vec3 v = mesh.vertices[mesh.triangles[t][k]];
-      c[k] = Point(double{v.x}, double{v.y}, double{v.z});
+      c[k] = FacetPoint(double{v.x}, double{v.y}, double{v.z});
     }
     corners.push_back(c);
     boxes.emplace_back(c[0].bbox() + c[1].bbox() + c[2].bbox(), t);

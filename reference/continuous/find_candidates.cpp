@@ -12,7 +12,7 @@ namespace broadside::reference {
 namespace {
 
 // Pairs of triangles that a task takes: some hundred microseconds of work.
-constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kCandidateGrain = 8192;
 
 template <typename Part>
 void append(Part& all, std::size_t& at, const Part& part) {
@@ -24,12 +24,14 @@ void append(Part& all, std::size_t& at, const Part& part) {
 
 continuous::FeaturePairs find_candidates(const continuous::CandidateFinder& finder,
                                          std::span<const core::Pair> triangles, unsigned workers) {
-  const std::size_t tasks = (triangles.size() + kGrain - 1) / kGrain;
+  const std::size_t tasks = (triangles.size() + kCandidateGrain - 1) / kCandidateGrain;
   std::vector<continuous::FeaturePairs> found(tasks);
   tbb::task_arena arena(worker_count(workers));
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t k) {
-      finder.add(triangles.subspan(k * kGrain, std::min(kGrain, triangles.size() - k * kGrain)), found[k]);
+      finder.add(
+          triangles.subspan(k * kCandidateGrain, std::min(kCandidateGrain, triangles.size() - k * kCandidateGrain)),
+          found[k]);
     });
   });
   std::size_t faces = 0;

@@ -18,15 +18,15 @@ using continuous::FeatureKind;
 using continuous::FeaturePair;
 
 // Queries that a task takes: some hundred microseconds of work.
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kImpactGrain = 4096;
 
 // Calls work(first, last) for parts of `count`.
 void in_parts(std::size_t count, unsigned workers, const auto& work) {
-  const std::size_t tasks = (count + kGrain - 1) / kGrain;
+  const std::size_t tasks = (count + kImpactGrain - 1) / kImpactGrain;
   tbb::task_arena arena(worker_count(workers));
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, tasks,
-                      [&](std::size_t k) { work(k * kGrain, std::min(count, (k + 1) * kGrain)); });
+                      [&](std::size_t k) { work(k * kImpactGrain, std::min(count, (k + 1) * kImpactGrain)); });
   });
 }
 
@@ -51,7 +51,7 @@ EarliestImpact earliest_of(const SurfacePairs<kKind>& source, std::size_t count,
                            std::atomic<double>& limit) {
   tbb::enumerable_thread_specific<EarliestImpact> found;
   in_parts(count, settings.workers, [&](std::size_t first, std::size_t last) {
-    std::array<double, kGrain> times;
+    std::array<double, kImpactGrain> times;
     SurfacePairs<kKind> part = source;
     part.pairs += first;
     const auto size = static_cast<std::uint32_t>(last - first);

@@ -59,7 +59,7 @@ class Features final : public core::FeatureMotionQuery {
   bool uses_newton_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> fcl_features_settings() {
   static const std::array<core::SettingRow, 2> rows{{
       {"filter", "none", {"none", "plane"}, "FCL's filtered form tests first whether a fixed plane parts the features"},
       {"root", "newton", {"newton", "cubic"}, "how the coplanar times are found: by Newton's method or in closed form"},
@@ -67,7 +67,7 @@ std::span<const core::SettingRow> setting_rows() {
   return rows;
 }
 
-core::Result<core::MotionEngine> create(const core::Settings& settings) {
+core::Result<core::MotionEngine> make_fcl_features(const core::Settings& settings) {
   core::MotionEngine engine;
   engine.id = "fcl-features";
   engine.build = fcl_build();
@@ -79,8 +79,8 @@ core::Result<core::MotionEngine> create(const core::Settings& settings) {
 }  // namespace
 
 core::MotionEngineRow fcl_features_row() {
-  return {"fcl-features", "FCL's vertex-face and edge-edge queries, as its polynomial solver asks them", setting_rows(),
-          create};
+  return {"fcl-features", "FCL's vertex-face and edge-edge queries, as its polynomial solver asks them",
+          fcl_features_settings(), make_fcl_features};
 }
 
 }  // namespace broadside::reference

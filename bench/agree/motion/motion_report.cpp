@@ -9,7 +9,7 @@
 namespace broadside::bench {
 namespace {
 
-using json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 double worst_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
@@ -34,12 +34,12 @@ std::string bin_text(const MotionBin& bin) {
   return text;
 }
 
-json number(double x) {
-  return std::isnan(x) ? json(nullptr) : json(x);
+OrderedJson number(double x) {
+  return std::isnan(x) ? OrderedJson(nullptr) : OrderedJson(x);
 }
 
-json bin_json(const MotionBin& bin) {
-  json counts = json::object();
+OrderedJson bin_json(const MotionBin& bin) {
+  OrderedJson counts = OrderedJson::object();
   for (std::size_t k = 0; k < kMotionVerdicts.size(); ++k)
     if (bin.count[k] > 0) counts[std::string(kMotionVerdicts[k])] = bin.count[k];
   return {{"queries", bin.tests()},
@@ -75,9 +75,9 @@ std::string motion_tables(MotionKind kind, const std::vector<MotionStudy>& studi
 
 std::string motion_json(MotionKind kind, const std::vector<MotionStudy>& studies, std::uint64_t seed) {
   const auto families = families_of(kind);
-  json engines = json::array();
+  OrderedJson engines = OrderedJson::array();
   for (const MotionStudy& study : studies) {
-    json bins = json::object();
+    OrderedJson bins = OrderedJson::object();
     if (study.absent.empty())
       for (std::size_t k = 0; k < families.size(); ++k)
         bins[std::string(families[k])] = bin_json(study.table.by_family[k]);
@@ -89,11 +89,11 @@ std::string motion_json(MotionKind kind, const std::vector<MotionStudy>& studies
                        {"words", study.words},
                        {"repeat", study.repeats}});
   }
-  return json{{"format", "broadside-motion-agreement"},
-              {"version", 1},
-              {"motion", kMotionKinds[static_cast<int>(kind)]},
-              {"seed", seed},
-              {"engines", engines}}
+  return OrderedJson{{"format", "broadside-motion-agreement"},
+                     {"version", 1},
+                     {"motion", kMotionKinds[static_cast<int>(kind)]},
+                     {"seed", seed},
+                     {"engines", engines}}
       .dump(2);
 }
 
