@@ -43,4 +43,15 @@ BROADSIDE_HD constexpr Vec3 turned_back(const TurnedAxes& axes, Vec3 v) {
   return {dot(axes.x, v), dot(axes.y, v), dot(axes.z, v)};
 }
 
+// A unit vector across the unit vector n: along the axis that n is farthest from, less its part along n.
+BROADSIDE_HD Vec3 unit_across(Vec3 n) {
+  const float x = n.x < 0.0F ? -n.x : n.x;
+  const float y = n.y < 0.0F ? -n.y : n.y;
+  const float z = n.z < 0.0F ? -n.z : n.z;
+  const Vec3 axis =
+      x <= y && x <= z ? Vec3{1.0F, 0.0F, 0.0F} : (y <= z ? Vec3{0.0F, 1.0F, 0.0F} : Vec3{0.0F, 0.0F, 1.0F});
+  const Vec3 t = axis - dot(axis, n) * n;
+  return (1.0F / length(t)) * t;
+}
+
 }  // namespace broadside::core

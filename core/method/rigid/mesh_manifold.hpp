@@ -247,7 +247,7 @@ BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
       is_of_patch[k] = !is_taken[k] && dot(touches.all[k].normal, patch.normal) >= kSamePatch;
       is_taken[k] |= is_of_patch[k];
     }
-    keep_four_of(patch, reach_m, [&](const auto& consider) {
+    keep_four_of(patch, reach_m, 0.0F, [&](const auto& consider) {
       for (int k = 0; k < touches.count; ++k)
         if (is_of_patch[k]) consider(touches.all[k].point);
     });
@@ -275,7 +275,7 @@ BROADSIDE_HD void mesh_plane_manifold(const PlacedShape& a, const PlacedShape& p
   const Vec3 local = turned_back(a.axes, n);
   const float above = dot(n, a.center - plane.center);
   out.normal = n;
-  keep_four_of(out, reach_m, [&](const auto& consider) {
+  keep_four_of(out, reach_m, kTurnOfStep, [&](const auto& consider) {
     std::uint32_t open[mesh_detail::kOpenNodes];
     int count = 0;
     open[count++] = 0;

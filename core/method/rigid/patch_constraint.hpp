@@ -13,6 +13,7 @@
 #include "core/material.hpp"
 #include "core/math/lane_number.hpp"
 #include "core/math/vec3.hpp"
+#include "core/method/rigid/cross.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/solver_body.hpp"
 
@@ -89,17 +90,6 @@ BROADSIDE_HD void each_point_back(const PatchOf<Number>& c, const Work& work) {
 #endif
   for (int k = kManifoldPoints - 1; k >= 0; --k)
     if (k < c.count) work(k);
-}
-
-// A unit vector across the unit vector n: along the axis that n is farthest from, less its part along n.
-BROADSIDE_HD Vec3 unit_across(Vec3 n) {
-  const float x = n.x < 0.0F ? -n.x : n.x;
-  const float y = n.y < 0.0F ? -n.y : n.y;
-  const float z = n.z < 0.0F ? -n.z : n.z;
-  const Vec3 axis =
-      x <= y && x <= z ? Vec3{1.0F, 0.0F, 0.0F} : (y <= z ? Vec3{0.0F, 1.0F, 0.0F} : Vec3{0.0F, 0.0F, 1.0F});
-  const Vec3 t = axis - dot(axis, n) * n;
-  return (1.0F / length(t)) * t;
 }
 
 // d1 . M d2 of the point's mobility: how fast it moves along d2 for an impulse of 1 N s along d1, by body.

@@ -100,7 +100,9 @@ BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape&
     }
     case ContactKind::kHull: {
       const HullPolytope hull = hull_polytope(a);
-      return keep_four(out, hull.corner_count(), reach_m, [&](int k) { return over(hull.corner(k), corner(k)); });
+      return keep_four_of(out, reach_m, kTurnOfStep, [&](const auto& consider) {
+        for (int k = 0; k < hull.corner_count(); ++k) consider(over(hull.corner(k), corner(k)));
+      });
     }
     case ContactKind::kCylinder:
       return plane_detail::cylinder_over_plane(a, n, on_plane, reach_m, out);

@@ -10,6 +10,7 @@
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/nearest_features.hpp"
 #include "core/method/rigid/separating_axis.hpp"
+#include "core/method/rigid/tilted_contacts.hpp"
 
 namespace broadside::core {
 
@@ -119,8 +120,20 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
   }
   if (has_witness && area.count < kRoom && !(polytope_detail::least_gap(area) <= witness.gap_m + rounding_m))
     area.points[area.count++] = witness;
-  keep_four(out, area.count, reach_m,
-            [&](int k) { return polytope_detail::with_balls(area.points[k], out.normal, ball_a_m, ball_b_m); });
+  const auto at = [&](const ManifoldPoint& p) {
+    return polytope_detail::with_balls(p, out.normal, ball_a_m, ball_b_m);
+  };
+  if constexpr (!PolytopeA::kIsSheet && !PolytopeB::kIsSheet) {
+    if (has_many_edges(a, b)) {
+      TiltedContacts more;
+      tilted_contacts(a, b, out.normal, unit_across(out.normal), more);
+      return keep_four_of(out, reach_m, kTurnOfStep, [&](const auto& consider) {
+        for (int k = 0; k < area.count; ++k) consider(at(area.points[k]));
+        for (int k = 0; k < more.count; ++k) consider(at(more.points[k]));
+      });
+    }
+  }
+  keep_four(out, area.count, reach_m, [&](int k) { return at(area.points[k]); });
 }
 
 }  // namespace broadside::core

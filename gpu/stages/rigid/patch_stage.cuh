@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/contact.hpp"
+#include "core/method/rigid/end_patches.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
@@ -42,15 +43,19 @@ __device__ inline int touch_bodies(const ContactView& f, core::Pair pair, core::
     if (!core::passes_by(found[k], a, path_a, b, path_b, reach_m,
                          core::near_m(found[k].normal, f.fall_m[pair.i], pushed_a, f.fall_m[pair.j], pushed_b)))
       found[kept++] = found[k];
-  return kept;
+  const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
+  return core::add_end_patches(a, path_a, b, path_b, swing_m, found, kept);
 }
 
 // A body at rest may be driven into a face as fast as its fastest neighbor comes.
 __device__ inline int touch_face(const ContactView& f, std::uint32_t body, std::uint32_t face, core::Manifold* found) {
   const float reach_m = __uint_as_float(f.pushed_m[body]) + f.reach_m[body];
   if (!core::may_reach_face(f.shape_boxes[body], reach_m, f.domain, face)) return 0;
-  return core::make_manifolds(f.shapes[f.shape_of_body[body]].contact, pose_of(f, body), f.face_shapes[face],
-                              f.face_poses[face], reach_m, found);
+  const core::ContactShape& shape = f.shapes[f.shape_of_body[body]].contact;
+  const core::ContactPath path = path_of(f, body);
+  const core::ContactPose& pose = f.face_poses[face];
+  const int count = core::make_manifolds(shape, path.start, f.face_shapes[face], pose, reach_m, found);
+  return core::add_end_patches(shape, path, f.face_shapes[face], {pose, pose}, f.pushers[body].drift.w, found, count);
 }
 
 // Pairs first, then bodies at faces; by whole warps.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 
+#include "core/method/rigid/end_patches.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/sweep.hpp"
 
@@ -79,11 +80,16 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
     const auto [i, j] = confirmed[k];
     if (is_idle(i) && is_idle(j)) return;
     core::Manifold found[core::kPatchesOfPair];
-    const int count = core::make_manifolds(bodies.shapes[bodies.shape[i]].contact, bodies.pose(i),
-                                           bodies.shapes[bodies.shape[j]].contact, bodies.pose(j),
-                                           bodies.reach_m[i] + bodies.reach_m[j], found);
+    const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
+    const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
+    const int count =
+        core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), bodies.reach_m[i] + bodies.reach_m[j], found);
+    int kept = 0;
     for (int n = 0; n < count; ++n)
-      if (!is_passing(bodies, confirmed[k], found[n])) block.push_back({i, j, found[n]});
+      if (!is_passing(bodies, confirmed[k], found[n])) found[kept++] = found[n];
+    kept =
+        core::add_end_patches(a, bodies.path(i), b, bodies.path(j), bodies.swing_m[i] + bodies.swing_m[j], found, kept);
+    for (int n = 0; n < kept; ++n) block.push_back({i, j, found[n]});
   });
 }
 
@@ -109,8 +115,11 @@ void PatchStage::touch_faces(const core::RigidBodies& bodies, std::span<const co
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
       if (!core::may_reach_face(box, reach_m, domain_, face)) continue;
       core::Manifold found[core::kPatchesOfPair];
-      const int count = core::make_manifolds(bodies.shapes[bodies.shape[i]].contact, bodies.pose(i), face_shapes_[face],
-                                             face_poses_[face], reach_m, found);
+      const core::ContactShape& shape = bodies.shapes[bodies.shape[i]].contact;
+      const core::ContactPose& pose = face_poses_[face];
+      int count = core::make_manifolds(shape, bodies.pose(i), face_shapes_[face], pose, reach_m, found);
+      count = core::add_end_patches(shape, bodies.path(i), face_shapes_[face], {pose, pose}, bodies.swing_m[i], found,
+                                    count);
       for (int n = 0; n < count; ++n) block.push_back({i, core::kFirstFace + face, found[n]});
     }
   });

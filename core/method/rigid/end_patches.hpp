@@ -1,0 +1,90 @@
+// Patches that only the end of a step shows: where a body that turns comes down on the other one.
+//
+// Contacts are detected at the start of a step. A corner that turns into the other body within the step is on no patch
+// there: a bunny that lands rolled into the floor by 7 cm, and small cubes that spin under large ones ended a tenth of
+// their side deep. So bodies that turn are looked at a second time, where they end if they touch nothing; what overlaps
+// there is taken back, with each body, to the start.
+#pragma once
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/passing_by.hpp"
+
+namespace broadside::core {
+
+namespace end_detail {
+
+// Of an end's arm from the center of mass, the same at the start, and back.
+BROADSIDE_HD Vec3 at_start(const ContactPath& path, Vec3 arm) {
+  return turned(turned_axes(path.start.q), turned_back(turned_axes(path.end.q), arm));
+}
+BROADSIDE_HD Vec3 at_end(const ContactPath& path, Vec3 arm) {
+  return turned(turned_axes(path.end.q), turned_back(turned_axes(path.start.q), arm));
+}
+
+// What the gap of a point of the start is at the end.
+BROADSIDE_HD float gap_at_end(const Manifold& m, const ManifoldPoint& p, const ContactPath& a, const ContactPath& b) {
+  const Vec3 arm_b = p.point + (a.start.x - b.start.x);
+  const Vec3 moved_a = (a.end.x - a.start.x) + (at_end(a, p.point) - p.point);
+  const Vec3 moved_b = (b.end.x - b.start.x) + (at_end(b, arm_b) - arm_b);
+  return p.gap_m + dot(m.normal, moved_a - moved_b);
+}
+
+// Whether a patch of the start has a point near this one that comes as deep.
+BROADSIDE_HD bool is_foreseen(const ManifoldPoint& p, float end_gap_m, const Manifold* found, int count,
+                              const ContactPath& a, const ContactPath& b, float near_m, float slack_m) {
+  for (int k = 0; k < count; ++k)
+    for (int i = 0; i < found[k].count; ++i) {
+      const ManifoldPoint& q = found[k].points[i];
+      const Vec3 between = q.point - p.point;
+      if (dot(between, between) <= near_m * near_m && gap_at_end(found[k], q, a, b) <= end_gap_m + slack_m) return true;
+    }
+  return false;
+}
+
+}  // namespace end_detail
+
+// Adds to the patches of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most.
+// swing_m: by how much turning moves points of both.
+BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
+                                        const ContactPath& b, float swing_m, Manifold* found, int count) {
+  // In sizes of the smaller body: what is less is left to the patches of the start; points nearer to each other than
+  // this are one; what ends deeper is too deep to tell from which side it came.
+  constexpr float kUnseen = 0x1p-7F;
+  constexpr float kNear = 0x1p-3F;
+  constexpr float kDeepest = 0x1p-2F;
+  const bool is_plane = shape_b.kind == ContactKind::kHalfSpace;
+  const float size_m = is_plane ? shape_a.size_m : fminf(shape_a.size_m, shape_b.size_m);
+  const float unseen_m = kUnseen * size_m;
+  if (count == 0 || !(swing_m > unseen_m)) return count;
+  float least_m = least_gap_m(found[0]);
+  for (int k = 1; k < count; ++k) least_m = fminf(least_m, least_gap_m(found[k]));
+  least_m = fminf(least_m, 0.0F);
+  Manifold end[kPatchesOfPair];
+  const int ends = make_manifolds(shape_a, a.end, shape_b, b.end, -unseen_m, end);
+  const int at_start = count;
+  for (int k = 0; k < ends && count < kPatchesOfPair; ++k) {
+    const Manifold& m = end[k];
+    if (!(dot(m.normal, found[0].normal) > 0.0F) || !(-least_gap_m(m) < kDeepest * size_m)) continue;
+    Manifold& out = found[count];
+    out.normal = m.normal;
+    out.count = 0;
+    for (int i = 0; i < m.count; ++i) {
+      const ManifoldPoint& p = m.points[i];
+      const Vec3 half = (0.5F * p.gap_m) * m.normal;
+      const Vec3 on_a = end_detail::at_start(a, p.point + half);
+      const Vec3 on_b = end_detail::at_start(b, (p.point - half) + (a.end.x - b.end.x)) + (b.start.x - a.start.x);
+      // Along this normal the bodies may be deeper than they are. A plane is met where the body is, wherever it slides.
+      const float gap = dot(m.normal, on_a - on_b);
+      const Vec3 middle = is_plane ? on_a - (0.5F * gap) * m.normal : 0.5F * (on_a + on_b);
+      const ManifoldPoint back{middle, fmaxf(gap, least_m), p.feature};
+      if (!end_detail::is_foreseen(back, p.gap_m, found, at_start, a, b, kNear * size_m, unseen_m))
+        out.points[out.count++] = back;
+    }
+    if (out.count > 0) ++count;
+  }
+  return count;
+}
+
+}  // namespace broadside::core
