@@ -150,7 +150,7 @@ std::string matrix_table(const SceneView& scene, const std::vector<std::size_t>&
                  element("thead", element("tr", head)), element("tbody", rows));
 }
 
-struct Finding {
+struct UnmetCell {
   const SceneView* scene;
   const TraceView* trace;
   const core::Verdict* verdict;
@@ -215,7 +215,7 @@ std::string matrix_section(const SceneView& scene, PageParts& page) {
 
 std::string findings_section(PageParts& page) {
   const std::vector<SceneView>& scenes = page.scenes;
-  std::vector<Finding> found;
+  std::vector<UnmetCell> found;
   for (const SceneView& scene : scenes)
     for (const TraceView& trace : scene.traces)
       for (const auto& said : trace.verdicts)
@@ -223,11 +223,11 @@ std::string findings_section(PageParts& page) {
           if (severity(verdict->outcome) >= severity(core::Outcome::kInconclusive))
             found.push_back({&scene, &trace, verdict});
   if (found.empty()) return "";
-  std::stable_sort(found.begin(), found.end(), [](const Finding& a, const Finding& b) {
+  std::stable_sort(found.begin(), found.end(), [](const UnmetCell& a, const UnmetCell& b) {
     return severity(a.verdict->outcome) > severity(b.verdict->outcome);
   });
   std::string rows;
-  for (const Finding& finding : found) {
+  for (const UnmetCell& finding : found) {
     const core::Verdict& verdict = *finding.verdict;
     const Compared values = compared(verdict.measured, verdict.limit, verdict.unit);
     const std::string of_scene = scenes.size() > 1 ? element("small", html(finding.scene->name)) : "";

@@ -16,8 +16,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
-constexpr const char* kFormat = "broadside-paper";
+constexpr int kRowVersion = 1;
+constexpr const char* kRowFormat = "broadside-paper";
 
 // JSON has no number that is not finite; null stands for it.
 OrderedJson number(double value) {
@@ -151,8 +151,10 @@ PaperRow row_of(const OrderedJson& json, const OrderedJson& facts) {
 
 core::Status write_paper_rows(const std::filesystem::path& file, const std::vector<PaperRow>& rows) {
   std::vector<std::tuple<std::string, std::string, std::string>> facts;
-  OrderedJson out{
-      {"format", kFormat}, {"version", kVersion}, {"facts", OrderedJson::array()}, {"rows", OrderedJson::array()}};
+  OrderedJson out{{"format", kRowFormat},
+                  {"version", kRowVersion},
+                  {"facts", OrderedJson::array()},
+                  {"rows", OrderedJson::array()}};
   for (const PaperRow& row : rows) {
     const auto own = std::tuple(row.stamp.machine, row.stamp.broadside_build, row.stamp.engine_build);
     const auto found = std::find(facts.begin(), facts.end(), own);
@@ -165,7 +167,7 @@ core::Status write_paper_rows(const std::filesystem::path& file, const std::vect
     out["rows"].push_back(to_json(row, at));
   }
   // One row a line: small, and a diff still shows which cell changed.
-  std::string text = "{\"format\":\"" + std::string(kFormat) + "\",\"version\":" + std::to_string(kVersion) +
+  std::string text = "{\"format\":\"" + std::string(kRowFormat) + "\",\"version\":" + std::to_string(kRowVersion) +
                      ",\n\"facts\":" + out["facts"].dump() + ",\n\"rows\":[";
   for (std::size_t k = 0; k < rows.size(); ++k)
     text += (k == 0 ? "\n" : ",\n") + out["rows"][k].dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
@@ -178,9 +180,9 @@ core::Result<std::vector<PaperRow>> read_paper_rows(const std::filesystem::path&
   std::size_t at = 0;
   try {
     const OrderedJson json = OrderedJson::parse(text.value());
-    if (json.at("format") != kFormat)
+    if (json.at("format") != kRowFormat)
       return core::Error{"it holds no rows of the paper's experiments", file.string(), "name a rows.json of 'paper'"};
-    if (json.at("version") != kVersion)
+    if (json.at("version") != kRowVersion)
       return core::Error{"it is of another version", file.string(), "make it again with this program"};
     std::vector<PaperRow> rows;
     for (const OrderedJson& row : json.at("rows")) {

@@ -7,7 +7,7 @@
 namespace broadside::core {
 namespace {
 
-constexpr const char* kPath = "/provenance";
+constexpr const char* kProvenance = "/provenance";
 constexpr const char* kNotes = "/provenance/notes";
 
 struct StampField {
@@ -41,7 +41,7 @@ std::optional<RecordLevel> level_named(std::string_view name) {
 }
 
 void read_level(Hdf5Source& source, TraceHeader& header) {
-  const std::string name = source.text(kPath, "level");
+  const std::string name = source.text(kProvenance, "level");
   if (!source.ok()) return;
   if (const auto level = level_named(name))
     header.level = *level;
@@ -52,31 +52,31 @@ void read_level(Hdf5Source& source, TraceHeader& header) {
 }  // namespace
 
 void write_provenance(Hdf5Sink& sink, const TraceHeader& header) {
-  sink.group(kPath);
-  for (const StampField& f : kStampFields) sink.text(kPath, f.name, header.stamp.*f.member);
-  sink.number(kPath, "scene_digest", Element::kU64, &header.stamp.scene_digest);
-  sink.text(kPath, "level", name_of(header.level));
-  sink.number(kPath, "every", Element::kU32, &header.every);
+  sink.group(kProvenance);
+  for (const StampField& f : kStampFields) sink.text(kProvenance, f.name, header.stamp.*f.member);
+  sink.number(kProvenance, "scene_digest", Element::kU64, &header.stamp.scene_digest);
+  sink.text(kProvenance, "level", name_of(header.level));
+  sink.number(kProvenance, "every", Element::kU32, &header.every);
   const std::uint8_t exact = header.broad_is_exact ? 1 : 0;
-  sink.number(kPath, "broad_is_exact", Element::kU8, &exact);
-  sink.number(kPath, "broad_margin_m", Element::kF64, &header.broad_margin_m);
-  sink.text(kPath, "driver", header.driver);
+  sink.number(kProvenance, "broad_is_exact", Element::kU8, &exact);
+  sink.number(kProvenance, "broad_margin_m", Element::kF64, &header.broad_margin_m);
+  sink.text(kProvenance, "driver", header.driver);
   sink.group(kNotes);
   for (const auto& [name, value] : header.notes) sink.text(kNotes, name, value);
 }
 
 void read_provenance(Hdf5Source& source, TraceHeader& header) {
-  const auto has = [&source](const char* name) { return source.has_attribute(kPath, name); };
-  header.stamp.engine = source.text(kPath, "engine");
+  const auto has = [&source](const char* name) { return source.has_attribute(kProvenance, name); };
+  header.stamp.engine = source.text(kProvenance, "engine");
   for (const StampField& f : kStampFields)
-    if (has(f.name)) header.stamp.*f.member = source.text(kPath, f.name);
-  if (has("scene_digest")) header.stamp.scene_digest = source.number<std::uint64_t>(kPath, "scene_digest");
+    if (has(f.name)) header.stamp.*f.member = source.text(kProvenance, f.name);
+  if (has("scene_digest")) header.stamp.scene_digest = source.number<std::uint64_t>(kProvenance, "scene_digest");
   if (has("level")) read_level(source, header);
-  if (has("every")) header.every = source.number<std::uint32_t>(kPath, "every");
+  if (has("every")) header.every = source.number<std::uint32_t>(kProvenance, "every");
   if (header.every == 0) source.fail("/provenance@every", "it is 0", "give 1 for every frame, k for every k-th");
-  if (has("broad_is_exact")) header.broad_is_exact = source.number<std::uint8_t>(kPath, "broad_is_exact") != 0;
-  if (has("broad_margin_m")) header.broad_margin_m = source.number<double>(kPath, "broad_margin_m");
-  if (has("driver")) header.driver = source.text(kPath, "driver");
+  if (has("broad_is_exact")) header.broad_is_exact = source.number<std::uint8_t>(kProvenance, "broad_is_exact") != 0;
+  if (has("broad_margin_m")) header.broad_margin_m = source.number<double>(kProvenance, "broad_margin_m");
+  if (has("driver")) header.driver = source.text(kProvenance, "driver");
   if (source.has(kNotes))
     for (const std::string& name : source.attribute_names(kNotes)) header.notes[name] = source.text(kNotes, name);
 }

@@ -18,7 +18,7 @@ using exact::Point;
 using exact::RigidMotion;
 
 // A body whose box is this much thinner than long is a plate or a needle.
-constexpr double kThin = 0.1;
+constexpr double kThinShape = 0.1;
 // A body turns by at most this angle in a step: below half a turn, so that its end shows which way it went.
 constexpr double kMostTurn_rad = 2.5;
 // Halvings that bring a body to where it just grazes, and the share by which it then passes or hits.
@@ -32,7 +32,7 @@ Point direction(RandomStream& random) {
 
 bool is_thin(const core::Mesh& mesh) {
   const core::Vec3 size = core::bounds(mesh).max - core::bounds(mesh).min;
-  return std::min({size.x, size.y, size.z}) < kThin * std::max({size.x, size.y, size.z});
+  return std::min({size.x, size.y, size.z}) < kThinShape * std::max({size.x, size.y, size.z});
 }
 
 PairKind pair_kind(MotionKind kind) {
