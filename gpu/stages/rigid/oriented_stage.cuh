@@ -45,7 +45,7 @@ template <typename Team>
 __device__ void confirm_pairs(const Team& team, const ContactView& f) {
   const std::uint64_t n =
       f.has_broad ? f.broad_counters->pairs : std::uint64_t{f.body_count} * std::uint64_t{f.body_count};
-  each_item_by_warps(team, n, [&](std::uint64_t k, bool is_pair) {
+  each_item_by_warps(team, n, f.has_long_contacts, [&](std::uint64_t k, bool is_pair) {
     core::Pair pair;
     if (is_pair && f.has_broad) pair = f.pairs[k];
     if (is_pair && !f.has_broad) is_pair = pair_of_all(f, k, pair);

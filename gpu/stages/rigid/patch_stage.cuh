@@ -58,7 +58,7 @@ __device__ inline int touch_face(const ContactView& f, std::uint32_t body, std::
 template <typename Team>
 __device__ void make_patches(const Team& team, const ContactView& f) {
   const std::uint64_t confirmed = f.counts->confirmed;
-  each_item_by_warps(team, confirmed + f.body_count, [&](std::uint64_t k, bool is_item) {
+  each_item_by_warps(team, confirmed + f.body_count, f.has_long_contacts, [&](std::uint64_t k, bool is_item) {
     core::Manifold found[core::kPatchesOfPair];
     const bool is_pair = is_item && k < confirmed;
     if (__any_sync(kFullWarp, is_pair)) {
