@@ -89,7 +89,8 @@ struct RigidOutcome {
 struct ContactView {
   std::uint32_t body_count = 0;
   core::Levels levels = core::Levels::kC;
-  bool has_broad = true;  // else the levels test all pairs of bodies
+  bool has_broad = true;           // else the levels test all pairs of bodies
+  bool has_long_contacts = false;  // some shapes are hulls or meshes
   core::Box domain;
 
   const RigidShapeView* shapes = nullptr;

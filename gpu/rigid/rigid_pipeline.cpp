@@ -171,6 +171,9 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.view.body_count = static_cast<std::uint32_t>(n);
   d.view.levels = d.options.levels;
   d.view.has_broad = d.has_broad();
+  d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
+    return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
+  });
   d.view.gravity_m_s2 = scene.gravity_m_s2;
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;

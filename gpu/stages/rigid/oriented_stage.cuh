@@ -5,6 +5,7 @@
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/warp_shares.cuh"
 
 namespace broadside::gpu {
 
@@ -44,21 +45,18 @@ template <typename Team>
 __device__ void confirm_pairs(const Team& team, const ContactView& f) {
   const std::uint64_t n =
       f.has_broad ? f.broad_counters->pairs : std::uint64_t{f.body_count} * std::uint64_t{f.body_count};
-  const std::uint64_t first = team.spread_rank() - lane();  // of this warp
-  for (std::uint64_t of_warp = first; of_warp < n; of_warp += team.size()) {
-    const std::uint64_t k = of_warp + lane();
+  each_item_by_warps(team, n, f.has_long_contacts, [&](std::uint64_t k, bool is_pair) {
     core::Pair pair;
-    bool is_pair = k < n;
     if (is_pair && f.has_broad) pair = f.pairs[k];
     if (is_pair && !f.has_broad) is_pair = pair_of_all(f, k, pair);
     if (is_pair) note_pushes(f, pair);
     const bool meets = is_pair && levels_meet(f, pair);
     const std::uint64_t place = warp_append_one(meets, &f.counts->confirmed);
-    if (!meets || place >= f.confirmed.capacity) continue;
+    if (!meets || place >= f.confirmed.capacity) return;
     f.confirmed.items[place] = pair;
     atomicMax(&f.pushed_m[pair.i], __float_as_uint(f.reach_m[pair.j]));
     atomicMax(&f.pushed_m[pair.j], __float_as_uint(f.reach_m[pair.i]));
-  }
+  });
 }
 
 }  // namespace broadside::gpu

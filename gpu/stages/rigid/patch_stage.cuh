@@ -10,6 +10,7 @@
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/warp_shares.cuh"
 
 namespace broadside::gpu {
 
@@ -62,23 +63,21 @@ __device__ inline int touch_face(const ContactView& f, std::uint32_t body, std::
 template <typename Team>
 __device__ void make_patches(const Team& team, const ContactView& f) {
   const std::uint64_t confirmed = f.counts->confirmed;
-  const std::uint64_t end = confirmed + f.body_count;
-  const std::uint64_t first = team.spread_rank() - lane();  // of this warp
-  for (std::uint64_t of_warp = first; of_warp < end; of_warp += team.size()) {
-    const std::uint64_t k = of_warp + lane();
+  each_item_by_warps(team, confirmed + f.body_count, f.has_long_contacts, [&](std::uint64_t k, bool is_item) {
     core::Manifold found[core::kPatchesOfPair];
-    if (of_warp < confirmed) {
-      const core::Pair pair = k < confirmed ? f.confirmed.items[k] : core::Pair{};
-      add_patches(f, pair.i, pair.j, found, k < confirmed ? touch_bodies(f, pair, found) : 0);
+    const bool is_pair = is_item && k < confirmed;
+    if (__any_sync(kFullWarp, is_pair)) {
+      const core::Pair pair = is_pair ? f.confirmed.items[k] : core::Pair{};
+      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies(f, pair, found) : 0);
     }
-    if (of_warp + 32 <= confirmed) continue;
-    const bool has_body = k >= confirmed && k < end;
-    const auto body = static_cast<std::uint32_t>(has_body ? k - confirmed : 0);
+    const bool is_body = is_item && !is_pair;
+    if (!__any_sync(kFullWarp, is_body)) return;
+    const auto body = static_cast<std::uint32_t>(is_body ? k - confirmed : 0);
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-      const int count = has_body && is_moved(f, body) ? touch_face(f, body, face, found) : 0;
+      const int count = is_body && is_moved(f, body) ? touch_face(f, body, face, found) : 0;
       add_patches(f, body, core::kFirstFace + face, found, count);
     }
-  }
+  });
 }
 
 }  // namespace broadside::gpu

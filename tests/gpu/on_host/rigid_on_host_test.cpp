@@ -51,6 +51,11 @@ TEST(RigidOnHost, PrimitivesThatTouch) {
   EXPECT_GT(compare("rigid:billiards:three", 40), 0U);
 }
 
+// Their pairs are spread over all warps.
+TEST(RigidOnHost, HullsThatTouch) {
+  EXPECT_GT(compare("rigid:arch:7-stands", 8), 0U);
+}
+
 TEST(RigidOnHost, AHeap) {
   EXPECT_GT(compare("freefall:cube:40[rigid=1]", 50), 0U);
 }
