@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/engine/chosen_by_scene.hpp"
 #include "core/engine/settings.hpp"
 #include "core/trace/trace_header.hpp"
 #include "reference/engines.hpp"
@@ -34,8 +35,9 @@ inline TwinRun run_twin(const core::Scene& scene, const std::string& variant = "
     EXPECT_TRUE(dynamics.read_back(frame, core::RecordLevel::kFull).ok());
   }
   run.header.scene = scene;
-  run.header.declaration = engine.value().declaration;
+  run.header.declaration = core::declaration_of(engine.value(), scene);
   run.header.groups = dynamics.groups();
+  if (const std::string note = core::digest_note_of(dynamics, scene); !note.empty()) run.header.notes["digest"] = note;
   run.header.stamp.scene_name = scene.name;
   run.header.stamp.scene_digest = core::scene_digest(scene);
   run.header.stamp.engine = std::string(row.id);
