@@ -42,29 +42,6 @@ Tone tone_of(const Entry* entry) {
   return entry->broken.empty() ? Tone::kGood : Tone::kBad;
 }
 
-bool breaks(const Entry* entry, const std::string& law) {
-  return entry != nullptr && std::any_of(entry->broken.begin(), entry->broken.end(),
-                                         [&](const core::Verdict& v) { return v.validator == law; });
-}
-
-// A line for each law that holds, or has nothing to judge, at the scene's own step.
-void add_lines(Table& table, const SceneTable& scene, const std::string& engine) {
-  const auto of = scene.entries.find(engine);
-  if (of == scene.entries.end()) return;
-  const Entry* own = own_entry(scene, engine);
-  for (const auto& [step, entry] : of->second) {
-    if (step.empty()) continue;
-    for (const core::Verdict& v : entry.broken) {
-      if (breaks(own, v.validator)) continue;
-      table.rows.push_back({{engine},
-                            {short_name(scene.scene) + " in steps of " + step + " s"},
-                            {v.validator},
-                            {fmt::format("{:.3g} {}", v.measured, v.unit)},
-                            {fmt::format("{:.3g} {}", v.limit, v.unit)}});
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> columns_of(const ContestTable& table, std::vector<std::string> first) {
@@ -130,20 +107,6 @@ void add_stability(Document& document, const ContestTable& table) {
                 "scenes' own. The table of verdicts is of their own step alone."});
   document.blocks.emplace_back(
       Fold{"The longest steps, by scene and engine", "stands_table", false, {std::move(stands)}});
-}
-
-// The squares are of a scene's own step alone.
-void add_other_steps(Document& document, const ContestTable& table) {
-  Table broken{"other_steps",
-               "Laws that hold, or have nothing to judge, at a scene's own step and are broken at another",
-               {"engine", "scene", "law", "furthest from its limit", "limit"},
-               {}};
-  for (const Entrant& e : table.entrants)
-    for (const SceneTable& scene : table.scenes) add_lines(broken, scene, e.engine);
-  if (broken.rows.empty()) return;
-  const std::string title =
-      fmt::format("{} laws hold at a scene's own step, and are broken at another", broken.rows.size());
-  document.blocks.emplace_back(Fold{title, "other_steps_table", false, {std::move(broken)}});
 }
 
 namespace {
@@ -249,6 +212,7 @@ Document contest_document(const ContestTable& table, const std::string& command)
       here, table.scenes.size(), count.holds, count.breaks, count.absent);
   for (const Entrant& e : table.entrants)
     if (!e.absent.empty()) document.lead += fmt::format(" {} is absent ({}).", e.engine, e.absent);
+  add_summary(document, table);
   add_overview(document, table);
   add_causes(document, table);
   add_families(document, table);

@@ -16,12 +16,6 @@ using reports::plots::LinePlot;
 using reports::plots::Placement;
 using reports::plots::Scale;
 
-// What an engine is built as says how its time counts: code in WebAssembly is not the library's own speed.
-bool is_native(const ContestTable& table, const std::string& label) {
-  const auto build = table.builds.find(label);
-  return build == table.builds.end() || build->second.find("node ") == std::string::npos;
-}
-
 // By rising cost. Points without an error or a time are left out.
 Curve curve_of(const ContestTable& table, const std::string& label, const std::map<std::string, Entry>& steps) {
   std::vector<const Entry*> points;
@@ -41,6 +35,11 @@ Curve curve_of(const ContestTable& table, const std::string& label, const std::m
 }
 
 }  // namespace
+
+bool is_native(const ContestTable& table, const std::string& label) {
+  const auto build = table.builds.find(label);
+  return build == table.builds.end() || build->second.find("node ") == std::string::npos;
+}
 
 void add_error_against_cost(Document& document, const ContestTable& table) {
   std::vector<Block> figures;

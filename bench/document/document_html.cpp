@@ -46,7 +46,8 @@ figure.drawing figcaption { font-size: .8rem; color: var(--soft); max-width: 40r
     font-size: 6.5pt }
   .wide td.bad, .wide td.away, .wide td.words { min-width: 0 }
   .wide.worded table { table-layout: auto } .wide.worded th, .wide.worded td { overflow-wrap: normal }
-  p { max-width: none }
+  p, .notes { max-width: none } main > .notes { font-size: 7.5pt; margin: .2rem 0 }
+  h2 { margin-top: .6rem; break-after: avoid } .wide.mosaic { break-inside: avoid }
   .fold.printed::details-content { content-visibility: visible; display: block; height: auto }
   .wide tr, figure.drawing { break-inside: avoid }
   figure.drawing { width: 48% } figure.drawing svg { width: 100%; height: auto }

@@ -37,7 +37,8 @@ a.square:hover, a.square:focus-visible { outline: 2px solid var(--accent); outli
 @media print {
   .wide.mosaic th, .wide.mosaic thead th, .wide.mosaic tbody th { font-size: 6.5pt }
   .wide.mosaic thead th span { width: 11px; line-height: 11px }
-  .square { width: 11px; height: 11px; line-height: 11px; font-size: 7.5px }
+  .square { width: 11px; height: 10px; line-height: 10px; font-size: 7.5px }
+  .wide.mosaic { margin-top: 0 }
 }
 )";
 

@@ -344,6 +344,32 @@ class GpuPage(unittest.TestCase):
         self.assertEqual(kept["rows"], [{"tool": "memcheck"}])
         self.assertRegex(kept["when"], r"^\d{4}-\d\d-\d\d$")
 
+    def test_findings_are_repeated_and_a_mended_one_is_told(self):
+        pretended = """
+import json, os, sys
+arguments = sys.argv[1:]
+option = lambda name: arguments[arguments.index(name) + 1]
+if arguments[0] == "run":
+    if option("--engine") == "cannon":
+        sys.exit("cannon: not installed")
+    open(os.path.join(option("--out"), "a.h5"), "w").close()
+else:
+    laws = ["momentum", "contact-truth", "friction-cone", "penetration", "energy-growth", "closed-form"]
+    verdict = lambda law: {"validator": law, "outcome": OUTCOME, "measured": 2, "limit": 1, "unit": "m"}
+    json.dump({"rows": [{"verdicts": [verdict(law) for law in laws]}]}, open(option("--json"), "w"))
+"""
+        repeat = os.path.join(ROOT, "reference", "findings", "repeat")
+        said = {}
+        with tempfile.TemporaryDirectory() as folder:
+            for outcome in ("fail", "pass"):
+                fake = program(folder, pretended.replace("OUTCOME", repr(outcome)))
+                said[outcome] = subprocess.run([repeat, fake], capture_output=True, text=True, check=False, timeout=50)
+        self.assertEqual(said["fail"].returncode, 0, said["fail"].stderr)
+        self.assertIn("three_balls.toml, bullet-world, energy-growth: fail: 2 m, limit 1", said["fail"].stdout)
+        self.assertIn("cannon_friction.toml, cannon, friction-cone: no trace: cannon: not installed", said["fail"].stdout)
+        self.assertEqual(said["pass"].returncode, 1)
+        self.assertIn("12 no longer break their law", said["pass"].stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

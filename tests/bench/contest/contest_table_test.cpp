@@ -172,6 +172,27 @@ TEST(ContestTable, TellsWhatIsBrokenAtOtherStepsAlone) {
   all.verdicts[1].verdicts[2] = verdict("passage", Outcome::kFail, 3.0);
   EXPECT_NE(page(all).find("1 laws hold at a scene"), std::string::npos);
   EXPECT_NE(page(all).find("in steps of 1/120 s"), std::string::npos);
+  EXPECT_NE(page(all).find("0 of them not yet looked into"), std::string::npos);
+  all.verdicts[1].verdicts[0].outcome = Outcome::kFail;
+  EXPECT_NE(page(all).find("1 of them not yet looked into"), std::string::npos);
+}
+
+// Causes at one step alone come first; a cause of every step serves at each.
+TEST(ContestTable, OtherStepsHaveCausesOfTheirOwn) {
+  EXPECT_FALSE(known_cause("cannon", "rest", "rigid:tip:push-stands@1/60").empty());
+  EXPECT_TRUE(known_cause("cannon", "rest", "rigid:tip:push-stands").empty());
+  EXPECT_TRUE(known_cause("cannon", "rest", "rigid:tip:push-stands@1/120").empty());
+  EXPECT_NE(known_cause("mujoco3", "rest", "rigid:tip:push-stands@1/60"), known_cause("mujoco3", "rest", "rigid:tip:"));
+  EXPECT_EQ(known_cause("jolt", "gyroscopic", "rigid:flight:box@1/60"), known_cause("jolt", "gyroscopic", "rigid:"));
+}
+
+// The engine that breaks a law is right on no scene; one timed run of two ended elsewhere.
+TEST(ContestTable, BeginsWithWhoIsRightAndWhoRepeats) {
+  const std::string page =
+      html_text(contest_document(contest_table(rows(), {{"mine", ""}}, {{"rigid:a", 1.0 / 60}}), "x"));
+  EXPECT_NE(page.find("best setting, on: mine 0."), std::string::npos);
+  EXPECT_NE(page.find("most do on a, 1 of 1 rows."), std::string::npos);
+  EXPECT_NE(page.find("of 2 timed runs ended in the very bits"), std::string::npos);
 }
 
 // Each engine has a row as it ships, and each second row is an entrant.
