@@ -22,7 +22,7 @@ std::span<const core::EngineRow> engines() {
 
 core::Result<const core::EngineRow*> find_engine(std::string_view id) {
   if (is_plugin_path(id)) return plugin_row(id);
-  if (const std::string command = fetched_command(id); !command.empty()) return plugin_row(command);
+  if (const std::string command = fetched_command(id); !command.empty()) return plugin_row(command, fetched_folder(id));
   std::vector<std::string_view> ids;
   for (const core::EngineRow& row : engines()) {
     if (row.id == id) return &row;

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "bench/process/child.hpp"
+#include "bench/process/kept_hello.hpp"
 #include "gpu/runtime/device_space.hpp"
 #include "reference/plugin/plugin_engine.hpp"
 #include "reference/plugin/plugin_source.hpp"
@@ -113,7 +114,7 @@ core::Result<core::Engine> create_by(std::string_view key, const core::Settings&
     space = std::move(on_device).value();
   }
   auto engine = reference::create_plugin_engine(plugin->path, settings, std::move(space));
-  if (engine.ok()) engine.value().build += " (" + plugin->name + ", content " + content_digest(files_of(*plugin)) + ")";
+  if (engine.ok()) engine.value().build += " (" + plugin->name + ", " + plugin_content(plugin->row) + ")";
   return engine;
 }
 
@@ -152,11 +153,16 @@ nlohmann::json told_by_ancestors() {
   return told.is_object() ? told : nlohmann::json::object();
 }
 
-core::Result<reference::PluginDescription> described(const std::string& path, bool is_program) {
+core::Result<reference::PluginDescription> described(const std::string& path, bool is_program,
+                                                     const std::filesystem::path& fetched_folder) {
   const std::string key = path + " " + content_digest(files_of({.path = path, .is_program = is_program}));
   nlohmann::json told = told_by_ancestors();
   if (told.contains(key) && told[key].is_string())
     if (auto description = description_from(told[key].get<std::string>(), path); description.ok()) return description;
+  std::optional<KeptHello> kept;
+  if (!fetched_folder.empty()) kept.emplace(fetched_folder);
+  if (const auto answer = kept ? kept->answer() : std::nullopt)
+    if (auto description = description_from(*answer, path); description.ok()) return description;
   const auto limit_s = hello_limit_s();
   if (!limit_s) return limit_s.error();
   auto ended = run_self({"describe-plugin", path}, {limit_s.value()}, Keeps::kOutputAndErrors);
@@ -177,6 +183,7 @@ core::Result<reference::PluginDescription> described(const std::string& path, bo
   }
   auto description = description_from(ending.output, path);
   if (!description) return description;
+  if (kept) kept->keep(ending.output);
   told[key] = ending.output;
   const std::string all = told.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   setenv(kToldVariable, all.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
@@ -207,7 +214,7 @@ bool is_plugin_path(std::string_view text) {
   return text.find_first_of("/ \t") != std::string_view::npos || text.ends_with(".so");
 }
 
-core::Result<const core::EngineRow*> plugin_row(std::string_view given) {
+core::Result<const core::EngineRow*> plugin_row(std::string_view given, const std::filesystem::path& fetched_folder) {
   const std::string path(given);
   for (const Plugin& plugin : plugins())
     if (plugin.path == path) return &plugin.row;
@@ -219,7 +226,7 @@ core::Result<const core::EngineRow*> plugin_row(std::string_view given) {
   const std::string name = is_program ? name_of_command(path) : std::filesystem::path(path).filename().string();
   if (plugin_named(name) != nullptr)
     return core::Error{"another plug-in of this run has the file name " + name, path, "rename one of them"};
-  auto description = described(path, is_program);
+  auto description = described(path, is_program, fetched_folder);
   if (!description) return description.error();
   Plugin& plugin = plugins().emplace_back();
   plugin.path = path;
@@ -228,6 +235,12 @@ core::Result<const core::EngineRow*> plugin_row(std::string_view given) {
   plugin.description = std::move(description).value();
   fill_row(plugin);
   return &plugin.row;
+}
+
+std::string plugin_content(const core::EngineRow& row) {
+  for (const Plugin& plugin : plugins())
+    if (&plugin.row == &row) return "content " + content_digest(files_of(plugin));
+  return {};
 }
 
 std::string engine_argument(const core::EngineRow& row) {

@@ -2,6 +2,7 @@
 // 'node jolt.mjs'.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -16,7 +17,13 @@ bool is_plugin_path(std::string_view text);
 // The row of the engine in that file or behind that command. A child process loads the library, or starts the program,
 // and describes it: this process never runs code of it before an engine is created. Errors: no such file, the
 // description crashed, hung or was refused. The row lives as long as this program; the same path gives the same row.
-core::Result<const core::EngineRow*> plugin_row(std::string_view path);
+// Of an installed engine, `fetched_folder` is its program's: what it says of itself is kept there for later calls.
+core::Result<const core::EngineRow*> plugin_row(std::string_view path,
+                                                const std::filesystem::path& fetched_folder = {});
+
+// A digest of the files that a plug-in's engine is made of, as its build line has it ("content 1234..."): a library
+// that was built again is another engine. Empty for engines of the table.
+std::string plugin_content(const core::EngineRow& row);
 
 // What to write after --engine for this row: its path or command for a plug-in, its id otherwise.
 std::string engine_argument(const core::EngineRow& row);

@@ -7,6 +7,7 @@
 
 #include "bench/build_facts.hpp"
 #include "bench/cell/scene_meshes.hpp"
+#include "bench/record/judged_traces.hpp"
 #include "bench/record/judging.hpp"
 #include "bench/record/run_plan.hpp"
 #include "bench/timing/timing.hpp"
@@ -84,18 +85,20 @@ core::Status time_all(const JobPart& part, const RunPlan& plan, core::RunRows& r
   return core::write_samples(part.folder / "samples.json", rows.samples);
 }
 
-// Whether this very program recorded it.
-template <typename Row>
-bool is_current(const std::vector<Row>& rows) {
+// Whether this very program took them.
+bool is_current(const std::vector<core::Sample>& samples) {
   const std::string build = build_line();
-  return !rows.empty() &&
-         std::all_of(rows.begin(), rows.end(), [&](const Row& r) { return r.stamp.broadside_build == build; });
+  return !samples.empty() && std::all_of(samples.begin(), samples.end(), [&](const core::Sample& sample) {
+    return sample.stamp.broadside_build == build;
+  });
 }
 
 }  // namespace
 
 core::Result<core::RunRows> run_part(const JobPart& part) {
   if (core::Status s = prepare_folder(part.folder); !s) return s.error();
+  const JudgedTraces judged(part.folder);
+  if (core::Status s = judged.drop_changed_rows(); !s) return s.error();
   auto plan = plan_of(part);
   if (!plan) return plan.error();
   auto outcome = run_plan(plan.value());
@@ -112,8 +115,12 @@ core::Result<core::RunRows> run_part(const JobPart& part) {
   const auto runnable = static_cast<std::uint64_t>(std::count_if(
       rows.cells.begin(), rows.cells.end(), [](const auto& c) { return c.state == core::CellState::kRecorded; }));
   const bool all_reused = outcome.value().reused == runnable;
-  if (!all_reused || !is_current(rows.verdicts))
+  const auto are_judged = judged.are_of(rows.cells);
+  if (!are_judged) return are_judged.error();
+  if (!all_reused || !are_judged.value()) {
     if (core::Status s = judge_all(part, plan.value(), rows); !s) return s.error();
+    if (core::Status s = judged.keep(rows.cells); !s) return s.error();
+  }
   const bool same_repetitions = !rows.samples.empty() && rows.samples.back().repetition + 1 == part.repetitions;
   if (!all_reused || !same_repetitions || !is_current(rows.samples))
     if (core::Status s = time_all(part, plan.value(), rows); !s) return s.error();

@@ -27,7 +27,7 @@ struct JobPart {
 };
 
 // Leaves one trace per engine, cells.json, verdicts.json, samples.json and energy.json in the folder. Results of the
-// same build and scene that are there already are reused.
+// same build and scene that are there already are reused, verdicts only where each trace is the one that was judged.
 core::Result<core::RunRows> run_part(const JobPart& part);
 
 // Labels of the rows whose engines are libraries or programs of others: what runs in a child process.

@@ -110,6 +110,10 @@ std::string fetched_command(std::string_view id) {
   return is_known && is_installed(id) ? "node '" + program_in(root_of_all() / id, id).string() + "'" : std::string();
 }
 
+fs::path fetched_folder(std::string_view id) {
+  return program_in(root_of_all() / id, id).parent_path();
+}
+
 core::Status fetch_engine(std::string_view id, const std::function<void(std::string_view)>& say) {
   std::vector<std::string_view> ids;
   for (const FetchedEngine& e : kTable) ids.push_back(e.id);

@@ -20,6 +20,9 @@ std::span<const core::EngineRow> fetched_engine_rows();
 // "node FOLDER/reference/programs/jolt/jolt.mjs" of an installed engine; empty for others.
 std::string fetched_command(std::string_view id);
 
+// The folder of that program, where npm installed its package.
+std::filesystem::path fetched_folder(std::string_view id);
+
 // Writes the program's files and installs its package with npm, exactly as its lock file says. A second call does
 // nothing. Whole or not at all: another folder takes the final name at the end. Errors: unknown name, no npm, no
 // network (npm's own last line), a disk that is full.

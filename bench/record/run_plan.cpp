@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/engines.hpp"
+#include "bench/plugin_engines.hpp"
 #include "bench/process/child.hpp"
 #include "bench/process/interrupt.hpp"
 #include "bench/process/progress.hpp"
@@ -99,8 +100,8 @@ class Runner {
                               plan_.folder, driver_,      plan_.resume};
     std::optional<core::Cell> reused = plan_.reuse ? reusable(spec) : std::nullopt;
     if (reused) {
+      if (reused->state == core::CellState::kRecorded) ++reused_;
       done_.push_back(*std::move(reused));
-      ++reused_;
     } else {
       auto cell = is_apart(spec, is_asked_for) ? record_cell_in_child(request, plan_.limits) : record_cell(request);
       if (!cell) return cell.error();
@@ -124,16 +125,20 @@ class Runner {
     if (driver_.empty() && feeds) driver_ = plan_.folder / cell.trace_file;
   }
 
-  // A recorded cell of the same stamp and length whose trace is still there. The engine's own build line is part of
-  // the program's build, which is compared.
+  // A recorded cell of the same stamp and length whose trace is still there, or one whose engine of the table does not
+  // support the scene. Such an engine's own build line is part of the program's build, which is compared; a plug-in's
+  // content is compared here.
   std::optional<core::Cell> reusable(const CellSpec& spec) const {
     const core::Stamp wanted = stamp_before_running(plan_, spec);
+    const std::string content = plugin_content(*spec.row);
     for (const core::Cell& cell : known_) {
       const core::Stamp& s = cell.stamp;
-      if (cell.state != core::CellState::kRecorded || s.scene_digest != wanted.scene_digest ||
+      const bool is_unsupported = cell.state == core::CellState::kUnsupported && content.empty();
+      if ((cell.state != core::CellState::kRecorded && !is_unsupported) || s.scene_digest != wanted.scene_digest ||
           s.engine != wanted.engine || s.settings != wanted.settings || s.broadside_build != wanted.broadside_build ||
-          s.machine != wanted.machine)
+          s.machine != wanted.machine || s.engine_build.find(content) == std::string::npos)
         continue;
+      if (is_unsupported) return cell;
       if (cell.trace_file.empty() || cell.digests.empty()) continue;
       auto trace = core::TraceReader::open(plan_.folder / cell.trace_file);
       if (!trace || trace.value().steps().empty() || trace.value().header().level != plan_.level) continue;

@@ -34,7 +34,7 @@ struct RunPlan {
 
 struct RunOutcome {
   std::vector<core::Cell> cells;
-  std::uint64_t reused = 0;  // of them, taken over from an earlier run
+  std::uint64_t reused = 0;  // of them, recorded cells taken over from an earlier run
 };
 
 // Engines that do not simulate are fed by the first simulating cell with default settings of the pipeline; if the plan

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,32 @@ TEST(MainJob, SecondCallTakesOverWhatIsThere) {
   EXPECT_EQ(second.exit_code, first.exit_code);
   for (std::size_t k = 0; k < std::size(kKept); ++k)
     EXPECT_EQ(fs::last_write_time(folder / kKept[k]), written[k]) << kKept[k];
+}
+
+// Verdicts are of what the traces contain, not of their names: the judged ones are kept with a digest of each file.
+TEST(MainJob, AChangedTraceAndDamagedVerdictsAreJudgedAgain) {
+  const ScratchFolder folder;
+  const std::vector<std::string> demo = small_demo(folder, "freefall:brick:2[rigid=1]");
+  const Ended first = run_program(demo);
+  ASSERT_EQ(first.exit_code, 0) << first.out << first.err;
+  const std::string verdicts = read_text(folder / "verdicts.json");
+  const fs::path changed = folder / "verdicts.json";
+  const fs::path others = folder / "turning/verdicts.json";
+  const auto of_others = fs::last_write_time(others);
+
+  // A byte behind the last one that HDF5 uses: the trace reads as before, and is another file.
+  std::ofstream(folder / "octree-cpu.h5", std::ios::binary | std::ios::app) << 'x';
+  auto before = fs::last_write_time(changed);
+  const Ended second = run_program(demo);
+  EXPECT_EQ(second.exit_code, 0) << second.out << second.err;
+  EXPECT_NE(fs::last_write_time(changed), before);
+  EXPECT_EQ(read_text(changed), verdicts);
+  EXPECT_EQ(fs::last_write_time(others), of_others);
+
+  fs::resize_file(changed, 100);
+  const Ended third = run_program(demo);
+  EXPECT_EQ(third.exit_code, 0) << third.out << third.err;
+  EXPECT_EQ(read_text(changed), verdicts);
 }
 
 TEST(MainJob, TheTurningSceneIsOnThePageAndItsTimesAreAdmittedWhereTheMotionIsProven) {
