@@ -13,7 +13,7 @@ constexpr std::uint64_t kPairsPerBox = 8;
 
 // Shares are of sets too large to need more than one.
 std::uint32_t lanes_for(const BoxFacts& facts, const PairFinderOptions& options) {
-  return options.has_shares ? 1 : facts.lanes_per_box;
+  return options.has_shares ? 1 : facts.fit.lanes_per_box;
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
   BROADSIDE_TRY(barrier_.fill_bytes(0));
   BROADSIDE_TRY(pairs_.reserve(first_room(options), "pairs"));
-  const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
+  const auto buckets = static_cast<std::uint32_t>(bulk_buckets(facts));
   const BinLimits limits{options.least_for_bins, options.most_bins_at_once};
   lanes_per_box_ = lanes_for(facts, options);
   auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, limits)

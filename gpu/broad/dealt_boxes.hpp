@@ -27,7 +27,7 @@ class DealtBoxes {
   // What fits all boxes of a set: fitted_cells.hpp.
   [[nodiscard]] float fitted_cell_scale(std::span<const core::Box> boxes) const;
   void set_cell_scale(float scale) {
-    for (BoxFacts& facts : facts_) facts.cell_scale = scale;
+    for (BoxFacts& facts : facts_) facts.fit.cell_scale = scale;
   }
 
   [[nodiscard]] std::uint32_t parts() const { return static_cast<std::uint32_t>(facts_.size()); }
