@@ -38,16 +38,16 @@ core::Result<core::Engine> engine_of(std::string_view id, std::string_view twin_
 core::Result<std::unique_ptr<core::BroadPhase>> broad_phase_of(const core::Settings& settings,
                                                                const PairFinderOptions& options) {
   const bool is_kept = settings.text("broad") == "kept";
-  const SpreadOptions spread{static_cast<std::uint32_t>(settings.number("parts")),
-                             static_cast<std::uint32_t>(settings.number("devices"))};
   PairFinderOptions own = options;
   own.pairs_at_once = settings.number("pairs_at_once");
+  const SpreadOptions spread{static_cast<std::uint32_t>(settings.number("parts")),
+                             static_cast<std::uint32_t>(settings.number("devices")), own.pairs_at_once};
   const bool is_spread = spread.parts > 1 || spread.devices != 1;
   const bool is_fast = settings.text("broad") == "tree" && options.variant == core::Variant::kSound;
-  if ((is_spread && own.pairs_at_once != 0) || (!is_fast && (is_spread || own.pairs_at_once != 0)))
-    return core::Error{"pairs_at_once, and parts or devices, do not go together, nor with broad=" +
-                           settings.text("broad") + ",variant=" + settings.text("variant"),
-                       "octree-gpu", "give one of them, with broad=tree and variant=sound"};
+  if (!is_fast && (is_spread || own.pairs_at_once != 0))
+    return core::Error{"pairs_at_once, parts and devices do not go together with broad=" + settings.text("broad") +
+                           ",variant=" + settings.text("variant"),
+                       "octree-gpu", "give them with broad=tree and variant=sound"};
   std::unique_ptr<core::BroadPhase> made;
   if (is_spread)
     made = std::make_unique<SpreadFinder>(spread);

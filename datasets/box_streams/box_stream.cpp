@@ -204,7 +204,11 @@ Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::ui
     return stream;
   }
   std::vector<std::string_view> known;
-  for (const BoxStreamRow& row : box_stream_table()) known.push_back(row.example);
+  for (const BoxStreamRow& row : box_stream_table()) {
+    if (row.example.starts_with(spec + ":"))
+      return Error{"it has no number", "boxes '" + spec + "'", "give '" + std::string(row.example) + "', for example"};
+    known.push_back(row.example);
+  }
   return Error{"no such boxes", "boxes '" + spec + "'",
                core::advise_name(spec, known) + "; or give a box file that ends in .boxes, .bin or .h5"};
 }

@@ -131,7 +131,12 @@ core::Result<bool> ApartSearch::load(std::span<const Box> boxes, const Stream& s
 
 core::Status ApartSearch::launch(StreamHandle stream) {
   NamedPairsView share;
-  share.names.first_told = 0;
+  // Numbers that follow each other need not be looked up, for each pair two.
+  const bool are_in_a_row = moving_ids_.back() - moving_ids_.front() + 1 == moving_ids_.size();
+  if (are_in_a_row)
+    share.names.base = moving_ids_.front();
+  else
+    share.names.first_told = 0;
   share.end_place = moving_ids_.size();
   BROADSIDE_TRY(moving_.launch_share(share, stream));
   const PairsView& moving = moving_.view();

@@ -20,9 +20,13 @@ struct BorderView {
   const float* faces = nullptr;  // [parts - 1]
   std::uint32_t part = 0;        // in which these boxes begin
   std::uint32_t parts = 1;
-  std::uint32_t base = 0;  // the number of the first box
+  std::uint32_t base = 0;    // the number of the first box
+  bool keeps_names = false;  // boxes keep their low_tag in the place of their number
   // Those that reach into part k: out[k * capacity] and on, with their numbers; how many there are: reached[k].
   PackedBox* out = nullptr;
+  // Of boxes in the coordinates of a pass, also these boxes as given, in the same places.
+  const PackedBox* given = nullptr;
+  PackedBox* given_out = nullptr;
   std::uint64_t capacity = 0;             // of each k
   unsigned long long* reached = nullptr;  // [parts], zero before
 };

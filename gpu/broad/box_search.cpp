@@ -13,7 +13,18 @@ constexpr std::uint64_t kPairsPerBox = 8;
 
 // Shares are of sets too large to need more than one.
 std::uint32_t lanes_for(const BoxFacts& facts, const PairFinderOptions& options) {
-  return options.has_shares ? 1 : facts.lanes_per_box;
+  return options.has_shares ? 1 : facts.fit.lanes_per_box;
+}
+
+// The first `kept` boxes stay.
+core::Status make_room(DeviceBuffer<PackedBox>& room, std::size_t boxes, std::size_t kept, StreamHandle stream) {
+  if (boxes <= room.capacity()) return core::Done{};
+  DeviceBuffer<PackedBox> larger;
+  BROADSIDE_TRY(larger.reserve(boxes, "boxes"));
+  if (kept != 0) BROADSIDE_TRY(copy_on_device(larger.data(), room.data(), kept * sizeof(PackedBox), stream));
+  BROADSIDE_TRY(wait_for_stream(stream, "moving boxes"));
+  room = std::move(larger);
+  return core::Done{};
 }
 
 }  // namespace
@@ -32,7 +43,7 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   BROADSIDE_TRY(barrier_.reserve(1, "barrier"));
   BROADSIDE_TRY(barrier_.fill_bytes(0));
   BROADSIDE_TRY(pairs_.reserve(first_room(options), "pairs"));
-  const auto buckets = static_cast<std::uint32_t>(grid_buckets(count_));
+  const auto buckets = static_cast<std::uint32_t>(bulk_buckets(facts));
   const BinLimits limits{options.least_for_bins, options.most_bins_at_once};
   lanes_per_box_ = lanes_for(facts, options);
   auto shape = options.has_shares && can_share() ? named_pairs_launch_shape(count_, buckets, limits)
@@ -56,14 +67,27 @@ core::Result<PackedBox*> BoxSearch::room_for(std::size_t boxes) {
 }
 
 core::Result<PackedBox*> BoxSearch::move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream) {
-  if (boxes <= boxes_.capacity()) return boxes_.data();
-  DeviceBuffer<PackedBox> larger;
-  BROADSIDE_TRY(larger.reserve(boxes, "boxes"));
-  if (kept != 0) BROADSIDE_TRY(copy_on_device(larger.data(), boxes_.data(), kept * sizeof(PackedBox), stream));
-  BROADSIDE_TRY(wait_for_stream(stream, "moving boxes"));
-  boxes_ = std::move(larger);
+  BROADSIDE_TRY(make_room(boxes_, boxes, kept, stream));
   view_.boxes = boxes_.data();
   return boxes_.data();
+}
+
+core::Result<PackedBox*> BoxSearch::room_for_given(std::size_t boxes, std::size_t kept, StreamHandle stream) {
+  BROADSIDE_TRY(make_room(given_, boxes, kept, stream));
+  return given_.data();
+}
+
+core::Status BoxSearch::settle_on_given(std::uint32_t owned, const PairFinderOptions& options) {
+  auto shape = settle_launch_shape();
+  if (!shape.ok()) return shape.error();
+  settle_shape_ = shape.value();
+  BROADSIDE_TRY(settled_.reserve(first_room(options), "pairs"));
+  settle_.given = given_.data();
+  settle_.owned = owned;
+  settle_.counters = view_.counters;
+  settle_.barrier = view_.barrier;
+  settle_.outcome = view_.outcome;
+  return core::Done{};
 }
 
 core::Status BoxSearch::load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new) {
@@ -78,16 +102,8 @@ core::Status BoxSearch::load_packed(const BoxFacts& facts, const PairFinderOptio
 core::Status BoxSearch::load(const SearchedBoxes& boxes, const PairFinderOptions& options, bool is_new) {
   BROADSIDE_TRY(load_packed(boxes.facts(), options, is_new));
   if (!boxes.given().empty()) {
-    auto shape = settle_launch_shape();
-    if (!shape.ok()) return shape.error();
-    settle_shape_ = shape.value();
     BROADSIDE_TRY(given_.upload(boxes.given(), "boxes as given"));
-    BROADSIDE_TRY(settled_.reserve(first_room(options), "pairs"));
-    settle_.given = given_.data();
-    settle_.owned = boxes.owned();
-    settle_.counters = view_.counters;
-    settle_.barrier = view_.barrier;
-    settle_.outcome = view_.outcome;
+    BROADSIDE_TRY(settle_on_given(boxes.owned(), options));
   }
   return boxes_.upload(boxes.searched(), "boxes");
 }

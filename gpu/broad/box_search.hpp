@@ -36,6 +36,11 @@ class BoxSearch {
   // With another place for them: the first `kept` boxes are there too.
   core::Result<PackedBox*> move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream);
 
+  // After load_packed, where the boxes are in the coordinates of a pass: where to put the boxes as given, of which the
+  // first `kept` are there; which groups' pairs are kept (SettleView).
+  core::Result<PackedBox*> room_for_given(std::size_t boxes, std::size_t kept, StreamHandle stream);
+  core::Status settle_on_given(std::uint32_t owned, const PairFinderOptions& options);
+
   core::Status launch(StreamHandle stream);
   // Where the options say that there are shares. `share`: names, places, and whether the boxes are in order already.
   core::Status launch_share(const NamedPairsView& share, StreamHandle stream);

@@ -29,7 +29,7 @@ float largest_cell_m(Start start, const BoxFacts& facts) {
   // Halved twenty times, or inverted, it is still a normal number.
   constexpr float kLeast = 0x1p-100F;
   const float wanted =
-      std::max({facts.largest_side_m * kSlack * facts.cell_scale, facts.coordinate_range_m * least_share, kLeast});
+      std::max({facts.largest_side_m * kSlack * facts.fit.cell_scale, facts.coordinate_range_m * least_share, kLeast});
   return std::min(wanted, kMostCell_m);
 }
 
@@ -45,6 +45,10 @@ std::uint32_t axis_bits(std::uint64_t buckets) {
 
 std::uint64_t grid_buckets(std::uint64_t bodies) {
   return std::bit_ceil(std::max(kBucketsPerFiveBodies * bodies / 5, kLeastBuckets));
+}
+
+std::uint64_t bulk_buckets(const BoxFacts& facts) {
+  return grid_buckets(facts.count) << facts.fit.x_halvings;
 }
 
 bool fits_grid(const BoxFacts& facts) {
@@ -63,14 +67,15 @@ core::Status BroadBuffers::reserve_buckets(std::uint64_t buckets, const char* wh
   return bucket_count_.fill_bytes(0);
 }
 
-core::Status BroadBuffers::load_bulk(std::size_t n, const BinsShape& bins, std::uint32_t blocks) {
+core::Status BroadBuffers::load_bulk(const BoxFacts& facts, const BinsShape& bins, std::uint32_t blocks) {
   BulkView& bulk = bulk_;
-  const std::uint64_t buckets = grid_buckets(n);
-  BROADSIDE_TRY(bulk_entries_.reserve(n + 4, "boxes"));
+  const std::size_t n = facts.count;
+  const std::uint64_t buckets = bulk_buckets(facts);
+  BROADSIDE_TRY(bulk_entries_.reserve(n + kEntriesBehind, "boxes"));
   BROADSIDE_TRY(levels_.reserve(3, "boxes"));
   BROADSIDE_TRY(levels_.fill_bytes(0));
   bulk.bucket_mask = static_cast<std::uint32_t>(buckets - 1);
-  bulk.axis_bits = axis_bits(buckets);
+  bulk.axis_bits = axis_bits(grid_buckets(n));
   bulk.x_bits = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U - 2 * bulk.axis_bits;
   bulk.row_bits = std::min(bulk.x_bits, static_cast<std::uint32_t>(std::bit_width(kBucketChunk)) - 1U);
   bulk.bins.shape = bins;
@@ -105,7 +110,7 @@ core::Status BroadBuffers::load(Start start, const BoxFacts& facts, float hash_c
     view_.grid.axis_bits = axis_bits(buckets);
     refit(facts);
   } else if (start == Start::kBulk) {
-    BROADSIDE_TRY(load_bulk(n, bins, blocks));
+    BROADSIDE_TRY(load_bulk(facts, bins, blocks));
     refit(facts);
   } else if (start == Start::kHash) {
     view_.hash.cells_per_m = 1.0F / hash_cell_m;
@@ -138,6 +143,8 @@ void BroadBuffers::refit(const BoxFacts& facts) {
         std::clamp(std::floor(facts.low_corner[axis] / grid.cell_m) - 1.0F, -1048576.0F, 1048576.0F));
   bulk_.cell_m = grid.cell_m;
   bulk_.cells_per_m = grid.cells_per_m;
+  bulk_.levels_apart = facts.fit.levels_apart;
+  bulk_.x_halvings = facts.fit.x_halvings;
   std::copy(std::begin(grid.first_cell), std::end(grid.first_cell), std::begin(bulk_.first_cell));
 }
 

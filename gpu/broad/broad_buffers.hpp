@@ -8,6 +8,7 @@
 #include "core/result.hpp"
 #include "core/variant.hpp"
 #include "gpu/broad/broad_view.hpp"
+#include "gpu/broad/bulk_fit.hpp"
 #include "gpu/broad/bulk_view.hpp"
 #include "gpu/runtime/device_buffer.hpp"
 
@@ -37,8 +38,7 @@ struct BoxFacts {
   core::Vec3 low_corner;            // about where the world begins
   std::uint64_t hash_entries = 0;   // of boxes of these sizes, wherever they are; more is found out later
   core::Box domain;                 // of the published scene octree
-  float cell_scale = 1.0F;          // of the grid's cells, from 1 to below 4: fitted_cells.hpp
-  std::uint32_t lanes_per_box = 1;  // of the search of bulk pairs: 1 or kLanesOfCrowd
+  BulkFit fit;                      // of bulk pairs alone
 };
 
 // Cells that a closed interval of this length can touch, wherever it is; and so of a box with these sides.
@@ -50,6 +50,8 @@ bool fits_grid(const BoxFacts& facts);
 
 // Of a grid.
 std::uint64_t grid_buckets(std::uint64_t bodies);
+// Of bulk pairs.
+std::uint64_t bulk_buckets(const BoxFacts& facts);
 
 class BroadBuffers {
  public:
@@ -67,7 +69,7 @@ class BroadBuffers {
 
  private:
   core::Status reserve_buckets(std::uint64_t buckets, const char* what);
-  core::Status load_bulk(std::size_t n, const BinsShape& bins, std::uint32_t blocks);
+  core::Status load_bulk(const BoxFacts& facts, const BinsShape& bins, std::uint32_t blocks);
 
   BroadView view_;
   BulkView bulk_;

@@ -20,6 +20,9 @@ struct alignas(16) BulkEntry {
   std::uint32_t tag = 0;  // see bulk_cells.cuh
 };
 
+// Runs of entries are read some at a time, also past their ends: what is read behind the last one belongs to no box.
+constexpr std::uint32_t kEntriesBehind = 12;
+
 // How many bins boxes go to: see bulk_bins.cuh.
 struct BinsShape {
   std::uint32_t bins = 0;          // 0: there are too few boxes to need any
@@ -52,11 +55,13 @@ struct BulkView {
   std::uint32_t axis_bits = 0;      // of y and of z that go into a bucket as they are
   std::uint32_t x_bits = 0;         // likewise
   std::uint32_t row_bits = 0;       // of x_bits, those of the cells that are sure to be neighboring buckets
-  std::int32_t first_cell[3] = {};  // of level 0: where the world's lower corner is
+  std::uint32_t levels_apart = 2;   // a power of two, as in BulkFit
+  std::uint32_t x_halvings = 0;     // as there
+  std::int32_t first_cell[3] = {};  // of level 0, as long as they are wide: where the world's lower corner is
   std::uint32_t* count = nullptr;   // [buckets]; zero between frames
   std::uint32_t* begin = nullptr;   // [bucket_words(buckets)]
   std::uint32_t* rank = nullptr;    // [bodies] place within the bucket
-  BulkEntry* entries = nullptr;     // [bodies + 4] by bucket
+  BulkEntry* entries = nullptr;     // [bodies + kEntriesBehind] by bucket
   std::uint32_t* levels = nullptr;  // [2] bit k of the first: some body was on level k; of the second: see LevelMarks;
                                     // bits are only ever set
   std::uint32_t* turns = nullptr;   // [1] shares of the boxes given out to warps that look for their partners

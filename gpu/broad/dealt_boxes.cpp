@@ -15,26 +15,38 @@ core::Status check_box_limit(std::uint64_t boxes) {
       "broad phase on the GPU", "search the set in parts: pairs --parts P", core::Exit::kMissing};
 }
 
-core::Status DealtBoxes::take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
-                              const core::SpaceCut& cut) {
+namespace {
+
+// One box of the set, in the coordinates that are searched.
+struct Dealt {
+  core::Box box;
+  std::uint32_t id = 0;  // the caller's number
+  bool is_static = false;
+};
+
+}  // namespace
+
+// The order within a part is that of the boxes.
+template <typename BoxAt>
+void DealtBoxes::deal(std::size_t boxes, const core::SpaceCut& cut, const BoxAt& box_at) {
   std::vector<FactsOfBoxes> of_part(cut.parts());
   std::vector<std::uint32_t> count(cut.parts());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (!is_sound(boxes[i])) return bad_box(i);
-    const std::uint32_t part = cut.part_at(boxes[i].min[cut.axis]);
+  for (std::size_t k = 0; k < boxes; ++k) {
+    const core::Box box = box_at(k).box;
+    const std::uint32_t part = cut.part_at(box.min[cut.axis]);
     ++count[part];
-    of_part[part].add(boxes[i]);
+    of_part[part].add(box);
   }
   base_.assign(cut.parts() + 1, 0);
   for (std::uint32_t part = 0; part < cut.parts(); ++part) base_[part + 1] = base_[part] + count[part];
-  packed_.resize(boxes.size());
-  given_.resize(boxes.size());
+  packed_.resize(boxes);
+  given_.resize(boxes);
   std::vector<std::uint32_t> next(base_.begin(), base_.end() - 1);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::uint32_t part = cut.part_at(boxes[i].min[cut.axis]);
-    const std::uint32_t number = next[part]++;
-    packed_[number] = pack(boxes[i], number - base_[part], is_static[i] != 0 ? 1U : 0U);
-    given_[number] = static_cast<std::uint32_t>(i);
+  for (std::size_t k = 0; k < boxes; ++k) {
+    const Dealt dealt = box_at(k);
+    const std::uint32_t number = next[cut.part_at(dealt.box.min[cut.axis])]++;
+    packed_[number] = pack(dealt.box, dealt.id, dealt.is_static ? 1U : 0U);
+    given_[number] = dealt.id;
   }
   facts_.clear();
   BoxFacts all;
@@ -54,14 +66,39 @@ core::Status DealtBoxes::take(std::span<const core::Box> boxes, std::span<const 
     // What reaches over a face begins at most its length before it.
     if (part > 0) facts.low_corner[cut.axis] = std::max(bounds.min[cut.axis], cut.faces[part - 1] - all.largest_side_m);
   }
+}
+
+core::Status DealtBoxes::take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
+                              const core::SpaceCut& cut) {
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (!is_sound(boxes[i])) return bad_box(i);
+  given_boxes_.clear();
+  deal(boxes.size(), cut, [&](std::size_t i) {
+    return Dealt{boxes[i], static_cast<std::uint32_t>(i), is_static[i] != 0};
+  });
   return core::Done{};
 }
 
-float DealtBoxes::fitted_cell_scale(std::span<const core::Box> boxes) const {
+void DealtBoxes::take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
+                      const core::SpaceCut& cut, const core::PassPlan& plan, const core::BoxPass& pass) {
+  std::vector<std::uint32_t> members;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (pass.has(plan.group(boxes[i]))) members.push_back(static_cast<std::uint32_t>(i));
+  deal(members.size(), cut, [&](std::size_t k) {
+    return Dealt{pass.map(boxes[members[k]]), members[k], is_static[members[k]] != 0};
+  });
+  given_boxes_.clear();
+  for (const std::uint32_t id : given_)
+    given_boxes_.push_back(pack(boxes[id], id, plan.group(boxes[id]) << 1U | (is_static[id] != 0 ? 1U : 0U)));
+}
+
+BulkFit DealtBoxes::fitted(std::span<const core::Box> boxes) const {
   BoxFacts all;
   for (const BoxFacts& facts : facts_) all.largest_side_m = std::max(all.largest_side_m, facts.largest_side_m);
   all.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(boxes.size(), 0xFFFFFFFFU));
-  return bulk_fit(boxes, all).cell_scale;
+  BulkFit fit;
+  fit.cell_scale = bulk_fit(boxes, all).cell_scale;
+  return fit;
 }
 
 }  // namespace broadside::gpu

@@ -7,6 +7,7 @@
 
 #include "core/engine/space_parts.hpp"
 #include "core/math/box.hpp"
+#include "core/method/box_passes.hpp"
 #include "core/result.hpp"
 #include "gpu/broad/broad_buffers.hpp"
 #include "gpu/scene/packed_box.hpp"
@@ -24,15 +25,23 @@ class DealtBoxes {
   // An error names the first that is no box, by the caller's number.
   core::Status take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
                     const core::SpaceCut& cut);
+  // Those of a pass, in its coordinates, which the cut is in too. They are sound.
+  void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::SpaceCut& cut,
+            const core::PassPlan& plan, const core::BoxPass& pass);
   // What fits all boxes of a set: fitted_cells.hpp.
-  [[nodiscard]] float fitted_cell_scale(std::span<const core::Box> boxes) const;
-  void set_cell_scale(float scale) {
-    for (BoxFacts& facts : facts_) facts.cell_scale = scale;
+  [[nodiscard]] BulkFit fitted(std::span<const core::Box> boxes) const;
+  void set_fit(const BulkFit& fit) {
+    for (BoxFacts& facts : facts_) facts.fit = fit;
   }
 
   [[nodiscard]] std::uint32_t parts() const { return static_cast<std::uint32_t>(facts_.size()); }
   [[nodiscard]] std::span<const PackedBox> boxes(std::uint32_t part) const {
     return std::span(packed_).subspan(base_[part], base_[part + 1] - base_[part]);
+  }
+  // Of a pass, these boxes as SettleView has them; else none.
+  [[nodiscard]] std::span<const PackedBox> given_boxes(std::uint32_t part) const {
+    if (given_boxes_.empty()) return {};
+    return std::span(given_boxes_).subspan(base_[part], base_[part + 1] - base_[part]);
   }
   // The number of the part's first box.
   [[nodiscard]] std::uint32_t base(std::uint32_t part) const { return base_[part]; }
@@ -42,7 +51,11 @@ class DealtBoxes {
   [[nodiscard]] std::uint32_t given(std::uint32_t number) const { return given_[number]; }
 
  private:
+  template <typename BoxAt>
+  void deal(std::size_t count, const core::SpaceCut& cut, const BoxAt& box_at);
+
   std::vector<PackedBox> packed_;
+  std::vector<PackedBox> given_boxes_;
   std::vector<std::uint32_t> base_;
   std::vector<std::uint32_t> given_;
   std::vector<BoxFacts> facts_;

@@ -23,11 +23,19 @@ constexpr std::array<float, 4> kScales{1.0F, 1.41421356F, 2.0F, 2.82842712F};
 // Tests that were counted in the sample: below, their number is off by a tenth by chance.
 constexpr double kLeastCounted = 100.0;
 constexpr double kWorthwhile = 0.8;
-// Levels of cells, finest first out of reach: a box smaller than 4^-10 of the largest is as good as that.
+// Looking a row of cells up costs as much as reading four entries of it, of which a lane reads four at once.
+constexpr double kTestsOfRow = 4.0;
+// Of those that have boxes; finest first out of reach: a box smaller than 4^-10 of the largest is as good as that.
 constexpr int kLevels = 10;
 
-// A box as the search sees it: its level, counted in halvings by two, its cell there, and for each level the cells that
-// it looks at.
+struct Cells {
+  double largest_m = 1.0;
+  int levels_apart = 2;
+  [[nodiscard]] double size_m(int level) const { return std::ldexp(largest_m, -levels_apart * level); }
+};
+
+// A box as the search sees it: its level, counted among those that have boxes, its cell there, and for each level the
+// cells that it looks at.
 struct Seen {
   int level = 0;
   std::int64_t cell[3] = {};
@@ -41,13 +49,13 @@ std::int64_t cell_at(float v, double cell_m) {
   return static_cast<std::int64_t>(std::clamp(std::floor(static_cast<double>(v) / cell_m), -kFarthest, kFarthest));
 }
 
-Seen seen(const Box& box, double largest_cell_m) {
+Seen seen(const Box& box, const Cells& cells) {
   Seen s;
   const core::Vec3 side = box.max - box.min;
   const double needed = std::max({side.x, side.y, side.z});
-  while (s.level + 1 < kLevels && std::ldexp(largest_cell_m, -2 * (s.level + 1)) >= needed) ++s.level;
+  while (s.level + 1 < kLevels && cells.size_m(s.level + 1) >= needed) ++s.level;
   for (int level = 0; level <= s.level; ++level) {
-    const double cell_m = std::ldexp(largest_cell_m, -2 * level);
+    const double cell_m = cells.size_m(level);
     for (int k = 0; k < 3; ++k) {
       s.low[level][k] = cell_at(box.min[k], cell_m) - 1;
       s.high[level][k] = cell_at(box.max[k], cell_m);
@@ -98,19 +106,19 @@ std::uint64_t key_of(int level, std::int64_t x, std::int64_t y, std::int64_t z) 
 
 // What some boxes of the sample, evenly chosen, look at in all of it, counted as the search does: boxes of coarser
 // levels, and of each two of one level one from the other. So it is a share of the tests of all.
-Looked look_by_some(const std::vector<Box>& sample, double largest_cell_m) {
+Looked look_by_some(const std::vector<Box>& sample, const Cells& shape) {
   std::vector<std::uint64_t> cells;
   cells.reserve(sample.size());
   std::uint32_t levels = 0;
   for (const Box& box : sample) {
-    const Seen s = seen(box, largest_cell_m);
+    const Seen s = seen(box, shape);
     cells.push_back(key_of(s.level, s.cell[0], s.cell[1], s.cell[2]));
     levels |= 1U << static_cast<unsigned>(s.level);
   }
   std::sort(cells.begin(), cells.end());
   Looked all;
   for (std::size_t k = 0; k < kSample; ++k) {
-    const Seen s = seen(sample[k * sample.size() / kSample], largest_cell_m);
+    const Seen s = seen(sample[k * sample.size() / kSample], shape);
     all.rows += rows_of(s, levels) / static_cast<double>(kSample);
     for (int level = 0; level <= s.level; ++level) {
       if ((levels >> static_cast<unsigned>(level) & 1U) == 0) continue;
@@ -127,10 +135,10 @@ Looked look_by_some(const std::vector<Box>& sample, double largest_cell_m) {
 }
 
 // Pairs of the sample of which one looks at the other.
-Looked look_by_all(const std::vector<Box>& sample, double largest_cell_m) {
+Looked look_by_all(const std::vector<Box>& sample, const Cells& cells) {
   std::vector<Seen> all;
   all.reserve(sample.size());
-  for (const Box& box : sample) all.push_back(seen(box, largest_cell_m));
+  for (const Box& box : sample) all.push_back(seen(box, cells));
   std::uint64_t tests = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size(); ++j)
@@ -172,10 +180,10 @@ BulkFit bulk_fit_by_sample(const std::vector<Box>& sample, const BoxFacts& facts
   Looked best;
   double worthwhile = 0.0;
   for (const float scale : kScales) {
-    const Looked looked = look(sample, static_cast<double>(facts.largest_side_m) * scale);
+    const Looked looked = look(sample, {static_cast<double>(facts.largest_side_m) * scale, 2});
     if (scale == 1.0F) {
-      if (looked.tests < kLeastCounted) return fit;
       best = looked;
+      if (looked.tests < kLeastCounted) break;
       worthwhile = kWorthwhile * looked.tests;
     } else if (looked.tests < std::min(best.tests, worthwhile)) {
       best = looked;
@@ -184,8 +192,20 @@ BulkFit bulk_fit_by_sample(const std::vector<Box>& sample, const BoxFacts& facts
   }
   // Each of the sample stands for as many boxes: so many times more others are in its cells.
   const double boxes_per_sampled = static_cast<double>(facts.count) / static_cast<double>(sample.size());
-  const double tests_a_box = best.tests / static_cast<double>(kSample) * boxes_per_sampled;
-  if (facts.count <= kMostSharedBoxes && tests_a_box >= kLongRow * best.rows) fit.lanes_per_box = kLanesOfCrowd;
+  const auto tests_a_box = [&](const Looked& l) { return l.tests / static_cast<double>(kSample) * boxes_per_sampled; };
+  const auto cost = [&](const Looked& l) { return kTestsOfRow * l.rows + tests_a_box(l); };
+  // Levels that are farther apart: fewer rows of cells, larger cells for some boxes.
+  const double largest_m = static_cast<double>(facts.largest_side_m) * static_cast<double>(fit.cell_scale);
+  const Looked sparse = look(sample, {largest_m, 4});
+  if (cost(sparse) <= kWorthwhile * cost(best)) {
+    fit.levels_apart = 4;
+    best = sparse;
+  }
+  if (best.tests < kLeastCounted) return fit;
+  if (facts.count <= kMostSharedBoxes && tests_a_box(best) >= kLongRow * best.rows) {
+    fit.lanes_per_box = kLanesOfCrowd;
+    fit.x_halvings = 1;
+  }
   return fit;
 }
 

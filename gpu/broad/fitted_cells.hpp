@@ -9,7 +9,12 @@
 // A warp is done when the slowest of its lanes is, and all warps when the slowest of them is. Boxes that lie together
 // in the order lie together in space, so a warp in a crowd has all the work. Where boxes are so few that most warps
 // have only one turn, four lanes a box share that work out to more warps. What they can share is a row of cells: where
-// its entries are few, most lanes would wait.
+// its entries are few, most lanes would wait. There cells are halved along x too: a row of them is one run of entries,
+// which then ends nearer to the box.
+//
+// A box looks for partners on its own level and on all coarser ones that have boxes. Where sizes go over many octaves
+// and few boxes are on each level, most of what it looks at are empty rows of cells: then levels are four octaves
+// apart.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +26,6 @@
 #include "gpu/broad/broad_buffers.hpp"
 
 namespace broadside::gpu {
-
-struct BulkFit {
-  float cell_scale = 1.0F;  // from 1 to below 4
-  std::uint32_t lanes_per_box = 1;
-};
 
 // Cells are scaled by 1 where nothing else promises a fifth less work, or where a sample of a thousand is too thin to
 // tell. Sound boxes; the same boxes give the same answer. It takes some milliseconds.

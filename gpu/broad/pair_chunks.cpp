@@ -31,14 +31,15 @@ core::Status find_at_once(BoxSearch& search, const Stream& stream, const ChunkCo
 
 }  // namespace
 
-core::Status for_each_chunk(BoxSearch& search, const Stream& stream, const ChunkConsumer& take,
-                            std::uint64_t& launches) {
+core::Status for_each_chunk(BoxSearch& search, const Stream& stream, const ChunkConsumer& take, std::uint64_t& launches,
+                            const PairNames& names) {
   search.forget_abort();
   if (!search.can_share()) return ++launches, find_at_once(search, stream, take);
   const std::uint64_t count = search.box_count();
   const std::uint64_t room = search.room_for_pairs();
   std::uint64_t width = std::max<std::uint64_t>(1, room / kExpectedPairsPerBox);
   NamedPairsView share;
+  share.names = names;
   while (share.first_place < count) {
     share.end_place = std::min(count, share.first_place + width);
     ++launches;

@@ -33,9 +33,9 @@ struct PairFinder::Impl {
   bool may_be_apart = false;
   bool is_apart = false;  // in the place of the searches
   std::uint64_t chunked_pairs = 0;
-  BulkFit fit;                            // of the boxes that were loaded
-  std::vector<std::uint32_t> pass_lanes;  // of their passes: lanes a box
-  bool is_by_host = false;                // boxes of the device that were loaded need passes, which the host makes
+  BulkFit fit;                     // of the boxes that were loaded
+  std::vector<BulkFit> pass_fits;  // of their passes
+  bool is_by_host = false;         // boxes of the device that were loaded need passes, which the host makes
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
   WorkCounter work;
@@ -101,6 +101,8 @@ core::Status PairFinder::Impl::load_search(std::size_t k, bool is_new, const Pai
 BulkFit PairFinder::Impl::with_wishes(BulkFit own) const {
   if (options.cell_scale != 0.0F) own.cell_scale = options.cell_scale;
   if (options.lanes_per_box != 0) own.lanes_per_box = options.lanes_per_box;
+  if (options.levels_apart != 0) own.levels_apart = options.levels_apart;
+  if (options.x_halvings != PairFinderOptions::kFitted) own.x_halvings = options.x_halvings;
   return own;
 }
 
@@ -121,18 +123,18 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
     // More frames than one decide whether it pays, so updates take what was loaded.
     const bool is_bulk = options.start(boxes.facts()) == Start::kBulk;
     if (is_new) fit = with_wishes(is_bulk ? bulk_fit(given, boxes.facts()) : BulkFit{});
-    boxes.fit(fit.cell_scale, fit.lanes_per_box);
+    boxes.fit(fit);
     return load_search(0, is_new, options);
   }
   PairFinderOptions own = options;
   if (plan.is_logarithmic()) own.least_for_bulk = std::min(own.least_for_bulk, kLeastBoxesOfExponentsForBulk);
-  pass_lanes.resize(active, 1);
+  pass_fits.resize(active);
   for (std::size_t k = 0; k < active; ++k) {
     boxes.take(given, is_static, plan, plan.passes[k]);
     const bool is_bulk = own.start(boxes.facts()) == Start::kBulk;
-    // Cells are as large as a pass makes its boxes.
-    if (is_new && is_bulk) pass_lanes[k] = with_wishes(bulk_fit_by_sample(boxes.sample(), boxes.facts())).lanes_per_box;
-    boxes.fit(1.0F, pass_lanes[k]);
+    if (is_new && is_bulk) pass_fits[k] = with_wishes(bulk_fit_by_sample(boxes.sample(), boxes.facts()));
+    pass_fits[k].cell_scale = 1.0F;  // cells are as large as a pass makes its boxes
+    boxes.fit(pass_fits[k]);
     BROADSIDE_TRY(load_search(k, is_new, own));
   }
   return core::Done{};
@@ -177,8 +179,7 @@ core::Status PairFinder::Impl::place_on_device(const core::DeviceBoxes& given, b
   BoxFacts fitted = facts.value();
   if (is_new) BROADSIDE_TRY(fit_to(given, fitted));
   if (is_by_host) return place_by_host(given, is_new);
-  fitted.cell_scale = fit.cell_scale;
-  fitted.lanes_per_box = fit.lanes_per_box;
+  fitted.fit = fit;
   return search(0).load_packed(fitted, options, is_new);
 }
 
@@ -351,8 +352,10 @@ std::string PairFinder::Impl::words_of_search() const {
   if (active == 0 || active > searches.size()) return words;
   if (searches[0]->start() == Start::kTiles) return words + ", every pair of them";
   if (searches[0]->start() != Start::kBulk) return words;
-  char cells[60];
-  std::snprintf(cells, sizeof cells, "cells %.3g times as long as the longest, ", static_cast<double>(fit.cell_scale));
+  char cells[100];
+  std::snprintf(cells, sizeof cells, "cells %.3g times as long as the longest, %s%s",
+                static_cast<double>(fit.cell_scale), fit.levels_apart == 4 ? "levels four octaves apart, " : "",
+                fit.x_halvings != 0 ? "halved in x, " : "");
   words += (plan.is_plain() ? std::string("; ") + cells : "; ") + "lanes a box:";
   for (std::size_t k = 0; k < active; ++k) words += " " + std::to_string(searches[k]->lanes_per_box());
   return words;

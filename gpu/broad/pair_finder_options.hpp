@@ -19,8 +19,11 @@ struct PairFinderOptions {
   std::uint32_t least_for_passes = core::kLeastBoxesForPasses;
   std::uint32_t least_for_apart = kLeastBoxesForBulk;  // to keep static boxes in a table of their own
   std::uint64_t pairs_at_once = 0;                     // room for pairs on the device; 0: for all
-  float cell_scale = 0.0F;                             // of BoxFacts; 0: what fits the boxes that are loaded
-  std::uint32_t lanes_per_box = 0;                     // of BoxFacts; 0: what fits the boxes that are loaded
+  float cell_scale = 0.0F;                             // of BulkFit; 0: what fits the boxes that are loaded
+  std::uint32_t lanes_per_box = 0;                     // likewise
+  std::uint32_t levels_apart = 0;                      // likewise
+  std::uint32_t x_halvings = kFitted;                  // likewise
+  static constexpr std::uint32_t kFitted = 0xFFFFFFFFU;
   bool has_shares = false;  // boxes are searched share by share or part by part, so by the search of bulk pairs alone
   std::uint32_t most_bins_at_once = 0;  // of BinLimits
 

@@ -2,26 +2,36 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/engine/space_parts.hpp"
 #include "gpu/broad/border_view.hpp"
 #include "gpu/broad/box_search.hpp"
+#include "gpu/broad/dealt_boxes.hpp"
+#include "gpu/broad/pair_chunks.hpp"
 #include "gpu/runtime/device_choice.hpp"
 
 namespace broadside::gpu {
 
+struct PartOptions {
+  bool is_pass = false;
+  std::uint32_t owned = 0;          // of a pass: SettleView
+  std::uint64_t pairs_at_once = 0;  // room for so many; 0: for all
+};
+
+// Whose numbers pairs have: those that boxes have part by part, or the caller's. Those of a pass always have the
+// caller's.
+enum class Numbers { kDealt, kCallers };
+
 // Calls in their order: load, then for each search start_borders, finish_borders, make_room_for_guests, a copy of each
-// other part's guests, start_search, finish_search. Those that start return at once.
+// other part's guests, and start_search, finish_search, or hand_on. Those that start return at once.
 class PartSearch {
  public:
   PartSearch(int device, std::uint32_t part) : device_(device), part_(part) {}
 
-  core::Status load(std::span<const PackedBox> boxes, const BoxFacts& facts, std::uint32_t base,
-                    const core::SpaceCut& cut);
+  core::Status load(const DealtBoxes& dealt, const core::SpaceCut& cut, const PartOptions& options);
 
-  core::Status start_borders();
+  core::Status start_borders(Numbers numbers);
   // Waits. False: there was too little room, now there is enough, and borders are to be started again.
   core::Result<bool> finish_borders();
   // Boxes of this part that reach into a later one.
@@ -35,21 +45,31 @@ class PartSearch {
   // Waits. False: pairs were lost; now there is room for them, and the search is to be started again.
   core::Result<bool> finish_search();
 
+  // In chunks, each of as many pairs as there is room for.
+  core::Status hand_on(const ChunkConsumer& take);
+
   [[nodiscard]] FoundPairs found() const { return has_searched_ ? search_.found() : FoundPairs{}; }
   core::Status append_pairs(std::vector<core::Pair>& to) const;
   core::Result<std::uint64_t> digest();
   [[nodiscard]] std::uint64_t guests() const { return guests_; }
-  [[nodiscard]] std::uint64_t bytes() const { return search_.bytes() + out_.bytes(); }
+  [[nodiscard]] std::uint64_t bytes() const { return search_.bytes() + out_.bytes() + given_out_.bytes(); }
   [[nodiscard]] bool has_searched() const { return has_searched_; }
   [[nodiscard]] const Outcome& outcome() const { return search_.outcome(); }
 
  private:
+  core::Status reserve_guests(std::uint64_t of_each_part);
+  core::Status prepare_search();
+  [[nodiscard]] PairNames names() const;
+
   int device_;
   std::uint32_t part_;
   Stream stream_;
   BoxSearch search_;
   BoxFacts facts_;
   PairFinderOptions options_;
+  bool is_pass_ = false;
+  std::uint32_t owned_ = 0;
+  Numbers numbers_ = Numbers::kDealt;
   std::uint32_t own_ = 0;
   std::uint64_t guests_ = 0;
   std::uint64_t copied_ = 0;
@@ -57,6 +77,7 @@ class PartSearch {
   BorderView borders_;
   DeviceBuffer<float> faces_;
   DeviceBuffer<PackedBox> out_;
+  DeviceBuffer<PackedBox> given_out_;        // of a pass: the same as given
   DeviceBuffer<unsigned long long> counts_;  // [parts], and the digest behind
   std::vector<unsigned long long> reached_;
 };

@@ -41,10 +41,7 @@ class SearchedBoxes {
   void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::PassPlan& plan,
             const core::BoxPass& pass);
 
-  void fit(float cell_scale, std::uint32_t lanes_per_box) {
-    facts_.cell_scale = cell_scale;
-    facts_.lanes_per_box = lanes_per_box;
-  }
+  void fit(const BulkFit& fit) { facts_.fit = fit; }
 
   [[nodiscard]] const BoxFacts& facts() const { return facts_; }
   [[nodiscard]] std::span<const PackedBox> searched() const { return searched_; }

@@ -7,6 +7,7 @@
 
 #include "gpu/broad/dealt_boxes.hpp"
 #include "gpu/broad/part_search.hpp"
+#include "gpu/broad/searched_boxes.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -20,23 +21,50 @@ double seconds_since(Clock::time_point& from) {
   return seconds;
 }
 
+// In the coordinates of a pass.
+core::SpaceCut mapped(const core::SpaceCut& cut, const core::PassMap& map) {
+  core::SpaceCut of_pass;
+  while (map.from[of_pass.axis] != cut.axis) ++of_pass.axis;
+  for (const float face : cut.faces) of_pass.faces.push_back(map.axis[cut.axis](face));
+  return of_pass;
+}
+
 }  // namespace
+
+// The boxes of one pass, or of a set without passes all of them, dealt to parts.
+struct SpreadSearch {
+  core::SpaceCut cut;
+  DealtBoxes dealt;
+  std::vector<std::unique_ptr<PartSearch>> parts;
+  std::uint64_t guests = 0;  // since load
+
+  core::Status load(const PartOptions& options, std::uint32_t devices);
+  core::Status find_borders(Numbers numbers);
+  core::Status exchange();
+  core::Status search();
+};
 
 struct SpreadFinder::Impl {
   SpreadOptions options;
   std::vector<std::uint8_t> is_static;
   core::SpaceCut cut;
-  DealtBoxes dealt;
-  std::vector<std::unique_ptr<PartSearch>> parts;
+  core::PassPlan plan;
+  std::vector<SpreadSearch> searches;  // as many as passes, or one
   std::uint32_t devices = 0;
-  float cell_scale = 1.0F;  // of the boxes that were loaded
+  BulkFit fit;  // of the boxes that were loaded
   SpreadTime time;
-  std::uint64_t guests = 0;  // since load
+  std::uint64_t chunked_pairs = 0;
 
   core::Status deal(std::span<const core::Box> boxes, bool is_new);
-  core::Status find_borders();
-  core::Status exchange();
-  core::Status search();
+  core::Status exchange_borders(Numbers numbers);
+  core::Status for_each_chunk(const ChunkConsumer& take);
+  [[nodiscard]] bool is_chunked() const { return options.pairs_at_once != 0; }
+  [[nodiscard]] bool tells_callers() const { return is_chunked() || !plan.is_plain(); }
+  template <typename What>
+  void each_part(const What& what) const {
+    for (const SpreadSearch& search : searches)
+      for (const auto& part : search.parts) what(*part);
+  }
 };
 
 SpreadFinder::SpreadFinder(const SpreadOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -44,13 +72,38 @@ SpreadFinder::SpreadFinder(const SpreadOptions& options) : impl_(std::make_uniqu
 }
 SpreadFinder::~SpreadFinder() = default;
 
-core::Status SpreadFinder::Impl::deal(std::span<const core::Box> boxes, bool is_new) {
-  BROADSIDE_TRY(dealt.take(boxes, is_static, cut));
-  if (is_new) cell_scale = dealt.fitted_cell_scale(boxes);
-  dealt.set_cell_scale(cell_scale);
+core::Status SpreadSearch::load(const PartOptions& options, std::uint32_t devices) {
   for (std::uint32_t k = 0; k < dealt.parts(); ++k) {
     BROADSIDE_TRY(check_box_limit(dealt.facts(k).count));
-    BROADSIDE_TRY(parts[k]->load(dealt.boxes(k), dealt.facts(k), dealt.base(k), cut));
+    if (parts.size() <= k) parts.push_back(std::make_unique<PartSearch>(static_cast<int>(k % devices), k));
+    BROADSIDE_TRY(parts[k]->load(dealt, cut, options));
+  }
+  return core::Done{};
+}
+
+core::Status SpreadFinder::Impl::deal(std::span<const core::Box> boxes, bool is_new) {
+  FactsOfBoxes facts;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (!is_sound(boxes[i])) return bad_box(i);
+    facts.add(boxes[i]);
+  }
+  plan = core::plan_passes(boxes, facts.all().coordinate_range_m, options.least_for_passes);
+  searches.resize(std::max<std::size_t>(1, plan.passes.size()));
+  PartOptions own{!plan.is_plain(), 0, options.pairs_at_once};
+  if (plan.is_plain()) {
+    SpreadSearch& all = searches[0];
+    all.cut = cut;
+    BROADSIDE_TRY(all.dealt.take(boxes, is_static, cut));
+    if (is_new) fit = all.dealt.fitted(boxes);
+    all.dealt.set_fit(fit);
+    return all.load(own, devices);
+  }
+  for (std::size_t k = 0; k < searches.size(); ++k) {
+    const core::BoxPass& pass = plan.passes[k];
+    searches[k].cut = mapped(cut, pass.map);
+    searches[k].dealt.take(boxes, is_static, searches[k].cut, plan, pass);
+    own.owned = pass.owned;
+    BROADSIDE_TRY(searches[k].load(own, devices));
   }
   return core::Done{};
 }
@@ -80,10 +133,7 @@ core::Status SpreadFinder::load_cut(std::span<const core::Box> boxes, std::span<
       BROADSIDE_TRY(let_reach(static_cast<int>(to), static_cast<int>(from)));
   d.is_static.assign(is_static.begin(), is_static.end());
   d.cut = cut;
-  d.guests = 0;
-  d.parts.clear();
-  for (std::uint32_t k = 0; k < cut.parts(); ++k)
-    d.parts.push_back(std::make_unique<PartSearch>(static_cast<int>(k % d.devices), k));
+  d.searches.clear();
   return d.deal(boxes, true);
 }
 
@@ -94,20 +144,20 @@ core::Status SpreadFinder::update(std::span<const core::Box> boxes) {
   return d.deal(boxes, false);
 }
 
-core::Status SpreadFinder::Impl::find_borders() {
-  for (auto& part : parts) BROADSIDE_TRY(part->start_borders());
+core::Status SpreadSearch::find_borders(Numbers numbers) {
+  for (auto& part : parts) BROADSIDE_TRY(part->start_borders(numbers));
   for (auto& part : parts) {
     for (;;) {
       auto is_done = part->finish_borders();
       if (!is_done.ok()) return is_done.error();
       if (is_done.value()) break;
-      BROADSIDE_TRY(part->start_borders());
+      BROADSIDE_TRY(part->start_borders(numbers));
     }
   }
   return core::Done{};
 }
 
-core::Status SpreadFinder::Impl::exchange() {
+core::Status SpreadSearch::exchange() {
   for (std::uint32_t k = 0; k < parts.size(); ++k) {
     std::uint64_t count = 0;
     for (std::uint32_t from = 0; from < k; ++from) count += parts[from]->reaching(k);
@@ -119,7 +169,7 @@ core::Status SpreadFinder::Impl::exchange() {
   return core::Done{};
 }
 
-core::Status SpreadFinder::Impl::search() {
+core::Status SpreadSearch::search() {
   for (auto& part : parts) BROADSIDE_TRY(part->start_search());
   for (auto& part : parts) {
     for (;;) {
@@ -132,24 +182,70 @@ core::Status SpreadFinder::Impl::search() {
   return core::Done{};
 }
 
+core::Status SpreadFinder::Impl::exchange_borders(Numbers numbers) {
+  auto at = Clock::now();
+  for (SpreadSearch& search : searches) BROADSIDE_TRY(search.find_borders(numbers));
+  time.borders_s = seconds_since(at);
+  for (SpreadSearch& search : searches) BROADSIDE_TRY(search.exchange());
+  time.exchange_s = seconds_since(at);
+  return core::Done{};
+}
+
+// One part after another: its pairs lie in memory until they were taken.
+core::Status SpreadFinder::Impl::for_each_chunk(const ChunkConsumer& take) {
+  BROADSIDE_TRY(exchange_borders(Numbers::kCallers));
+  auto at = Clock::now();
+  for (SpreadSearch& search : searches)
+    for (auto& part : search.parts) BROADSIDE_TRY(part->hand_on(take));
+  time.search_s = seconds_since(at);
+  return core::Done{};
+}
+
 core::Status SpreadFinder::find() {
   Impl& d = *impl_;
   const DeviceScope scope;
+  if (d.is_chunked()) {
+    d.chunked_pairs = 0;
+    return d.for_each_chunk([&d](const FoundPairs& chunk) -> core::Status {
+      d.chunked_pairs += chunk.count;
+      return core::Done{};
+    });
+  }
+  BROADSIDE_TRY(d.exchange_borders(Numbers::kDealt));
   auto at = Clock::now();
-  BROADSIDE_TRY(d.find_borders());
-  d.time.borders_s = seconds_since(at);
-  BROADSIDE_TRY(d.exchange());
-  d.time.exchange_s = seconds_since(at);
-  BROADSIDE_TRY(d.search());
+  for (SpreadSearch& search : d.searches) BROADSIDE_TRY(search.search());
   d.time.search_s = seconds_since(at);
   return core::Done{};
 }
 
+core::Status SpreadFinder::hand_on(const Consumer& take) {
+  const DeviceScope scope;
+  return impl_->for_each_chunk([&take](const FoundPairs& chunk) -> core::Status {
+    auto device = current_device();
+    if (!device.ok()) return device.error();
+    return take({chunk.data, chunk.count, device.value()});
+  });
+}
+
 core::Result<core::PairSet> SpreadFinder::read_back() {
+  Impl& d = *impl_;
   const DeviceScope scope;
   core::PairSet set;
-  for (const auto& part : impl_->parts) BROADSIDE_TRY(part->append_pairs(set.pairs));
-  for (core::Pair& p : set.pairs) p = core::make_pair_of(impl_->dealt.given(p.i), impl_->dealt.given(p.j));
+  if (d.is_chunked()) {
+    BROADSIDE_TRY(d.for_each_chunk([&set](const FoundPairs& chunk) -> core::Status {
+      const std::size_t before = set.pairs.size();
+      set.pairs.resize(before + chunk.count);
+      if (chunk.count == 0) return core::Done{};
+      return copy_to_host(set.pairs.data() + before, chunk.data, chunk.count * sizeof(core::Pair));
+    }));
+  } else {
+    for (const SpreadSearch& search : d.searches)
+      for (const auto& part : search.parts) BROADSIDE_TRY(part->append_pairs(set.pairs));
+  }
+  if (!d.tells_callers()) {
+    const DealtBoxes& dealt = d.searches[0].dealt;
+    for (core::Pair& p : set.pairs) p = core::make_pair_of(dealt.given(p.i), dealt.given(p.j));
+  }
   std::sort(set.pairs.begin(), set.pairs.end());
   set.demanded = set.raw = set.pairs.size();
   return set;
@@ -157,15 +253,24 @@ core::Result<core::PairSet> SpreadFinder::read_back() {
 
 std::vector<core::Counter> SpreadFinder::counters() const {
   std::uint64_t bytes = 0;
-  for (const auto& part : impl_->parts) bytes += part->bytes();
+  impl_->each_part([&bytes](const PartSearch& part) { bytes += part.bytes(); });
+  std::uint64_t guests = 0;
+  for (const SpreadSearch& search : impl_->searches) guests += search.guests;
   constexpr std::uint64_t kNeeded = sizeof(core::Box) + sizeof(std::uint32_t);
-  return {{"bytes between parts", impl_->guests * sizeof(PackedBox)},
-          {"bytes that borders need", impl_->guests * kNeeded},
+  // In passes a box is sent as it is searched and as it was given.
+  const std::uint64_t sent = impl_->plan.is_plain() ? 1 : 2;
+  return {{"bytes between parts", guests * sizeof(PackedBox) * sent},
+          {"bytes that borders need", guests * kNeeded},
           {"device bytes", bytes}};
 }
 
 std::string SpreadFinder::path() const {
-  return std::to_string(impl_->parts.size()) + " parts on " + std::to_string(impl_->devices) + " devices";
+  const Impl& d = *impl_;
+  std::string words =
+      std::to_string(d.searches.empty() ? 0 : d.cut.parts()) + " parts on " + std::to_string(d.devices) + " devices";
+  if (!d.plan.is_plain()) words += ", each in passes: " + core::words_of(d.plan);
+  if (d.is_chunked()) words += ", " + std::to_string(d.options.pairs_at_once) + " pairs at once";
+  return words;
 }
 
 SpreadTime SpreadFinder::time() const {
@@ -174,28 +279,38 @@ SpreadTime SpreadFinder::time() const {
 
 FindTime SpreadFinder::slowest_steps() const {
   FindTime slowest;
-  for (const auto& part : impl_->parts) {
-    if (!part->has_searched()) continue;
+  impl_->each_part([&slowest](const PartSearch& part) {
+    if (!part.has_searched()) return;
     FindTime own;
-    own.add_steps(part->outcome());
+    own.add_steps(part.outcome());
     if (own.steps_s() >= slowest.steps_s()) slowest = own;
-  }
+  });
   return slowest;
 }
 
 std::uint64_t SpreadFinder::pair_count() const {
+  if (impl_->is_chunked()) return impl_->chunked_pairs;
   std::uint64_t count = 0;
-  for (const auto& part : impl_->parts) count += part->found().count;
+  impl_->each_part([&count](const PartSearch& part) { count += part.found().count; });
   return count;
 }
 
+const core::PassPlan& SpreadFinder::plan() const {
+  return impl_->plan;
+}
+
 core::Result<std::uint64_t> SpreadFinder::digest() {
+  if (impl_->is_chunked())
+    return core::Error{"pairs are handed on in chunks, and are nowhere together", "a set that is spread over devices",
+                       "take them by hand_on, or leave out pairs_at_once"};
   const DeviceScope scope;
   std::uint64_t sum = 0;
-  for (const auto& part : impl_->parts) {
-    auto own = part->digest();
-    if (!own.ok()) return own.error();
-    sum += own.value();
+  for (const SpreadSearch& search : impl_->searches) {
+    for (const auto& part : search.parts) {
+      auto own = part->digest();
+      if (!own.ok()) return own.error();
+      sum += own.value();
+    }
   }
   return sum;
 }

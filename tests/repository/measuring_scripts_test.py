@@ -35,6 +35,15 @@ json.dump({"context": {"host_name": "secret", "executable": "secret"}, "benchmar
           open(options["--benchmark_out"], "w"))
 """
 
+# `broadside pairs` with one engine that finds other pairs, and one that did not end.
+PRETENDED_PEERS = """
+import json, sys
+engine = lambda name, digest, ms: {"engine": name, "digest": digest, "update_s": ms / 3e3, "find_s": ms / 3e3, "filter_s": ms / 3e3}
+print(json.dumps([engine("octree-cpu", "0x1", 6.0), engine("embree-collide", "0x7", 1.0), engine("cgal-boxes", "0x1", 30.0),
+                  {"engine": "bullet-dbvt-tree", "absent": "it took longer than 20 s"}]))
+sys.exit(1)
+"""
+
 PRETENDED_BROADSIDE = """
 import json, os, sys
 arguments = sys.argv[1:]
@@ -283,6 +292,25 @@ class GpuPage(unittest.TestCase):
                                          "command": "gpu/measure broadside t4.json", "rows": [row]}})
         for said in ("NVIDIA T4, driver 1.2", "2001-02-03", "`gpu/measure broadside t4.json`", "| 6.08 |", "| 64 215 |"):
             self.assertIn(said, page)
+
+    def test_peers_stand_beside_the_gpu_and_what_found_other_pairs_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pairs, out = os.path.join(folder, "pairs.json"), os.path.join(folder, "peers.json")
+            row = {"n": 30000, "pairs": 40, "ms": 0.5}
+            with open(pairs, "w", encoding="utf-8") as file:
+                json.dump({"gpu": {"name": "a card"}, "rows": [{**row, "boxes": "exponents", "digest": "0x1"},
+                                                               {**row, "boxes": "sheet, frame 50", "digest": "0x2"}]}, file)
+            script = [sys.executable, "-B", os.path.join(GPU, "peers"), program(folder, PRETENDED_PEERS), pairs, out]
+            self.assertEqual(subprocess.run(script, check=False, stderr=subprocess.DEVNULL).returncode, 0)
+            with open(out, encoding="utf-8") as file:
+                result = json.load(file)
+            page = self.page_of({"h100_peers.json": result})
+            # 24 bytes of 30,000 boxes and 8 of 40 pairs at 3 TB/s; the peer of 30 ms is 60 times 0.5 and 5 times 6.
+            self.assertIn("| exponents | 30 000 | 40 | 0.00024 | 0.5 | 6 | other pairs | 30 | - | - | 60, 5 | yes |", page)
+            self.assertNotIn("frame 50", page)
+            with open(pairs, "w", encoding="utf-8") as file:
+                json.dump({"rows": [{**row, "boxes": "exponents", "digest": "0x3"}]}, file)
+            self.assertEqual(subprocess.run(script, check=False, stderr=subprocess.DEVNULL).returncode, 1)
 
     def test_two_builds_take_turns_and_their_rows_stand_side_by_side(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -7,14 +7,17 @@
 namespace broadside::gpu {
 
 // By whole warps.
-__device__ inline void append_guest(const BorderView& view, std::uint32_t to_part, bool reaches, const PackedBox& box) {
+__device__ inline void append_guest(const BorderView& view, std::uint32_t to_part, bool reaches, std::uint64_t i,
+                                    const PackedBox& box) {
   const unsigned all = __ballot_sync(kFullWarp, reaches);
   if (all == 0) return;
   unsigned long long first = 0;
   if (lane() == 0) first = atomicAdd(&view.reached[to_part], static_cast<unsigned long long>(__popc(all)));
   first = __shfl_sync(kFullWarp, first, 0);
   const unsigned long long place = first + static_cast<unsigned>(__popc(all & ((1U << lane()) - 1U)));
-  if (reaches && place < view.capacity) view.out[to_part * view.capacity + place] = box;
+  if (!reaches || place >= view.capacity) return;
+  view.out[to_part * view.capacity + place] = box;
+  if (view.given != nullptr) view.given_out[to_part * view.capacity + place] = view.given[i];
 }
 
 __device__ inline void run_borders(const BorderView& view) {
@@ -27,9 +30,10 @@ __device__ inline void run_borders(const BorderView& view) {
     if (i < view.count) {
       box = view.boxes[i];
       while (last + 1 < view.parts && view.faces[last] <= box.max[view.axis]) ++last;
-      box.low_tag = view.base + static_cast<std::uint32_t>(i);
+      if (!view.keeps_names) box.low_tag = view.base + static_cast<std::uint32_t>(i);
     }
-    for (std::uint32_t k = view.part + 1; __any_sync(kFullWarp, k <= last); ++k) append_guest(view, k, k <= last, box);
+    for (std::uint32_t k = view.part + 1; __any_sync(kFullWarp, k <= last); ++k)
+      append_guest(view, k, k <= last, i, box);
   }
 }
 

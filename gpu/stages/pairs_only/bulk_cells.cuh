@@ -23,10 +23,26 @@ __device__ inline CellCorner fine_corner(core::Vec3 v, float cells_per_m) {
   return {fine_index(v.x, cells_per_m), fine_index(v.y, cells_per_m), fine_index(v.z, cells_per_m)};
 }
 
-// The cell of a corner, `coarser` levels above the one whose cells it is counted in.
-__device__ inline CellCorner cell_above(CellCorner fine, int coarser) {
+// The cell of a corner, `coarser` levels above the one whose cells it is counted in. Cells may be shorter along x: a
+// row of them is one run of entries, which then ends nearer to where partners may be, for no more looks at rows.
+__device__ inline CellCorner cell_above(const BulkView& g, CellCorner fine, int coarser) {
   const int shift = kFineBits + coarser;
-  return {fine.x >> shift, fine.y >> shift, fine.z >> shift};
+  return {fine.x >> (shift - static_cast<int>(g.x_halvings)), fine.y >> shift, fine.z >> shift};
+}
+
+// The lowest cell of partners. A box b of a level overlaps another only if its lower corner is between min - c and max
+// of that one, where c is what cells of the level are wide. What rounding on the way there can do is covered by one
+// 1024th of a cell and 2^-20 of the coordinate: a side that is at most c after rounding, the products that coordinates
+// are counted by, and boxes far outside, which are longer than c by a unit in the last place of their coordinates
+// (2^-23 of them each).
+__device__ inline int lowest_corner(int fine_min, int coarser) {
+  const int f = fine_min >> coarser;
+  return f - 1 - (abs(f) >> 20) - (1 << kFineBits);
+}
+__device__ inline CellCorner lowest_cell(const BulkView& g, CellCorner fine_min, int coarser) {
+  return cell_above(
+      g, {lowest_corner(fine_min.x, coarser), lowest_corner(fine_min.y, coarser), lowest_corner(fine_min.z, coarser)},
+      0);
 }
 
 // The finest level whose cells are at least as large as the box, and not so fine that a cell is lost in the rounding of
@@ -37,7 +53,7 @@ __device__ inline int bulk_level(const BulkView& g, const core::Box& box) {
   const float needed = fmaxf(fmaxf(side.x, side.y), fmaxf(side.z, far));
   // What is left of the exponents' difference is by how many halvings a cell is larger still.
   const int halvings = static_cast<int>(__float_as_uint(g.cell_m) - __float_as_uint(needed)) >> 23;
-  return min(max(halvings, 0), kGridLevels - 1) & ~1;
+  return min(max(halvings, 0), kGridLevels - 1) & -static_cast<int>(g.levels_apart);
 }
 
 // A cell of a level, counted from where the table begins.
@@ -47,10 +63,12 @@ struct TableCell {
   std::uint32_t z = 0;
 };
 __device__ inline TableCell table_cell(const BulkView& g, CellCorner c, int level) {
-  const auto from = [level](int cell, int first) {
-    return static_cast<std::uint32_t>(cell) - (static_cast<std::uint32_t>(first) << level);
+  const auto from = [](int cell, int first, std::uint32_t halvings) {
+    return static_cast<std::uint32_t>(cell) - (static_cast<std::uint32_t>(first) << halvings);
   };
-  return {from(c.x, g.first_cell[0]), from(c.y, g.first_cell[1]), from(c.z, g.first_cell[2])};
+  const auto halvings = static_cast<std::uint32_t>(level);
+  return {from(c.x, g.first_cell[0], halvings + g.x_halvings), from(c.y, g.first_cell[1], halvings),
+          from(c.z, g.first_cell[2], halvings)};
 }
 
 __device__ inline std::uint32_t row_mask(const BulkView& g) {
@@ -79,11 +97,11 @@ __device__ inline std::uint32_t bucket_of(const BulkView& g, TableCell c, int le
 }
 
 __device__ inline TableCell own_cell(const BulkView& g, const core::Box& box, int level) {
-  return table_cell(g, cell_above(fine_corner(box.min, scaled(g.cells_per_m, level)), 0), level);
+  return table_cell(g, cell_above(g, fine_corner(box.min, scaled(g.cells_per_m, level)), 0), level);
 }
 
 // What levels there are, and where the world has more blocks on an axis than a tag tells apart. Cells that a box looks
-// at are at most two away from cells with boxes.
+// at are at most two away from cells with boxes, or eight where cells are a quarter as long in x: less than a row.
 constexpr int kBlockTagBits = 9;
 constexpr std::uint32_t kBlockTag = (1U << kBlockTagBits) - 1U;
 
@@ -154,7 +172,7 @@ __device__ inline BulkPlace place_of(const BulkView& g, const PackedBox& box, st
   place.level = bulk_level(g, unpack(box));
   const float cells_per_m = scaled(g.cells_per_m, place.level);
   const CellCorner fine_min = fine_corner(box.min, cells_per_m);
-  place.cell = table_cell(g, cell_above(fine_min, 0), place.level);
+  place.cell = table_cell(g, cell_above(g, fine_min, 0), place.level);
   place.bucket = bucket_of(g, place.cell, place.level);
   place.entry = {coarse_box(fine_min, fine_corner(box.max, cells_per_m), 0), body,
                  block_tag(g, place.cell, place.level) | (box.high_tag != 0 ? kStaticTag : 0U)};

@@ -77,8 +77,9 @@ class BulkSearch {
   __device__ const Work& work() const { return work_; }
 
  private:
-  // Runs are read by fours, also past their ends.
+  // Of a run, by each lane.
   static constexpr std::uint32_t kEntriesAtOnce = 4;
+  static_assert((kEntriesAtOnce - 1) * kLanes <= kEntriesBehind);
   // Three rows at a time, so that their loads wait together: there seldom are more in y.
   static constexpr std::uint32_t kRows = 3;
 
@@ -87,26 +88,15 @@ class BulkSearch {
     std::uint32_t end[kRows];
   };
 
-  // A box b of a level overlaps this one only if its lower corner is between min - c and max of this one. What rounding
-  // on the way there can do is covered by one 1024th of a cell and 2^-20 of the coordinate: a side that is at most c
-  // after rounding, the products that coordinates are counted by, and boxes far outside, which are longer than c by a
-  // unit in the last place of their coordinates (2^-23 of them each).
-  __device__ static int lowest_cell(int fine_min, int coarser) {
-    const int f = fine_min >> coarser;
-    return ((f - 1 - (abs(f) >> 20)) >> kFineBits) - 1;
-  }
-
   // Two boxes of the same level would find each other twice: the one in the lexicographically lower cell (z, y, x)
   // finds, in one cell the one whose entry is first.
   __device__ void look_at_level(int level, bool looks) {
     const int coarser = own_level_ - level;
     const bool is_own_level = coarser == 0;
     coarse_ = coarse_box(fine_min_, fine_max_, coarser);
-    const TableCell own = table_cell(g_, cell_above(fine_min_, coarser), level);
-    const TableCell high = table_cell(g_, cell_above(fine_max_, coarser), level);
-    TableCell low = table_cell(
-        g_, {lowest_cell(fine_min_.x, coarser), lowest_cell(fine_min_.y, coarser), lowest_cell(fine_min_.z, coarser)},
-        level);
+    const TableCell own = table_cell(g_, cell_above(g_, fine_min_, coarser), level);
+    const TableCell high = table_cell(g_, cell_above(g_, fine_max_, coarser), level);
+    TableCell low = table_cell(g_, lowest_cell(g_, fine_min_, coarser), level);
     if (is_own_level) low.z = own.z;
     // Seldom do the cells of one box belong to several blocks.
     const bool has_blocks =
@@ -140,7 +130,7 @@ class BulkSearch {
             runs.k[j] = is_own_row && on >= 0 ? place_ + 1 : at[0];
             runs.end[j] = at[more + 1];
             if (lane() % kLanes == 0) work_.node();
-            runs.k[j] += lane() % kLanes * kEntriesAtOnce;
+            runs.k[j] += lane() % kLanes;
           }
           walk(runs, cell, level);
           if (!has_more_x) break;
@@ -154,6 +144,7 @@ class BulkSearch {
   }
 
   // Notes what may be partners in three rows, the first of which begins at `cell`. A lane whose notes are full waits.
+  // Lanes of one box take neighboring entries, so that a load of theirs is of one line of memory.
   __device__ void walk(Runs& runs, TableCell cell, int level) {
     // Two static boxes are no pair.
     const std::uint32_t tag_mask = kRowTag | static_tag_;
@@ -164,15 +155,16 @@ class BulkSearch {
         // Buckets are shared: an entry of another row that happens to be here is found from its own.
         const std::uint32_t row_tag = block_tag(g_, {cell.x, cell.y + j, cell.z}, level);
         while (runs.k[j] < runs.end[j] && hits_ <= BulkNotes::kHits - kEntriesAtOnce) {
-          work_.tests(min(kEntriesAtOnce, runs.end[j] - runs.k[j]));
+          work_.tests(min(kEntriesAtOnce, (runs.end[j] - runs.k[j] + kLanes - 1) / kLanes));
           BulkEntry other[kEntriesAtOnce];
 #pragma unroll
-          for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) other[k] = g_.entries[runs.k[j] + k];
+          for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) other[k] = g_.entries[runs.k[j] + k * kLanes];
 #pragma unroll
           for (std::uint32_t k = 0; k < kEntriesAtOnce; ++k) {
-            const bool is_noted = runs.k[j] + k < runs.end[j] && may_overlap(coarse_, other[k].box) &&
-                                  ((other[k].tag ^ row_tag) & tag_mask) == 0;
-            if (is_noted) notes_.hit[hits_][lane()] = runs.k[j] + k;
+            const std::uint32_t at = runs.k[j] + k * kLanes;
+            const bool is_noted =
+                at < runs.end[j] && may_overlap(coarse_, other[k].box) && ((other[k].tag ^ row_tag) & tag_mask) == 0;
+            if (is_noted) notes_.hit[hits_][lane()] = at;
             hits_ += is_noted ? 1U : 0U;
           }
           runs.k[j] += kEntriesAtOnce * kLanes;

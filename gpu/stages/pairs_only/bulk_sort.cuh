@@ -11,10 +11,10 @@ namespace broadside::gpu {
 // Several boxes a thread at once: it waits for all their loads together.
 constexpr std::uint32_t kBoxesAtOnce = 4;
 
-// Runs are read by fours: four entries behind the last one hold a tag that matches no cell.
+// What runs are read past their ends by holds a tag that matches no cell.
 template <typename Team>
 __device__ void end_entries(const Team& team, const BulkView& g, std::uint32_t count) {
-  if (team.rank() < 4) g.entries[count + team.rank()] = {{}, 0, kNoCellTag};
+  if (team.rank() < kEntriesBehind) g.entries[count + team.rank()] = {{}, 0, kNoCellTag};
 }
 
 // Counts boxes into buckets. The place within a bucket is whatever the order of the threads makes it: nothing that

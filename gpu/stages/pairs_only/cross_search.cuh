@@ -6,7 +6,7 @@
 // compared as they are.
 //
 // A standing box of a level is no longer than its cells. So it overlaps only where its lower corner lies between a cell
-// before the moving box and the moving box's end: the bound of BulkSearch::lowest_cell holds whatever the other's size.
+// before the moving box and the moving box's end: the bound of lowest_cell holds whatever the other's size.
 #pragma once
 
 #include "gpu/broad/cross_view.hpp"
@@ -17,11 +17,6 @@
 #include "gpu/stages/pairs_only/standing_cells.cuh"
 
 namespace broadside::gpu {
-
-// As BulkSearch::lowest_cell, on the level itself.
-__device__ inline int lowest_partner_cell(int fine_min) {
-  return ((fine_min - 1 - (abs(fine_min) >> 20)) >> kFineBits) - 1;
-}
 
 class CrossSearch {
  public:
@@ -52,14 +47,13 @@ class CrossSearch {
     const float cells_per_m = scaled(g.cells_per_m, level);
     const CellCorner fine_min = fine_corner(box.min, cells_per_m);
     const CellCorner fine_max = fine_corner(box.max, cells_per_m);
-    const TableCell low = table_cell(
-        g, {lowest_partner_cell(fine_min.x), lowest_partner_cell(fine_min.y), lowest_partner_cell(fine_min.z)}, level);
-    const TableCell high = table_cell(g, cell_above(fine_max, 0), level);
+    const TableCell low = table_cell(g, lowest_cell(g, fine_min, 0), level);
+    const TableCell high = table_cell(g, cell_above(g, fine_max, 0), level);
     const std::uint32_t rows_y = high.y - low.y + 1;
     const std::uint32_t rows_z = high.z - low.z + 1;
     // A standing box begins in these cells and ends at most one cell further: of three cells, all differences of
     // corners are less than the four cells that rounded boxes can tell.
-    const bool is_short = high.x - low.x < 3 && rows_y < 4 && rows_z < 4;
+    const bool is_short = (high.x - low.x) >> g.x_halvings < 3 && rows_y < 4 && rows_z < 4;
     const CoarseBox coarse = coarse_box(fine_min, fine_max, 0);
     // A lane a row looks up where its run of entries is; few rows have any.
     for (std::uint32_t first = 0; first < rows_y * rows_z; first += 32) {

@@ -224,6 +224,7 @@ TEST(BoxStreams, EachBadNameIsOneClearLine) {
   EXPECT_NE(line("boxes:uniform:1000000001").find("whole number from 0 to 1000000000"), std::string::npos);
   EXPECT_NE(line("boxes:identical:30001").find("whole number from 0 to 30000"), std::string::npos);
   EXPECT_NE(line("broadmark-freefall:cube:100").find("did you mean 'broadmark-freefall:cubes:"), std::string::npos);
+  EXPECT_NE(line("boxes:needles").find("it has no number; give 'boxes:needles:"), std::string::npos);
   EXPECT_NE(line("absent.boxes").find("no such box file"), std::string::npos);
 }
 

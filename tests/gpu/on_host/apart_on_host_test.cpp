@@ -48,6 +48,20 @@ tests::BoxCase half_static(tests::BoxCase c, std::size_t first) {
   return c;
 }
 
+// Moving boxes that follow each other get their numbers by the first one's, others by a look each.
+TEST(ApartOnHost, MovingBoxesBehindOrBeforeTheStaticOnes) {
+  for (const bool are_static_first : {false, true}) {
+    tests::BoxCase c;
+    c.boxes = datasets::uniform_boxes(400, 8);
+    c.is_static.assign(400, are_static_first ? 0 : 1);
+    for (std::size_t k = 0; k < 150; ++k) c.is_static[k] = are_static_first ? 1 : 0;
+    PairFinder finder(apart_from(50));
+    ASSERT_TRUE(finder.load(c.boxes, c.is_static).ok());
+    ASSERT_TRUE(is_apart(finder));
+    EXPECT_EQ(pairs_of(finder), tests::every_pair(c));
+  }
+}
+
 TEST(ApartOnHost, EveryFamily) {
   int apart = 0;
   for (const tests::BoxFamily& family : tests::kBoxFamilies) {

@@ -3,10 +3,12 @@
 
 #include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "datasets/box_streams/box_sets.hpp"
 #include "datasets/box_streams/box_sweeps.hpp"
+#include "datasets/box_streams/uneven_boxes.hpp"
 #include "gpu/broad/fitted_cells.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "gpu/broad/searched_boxes.hpp"
@@ -46,6 +48,43 @@ TEST(FittedCellsOnHost, ChangeNoPairOfAnyFamily) {
     SCOPED_TRACE(family.name);
     const tests::BoxCase c = tests::make_case(family, 130, 17);
     for (const float scale : {1.41421356F, 2.82842712F, 3.9F}) tests_with(c, scale);
+  }
+}
+
+// Cells that are shorter along x, and levels that are farther apart, by one lane a box and by several.
+TEST(FittedCellsOnHost, OfEveryShapeChangeNoPairOfAnyFamily) {
+  for (const tests::BoxFamily& family : tests::kBoxFamilies) {
+    SCOPED_TRACE(family.name);
+    const tests::BoxCase c = tests::make_case(family, 130, 23);
+    const std::vector<core::Pair> expected = tests::every_pair(c);
+    for (const std::uint32_t x_halvings : {1U, 2U}) {
+      for (const std::uint32_t levels_apart : {2U, 4U}) {
+        PairFinderOptions options = in_bulk(1.0F);
+        options.x_halvings = x_halvings;
+        options.levels_apart = levels_apart;
+        options.lanes_per_box = levels_apart == 2 ? kLanesOfCrowd : 1;
+        options.least_for_bins = x_halvings == 1 ? 50 : 1U << 30;
+        PairFinder finder(options);
+        ASSERT_TRUE(finder.load(c.boxes, c.is_static).ok());
+        ASSERT_TRUE(finder.find().ok());
+        auto found = finder.read_back();
+        ASSERT_TRUE(found.ok());
+        EXPECT_EQ(found.value().pairs, expected) << x_halvings << " halvings, " << levels_apart << " apart";
+      }
+    }
+  }
+}
+
+// Sizes over many octaves, few boxes of each: looking at every level costs more than cells that are too large.
+TEST(FittedCellsOnHost, LevelsAreFartherApartWhereRowsOfCellsAreNearlyEmpty) {
+  using Make = std::vector<Box> (*)(std::uint32_t, std::uint64_t);
+  const std::pair<Make, std::uint32_t> sets[] = {
+      {datasets::spiral_boxes, 4}, {datasets::mixed_boxes, 2}, {datasets::uniform_boxes, 2}};
+  for (const auto& [make, apart] : sets) {
+    FactsOfBoxes facts;
+    const std::vector<Box> boxes = make(100'000, 1);
+    for (const Box& box : boxes) facts.add(box);
+    EXPECT_EQ(bulk_fit(boxes, facts.all()).levels_apart, apart);
   }
 }
 

@@ -1,0 +1,15 @@
+// What is chosen for the boxes of a search of bulk pairs: fitted_cells.hpp.
+#pragma once
+
+#include <cstdint>
+
+namespace broadside::gpu {
+
+struct BulkFit {
+  float cell_scale = 1.0F;          // of the largest cells over the largest box, from 1 to below 4
+  std::uint32_t levels_apart = 2;   // levels that have boxes are so many apart: 2 or 4
+  std::uint32_t x_halvings = 0;     // so often are cells halved along x, the axis of their rows: at most 2
+  std::uint32_t lanes_per_box = 1;  // 1 or kLanesOfCrowd
+};
+
+}  // namespace broadside::gpu
