@@ -23,7 +23,7 @@ using core::Pair;
 using core::PairSet;
 using core::Status;
 
-constexpr std::string_view kId = "all-pairs";
+constexpr std::string_view kAllPairsId = "all-pairs";
 // Boxes of one tile: 6 arrays of 512 floats are 12 KiB, so a tile stays in a 32 KiB first-level cache beside the flags.
 constexpr std::uint32_t kTile = 512;
 // Rows of one task: enough tests per task to hide its scheduling, and few enough rows to balance the triangle.
@@ -65,14 +65,14 @@ class AllPairs final : public core::BroadPhase {
   [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
 
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
-    if (Status status = given_.load(kId, boxes, is_static); !status) return status;
+    if (Status status = given_.load(kAllPairsId, boxes, is_static); !status) return status;
     columns_.assign(given_.boxes());
     rows_.assign((given_.count() + kRows - 1) / kRows, {});
     return core::Done{};
   }
 
   Status update(std::span<const core::Box> boxes) override {
-    if (Status status = given_.update(kId, boxes); !status) return status;
+    if (Status status = given_.update(kAllPairsId, boxes); !status) return status;
     columns_.assign(given_.boxes());
     return core::Done{};
   }
@@ -138,16 +138,16 @@ class AllPairs final : public core::BroadPhase {
   std::vector<std::vector<Pair>> rows_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> all_pairs_settings() {
   static const std::array<core::SettingRow, 1> rows{{
       threads_setting(),
   }};
   return rows;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_all_pairs(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kAllPairsId;
   engine.build =
       "own, float32 compare, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
@@ -165,12 +165,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow all_pairs_row() {
-  return {.id = kId,
+  return {.id = kAllPairsId,
           .capabilities = "broad",
           .what = "every pair of boxes by float comparison: exact, the arbiter of broad phases",
-          .settings = setting_rows(),
+          .settings = all_pairs_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = create_all_pairs,
           .absent = [] { return std::string(); }};
 }
 

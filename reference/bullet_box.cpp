@@ -20,7 +20,7 @@ namespace {
 using core::Separation;
 using core::Status;
 
-constexpr std::string_view kId = "bullet-box";
+constexpr std::string_view kBulletBoxId = "bullet-box";
 
 // Keeps the deepest of the contact points.
 struct Deepest final : btStorageResult {
@@ -62,7 +62,7 @@ class BulletBox final : public core::NarrowPhase {
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, boxes_.body_count()); !status) return status;
+    if (Status status = check_pairs(kBulletBoxId, pairs, poses, boxes_.body_count()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("bullet-box: measure", [&]() -> Status {
       const std::vector<const core::Box*> boxes = boxes_.of(pairs, poses);
@@ -83,9 +83,9 @@ class BulletBox final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_bullet_box(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kBulletBoxId;
   engine.build = bullet_build();
   engine.settings = settings;
   engine.narrow_phase = std::make_unique<BulletBox>();
@@ -102,12 +102,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow bullet_box_row() {
-  return {.id = kId,
+  return {.id = kBulletBoxId,
           .capabilities = "narrow",
           .what = "Bullet's box against box on the axis-aligned boxes of bodies: depth and direction when they meet",
           .settings = {},
           .runs_in_child = true,
-          .create = create,
+          .create = create_bullet_box,
           .absent = [] { return std::string(); }};
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reference/bullet_margin.hpp"
+#include "reference/bullet_proxy.hpp"
 #include "reference/bullet_vectors.hpp"
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
@@ -21,7 +22,7 @@ namespace {
 using core::Pair;
 using core::Status;
 
-constexpr std::string_view kId = "bullet-dbvt";
+constexpr std::string_view kBulletDbvtId = "bullet-dbvt";
 
 // setAabb reads the global gDbvtMargin: this sets it for the length of one call and then restores it.
 class MarginScope {
@@ -35,10 +36,6 @@ class MarginScope {
   btScalar before_;
 };
 
-std::uint32_t body_of(const btBroadphaseProxy* proxy) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
-}
-
 class BulletDbvt final : public core::BroadPhase {
  public:
   BulletDbvt(btScalar margin, bool is_deferred, SharedDefectCounter stale)
@@ -51,7 +48,7 @@ class BulletDbvt final : public core::BroadPhase {
   // Bullet finds the pairs of a box as the box enters, which is work that is timed: boxes enter in the first update or
   // find, and here they are only kept.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
-    if (Status status = given_.load(kId, boxes, is_static); !status) return status;
+    if (Status status = given_.load(kBulletDbvtId, boxes, is_static); !status) return status;
     return vendor_call("bullet-dbvt: load", [&]() -> Status {
       destroy_proxies();
       // Without a pair cache of ours, the broad phase makes and owns its hashed one.
@@ -63,7 +60,7 @@ class BulletDbvt final : public core::BroadPhase {
 
   // Unless deferred, Bullet finds new pairs in here: charge update and find together.
   Status update(std::span<const core::Box> boxes) override {
-    if (Status status = given_.update(kId, boxes); !status) return status;
+    if (Status status = given_.update(kBulletDbvtId, boxes); !status) return status;
     return vendor_call("bullet-dbvt: update", [&]() -> Status {
       if (enter()) return core::Done{};
       const MarginScope scope(margin_);
@@ -89,7 +86,8 @@ class BulletDbvt final : public core::BroadPhase {
       std::vector<Pair> raw;
       raw.reserve(static_cast<std::size_t>(cache.size()));
       for (int k = 0; k < cache.size(); ++k)
-        raw.push_back(core::make_pair_of(body_of(cache[k].m_pProxy0), body_of(cache[k].m_pProxy1)));
+        raw.push_back(core::make_pair_of(body_of(cache[k].m_pProxy0->m_clientObject),
+                                         body_of(cache[k].m_pProxy1->m_clientObject)));
       core::PairSet set = given_.tighten(std::move(raw));
       stale_->note(set.raw - set.pairs.size(), set.raw);
       return set;
@@ -133,7 +131,7 @@ class BulletDbvt final : public core::BroadPhase {
   std::vector<btBroadphaseProxy*> proxies_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> bullet_dbvt_settings() {
   static const std::array<core::SettingRow, 2> rows{{
       {"margin",
        "bullet",
@@ -144,9 +142,9 @@ std::span<const core::SettingRow> setting_rows() {
   return rows;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_bullet_dbvt(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kBulletDbvtId;
   engine.build = bullet_build();
   engine.settings = settings;
   // Everybody who changes gDbvtMargin restores it, so this is the value that the loaded library ships: 0.05 m in 3.24.
@@ -166,12 +164,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow bullet_dbvt_row() {
-  return {.id = kId,
+  return {.id = kBulletDbvtId,
           .capabilities = "broad",
           .what = "Bullet's btDbvtBroadphase on the same boxes",
-          .settings = setting_rows(),
+          .settings = bullet_dbvt_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = create_bullet_dbvt,
           .absent = [] { return std::string(); }};
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using core::Status;
 
-constexpr std::string_view kId = "bullet-dbvt-tree";
+constexpr std::string_view kBulletDbvtTreeId = "bullet-dbvt-tree";
 
 btDbvtVolume volume_of(const core::Box& b) {
   return btDbvtAabbMm::FromMM({b.min.x, b.min.y, b.min.z}, {b.max.x, b.max.y, b.max.z});
@@ -50,7 +50,7 @@ class BulletDbvtTree final : public core::BroadPhase {
   }
 
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
-    if (Status status = given_.load(kId, boxes, is_static); !status) return status;
+    if (Status status = given_.load(kBulletDbvtTreeId, boxes, is_static); !status) return status;
     return vendor_call("bullet-dbvt-tree: load", [&]() -> Status {
       trees_ = std::make_unique<Trees>();
       leaves_.clear();
@@ -65,7 +65,7 @@ class BulletDbvtTree final : public core::BroadPhase {
   }
 
   Status update(std::span<const core::Box> boxes) override {
-    if (Status status = given_.update(kId, boxes); !status) return status;
+    if (Status status = given_.update(kBulletDbvtTreeId, boxes); !status) return status;
     return vendor_call("bullet-dbvt-tree: update", [&]() -> Status {
       for (std::uint32_t i = 0; i < given_.count(); ++i) {
         btDbvtVolume volume = volume_of(boxes[i]);
@@ -104,7 +104,7 @@ class BulletDbvtTree final : public core::BroadPhase {
   Collect found_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> bullet_dbvt_tree_settings() {
   static const std::array<core::SettingRow, 1> rows{{
       {"margin",
        "0",
@@ -114,9 +114,9 @@ std::span<const core::SettingRow> setting_rows() {
   return rows;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_bullet_dbvt_tree(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kBulletDbvtTreeId;
   engine.build = bullet_build();
   engine.settings = settings;
   const btScalar margin = margin_m_of(settings, gDbvtMargin);
@@ -132,12 +132,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow bullet_dbvt_tree_row() {
-  return {.id = kId,
+  return {.id = kBulletDbvtTreeId,
           .capabilities = "broad",
           .what = "Bullet's bounding volume tree alone (btDbvt::collideTT), without its pair cache",
-          .settings = setting_rows(),
+          .settings = bullet_dbvt_tree_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = create_bullet_dbvt_tree,
           .absent = [] { return std::string(); }};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "reference/bullet_proxy.hpp"
 #include "reference/bullet_vectors.hpp"
 #include "reference/engines.hpp"
 #include "reference/given_boxes.hpp"
@@ -17,11 +18,7 @@ namespace {
 
 using core::Status;
 
-constexpr std::string_view kId = "bullet-sap";
-
-std::uint32_t body_of(const btBroadphaseProxy* proxy) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
-}
+constexpr std::string_view kBulletSapId = "bullet-sap";
 
 // End points are quantized within a world that is fixed when it is made, and clamped to it. The world is the bounds of
 // the loaded boxes with their own size added on every side, at least 1 m, because a world without extent divides by
@@ -51,7 +48,7 @@ class BulletSap final : public core::BroadPhase {
   // Bullet finds the pairs of a box as the box enters, which is work that is timed: boxes enter in the first update or
   // find, and here they are only kept.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
-    if (Status status = given_.load(kId, boxes, is_static); !status) return status;
+    if (Status status = given_.load(kBulletSapId, boxes, is_static); !status) return status;
     return vendor_call("bullet-sap: load", [&]() -> Status {
       destroy_proxies();
       const core::Box world = sweep_world(boxes);
@@ -64,7 +61,7 @@ class BulletSap final : public core::BroadPhase {
 
   // Pairs come and go in here, as end points pass each other: charge update and find together.
   Status update(std::span<const core::Box> boxes) override {
-    if (Status status = given_.update(kId, boxes); !status) return status;
+    if (Status status = given_.update(kBulletSapId, boxes); !status) return status;
     return vendor_call("bullet-sap: update", [&]() -> Status {
       if (enter()) return core::Done{};
       for (std::size_t i = 0; i < proxies_.size(); ++i)
@@ -89,7 +86,8 @@ class BulletSap final : public core::BroadPhase {
       std::vector<core::Pair> raw;
       raw.reserve(static_cast<std::size_t>(cache.size()));
       for (int k = 0; k < cache.size(); ++k)
-        raw.push_back(core::make_pair_of(body_of(cache[k].m_pProxy0), body_of(cache[k].m_pProxy1)));
+        raw.push_back(core::make_pair_of(body_of(cache[k].m_pProxy0->m_clientObject),
+                                         body_of(cache[k].m_pProxy1->m_clientObject)));
       return given_.tighten(std::move(raw));
     });
   }
@@ -123,9 +121,9 @@ class BulletSap final : public core::BroadPhase {
   std::vector<btBroadphaseProxy*> proxies_;
 };
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_bullet_sap(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kBulletSapId;
   engine.build = bullet_build();
   engine.settings = settings;
   engine.broad_phase = std::make_unique<BulletSap>();
@@ -140,12 +138,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow bullet_sap_row() {
-  return {.id = kId,
+  return {.id = kBulletSapId,
           .capabilities = "broad",
           .what = "Bullet's incremental sweep and prune (bt32BitAxisSweep3) on the same boxes",
           .settings = {},
           .runs_in_child = true,
-          .create = create,
+          .create = create_bullet_sap,
           .absent = [] { return std::string(); }};
 }
 

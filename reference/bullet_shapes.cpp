@@ -30,7 +30,7 @@ namespace {
 using core::Separation;
 using core::Status;
 
-constexpr std::string_view kId = "bullet-shapes";
+constexpr std::string_view kBulletShapesId = "bullet-shapes";
 
 // Which branch btGjkPairDetector took, by the numbers in its source.
 constexpr int kNormalOfDistance = 6;
@@ -46,7 +46,7 @@ class BulletShapes final : public core::NarrowPhase {
       shapes_.clear();
       mesh_of_body_.clear();
       for (const auto& mesh : scene.meshes) {
-        if (!core::primitive_of(*mesh) && !core::is_convex(*mesh)) return no_shape(kId, *mesh);
+        if (!core::primitive_of(*mesh) && !core::is_convex(*mesh)) return no_shape(kBulletShapesId, *mesh);
         shapes_.push_back(make_bullet_shape(mesh, options_));
       }
       for (const core::Body& body : scene.bodies) mesh_of_body_.push_back(body.mesh);
@@ -55,7 +55,7 @@ class BulletShapes final : public core::NarrowPhase {
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    if (Status status = check_pairs(kBulletShapesId, pairs, poses, mesh_of_body_.size()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("bullet-shapes: measure", [&]() -> Status {
       for (std::size_t k = 0; k < pairs.size(); ++k)
@@ -110,7 +110,7 @@ class BulletShapes final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> bullet_shapes_settings() {
   static const std::array<core::SettingRow, 1> rows{{
       {"margin",
        "0",
@@ -120,7 +120,7 @@ std::span<const core::SettingRow> setting_rows() {
   return rows;
 }
 
-core::EquivalenceCard card_of(const core::Scene& scene, const BulletShapeOptions& options) {
+core::EquivalenceCard bullet_shapes_card(const core::Scene& scene, const BulletShapeOptions& options) {
   core::EquivalenceCard card = bullet_card();
   for (const auto& mesh : scene.meshes) {
     const BulletShape shape = make_bullet_shape(mesh, options);
@@ -131,15 +131,15 @@ core::EquivalenceCard card_of(const core::Scene& scene, const BulletShapeOptions
   return card;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_bullet_shapes(const core::Settings& settings) {
   const BulletShapeOptions options{.margin_m = margin_m_of(settings, CONVEX_DISTANCE_MARGIN)};
   const auto near_normals = std::make_shared<DefectCounter>(Defect::kBulletNearNormal);
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kBulletShapesId;
   engine.build = bullet_build();
   engine.settings = settings;
   engine.narrow_phase = std::make_unique<BulletShapes>(options, near_normals);
-  engine.equivalence = [options](const core::Scene& scene) { return card_of(scene, options); };
+  engine.equivalence = [options](const core::Scene& scene) { return bullet_shapes_card(scene, options); };
   engine.defects = defects_of(near_normals);
   return engine;
 }
@@ -147,12 +147,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow bullet_shapes_row() {
-  return {.id = kId,
+  return {.id = kBulletShapesId,
           .capabilities = "narrow",
           .what = "Bullet's GJK and EPA on boxes, spheres, capsules and convex meshes: signed distance",
-          .settings = setting_rows(),
+          .settings = bullet_shapes_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = create_bullet_shapes,
           .absent = [] { return std::string(); }};
 }
 

@@ -16,7 +16,7 @@ hid_t hdf5_type(Element element);
 
 // Size of the chunks that compressed arrays aim at: large enough for gzip to find repeats, small enough that HDF5's
 // default chunk cache of 1 MiB per dataset holds several.
-constexpr std::uint64_t kChunkBytes = 128 * 1024;
+constexpr std::uint64_t kChunkBytes = std::uint64_t{128} * 1024;
 
 // Rows first .. first + rows - 1 of a dataset; inner: its dimensions after the first, two at most.
 bool put_rows(hid_t set, Element element, std::span<const std::uint64_t> inner, std::uint64_t first, std::uint64_t rows,

@@ -11,6 +11,7 @@
 
 #include "core/exact/triangle_tree.hpp"
 #include "reference/engines.hpp"
+#include "reference/exact/exact_point.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/turned_shapes.hpp"
 #include "reference/vendor_build.hpp"
@@ -26,13 +27,9 @@ using exact::Nearest;
 using exact::Point;
 using exact::TriangleTree;
 
-constexpr std::string_view kId = "exact-mesh";
+constexpr std::string_view kExactMeshId = "exact-mesh";
 
 using Search = Nearest (*)(const TriangleTree&, core::Vec3, const TriangleTree&, core::Vec3);
-
-core::Vec3 to_core(Point p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
 
 Separation separation_of(const Nearest& near) {
   Separation out;
@@ -56,7 +53,7 @@ class ExactMesh final : public core::NarrowPhase {
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, trees_.body_count()); !status) return status;
+    if (Status status = check_pairs(kExactMeshId, pairs, poses, trees_.body_count()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("exact-mesh: measure", [&]() -> Status {
       const std::vector<const TriangleTree*> trees = trees_.of(pairs, poses);
@@ -80,7 +77,7 @@ class ExactMesh final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> exact_mesh_settings() {
   static const std::array<core::SettingRow, 2> rows{{
       {"method",
        "surface-tree",
@@ -91,10 +88,10 @@ std::span<const core::SettingRow> setting_rows() {
   return rows;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_exact_mesh(const core::Settings& settings) {
   const std::string& method = settings.text("method");
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kExactMeshId;
   engine.build = "own, double, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
   const int workers = worker_count(settings.number("threads"));
@@ -117,12 +114,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow exact_mesh_row() {
-  return {.id = kId,
+  return {.id = kExactMeshId,
           .capabilities = "narrow",
           .what = "least distance of triangle surfaces or of vertices in double: the arbiter of narrow phases",
-          .settings = setting_rows(),
+          .settings = exact_mesh_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = create_exact_mesh,
           .absent = [] { return std::string(); }};
 }
 

@@ -11,6 +11,7 @@
 #include "core/exact/convex_core.hpp"
 #include "core/scene/primitive.hpp"
 #include "reference/engines.hpp"
+#include "reference/exact/exact_point.hpp"
 #include "reference/pair_check.hpp"
 #include "reference/vendor_build.hpp"
 #include "reference/vendor_call.hpp"
@@ -25,11 +26,7 @@ using exact::ConvexCore;
 using exact::Point;
 using exact::SignedDistance;
 
-constexpr std::string_view kId = "exact-shapes";
-
-core::Vec3 to_core(Point p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
+constexpr std::string_view kExactShapesId = "exact-shapes";
 
 class ExactShapes final : public core::NarrowPhase {
  public:
@@ -39,9 +36,9 @@ class ExactShapes final : public core::NarrowPhase {
     cores_.clear();
     mesh_of_body_.clear();
     for (const auto& mesh : scene.meshes) {
-      if (Status status = refuse_cylinder(kId, *mesh); !status) return status;
+      if (Status status = refuse_cylinder(kExactShapesId, *mesh); !status) return status;
       auto core = exact::convex_core_of(*mesh);
-      if (!core) return no_shape(kId, *mesh);
+      if (!core) return no_shape(kExactShapesId, *mesh);
       cores_.push_back(std::move(*core));
     }
     for (const core::Body& body : scene.bodies) mesh_of_body_.push_back(body.mesh);
@@ -49,7 +46,7 @@ class ExactShapes final : public core::NarrowPhase {
   }
 
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
-    if (Status status = check_pairs(kId, pairs, poses, mesh_of_body_.size()); !status) return status;
+    if (Status status = check_pairs(kExactShapesId, pairs, poses, mesh_of_body_.size()); !status) return status;
     separations_.assign(pairs.size(), {});
     return vendor_call("exact-shapes: measure", [&]() -> Status {
       arena_.execute([&] {
@@ -74,16 +71,16 @@ class ExactShapes final : public core::NarrowPhase {
   std::vector<Separation> separations_;
 };
 
-std::span<const core::SettingRow> setting_rows() {
+std::span<const core::SettingRow> exact_shapes_settings() {
   static const std::array<core::SettingRow, 1> rows{{
       threads_setting(),
   }};
   return rows;
 }
 
-core::Result<core::Engine> create(const core::Settings& settings) {
+core::Result<core::Engine> create_exact_shapes(const core::Settings& settings) {
   core::Engine engine;
-  engine.id = kId;
+  engine.id = kExactShapesId;
   engine.build = "own, double, oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR);
   engine.settings = settings;
   const int workers = worker_count(settings.number("threads"));
@@ -106,12 +103,12 @@ core::Result<core::Engine> create(const core::Settings& settings) {
 }  // namespace
 
 core::EngineRow exact_shapes_row() {
-  return {.id = kId,
+  return {.id = kExactShapesId,
           .capabilities = "narrow",
           .what = "signed distance of boxes, spheres, capsules and convex meshes in closed form: the arbiter of these",
-          .settings = setting_rows(),
+          .settings = exact_shapes_settings(),
           .runs_in_child = true,
-          .create = create,
+          .create = create_exact_shapes,
           .absent = [] { return std::string(); }};
 }
 
