@@ -45,6 +45,18 @@ inline SoftSettings soft_step_settings() {
   return settings;
 }
 
+// Stiffer contacts that are solved farther, for what stands by little: contacts of an arch of 25 stones yield by more
+// than the 1 % by which it stands.
+inline SoftSettings stiff_settings() {
+  SoftSettings settings;
+  settings.substeps = 8;
+  settings.sweeps = 100;
+  settings.done = 1e-5F;
+  settings.done_of_gravity = 0x1p-10F;
+  settings.omega_dt = 20.0F;
+  return settings;
+}
+
 // What a step does at most: its substeps, and how often a substep adds to the velocities of a contact's bodies.
 struct MostOfStep {
   std::uint32_t substeps = 0;
