@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/method/rigid/pushed_apart.hpp"
+#include "gpu/stages/rigid/kept_impulses.cuh"
 #include "gpu/stages/rigid/sweeps.cuh"
 
 namespace broadside::gpu {
