@@ -87,13 +87,4 @@ BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const Contac
   return count;
 }
 
-// False: the shapes are farther apart than reach_m, so make_manifolds gives nothing. A short look, of boxes alone.
-BROADSIDE_HD bool may_touch(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
-                            const ContactPose& pose_b, float reach_m) {
-  if (shape_a.kind != ContactKind::kBox || shape_b.kind != ContactKind::kBox) return true;
-  const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
-  const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
-  return separating_axis_of_boxes(a, b, contact_rounding_m(a, b), reach_m).gap_m <= reach_m;
-}
-
 }  // namespace broadside::core

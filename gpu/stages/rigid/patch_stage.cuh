@@ -11,6 +11,7 @@
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
 #include "gpu/stages/rigid/warp_lanes.cuh"
+#include "gpu/stages/rigid/warp_shares.cuh"
 
 namespace broadside::gpu {
 
@@ -69,50 +70,26 @@ __device__ int touch_face(const ContactView& f, std::uint32_t body, std::uint32_
                                       count);
 }
 
-// The pair may have a patch: lanes whose pairs have none would wait for those that do.
-__device__ inline bool may_touch(const ContactView& f, core::Pair pair) {
-  return core::may_touch(f.shapes[f.shape_of_body[pair.i]].contact, pose_of(f, pair.i),
-                         f.shapes[f.shape_of_body[pair.j]].contact, pose_of(f, pair.j),
-                         f.reach_m[pair.i] + f.reach_m[pair.j]);
-}
-
-// Pairs first, then bodies at faces, each as a pair with the face; by whole warps. No shape is a hull or a mesh. A warp
-// gathers 32 pairs that may touch before it looks for their patches; where there are few pairs, it takes them as they
-// come, which is sooner.
+// Pairs first, then bodies at faces; by whole warps. No shape is a hull or a mesh.
 template <typename Team>
 __device__ void make_short_patches(const Team& team, const ContactView& f) {
   using Lanes = core::OneLaneOfShortShapes;
   const std::uint64_t confirmed = f.counts->confirmed;
-  const std::uint64_t items = confirmed + std::uint64_t{core::kFaceCount} * f.body_count;
-  const bool are_many = confirmed > 2 * team.size();
-  const std::uint64_t warps = team.size() / 32;
-  const std::uint64_t warp = team.spread_rank() / 32;
-  const auto turns = static_cast<int>(32 * ((items + 32 * warps - 1) / (32 * warps)));
-  const auto make = [&](int turn, core::Pair& pair) {
-    const auto of_warp = static_cast<std::uint64_t>(turn);
-    const std::uint64_t k = (of_warp / 32 * warps + warp) * 32 + of_warp % 32;
-    if (k >= items) return false;
-    if (k < confirmed) {
-      pair = f.confirmed.items[k];
-      return !are_many || may_touch(f, pair);
-    }
-    const auto body = static_cast<std::uint32_t>((k - confirmed) % f.body_count);
-    const auto face = static_cast<std::uint32_t>((k - confirmed) / f.body_count);
-    pair = {body, core::kFirstFace + face};
-    return may_touch_face(f, body, face);
-  };
-  WarpLanes::Handful<core::Pair> pairs;
-  for (int turn = 0; turn < turns;) {
-    turn = pairs.fill(turn, turns, make);
+  each_item_by_warps(team, confirmed + f.body_count, false, [&](std::uint64_t k, bool is_item) {
     core::Manifold found[core::kPatchesOfPair];
-    const bool has_one = static_cast<int>(lane()) < pairs.count;
-    const core::Pair pair = has_one ? pairs.own : core::Pair{};
-    int count = 0;
-    if (has_one && core::is_face(pair.j)) count = touch_face<Lanes>(f, pair.i, pair.j - core::kFirstFace, found);
-    if (has_one && !core::is_face(pair.j)) count = touch_bodies<Lanes>(f, pair, found);
-    __syncwarp();
-    add_patches(f, pair.i, pair.j, found, count);
-  }
+    const bool is_pair = is_item && k < confirmed;
+    if (__any_sync(kFullWarp, is_pair)) {
+      const core::Pair pair = is_pair ? f.confirmed.items[k] : core::Pair{};
+      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes>(f, pair, found) : 0);
+    }
+    const bool is_body = is_item && !is_pair;
+    if (!__any_sync(kFullWarp, is_body)) return;
+    const auto body = static_cast<std::uint32_t>(is_body ? k - confirmed : 0);
+    for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+      const int count = is_body && may_touch_face(f, body, face) ? touch_face<Lanes>(f, body, face, found) : 0;
+      add_patches(f, body, core::kFirstFace + face, found, count);
+    }
+  });
 }
 
 // The same of any shapes, a warp a pair: the loops over corners, edges, faces and triangles are shared by its lanes,
