@@ -127,10 +127,10 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     if (has_many_edges(a, b)) {
       TiltedContacts more;
       tilted_contacts(a, b, out.normal, unit_across(out.normal), more);
-      return keep_four_of(out, reach_m, kTurnOfStep, [&](const auto& consider) {
-        for (int k = 0; k < area.count; ++k) consider(at(area.points[k]));
-        for (int k = 0; k < more.count; ++k) consider(at(more.points[k]));
-      });
+      return keep_four_by<LanesOf<PolytopeA, PolytopeB>>(
+          out, area.count + more.count, reach_m, kTurnOfStep,
+          [&](int k) { return at(k < area.count ? area.points[k] : more.points[k - area.count]); },
+          [](int) { return true; });
     }
   }
   keep_four(out, area.count, reach_m, [&](int k) { return at(area.points[k]); });
