@@ -105,6 +105,12 @@ BROADSIDE_HD std::uint32_t key_in_mesh(std::uint32_t key, std::uint32_t triangle
   return feature_key(key, triangle + 1);
 }
 
+// Of a body and one triangle.
+BROADSIDE_HD void keep_if_seen(Manifold& m, const PlacedShape& mesh, std::uint32_t t, Vec3 normal) {
+  if (m.count > 0 && !looks(mesh, t, normal, m.normal)) m.count = 0;
+  for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(m.points[k].feature, t);
+}
+
 // A convex body (A) and one triangle.
 template <typename Polytope>
 BROADSIDE_HD_CALLED void against_triangle(const Polytope& a, float ball_m, const PlacedShape& mesh, std::uint32_t t,
@@ -112,8 +118,25 @@ BROADSIDE_HD_CALLED void against_triangle(const Polytope& a, float ball_m, const
   const TrianglePolytope triangle = triangle_polytope(mesh, t);
   const SeparatingAxis axis = separating_axis(a, triangle, rounding_m, reach_m + ball_m);
   polytope_manifold(a, triangle, axis, ball_m, 0.0F, rounding_m, reach_m, m);
-  if (!looks(mesh, t, triangle.normal, m.normal)) m.count = 0;
-  for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(m.points[k].feature, t);
+  keep_if_seen(m, mesh, t, triangle.normal);
+}
+
+// A cylinder (A) and one triangle, which is a hull of two faces to it: so the surface is round here too.
+BROADSIDE_HD_CALLED void cylinder_against_triangle(const PlacedShape& a, const PlacedShape& mesh, std::uint32_t t,
+                                                   float rounding_m, float reach_m, Manifold& m) {
+  const TrianglePolytope triangle = triangle_polytope(mesh, t);
+  const std::uint32_t corners[6] = {0, 1, 2, 0, 2, 1};
+  const HullEdge edges[3] = {{0, 1, 0, 1}, {1, 2, 0, 1}, {2, 0, 0, 1}};
+  Vec3 vertices[3];
+  for (int k = 0; k < 3; ++k) vertices[k] = triangle.corners[k] - triangle.center;
+  const float offset_m = dot(triangle.normal, vertices[0]);
+  const HullFace faces[2] = {{triangle.normal, offset_m, 0, 3}, {-triangle.normal, -offset_m, 3, 3}};
+  ContactShape sheet;
+  sheet.kind = ContactKind::kHull;
+  sheet.hull = {vertices, faces, corners, edges, 3, 2, 3};
+  const PlacedShape placed{&sheet, triangle.center, turned_axes({})};
+  cylinder_manifold<OneLane>(a, placed, rounding_m, reach_m, m);
+  keep_if_seen(m, mesh, t, triangle.normal);
 }
 
 struct PointPolytope {
@@ -181,8 +204,7 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
         against_triangle(box_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, m);
         break;
       case ContactKind::kCylinder:
-        // The even prism stands for the round body: sixteen sides are as fine as the triangles of most meshes.
-        against_triangle(cylinder_polytope(a, 0, {}), 0.0F, mesh, t, rounding_m, reach_m, m);
+        cylinder_against_triangle(a, mesh, t, rounding_m, reach_m, m);
         break;
       default:
         against_triangle(hull_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, m);
