@@ -41,6 +41,7 @@ struct Touch {
 struct Touches {
   int count = 0;
   Touch all[kMeshPoints];
+  float least_deep_m = 3.402823e38F;  // once there is room for no more: the widest gap of all
 
   // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
   // the deepest or, of equal ones, the lowest key.
@@ -54,11 +55,20 @@ struct Touches {
       return is_same ? -static_cast<float>(k) : 3.402823e38F;
     });
     int place = same.value <= 0.0F ? same.item : count;
-    if (place == kMeshPoints)  // the least deep one gives way
-      place = Lanes::first_best(count, [&](int k) { return Rated{true, all[k].point.gap_m, ~all[k].point.feature}; });
+    if (place == kMeshPoints) place = least_deep<Lanes>();  // it gives way
     if (place < count && !is_deeper(t.point, all[place].point)) return;
     if (place == count) ++count;
     all[place] = t;
+    if (count == kMeshPoints) least_deep_m = all[least_deep<Lanes>()].point.gap_m;
+  }
+  template <typename Lanes>
+  BROADSIDE_HD int least_deep() const {
+    return Lanes::first_best(count, [&](int k) { return Rated{true, all[k].point.gap_m, ~all[k].point.feature}; });
+  }
+  // What is farther apart than this but for rounding, add would not keep: of bodies that come fast, whose reach is
+  // wide, most triangles.
+  [[nodiscard]] BROADSIDE_HD float looked_for_m(float reach_m, float rounding_m) const {
+    return fminf(reach_m, least_deep_m + 4.0F * rounding_m);
   }
   BROADSIDE_HD static bool is_deeper(const ManifoldPoint& p, const ManifoldPoint& q) {
     return is_better(-p.gap_m, p.feature, -q.gap_m, q.feature);
@@ -75,10 +85,23 @@ BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::ui
   return out;
 }
 
-// Does a triangle's surface look that way? Rounding of normals counts as looking.
+// The least cosine between a triangle's normal and a direction in which its surface looks. Rounding of normals counts
+// as looking.
+BROADSIDE_HD float least_looking(const PlacedShape& mesh, std::uint32_t t) {
+  return fmaxf(mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal), 0.0F);
+}
+
+// Does a triangle's surface look that way?
 BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, Vec3 direction) {
-  const float least = mesh.shape->mesh.least_facing[t];
-  return dot(normal, direction) >= least - (1.0F - kSameNormal) && dot(normal, direction) > 0.0F;
+  return dot(normal, direction) >= mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal) &&
+         dot(normal, direction) > 0.0F;
+}
+
+// Whether there is a direction in which b looks and against which a looks: the angle between one normal and the other
+// turned over is no more than both may look aside. Normals are units but for far less than the last term.
+BROADSIDE_HD bool may_look_at_each_other(float least_a, Vec3 normal_a, float least_b, Vec3 normal_b) {
+  const float aside = sqrtf((1.0F - least_a * least_a) * (1.0F - least_b * least_b));
+  return -dot(normal_a, normal_b) >= least_a * least_b - aside - 0x1p-14F;
 }
 
 // Boxes of two nodes, one in the axes of the other body: apart along an axis of either by more than reach_m? Not all
@@ -182,7 +205,9 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
   const Vec3 half = half_of(*a.shape);
   const auto open = [&](NodePair pair, NodePair(&below)[2]) {
     const TriangleNode& node = mesh.shape->mesh.nodes[pair.a];
-    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), a, {}, half, reach_m)) return 0;
+    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), a, {}, half,
+                  out.looked_for_m(reach_m, rounding_m)))
+      return 0;
     if (node.count > 0) return Lanes::kLeaf;
     below[0] = {node.first, 0};
     below[1] = {node.first + 1, 0};
@@ -214,13 +239,17 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
-// Two triangles.
+// Two triangles. Nothing where they are farther apart than looked_for_m.
 BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, const PlacedShape& b, std::uint32_t j,
-                                         float rounding_m, float reach_m, Manifold& m) {
+                                         float rounding_m, float reach_m, float looked_for_m, Manifold& m) {
   const TrianglePolytope of_a = triangle_polytope(a, i);
   const TrianglePolytope of_b = triangle_polytope(b, j);
-  const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, reach_m);
+  m.count = 0;
+  if (!may_look_at_each_other(least_looking(a, i), of_a.normal, least_looking(b, j), of_b.normal)) return;
+  const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, looked_for_m);
+  if (axis.gap_m > looked_for_m) return;
   polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
+  if (m.count == 0) return;
   if (!looks(b, j, of_b.normal, m.normal) || !looks(a, i, of_a.normal, -m.normal)) m.count = 0;
   for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(key_in_mesh(m.points[k].feature, i), j);
 }
@@ -235,7 +264,8 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const TriangleNode& node_b = nodes_b[pair.b];
     const Vec3 half_a = 0.5F * (node_a.max - node_a.min);
     const Vec3 half_b = 0.5F * (node_b.max - node_b.min);
-    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, reach_m))
+    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b,
+                  out.looked_for_m(reach_m, rounding_m)))
       return 0;
     if (node_a.count > 0 && node_b.count > 0) return Lanes::kLeaf;
     const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
@@ -248,7 +278,8 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const auto at = static_cast<std::uint32_t>(item);
     const std::uint32_t of_b = nodes_b[pair.b].count;
     Manifold m;
-    triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m, m);
+    triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m,
+                    out.looked_for_m(reach_m, rounding_m), m);
     return m;
   };
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });

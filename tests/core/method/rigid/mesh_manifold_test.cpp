@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/shapes/sphere_mesh.hpp"
 #include "tests/core/method/rigid/mesh_cases.hpp"
 
 namespace broadside::core {
@@ -141,6 +142,52 @@ TEST(Meshes, AMeshInTheNotchOfAnother) {
   EXPECT_NEAR(m[1].normal.x, 1.0F, 1e-6F);
   EXPECT_NEAR(deepest(m, 1), 0.0002F, 1e-6F);
   EXPECT_NEAR(deepest(m + 1, 1), 0.0005F, 1e-6F);
+}
+
+// Bodies that come fast are looked at from far: most pairs of triangles are then farther apart than the points that are
+// kept, and are passed over. All pairs give the same patches, bit for bit.
+TEST(Meshes, FarTrianglesArePassedOverWithoutATrace) {
+  Draw draw(5);
+  int full = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    MeshBody a(datasets::lumpy_mesh(320, 1).value());
+    MeshBody b(datasets::lumpy_mesh(320, 2).value());
+    a.pose.q = draw.turn();
+    b.pose = {draw.between(2.6F, 3.2F) * normalized(draw.in_cube(1.0F)), draw.turn()};
+    const PlacedShape at_a = placed_shape(a.shape, a.pose, a.pose.x);
+    const PlacedShape at_b = placed_shape(b.shape, b.pose, a.pose.x);
+    const float rounding_m = contact_rounding_m(at_a, at_b);
+    constexpr float kReach = 0.6F;
+    mesh_detail::Touches touches;
+    for (std::uint32_t i = 0; i < a.shape.mesh.triangle_count; ++i)
+      for (std::uint32_t j = 0; j < b.shape.mesh.triangle_count; ++j) {
+        const TrianglePolytope of_a = mesh_detail::triangle_polytope(at_a, i);
+        const TrianglePolytope of_b = mesh_detail::triangle_polytope(at_b, j);
+        Manifold m;
+        polytope_manifold(of_a, of_b, separating_axis(of_a, of_b, rounding_m, kReach), 0.0F, 0.0F, rounding_m, kReach,
+                          m);
+        if (m.count == 0 || !mesh_detail::looks(at_b, j, of_b.normal, m.normal) ||
+            !mesh_detail::looks(at_a, i, of_a.normal, -m.normal))
+          continue;
+        for (int k = 0; k < m.count; ++k)
+          m.points[k].feature = mesh_detail::key_in_mesh(mesh_detail::key_in_mesh(m.points[k].feature, i), j);
+        mesh_detail::take_all<OneLane>(m, rounding_m, touches);
+      }
+    Manifold all[kPatchesOfPair];
+    const int patches = mesh_detail::patches_of<OneLane>(touches, kReach, all);
+    Manifold found[kPatchesOfPair];
+    ASSERT_EQ(make_manifolds(a.shape, a.pose, b.shape, b.pose, kReach, found), patches) << "trial " << trial;
+    for (int k = 0; k < patches; ++k) {
+      EXPECT_EQ(found[k].normal, all[k].normal) << "trial " << trial;
+      ASSERT_EQ(found[k].count, all[k].count) << "trial " << trial;
+      for (int p = 0; p < found[k].count; ++p) {
+        EXPECT_EQ(found[k].points[p].gap_m, all[k].points[p].gap_m) << "trial " << trial;
+        EXPECT_EQ(found[k].points[p].point, all[k].points[p].point) << "trial " << trial;
+      }
+    }
+    full += touches.count == kMeshPoints ? 1 : 0;
+  }
+  EXPECT_GT(full, 0) << "no trial had more points than are kept";
 }
 
 }  // namespace
