@@ -40,8 +40,8 @@ struct Touch {
 
 struct Touches {
   int count = 0;
+  float shallowest_m = 3.402823e38F;  // with no place left, of the least deep one: no point less deep gets one
   Touch all[kMeshPoints];
-  float least_deep_m = 3.402823e38F;  // once there is room for no more: the widest gap of all
 
   // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
   // the deepest or, of equal ones, the lowest key.
@@ -55,20 +55,19 @@ struct Touches {
       return is_same ? -static_cast<float>(k) : 3.402823e38F;
     });
     int place = same.value <= 0.0F ? same.item : count;
-    if (place == kMeshPoints) place = least_deep<Lanes>();  // it gives way
+    if (place == kMeshPoints)  // the least deep one gives way
+      place = Lanes::first_best(count, [&](int k) { return Rated{true, all[k].point.gap_m, ~all[k].point.feature}; });
     if (place < count && !is_deeper(t.point, all[place].point)) return;
     if (place == count) ++count;
     all[place] = t;
-    if (count == kMeshPoints) least_deep_m = all[least_deep<Lanes>()].point.gap_m;
+    if (count == kMeshPoints)
+      shallowest_m = -Lanes::first_least(count, [&](int k) { return -all[k].point.gap_m; }).value;
   }
-  template <typename Lanes>
-  BROADSIDE_HD int least_deep() const {
-    return Lanes::first_best(count, [&](int k) { return Rated{true, all[k].point.gap_m, ~all[k].point.feature}; });
-  }
-  // What is farther apart than this but for rounding, add would not keep: of bodies that come fast, whose reach is
-  // wide, most triangles.
-  [[nodiscard]] BROADSIDE_HD float looked_for_m(float reach_m, float rounding_m) const {
-    return fminf(reach_m, least_deep_m + 4.0F * rounding_m);
+
+  // How far apart nodes are looked into: farther ones only have points that get no place. Points are no nearer than
+  // what they are on, but for 3 roundings, and boxes are off by one: twice that is allowed.
+  BROADSIDE_HD float seen_m(float reach_m, float rounding_m) const {
+    return fminf(reach_m, fmaxf(shallowest_m, 0.0F) + 8.0F * rounding_m);
   }
   BROADSIDE_HD static bool is_deeper(const ManifoldPoint& p, const ManifoldPoint& q) {
     return is_better(-p.gap_m, p.feature, -q.gap_m, q.feature);
@@ -205,9 +204,8 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
   const Vec3 half = half_of(*a.shape);
   const auto open = [&](NodePair pair, NodePair(&below)[2]) {
     const TriangleNode& node = mesh.shape->mesh.nodes[pair.a];
-    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), a, {}, half,
-                  out.looked_for_m(reach_m, rounding_m)))
-      return 0;
+    const float seen_m = out.seen_m(reach_m, rounding_m);
+    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), a, {}, half, seen_m)) return 0;
     if (node.count > 0) return Lanes::kLeaf;
     below[0] = {node.first, 0};
     below[1] = {node.first + 1, 0};
@@ -239,15 +237,15 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
-// Two triangles. Nothing where they are farther apart than looked_for_m.
+// Two triangles. Nothing where they are farther apart than seen_m.
 BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, const PlacedShape& b, std::uint32_t j,
-                                         float rounding_m, float reach_m, float looked_for_m, Manifold& m) {
+                                         float rounding_m, float reach_m, float seen_m, Manifold& m) {
   const TrianglePolytope of_a = triangle_polytope(a, i);
   const TrianglePolytope of_b = triangle_polytope(b, j);
   m.count = 0;
   if (!may_look_at_each_other(least_looking(a, i), of_a.normal, least_looking(b, j), of_b.normal)) return;
-  const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, looked_for_m);
-  if (axis.gap_m > looked_for_m) return;
+  const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, seen_m);
+  if (axis.gap_m > seen_m) return;
   polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
   if (m.count == 0) return;
   if (!looks(b, j, of_b.normal, m.normal) || !looks(a, i, of_a.normal, -m.normal)) m.count = 0;
@@ -264,8 +262,8 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const TriangleNode& node_b = nodes_b[pair.b];
     const Vec3 half_a = 0.5F * (node_a.max - node_a.min);
     const Vec3 half_b = 0.5F * (node_b.max - node_b.min);
-    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b,
-                  out.looked_for_m(reach_m, rounding_m)))
+    const float seen_m = out.seen_m(reach_m, rounding_m);
+    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, seen_m))
       return 0;
     if (node_a.count > 0 && node_b.count > 0) return Lanes::kLeaf;
     const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
@@ -279,7 +277,7 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const std::uint32_t of_b = nodes_b[pair.b].count;
     Manifold m;
     triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m,
-                    out.looked_for_m(reach_m, rounding_m), m);
+                    out.seen_m(reach_m, rounding_m), m);
     return m;
   };
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
