@@ -82,7 +82,8 @@ core::Result<ScenePanel> panel_after(const core::Scene& scene, std::uint32_t fra
     if (core::Status s = dynamics.step(scene.dt_s); !s) return s.error();
   core::FrameRecord frame;
   if (core::Status s = dynamics.read_back(frame, core::RecordLevel::kFull); !s) return s.error();
-  return ScenePanel{fmt::format("after {} frames, {:.1f} s (octree-cpu)", frames, frames * scene.dt_s), frame.position};
+  return ScenePanel{fmt::format("after {} frames, {:.1f} s (octree-cpu)", frames, frames * scene.dt_s), frame.position,
+                    frame.orientation};
 }
 
 core::Status write_picture(const core::Scene& scene, const SceneCommand& a) {
@@ -93,7 +94,10 @@ core::Status write_picture(const core::Scene& scene, const SceneCommand& a) {
     return core::Error{"a picture shows at most 10000 bodies", scene.name, "ask for fewer"};
   std::vector<ScenePanel> panels(1);
   panels[0].caption = "start";
-  for (const core::Body& body : scene.bodies) panels[0].positions.push_back(body.position);
+  for (const core::Body& body : scene.bodies) {
+    panels[0].positions.push_back(body.position);
+    panels[0].orientations.push_back(body.orientation);
+  }
   if (a.after > 0) {
     auto later = panel_after(scene, a.after);
     if (!later) return later.error();

@@ -1,10 +1,11 @@
-// A scene as a small picture: bodies as flat-shaded boxes, static ones as outlines.
+// A scene as a small picture: bodies flat-shaded, static ones as outlines.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/math/quat.hpp"
 #include "core/math/vec3.hpp"
 #include "core/scene/scene.hpp"
 
@@ -13,11 +14,12 @@ namespace broadside::bench {
 // One moment of the scene.
 struct ScenePanel {
   std::string caption;
-  std::vector<core::Vec3> positions;  // of all bodies, m
+  std::vector<core::Vec3> positions;     // of all bodies, m
+  std::vector<core::Quat> orientations;  // likewise; read where bodies turn
 };
 
-// SVG, panels side by side in one scale: parallel projection, y upward, nearer bodies over farther ones. Bodies are
-// drawn as their boxes, which is also what contacts are made from.
+// SVG, panels side by side in one scale: parallel projection, y upward, nearer bodies over farther ones. Bodies that
+// translate are drawn as their boxes, which is also what contacts are made from; bodies that turn as they lie.
 std::string scene_svg(const core::Scene& scene, std::span<const ScenePanel> panels);
 
 }  // namespace broadside::bench

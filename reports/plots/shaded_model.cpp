@@ -92,6 +92,10 @@ class DepthBuffer {
 
 }  // namespace
 
+double brightness_toward(core::Vec3 normal, const View& view) {
+  return brightness_of(project(normal, view));
+}
+
 Raster shade_model(const core::Mesh& mesh, const View& view, const Window& window, std::uint32_t side) {
   std::vector<Projected> points;
   points.reserve(mesh.vertices.size());

@@ -25,4 +25,7 @@ struct Raster {
 // flicker from cell to cell. Light comes from the eye's upper left.
 Raster shade_model(const core::Mesh& mesh, const View& view, const Window& window, std::uint32_t side);
 
+// How bright the raster shows a surface of this normal, which is in the mesh's axes: from 0.3 in the shade to 1.
+double brightness_toward(core::Vec3 normal, const View& view);
+
 }  // namespace broadside::reports::plots

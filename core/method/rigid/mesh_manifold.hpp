@@ -40,6 +40,7 @@ struct Touch {
 
 struct Touches {
   int count = 0;
+  float shallowest_m = 3.402823e38F;  // with no place left, of the least deep one: no point less deep gets one
   Touch all[kMeshPoints];
 
   // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
@@ -59,6 +60,14 @@ struct Touches {
     if (place < count && !is_deeper(t.point, all[place].point)) return;
     if (place == count) ++count;
     all[place] = t;
+    if (count == kMeshPoints)
+      shallowest_m = -Lanes::first_least(count, [&](int k) { return -all[k].point.gap_m; }).value;
+  }
+
+  // How far apart nodes are looked into: farther ones only have points that get no place. Points are no nearer than
+  // what they are on, but for 3 roundings, and boxes are off by one: twice that is allowed.
+  BROADSIDE_HD float seen_m(float reach_m, float rounding_m) const {
+    return fminf(reach_m, fmaxf(shallowest_m, 0.0F) + 8.0F * rounding_m);
   }
   BROADSIDE_HD static bool is_deeper(const ManifoldPoint& p, const ManifoldPoint& q) {
     return is_better(-p.gap_m, p.feature, -q.gap_m, q.feature);
@@ -75,10 +84,23 @@ BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::ui
   return out;
 }
 
-// Does a triangle's surface look that way? Rounding of normals counts as looking.
+// The least cosine between a triangle's normal and a direction in which its surface looks. Rounding of normals counts
+// as looking.
+BROADSIDE_HD float least_looking(const PlacedShape& mesh, std::uint32_t t) {
+  return fmaxf(mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal), 0.0F);
+}
+
+// Does a triangle's surface look that way?
 BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, Vec3 direction) {
-  const float least = mesh.shape->mesh.least_facing[t];
-  return dot(normal, direction) >= least - (1.0F - kSameNormal) && dot(normal, direction) > 0.0F;
+  return dot(normal, direction) >= mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal) &&
+         dot(normal, direction) > 0.0F;
+}
+
+// Whether there is a direction in which b looks and against which a looks: the angle between one normal and the other
+// turned over is no more than both may look aside. Normals are units but for far less than the last term.
+BROADSIDE_HD bool may_look_at_each_other(float least_a, Vec3 normal_a, float least_b, Vec3 normal_b) {
+  const float aside = sqrtf((1.0F - least_a * least_a) * (1.0F - least_b * least_b));
+  return -dot(normal_a, normal_b) >= least_a * least_b - aside - 0x1p-14F;
 }
 
 // Boxes of two nodes, one in the axes of the other body: apart along an axis of either by more than reach_m? Not all
@@ -105,6 +127,12 @@ BROADSIDE_HD std::uint32_t key_in_mesh(std::uint32_t key, std::uint32_t triangle
   return feature_key(key, triangle + 1);
 }
 
+// Of a body and one triangle.
+BROADSIDE_HD void keep_if_seen(Manifold& m, const PlacedShape& mesh, std::uint32_t t, Vec3 normal) {
+  if (m.count > 0 && !looks(mesh, t, normal, m.normal)) m.count = 0;
+  for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(m.points[k].feature, t);
+}
+
 // A convex body (A) and one triangle.
 template <typename Polytope>
 BROADSIDE_HD_CALLED void against_triangle(const Polytope& a, float ball_m, const PlacedShape& mesh, std::uint32_t t,
@@ -112,8 +140,25 @@ BROADSIDE_HD_CALLED void against_triangle(const Polytope& a, float ball_m, const
   const TrianglePolytope triangle = triangle_polytope(mesh, t);
   const SeparatingAxis axis = separating_axis(a, triangle, rounding_m, reach_m + ball_m);
   polytope_manifold(a, triangle, axis, ball_m, 0.0F, rounding_m, reach_m, m);
-  if (!looks(mesh, t, triangle.normal, m.normal)) m.count = 0;
-  for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(m.points[k].feature, t);
+  keep_if_seen(m, mesh, t, triangle.normal);
+}
+
+// A cylinder (A) and one triangle, which is a hull of two faces to it: so the surface is round here too.
+BROADSIDE_HD_CALLED void cylinder_against_triangle(const PlacedShape& a, const PlacedShape& mesh, std::uint32_t t,
+                                                   float rounding_m, float reach_m, Manifold& m) {
+  const TrianglePolytope triangle = triangle_polytope(mesh, t);
+  const std::uint32_t corners[6] = {0, 1, 2, 0, 2, 1};
+  const HullEdge edges[3] = {{0, 1, 0, 1}, {1, 2, 0, 1}, {2, 0, 0, 1}};
+  Vec3 vertices[3];
+  for (int k = 0; k < 3; ++k) vertices[k] = triangle.corners[k] - triangle.center;
+  const float offset_m = dot(triangle.normal, vertices[0]);
+  const HullFace faces[2] = {{triangle.normal, offset_m, 0, 3}, {-triangle.normal, -offset_m, 3, 3}};
+  ContactShape sheet;
+  sheet.kind = ContactKind::kHull;
+  sheet.hull = {vertices, faces, corners, edges, 3, 2, 3};
+  const PlacedShape placed{&sheet, triangle.center, turned_axes({})};
+  cylinder_manifold<OneLane>(a, placed, rounding_m, reach_m, m);
+  keep_if_seen(m, mesh, t, triangle.normal);
 }
 
 struct PointPolytope {
@@ -159,7 +204,8 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
   const Vec3 half = half_of(*a.shape);
   const auto open = [&](NodePair pair, NodePair(&below)[2]) {
     const TriangleNode& node = mesh.shape->mesh.nodes[pair.a];
-    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), a, {}, half, reach_m)) return 0;
+    const float seen_m = out.seen_m(reach_m, rounding_m);
+    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), a, {}, half, seen_m)) return 0;
     if (node.count > 0) return Lanes::kLeaf;
     below[0] = {node.first, 0};
     below[1] = {node.first + 1, 0};
@@ -181,8 +227,7 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
         against_triangle(box_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, m);
         break;
       case ContactKind::kCylinder:
-        // The even prism stands for the round body: sixteen sides are as fine as the triangles of most meshes.
-        against_triangle(cylinder_polytope(a, 0, {}), 0.0F, mesh, t, rounding_m, reach_m, m);
+        cylinder_against_triangle(a, mesh, t, rounding_m, reach_m, m);
         break;
       default:
         against_triangle(hull_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, m);
@@ -192,13 +237,17 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
-// Two triangles.
+// Two triangles. Nothing where they are farther apart than seen_m.
 BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, const PlacedShape& b, std::uint32_t j,
-                                         float rounding_m, float reach_m, Manifold& m) {
+                                         float rounding_m, float reach_m, float seen_m, Manifold& m) {
   const TrianglePolytope of_a = triangle_polytope(a, i);
   const TrianglePolytope of_b = triangle_polytope(b, j);
-  const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, reach_m);
+  m.count = 0;
+  if (!may_look_at_each_other(least_looking(a, i), of_a.normal, least_looking(b, j), of_b.normal)) return;
+  const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, seen_m);
+  if (axis.gap_m > seen_m) return;
   polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
+  if (m.count == 0) return;
   if (!looks(b, j, of_b.normal, m.normal) || !looks(a, i, of_a.normal, -m.normal)) m.count = 0;
   for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(key_in_mesh(m.points[k].feature, i), j);
 }
@@ -213,7 +262,8 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const TriangleNode& node_b = nodes_b[pair.b];
     const Vec3 half_a = 0.5F * (node_a.max - node_a.min);
     const Vec3 half_b = 0.5F * (node_b.max - node_b.min);
-    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, reach_m))
+    const float seen_m = out.seen_m(reach_m, rounding_m);
+    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, seen_m))
       return 0;
     if (node_a.count > 0 && node_b.count > 0) return Lanes::kLeaf;
     const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
@@ -226,7 +276,8 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const auto at = static_cast<std::uint32_t>(item);
     const std::uint32_t of_b = nodes_b[pair.b].count;
     Manifold m;
-    triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m, m);
+    triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m,
+                    out.seen_m(reach_m, rounding_m), m);
     return m;
   };
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });

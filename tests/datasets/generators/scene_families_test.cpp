@@ -111,6 +111,18 @@ TEST_P(Family, TheTwinRunsItAndNoVerdictFails) {
   }
 }
 
+// The same with bodies that turn: laws of mechanics then judge the motion, and penetration has a class.
+TEST_P(Family, TheTwinTurnsItAndNoVerdictFails) {
+  Scene scene = made(name("cube", 12, "[rigid=1]"));
+  scene.frames = 60;
+  int laws_that_tie_motion_to_forces = 0;
+  for (const core::Verdict& v : tests::verdicts_of(scene)) {
+    EXPECT_NE(v.outcome, core::Outcome::kFail) << v.validator << ": " << v.explanation;
+    laws_that_tie_motion_to_forces += v.ties_motion_to_forces && v.outcome == core::Outcome::kPass ? 1 : 0;
+  }
+  EXPECT_GT(laws_that_tie_motion_to_forces, GetParam() == "static" ? -1 : 0);
+}
+
 TEST_P(Family, ComesBackFromAFileAsTheSameScene) {
   const tests::TemporaryFolder folder;
   const Scene scene = made(name("brick", 9, "[seed=3]"));

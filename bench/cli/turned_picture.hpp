@@ -1,0 +1,18 @@
+// Bodies that turn, drawn into a picture of a scene: their true outlines, shaded by where their faces look.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "bench/cli/picture_plane.hpp"
+#include "bench/cli/seen_body.hpp"
+#include "core/scene/scene.hpp"
+#include "reports/plots/drawing.hpp"
+
+namespace broadside::bench {
+
+// bodies: all of the scene. Static ones are outlines over the others, as in pictures of bodies that translate.
+void draw_turned(reports::plots::Drawing& drawing, const core::Scene& scene, std::span<const SeenBody> bodies,
+                 const PicturePlane& plane, double panel_left);
+
+}  // namespace broadside::bench
