@@ -1,8 +1,13 @@
 #include "core/scene/mass_properties.hpp"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "core/exact/convex_hull.hpp"
 #include "core/exact/self_crossing.hpp"
@@ -100,13 +105,32 @@ MassProperties of_primitive(const Primitive& p, double mass_kg) {
   return out;
 }
 
+// Every load of a scene asks this four times of each mesh, and of a million triangles the answer takes seconds: so it
+// is kept for the meshes of this process, by the hash of what it depends on.
+bool crosses_itself(const Mesh& mesh) {
+  static std::mutex mutex;
+  static std::map<std::pair<std::uint64_t, std::uint64_t>, bool> known;
+  const XXH128_hash_t points = XXH3_128bits(mesh.vertices.data(), mesh.vertices.size() * sizeof(mesh.vertices[0]));
+  const XXH128_hash_t both = XXH3_128bits_withSeed(
+      mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]), points.low64 ^ points.high64);
+  const std::pair key{both.low64, both.high64};
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto at = known.find(key); at != known.end()) return at->second;
+  }
+  const bool crosses = exact::crosses_itself(mesh);
+  const std::lock_guard lock(mutex);
+  known.emplace(key, crosses);
+  return crosses;
+}
+
 // Why what the mesh's triangles enclose is no solid; empty when it is one.
 std::string why_hull(const Mesh& mesh) {
   const Topology surface = topology(mesh);
   if (!surface.is_closed()) return "the mesh is open";
   if (surface.misoriented_edges > 0) return "the mesh's triangles turn both ways";
   if (!(moments_of(mesh).volume > 0.0)) return "the mesh encloses no volume above zero";
-  return exact::crosses_itself(mesh) ? "the mesh crosses itself" : "";
+  return crosses_itself(mesh) ? "the mesh crosses itself" : "";
 }
 
 }  // namespace

@@ -27,6 +27,10 @@ core::Result<LaunchShape> contact_launch_shape() {
   return LaunchShape{kThreads, kBlocks, 0, kBlocks};
 }
 
+core::Result<LaunchShape> long_contact_launch_shape() {
+  return contact_launch_shape();
+}
+
 core::Result<LaunchShape> constraint_launch_shape() {
   return contact_launch_shape();
 }
@@ -41,7 +45,12 @@ core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shap
 }
 
 core::Status launch_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts(frame); });
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts<false>(frame); });
+  return core::Done{};
+}
+
+core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts<true>(frame); });
   return core::Done{};
 }
 

@@ -1,5 +1,4 @@
-// The kernel of a frame of turning bodies that finds their patches of contact: slow to compile, for all shapes meet
-// here.
+// The kernel of a frame of turning bodies that finds their patches of contact, where no shape is a hull or a mesh.
 #include "gpu/rigid/contact_launch.hpp"
 #include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/kernel_launch.cuh"
@@ -14,7 +13,7 @@ constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
     contact_kernel(const __grid_constant__ ContactView frame) {
-  run_contacts(frame);
+  run_contacts<false>(frame);
 }
 
 }  // namespace

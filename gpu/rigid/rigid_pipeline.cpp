@@ -152,7 +152,10 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.broad_barrier.fill_bytes(0));
   const std::size_t n = d.bodies.state.size();
   BROADSIDE_TRY(d.pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBody * n), "pairs"));
-  auto contact_shape = contact_launch_shape();
+  d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
+    return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
+  });
+  auto contact_shape = d.view.has_long_contacts ? long_contact_launch_shape() : contact_launch_shape();
   if (!contact_shape.ok()) return contact_shape.error();
   d.contact_shape = contact_shape.value();
   auto constraint_shape = constraint_launch_shape();
@@ -171,9 +174,6 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.view.body_count = static_cast<std::uint32_t>(n);
   d.view.levels = d.options.levels;
   d.view.has_broad = d.has_broad();
-  d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
-    return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
-  });
   d.view.gravity_m_s2 = scene.gravity_m_s2;
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;
@@ -229,7 +229,8 @@ core::Status RigidPipeline::Impl::launch_all() {
   // find that the boxes are too large, and the frame is repeated.
   const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
   if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
-  BROADSIDE_TRY(launch_contacts(view, contact_shape, stream));
+  BROADSIDE_TRY(view.has_long_contacts ? launch_long_contacts(view, contact_shape, stream)
+                                       : launch_contacts(view, contact_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
   BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
   return wait_for_stream(stream, "a frame");

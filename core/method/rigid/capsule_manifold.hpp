@@ -113,6 +113,7 @@ BROADSIDE_HD void lying(const PlacedShape& capsule, const Polytope& other, float
 
 }  // namespace capsule_detail
 
+template <typename Lanes>
 BROADSIDE_HD_CALLED void capsule_manifold(const PlacedShape& capsule, const PlacedShape& other, float rounding_m,
                                           float reach_m, Manifold& out) {
   const SegmentPolytope segment = segment_polytope(capsule);
@@ -127,13 +128,14 @@ BROADSIDE_HD_CALLED void capsule_manifold(const PlacedShape& capsule, const Plac
     return capsule_detail::lying(
         capsule, box, rounding_m, reach_m, [&](Vec3 p) { return point_to_box(other, p, rounding_m); }, out);
   }
-  if (other.shape->kind == ContactKind::kHull) {
-    const HullPolytope hull = hull_polytope(other);
-    const SeparatingAxis axis = separating_axis(segment, hull, rounding_m, reach_m + ball);
-    polytope_manifold(segment, hull, axis, ball, 0.0F, rounding_m, reach_m, out);
-    return capsule_detail::lying(
-        capsule, hull, rounding_m, reach_m, [&](Vec3 p) { return point_to_hull(other, p, rounding_m); }, out);
-  }
+  if constexpr (Lanes::kKnowsLongShapes)
+    if (other.shape->kind == ContactKind::kHull) {
+      const HullPolytope hull = hull_polytope(other);
+      const SeparatingAxis axis = separating_axis(segment, hull, rounding_m, reach_m + ball);
+      polytope_manifold(segment, hull, axis, ball, 0.0F, rounding_m, reach_m, out);
+      capsule_detail::lying(
+          capsule, hull, rounding_m, reach_m, [&](Vec3 p) { return point_to_hull(other, p, rounding_m); }, out);
+    }
 }
 
 }  // namespace broadside::core

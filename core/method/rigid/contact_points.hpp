@@ -7,6 +7,7 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/lanes.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/pair.hpp"
 
@@ -31,11 +32,6 @@ BROADSIDE_HD constexpr std::uint32_t feature_key(std::uint32_t of_a, std::uint32
   return key == 0 ? 1U : key;
 }
 
-// Larger first; of equal ones the lower key, so that the order of candidates does not matter.
-BROADSIDE_HD constexpr bool is_better(float value, std::uint32_t key, float best, std::uint32_t best_key) {
-  return value > best || (value == best && key < best_key);
-}
-
 // Picks up to four of the candidates that for_each gives, with a gap of at most reach_m: the deepest, the one farthest
 // from it, the one that makes the largest triangle with both, and the one farthest outside that triangle. Distances are
 // those across the normal. The result does not depend on the order of the candidates.
@@ -43,64 +39,94 @@ BROADSIDE_HD constexpr bool is_better(float value, std::uint32_t key, float best
 // tilt: how far round bodies may turn within a step, rad; 0 = all candidates count alike. One that only a larger turn
 // about the deepest point brings down counts for less in the same measure. Before, the four of a bunny on the floor
 // were far apart and high up, and between them it rolled into the floor by 7 cm.
+class FourKept {
+ public:
+  BROADSIDE_HD FourKept(Vec3 normal, float reach_m, float tilt) : n_(normal), reach_m_(reach_m), tilt_(tilt) {}
+
+  // What it is worth in the round that comes next.
+  [[nodiscard]] BROADSIDE_HD Rated rate(const ManifoldPoint& candidate) const {
+    Rated rated;
+    if (!(candidate.gap_m <= reach_m_)) return rated;
+    // One corner may come with several triangles; where the common area is a line but for rounding, one edge may
+    // cross one side twice.
+    bool is_kept = false;
+    for (int earlier = 0; earlier < count_; ++earlier) is_kept |= kept_[earlier].feature == candidate.feature;
+    if (is_kept) return rated;
+    const Vec3 from_first = candidate.point - kept_[0].point;
+    const Vec3 across = from_first - dot(n_, from_first) * n_;
+    float value = 0.0F;
+    if (count_ == 0) {
+      value = -candidate.gap_m;
+    } else if (count_ == 1) {
+      value = dot(across, across);
+    } else if (count_ == 2) {
+      value = fabsf(dot(n_, cross(kept_[1].point - kept_[0].point, from_first)));
+    } else {
+      const float twice = dot(n_, cross(kept_[1].point - kept_[0].point, kept_[2].point - kept_[0].point));
+      const float turn = twice < 0.0F ? -1.0F : 1.0F;
+      for (int side = 0; side < 3; ++side) {
+        const Vec3 start = kept_[side].point;
+        const Vec3 end = kept_[side == 2 ? 0 : side + 1].point;
+        value = fmaxf(value, -turn * dot(n_, cross(end - start, candidate.point - start)));
+      }
+    }
+    if (count_ > 0 && tilt_ > 0.0F) {
+      const float rise = candidate.gap_m - kept_[0].gap_m;
+      const float reached = tilt_ * length(across);
+      if (rise > reached) value = value * ((reached / rise) * (reached / rise));
+    }
+    return {count_ == 0 || value > 0.0F, value, candidate.feature};
+  }
+
+  BROADSIDE_HD void keep(const ManifoldPoint& chosen) { kept_[count_++] = chosen; }
+
+  // In the order of their keys: the same while the same four are kept.
+  BROADSIDE_HD void tell(Manifold& out) const {
+    out.count = count_;
+    for (int k = 0; k < count_; ++k) {
+      int place = k;
+      for (; place > 0 && kept_[k].feature < out.points[place - 1].feature; --place)
+        out.points[place] = out.points[place - 1];
+      out.points[place] = kept_[k];
+    }
+  }
+
+ private:
+  Vec3 n_;
+  float reach_m_;
+  float tilt_;
+  int count_ = 0;
+  ManifoldPoint kept_[kManifoldPoints];
+};
+
 template <typename ForEach>
 BROADSIDE_HD void keep_four_of(Manifold& out, float reach_m, float tilt, const ForEach& for_each) {
-  out.count = 0;
-  ManifoldPoint kept[kManifoldPoints];
-  const Vec3 n = out.normal;
+  FourKept four(out.normal, reach_m, tilt);
   for (int round = 0; round < kManifoldPoints; ++round) {
-    float best = 0.0F;
-    std::uint32_t best_key = 0;
-    bool found = false;
+    Rated best;
     ManifoldPoint chosen;
     for_each([&](const ManifoldPoint& candidate) {
-      if (!(candidate.gap_m <= reach_m)) return;
-      // One corner may come with several triangles; where the common area is a line but for rounding, one edge may
-      // cross one side twice.
-      bool is_kept = false;
-      for (int earlier = 0; earlier < round; ++earlier) is_kept |= kept[earlier].feature == candidate.feature;
-      if (is_kept) return;
-      const Vec3 from_first = candidate.point - kept[0].point;
-      const Vec3 across = from_first - dot(n, from_first) * n;
-      float value = 0.0F;
-      if (round == 0) {
-        value = -candidate.gap_m;
-      } else if (round == 1) {
-        value = dot(across, across);
-      } else if (round == 2) {
-        value = fabsf(dot(n, cross(kept[1].point - kept[0].point, from_first)));
-      } else {
-        const float twice = dot(n, cross(kept[1].point - kept[0].point, kept[2].point - kept[0].point));
-        const float turn = twice < 0.0F ? -1.0F : 1.0F;
-        for (int side = 0; side < 3; ++side) {
-          const Vec3 start = kept[side].point;
-          const Vec3 end = kept[side == 2 ? 0 : side + 1].point;
-          value = fmaxf(value, -turn * dot(n, cross(end - start, candidate.point - start)));
-        }
-      }
-      if (round > 0 && tilt > 0.0F) {
-        const float rise = candidate.gap_m - kept[0].gap_m;
-        const float reached = tilt * length(across);
-        if (rise > reached) value = value * ((reached / rise) * (reached / rise));
-      }
-      if (round > 0 && !(value > 0.0F)) return;
-      if (found && !is_better(value, candidate.feature, best, best_key)) return;
-      found = true;
-      best = value;
-      best_key = candidate.feature;
+      const Rated own = four.rate(candidate);
+      if (!own.counts || (best.counts && !is_better(own.value, own.key, best.value, best.key))) return;
+      best = own;
       chosen = candidate;
     });
-    if (!found) break;
-    kept[round] = chosen;
-    out.count = round + 1;
+    if (!best.counts) break;
+    four.keep(chosen);
   }
-  // In the order of their keys: the same while the same four are kept.
-  for (int k = 0; k < out.count; ++k) {
-    int place = k;
-    for (; place > 0 && kept[k].feature < out.points[place - 1].feature; --place)
-      out.points[place] = out.points[place - 1];
-    out.points[place] = kept[k];
+  four.tell(out);
+}
+
+// The same of candidates that have numbers: at(k) gives one, of those that has(k) says.
+template <typename Lanes, typename At, typename Has>
+BROADSIDE_HD void keep_four_by(Manifold& out, int count, float reach_m, float tilt, const At& at, const Has& has) {
+  FourKept four(out.normal, reach_m, tilt);
+  for (int round = 0; round < kManifoldPoints; ++round) {
+    const int best = Lanes::first_best(count, [&](int k) { return has(k) ? four.rate(at(k)) : Rated{}; });
+    if (best < 0) break;
+    four.keep(at(best));
   }
+  four.tell(out);
 }
 
 // Bodies that fall onto each other at 10 m/s turn by so much within a step, rad.
@@ -108,9 +134,7 @@ inline constexpr float kTurnOfStep = 0.125F;
 
 template <typename At>
 BROADSIDE_HD void keep_four(Manifold& out, int count, float reach_m, const At& at) {
-  keep_four_of(out, reach_m, 0.0F, [&](const auto& consider) {
-    for (int k = 0; k < count; ++k) consider(at(k));
-  });
+  keep_four_by<OneLane>(out, count, reach_m, 0.0F, at, [](int) { return true; });
 }
 
 BROADSIDE_HD void keep_one(Manifold& out, Vec3 point, float gap_m, std::uint32_t feature) {

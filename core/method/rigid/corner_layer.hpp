@@ -4,21 +4,14 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/lanes.hpp"
 
 namespace broadside::core {
 
 template <typename Polytope>
 BROADSIDE_HD int lowest_corner(const Polytope& p, Vec3 direction) {
   const Vec3 local = p.local(direction);
-  int lowest = 0;
-  float least = 3.402823e38F;
-  for (int k = 0; k < p.corner_count(); ++k) {
-    const float along = p.height(k, local);
-    if (!(along < least)) continue;
-    least = along;
-    lowest = k;
-  }
-  return lowest;
+  return Polytope::Lanes::first_least(p.corner_count(), [&](int k) { return p.height(k, local); }).item;
 }
 
 // The part of a body that may be within a distance of the other one: corners and edges up to a height above the body's

@@ -326,6 +326,7 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
 }  // namespace cylinder_detail
 
 // The cylinder is A here, whatever the kinds' order.
+template <typename Lanes>
 BROADSIDE_HD_CALLED void cylinder_manifold(const PlacedShape& cylinder, const PlacedShape& other, float rounding_m,
                                            float reach_m, Manifold& out) {
   switch (other.shape->kind) {
@@ -335,10 +336,11 @@ BROADSIDE_HD_CALLED void cylinder_manifold(const PlacedShape& cylinder, const Pl
       return cylinder_detail::against(cylinder, other, BoxPolytope{}, rounding_m, reach_m, out);
     case ContactKind::kCylinder:
       return cylinder_detail::against(cylinder, other, CylinderPolytope{}, rounding_m, reach_m, out);
-    case ContactKind::kHull:
-      return cylinder_detail::against(cylinder, other, HullPolytope{}, rounding_m, reach_m, out);
     default:
       out.count = 0;
+      if constexpr (Lanes::kKnowsLongShapes)
+        if (other.shape->kind == ContactKind::kHull)
+          cylinder_detail::against(cylinder, other, HullPolytope{}, rounding_m, reach_m, out);
   }
 }
 

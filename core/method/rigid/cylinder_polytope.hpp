@@ -8,6 +8,7 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/lanes.hpp"
 
 namespace broadside::core {
 
@@ -53,6 +54,7 @@ BROADSIDE_HD Vec3 rim_angle(int pass, int k) {
 // Corners 0 to 15 are those of the lower end, 16 to 31 of the upper one. Faces 0 and 1 are the ends, 2 + k the side
 // from corner k to the next. Edges: 16 around the lower end, 16 around the upper one, 16 along.
 struct CylinderPolytope {
+  using Lanes = OneLane;
   static constexpr int kMostFaceCorners = kRimCorners;
   static constexpr bool kIsSheet = false;
   Vec3 center;

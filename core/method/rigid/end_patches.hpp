@@ -47,6 +47,7 @@ BROADSIDE_HD bool is_foreseen(const ManifoldPoint& p, float end_gap_m, const Man
 
 // Adds to the patches of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most.
 // swing_m: by how much turning moves points of both.
+template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                         const ContactPath& b, float swing_m, Manifold* found, int count) {
   // In sizes of the smaller body: what is less is left to the patches of the start; points nearer to each other than
@@ -62,7 +63,7 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
   for (int k = 1; k < count; ++k) least_m = fminf(least_m, least_gap_m(found[k]));
   least_m = fminf(least_m, 0.0F);
   Manifold end[kPatchesOfPair];
-  const int ends = make_manifolds(shape_a, a.end, shape_b, b.end, -unseen_m, end);
+  const int ends = make_manifolds<Lanes>(shape_a, a.end, shape_b, b.end, -unseen_m, end);
   const int at_start = count;
   for (int k = 0; k < ends && count < kPatchesOfPair; ++k) {
     const Manifold& m = end[k];

@@ -11,6 +11,7 @@
 #include "core/method/rigid/contact_points.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cylinder_manifold.hpp"
+#include "core/method/rigid/lanes.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/mesh_manifold.hpp"
 #include "core/method/rigid/plane_manifold.hpp"
@@ -24,37 +25,46 @@ namespace broadside::core {
 namespace manifold_detail {
 
 // The lower kind is a.
+template <typename Lanes>
 BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                 Manifold* out) {
   out[0].count = 0;
   const ContactKind kind = b.shape->kind;
-  if (kind == ContactKind::kMesh) return mesh_manifolds(a, b, rounding_m, reach_m, out);
-  if (kind == ContactKind::kHalfSpace && a.shape->kind == ContactKind::kMesh) {
-    mesh_plane_manifold(a, b, reach_m, out[0]);
-  } else if (kind == ContactKind::kHalfSpace) {
-    plane_manifold(a, b, reach_m, out[0]);
+  if constexpr (Lanes::kKnowsLongShapes) {
+    if (kind == ContactKind::kMesh) return mesh_manifolds<Lanes>(a, b, rounding_m, reach_m, out);
+    if (kind == ContactKind::kHalfSpace && a.shape->kind == ContactKind::kMesh) {
+      mesh_plane_manifold(a, b, reach_m, out[0]);
+      return out[0].count > 0 ? 1 : 0;
+    }
+    if (a.shape->kind == ContactKind::kBox && kind == ContactKind::kHull) {
+      const BoxPolytope box = box_polytope(a);
+      const auto hull = hull_polytope<Lanes>(b);
+      const SeparatingAxis axis = separating_axis(box, hull, rounding_m, reach_m);
+      polytope_manifold(box, hull, axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
+      return out[0].count > 0 ? 1 : 0;
+    }
+    if (a.shape->kind == ContactKind::kHull && kind == ContactKind::kHull) {
+      const auto hull = hull_polytope<Lanes>(a);
+      const auto other = hull_polytope<Lanes>(b);
+      const SeparatingAxis axis = separating_axis(hull, other, rounding_m, reach_m);
+      polytope_manifold(hull, other, axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
+      return out[0].count > 0 ? 1 : 0;
+    }
+  }
+  if (kind == ContactKind::kHalfSpace) {
+    plane_manifold<Lanes>(a, b, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kSphere) {
     sphere_manifold(a, b, rounding_m, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kCylinder) {
-    cylinder_manifold(a, b, rounding_m, reach_m, out[0]);
+    cylinder_manifold<Lanes>(a, b, rounding_m, reach_m, out[0]);
   } else if (kind == ContactKind::kCylinder) {
-    cylinder_manifold(b, a, rounding_m, reach_m, out[0]);
+    cylinder_manifold<Lanes>(b, a, rounding_m, reach_m, out[0]);
     turn_over(out[0]);
   } else if (a.shape->kind == ContactKind::kCapsule) {
-    capsule_manifold(a, b, rounding_m, reach_m, out[0]);
+    capsule_manifold<Lanes>(a, b, rounding_m, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kBox && kind == ContactKind::kBox) {
     const SeparatingAxis axis = separating_axis_of_boxes(a, b, rounding_m, reach_m);
     polytope_manifold(box_polytope(a), box_polytope(b), axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
-  } else if (a.shape->kind == ContactKind::kBox && kind == ContactKind::kHull) {
-    const BoxPolytope box = box_polytope(a);
-    const HullPolytope hull = hull_polytope(b);
-    const SeparatingAxis axis = separating_axis(box, hull, rounding_m, reach_m);
-    polytope_manifold(box, hull, axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
-  } else if (a.shape->kind == ContactKind::kHull && kind == ContactKind::kHull) {
-    const HullPolytope hull = hull_polytope(a);
-    const HullPolytope other = hull_polytope(b);
-    const SeparatingAxis axis = separating_axis(hull, other, rounding_m, reach_m);
-    polytope_manifold(hull, other, axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
   }
   return out[0].count > 0 ? 1 : 0;
 }
@@ -62,15 +72,17 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
 }  // namespace manifold_detail
 
 // Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
-// apart by up to this much are given too, so that a solver may stop bodies before they touch.
+// apart by up to this much are given too, so that a solver may stop bodies before they touch. Lanes: all of them call
+// it together (lanes.hpp).
+template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
                                        const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,
                                        Manifold* out) {
   const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
   const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
   const float rounding_m = contact_rounding_m(a, b);
-  if (shape_a.kind <= shape_b.kind) return manifold_detail::ordered(a, b, rounding_m, reach_m, out);
-  const int count = manifold_detail::ordered(b, a, rounding_m, reach_m, out);
+  if (shape_a.kind <= shape_b.kind) return manifold_detail::ordered<Lanes>(a, b, rounding_m, reach_m, out);
+  const int count = manifold_detail::ordered<Lanes>(b, a, rounding_m, reach_m, out);
   for (int k = 0; k < count; ++k) turn_over(out[k]);
   return count;
 }

@@ -14,6 +14,7 @@
 #include "core/method/rigid/contact_points.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cylinder_manifold.hpp"
+#include "core/method/rigid/lanes.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
@@ -39,25 +40,34 @@ struct Touch {
 
 struct Touches {
   int count = 0;
+  float shallowest_m = 3.402823e38F;  // with no place left, of the least deep one: no point less deep gets one
   Touch all[kMeshPoints];
 
   // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
   // the deepest or, of equal ones, the lowest key.
+  template <typename Lanes>
   BROADSIDE_HD void add(const Touch& t, float rounding_m) {
-    int place = count;
-    for (int k = 0; k < count; ++k) {
+    // The last one that is the same.
+    const FirstLeast same = Lanes::first_least(count, [&](int k) {
       const Vec3 apart = t.point.point - all[k].point.point;
-      if (dot(apart, apart) <= 16.0F * rounding_m * rounding_m && dot(t.normal, all[k].normal) >= kSameNormal)
-        place = k;
-    }
-    if (place == kMeshPoints) {
-      place = 0;
-      for (int k = 1; k < count; ++k)
-        if (is_deeper(all[place].point, all[k].point)) place = k;
-    }
+      const bool is_same =
+          dot(apart, apart) <= 16.0F * rounding_m * rounding_m && dot(t.normal, all[k].normal) >= kSameNormal;
+      return is_same ? -static_cast<float>(k) : 3.402823e38F;
+    });
+    int place = same.value <= 0.0F ? same.item : count;
+    if (place == kMeshPoints)  // the least deep one gives way
+      place = Lanes::first_best(count, [&](int k) { return Rated{true, all[k].point.gap_m, ~all[k].point.feature}; });
     if (place < count && !is_deeper(t.point, all[place].point)) return;
     if (place == count) ++count;
     all[place] = t;
+    if (count == kMeshPoints)
+      shallowest_m = -Lanes::first_least(count, [&](int k) { return -all[k].point.gap_m; }).value;
+  }
+
+  // How far apart nodes are looked into: farther ones only have points that get no place. Points are no nearer than
+  // what they are on, but for 3 roundings, and boxes are off by one: twice that is allowed.
+  BROADSIDE_HD float seen_m(float reach_m, float rounding_m) const {
+    return fminf(reach_m, fmaxf(shallowest_m, 0.0F) + 8.0F * rounding_m);
   }
   BROADSIDE_HD static bool is_deeper(const ManifoldPoint& p, const ManifoldPoint& q) {
     return is_better(-p.gap_m, p.feature, -q.gap_m, q.feature);
@@ -74,10 +84,23 @@ BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::ui
   return out;
 }
 
-// Does a triangle's surface look that way? Rounding of normals counts as looking.
+// The least cosine between a triangle's normal and a direction in which its surface looks. Rounding of normals counts
+// as looking.
+BROADSIDE_HD float least_looking(const PlacedShape& mesh, std::uint32_t t) {
+  return fmaxf(mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal), 0.0F);
+}
+
+// Does a triangle's surface look that way?
 BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, Vec3 direction) {
-  const float least = mesh.shape->mesh.least_facing[t];
-  return dot(normal, direction) >= least - (1.0F - kSameNormal) && dot(normal, direction) > 0.0F;
+  return dot(normal, direction) >= mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal) &&
+         dot(normal, direction) > 0.0F;
+}
+
+// Whether there is a direction in which b looks and against which a looks: the angle between one normal and the other
+// turned over is no more than both may look aside. Normals are units but for far less than the last term.
+BROADSIDE_HD bool may_look_at_each_other(float least_a, Vec3 normal_a, float least_b, Vec3 normal_b) {
+  const float aside = sqrtf((1.0F - least_a * least_a) * (1.0F - least_b * least_b));
+  return -dot(normal_a, normal_b) >= least_a * least_b - aside - 0x1p-14F;
 }
 
 // Boxes of two nodes, one in the axes of the other body: apart along an axis of either by more than reach_m? Not all
@@ -97,49 +120,49 @@ BROADSIDE_HD bool are_apart(const PlacedShape& a, Vec3 center_a, Vec3 half_a, co
   return false;
 }
 
-// Depth of a tree is at most 32 levels, and a visit leaves at most one open node a level of either tree.
+// Depth of a tree is at most 32 levels, and a visit leaves at most one open node a level.
 inline constexpr int kOpenNodes = 72;
-
-// Triangles of a mesh that may be within reach_m of a box in another body's axes.
-template <typename Visit>
-BROADSIDE_HD void near_triangles(const PlacedShape& mesh, const PlacedShape& other, Vec3 center, Vec3 half,
-                                 float reach_m, const Visit& visit) {
-  std::uint32_t open[kOpenNodes];
-  int count = 0;
-  open[count++] = 0;
-  while (count > 0) {
-    const TriangleNode& node = mesh.shape->mesh.nodes[open[--count]];
-    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), other, center, half, reach_m))
-      continue;
-    if (node.count == 0 && count + 2 <= kOpenNodes) {
-      open[count++] = node.first + 1;
-      open[count++] = node.first;
-    }
-    for (std::uint32_t k = 0; k < node.count; ++k) visit(node.first + k);
-  }
-}
 
 BROADSIDE_HD std::uint32_t key_in_mesh(std::uint32_t key, std::uint32_t triangle) {
   return feature_key(key, triangle + 1);
 }
 
+// Of a body and one triangle.
+BROADSIDE_HD void keep_if_seen(Manifold& m, const PlacedShape& mesh, std::uint32_t t, Vec3 normal) {
+  if (m.count > 0 && !looks(mesh, t, normal, m.normal)) m.count = 0;
+  for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(m.points[k].feature, t);
+}
+
 // A convex body (A) and one triangle.
 template <typename Polytope>
 BROADSIDE_HD_CALLED void against_triangle(const Polytope& a, float ball_m, const PlacedShape& mesh, std::uint32_t t,
-                                          float rounding_m, float reach_m, Touches& out) {
+                                          float rounding_m, float reach_m, Manifold& m) {
   const TrianglePolytope triangle = triangle_polytope(mesh, t);
   const SeparatingAxis axis = separating_axis(a, triangle, rounding_m, reach_m + ball_m);
-  Manifold m;
   polytope_manifold(a, triangle, axis, ball_m, 0.0F, rounding_m, reach_m, m);
-  if (!(m.count > 0) || !looks(mesh, t, triangle.normal, m.normal)) return;
-  for (int k = 0; k < m.count; ++k) {
-    ManifoldPoint p = m.points[k];
-    p.feature = key_in_mesh(p.feature, t);
-    out.add({m.normal, p}, rounding_m);
-  }
+  keep_if_seen(m, mesh, t, triangle.normal);
+}
+
+// A cylinder (A) and one triangle, which is a hull of two faces to it: so the surface is round here too.
+BROADSIDE_HD_CALLED void cylinder_against_triangle(const PlacedShape& a, const PlacedShape& mesh, std::uint32_t t,
+                                                   float rounding_m, float reach_m, Manifold& m) {
+  const TrianglePolytope triangle = triangle_polytope(mesh, t);
+  const std::uint32_t corners[6] = {0, 1, 2, 0, 2, 1};
+  const HullEdge edges[3] = {{0, 1, 0, 1}, {1, 2, 0, 1}, {2, 0, 0, 1}};
+  Vec3 vertices[3];
+  for (int k = 0; k < 3; ++k) vertices[k] = triangle.corners[k] - triangle.center;
+  const float offset_m = dot(triangle.normal, vertices[0]);
+  const HullFace faces[2] = {{triangle.normal, offset_m, 0, 3}, {-triangle.normal, -offset_m, 3, 3}};
+  ContactShape sheet;
+  sheet.kind = ContactKind::kHull;
+  sheet.hull = {vertices, faces, corners, edges, 3, 2, 3};
+  const PlacedShape placed{&sheet, triangle.center, turned_axes({})};
+  cylinder_manifold<OneLane>(a, placed, rounding_m, reach_m, m);
+  keep_if_seen(m, mesh, t, triangle.normal);
 }
 
 struct PointPolytope {
+  using Lanes = OneLane;
   static constexpr int kMostFaceCorners = 1;
   static constexpr bool kIsSheet = false;
   Vec3 center;
@@ -170,75 +193,106 @@ BROADSIDE_HD Vec3 half_of(const ContactShape& s) {
   return half;
 }
 
-BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape& mesh, float rounding_m, float reach_m,
-                                        Touches& out) {
-  near_triangles(mesh, a, {}, half_of(*a.shape), reach_m, [&](std::uint32_t t) {
-    switch (a.shape->kind) {
-      case ContactKind::kSphere:
-        return against_triangle(PointPolytope{a.center}, a.shape->radius_m, mesh, t, rounding_m, reach_m, out);
-      case ContactKind::kCapsule:
-        return against_triangle(segment_polytope(a), a.shape->radius_m, mesh, t, rounding_m, reach_m, out);
-      case ContactKind::kBox:
-        return against_triangle(box_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, out);
-      case ContactKind::kCylinder:
-        // The even prism stands for the round body: sixteen sides are as fine as the triangles of most meshes.
-        return against_triangle(cylinder_polytope(a, 0, {}), 0.0F, mesh, t, rounding_m, reach_m, out);
-      default:
-        return against_triangle(hull_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, out);
-    }
-  });
+template <typename Lanes>
+BROADSIDE_HD void take_all(const Manifold& m, float rounding_m, Touches& out) {
+  for (int k = 0; k < m.count; ++k) out.add<Lanes>({m.normal, m.points[k]}, rounding_m);
 }
 
+template <typename Lanes>
+BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape& mesh, float rounding_m, float reach_m,
+                                        Touches& out) {
+  const Vec3 half = half_of(*a.shape);
+  const auto open = [&](NodePair pair, NodePair(&below)[2]) {
+    const TriangleNode& node = mesh.shape->mesh.nodes[pair.a];
+    const float seen_m = out.seen_m(reach_m, rounding_m);
+    if (are_apart(mesh, 0.5F * (node.min + node.max), 0.5F * (node.max - node.min), a, {}, half, seen_m)) return 0;
+    if (node.count > 0) return Lanes::kLeaf;
+    below[0] = {node.first, 0};
+    below[1] = {node.first + 1, 0};
+    return 2;
+  };
+  const auto items = [&](NodePair pair) { return static_cast<int>(mesh.shape->mesh.nodes[pair.a].count); };
+  const auto measure = [&](NodePair pair, int item) {
+    const std::uint32_t t = mesh.shape->mesh.nodes[pair.a].first + static_cast<std::uint32_t>(item);
+    const float radius_m = a.shape->radius_m;
+    Manifold m;
+    switch (a.shape->kind) {
+      case ContactKind::kSphere:
+        against_triangle(PointPolytope{a.center}, radius_m, mesh, t, rounding_m, reach_m, m);
+        break;
+      case ContactKind::kCapsule:
+        against_triangle(segment_polytope(a), radius_m, mesh, t, rounding_m, reach_m, m);
+        break;
+      case ContactKind::kBox:
+        against_triangle(box_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, m);
+        break;
+      case ContactKind::kCylinder:
+        cylinder_against_triangle(a, mesh, t, rounding_m, reach_m, m);
+        break;
+      default:
+        against_triangle(hull_polytope(a), 0.0F, mesh, t, rounding_m, reach_m, m);
+    }
+    return m;
+  };
+  Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
+}
+
+// Two triangles. Nothing where they are farther apart than seen_m.
+BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, const PlacedShape& b, std::uint32_t j,
+                                         float rounding_m, float reach_m, float seen_m, Manifold& m) {
+  const TrianglePolytope of_a = triangle_polytope(a, i);
+  const TrianglePolytope of_b = triangle_polytope(b, j);
+  m.count = 0;
+  if (!may_look_at_each_other(least_looking(a, i), of_a.normal, least_looking(b, j), of_b.normal)) return;
+  const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, seen_m);
+  if (axis.gap_m > seen_m) return;
+  polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
+  if (m.count == 0) return;
+  if (!looks(b, j, of_b.normal, m.normal) || !looks(a, i, of_a.normal, -m.normal)) m.count = 0;
+  for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(key_in_mesh(m.points[k].feature, i), j);
+}
+
+template <typename Lanes>
 BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                       Touches& out) {
-  struct Open {
-    std::uint32_t a = 0;
-    std::uint32_t b = 0;
-  };
-  Open open[kOpenNodes];
-  int count = 0;
-  open[count++] = {};
-  while (count > 0) {
-    const Open pair = open[--count];
-    const TriangleNode& node_a = a.shape->mesh.nodes[pair.a];
-    const TriangleNode& node_b = b.shape->mesh.nodes[pair.b];
+  const TriangleNode* nodes_a = a.shape->mesh.nodes;
+  const TriangleNode* nodes_b = b.shape->mesh.nodes;
+  const auto open = [&](NodePair pair, NodePair(&below)[2]) {
+    const TriangleNode& node_a = nodes_a[pair.a];
+    const TriangleNode& node_b = nodes_b[pair.b];
     const Vec3 half_a = 0.5F * (node_a.max - node_a.min);
     const Vec3 half_b = 0.5F * (node_b.max - node_b.min);
-    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, reach_m))
-      continue;
-    if (node_a.count == 0 || node_b.count == 0) {
-      const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
-      for (std::uint32_t k = 0; k < 2 && count < kOpenNodes; ++k)
-        open[count++] = {opens_a ? node_a.first + 1 - k : pair.a, opens_a ? pair.b : node_b.first + 1 - k};
-      continue;
-    }
-    for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i) {
-      const TrianglePolytope of_a = triangle_polytope(a, i);
-      for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j) {
-        const TrianglePolytope of_b = triangle_polytope(b, j);
-        const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, reach_m);
-        Manifold m;
-        polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
-        if (!(m.count > 0) || !looks(b, j, of_b.normal, m.normal) || !looks(a, i, of_a.normal, -m.normal)) continue;
-        for (int k = 0; k < m.count; ++k) {
-          ManifoldPoint p = m.points[k];
-          p.feature = key_in_mesh(key_in_mesh(p.feature, i), j);
-          out.add({m.normal, p}, rounding_m);
-        }
-      }
-    }
-  }
+    const float seen_m = out.seen_m(reach_m, rounding_m);
+    if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, seen_m))
+      return 0;
+    if (node_a.count > 0 && node_b.count > 0) return Lanes::kLeaf;
+    const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
+    for (std::uint32_t k = 0; k < 2; ++k)
+      below[k] = {opens_a ? node_a.first + k : pair.a, opens_a ? pair.b : node_b.first + k};
+    return 2;
+  };
+  const auto items = [&](NodePair pair) { return static_cast<int>(nodes_a[pair.a].count * nodes_b[pair.b].count); };
+  const auto measure = [&](NodePair pair, int item) {
+    const auto at = static_cast<std::uint32_t>(item);
+    const std::uint32_t of_b = nodes_b[pair.b].count;
+    Manifold m;
+    triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m,
+                    out.seen_m(reach_m, rounding_m), m);
+    return m;
+  };
+  Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
 // The deepest point that is left begins a patch, and takes along what shares its normal.
+template <typename Lanes>
 BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
   int patches = 0;
   bool is_taken[kMeshPoints] = {};
   while (patches < kPatchesOfPair) {
-    int deepest = -1;
-    for (int k = 0; k < touches.count; ++k)
-      if (!is_taken[k] && (deepest < 0 || Touches::is_deeper(touches.all[k].point, touches.all[deepest].point)))
-        deepest = k;
+    const int deepest = Lanes::first_best(touches.count, [&](int k) {
+      const ManifoldPoint& p = touches.all[k].point;
+      return Rated{!is_taken[k], -p.gap_m, p.feature};
+    });
     if (deepest < 0) break;
     Manifold& patch = out[patches++];
     patch.normal = touches.all[deepest].normal;
@@ -247,10 +301,9 @@ BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
       is_of_patch[k] = !is_taken[k] && dot(touches.all[k].normal, patch.normal) >= kSamePatch;
       is_taken[k] |= is_of_patch[k];
     }
-    keep_four_of(patch, reach_m, 0.0F, [&](const auto& consider) {
-      for (int k = 0; k < touches.count; ++k)
-        if (is_of_patch[k]) consider(touches.all[k].point);
-    });
+    keep_four_by<Lanes>(
+        patch, touches.count, reach_m, 0.0F, [&](int k) { return touches.all[k].point; },
+        [&](int k) { return is_of_patch[k]; });
   }
   return patches;
 }
@@ -258,14 +311,15 @@ BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
 }  // namespace mesh_detail
 
 // B is the mesh; A a convex shape or a mesh.
+template <typename Lanes>
 BROADSIDE_HD_CALLED int mesh_manifolds(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                        Manifold* out) {
   mesh_detail::Touches touches;
   if (a.shape->kind == ContactKind::kMesh)
-    mesh_detail::mesh_against(a, b, rounding_m, reach_m, touches);
+    mesh_detail::mesh_against<Lanes>(a, b, rounding_m, reach_m, touches);
   else
-    mesh_detail::convex_against(a, b, rounding_m, reach_m, touches);
-  return mesh_detail::patches_of(touches, reach_m, out);
+    mesh_detail::convex_against<Lanes>(a, b, rounding_m, reach_m, touches);
+  return mesh_detail::patches_of<Lanes>(touches, reach_m, out);
 }
 
 // Corners of the mesh over a plane: one patch.

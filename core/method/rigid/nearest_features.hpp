@@ -39,35 +39,43 @@ namespace nearest_detail {
 template <typename Points, typename Edges>
 BROADSIDE_HD void corners_against_edges(const Points& points, const Layer& near_points, const Edges& edges,
                                         const Layer& near_edges, bool a_has_corner, NearestFeatures& best) {
-  for (int e = 0; e < edges.edge_count(); ++e) {
-    int from = 0;
-    int to = 0;
+  int from = 0;
+  int to = 0;
+  const auto is_near = [&](int e) {
     edges.edge(e, from, to);
-    if (!reaches_into(edges, near_edges, from, to)) continue;
+    return reaches_into(edges, near_edges, from, to);
+  };
+  Edges::Lanes::each_with(edges.edge_count(), is_near, [&](int e) {
+    edges.edge(e, from, to);
     const Vec3 p = edges.corner(from);
     const Vec3 q = edges.corner(to);
-    for (int c = 0; c < points.corner_count(); ++c) {
-      if (!reaches_into(points, near_points, c, c)) continue;
-      const Vec3 x = points.corner(c);
-      const float share = share_nearest(x, p, q);
-      const Vec3 y = share == 1.0F ? q : p + share * (q - p);
-      const float squared = dot(x - y, x - y);
-      if (!(squared < best.squared_m2)) continue;
-      best.squared_m2 = squared;
-      const std::uint32_t corner = corner_name(static_cast<std::uint32_t>(c));
-      const std::uint32_t other = share == 0.0F ? corner_name(static_cast<std::uint32_t>(from))
-                                  : share == 1.0F
-                                      ? corner_name(static_cast<std::uint32_t>(to))
-                                      : edge_name(static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
-      best.on_a = a_has_corner ? x : y;
-      best.on_b = a_has_corner ? y : x;
-      best.name_a = a_has_corner ? corner : other;
-      best.name_b = a_has_corner ? other : corner;
-      const Vec3 along = share > 0.0F && share < 1.0F ? q - p : Vec3{};
-      best.along_a = a_has_corner ? Vec3{} : along;
-      best.along_b = a_has_corner ? along : Vec3{};
-    }
-  }
+    Vec3 x;
+    Vec3 y;
+    float share = 0.0F;
+    const auto measure = [&](int c) {
+      x = points.corner(c);
+      share = share_nearest(x, p, q);
+      y = share == 1.0F ? q : p + share * (q - p);
+      return dot(x - y, x - y);
+    };
+    const FirstLeast nearest = Points::Lanes::first_least(points.corner_count(), [&](int c) {
+      return reaches_into(points, near_points, c, c) ? measure(c) : 3.402823e38F;
+    });
+    if (!(nearest.value < best.squared_m2)) return;
+    best.squared_m2 = measure(nearest.item);
+    const std::uint32_t corner = corner_name(static_cast<std::uint32_t>(nearest.item));
+    const std::uint32_t other = share == 0.0F ? corner_name(static_cast<std::uint32_t>(from))
+                                : share == 1.0F
+                                    ? corner_name(static_cast<std::uint32_t>(to))
+                                    : edge_name(static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
+    best.on_a = a_has_corner ? x : y;
+    best.on_b = a_has_corner ? y : x;
+    best.name_a = a_has_corner ? corner : other;
+    best.name_b = a_has_corner ? other : corner;
+    const Vec3 along = share > 0.0F && share < 1.0F ? q - p : Vec3{};
+    best.along_a = a_has_corner ? Vec3{} : along;
+    best.along_b = a_has_corner ? along : Vec3{};
+  });
 }
 
 }  // namespace nearest_detail
@@ -111,33 +119,40 @@ template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD NearestFeatures nearest_edges(const PolytopeA& a, const Layer& near_a, const PolytopeB& b,
                                            const Layer& near_b) {
   NearestFeatures best;
-  for (int i = 0; i < a.edge_count(); ++i) {
-    int a0 = 0;
-    int a1 = 0;
+  int a0 = 0;
+  int a1 = 0;
+  const auto is_near = [&](int i) {
     a.edge(i, a0, a1);
-    if (!reaches_into(a, near_a, a0, a1)) continue;
+    return reaches_into(a, near_a, a0, a1);
+  };
+  PolytopeA::Lanes::each_with(a.edge_count(), is_near, [&](int i) {
+    a.edge(i, a0, a1);
     const Vec3 p0 = a.corner(a0);
     const Vec3 p1 = a.corner(a1);
-    for (int j = 0; j < b.edge_count(); ++j) {
-      int b0 = 0;
-      int b1 = 0;
+    int b0 = 0;
+    int b1 = 0;
+    Vec3 q0;
+    Vec3 q1;
+    EdgeCrossing crossing;
+    const auto measure = [&](int j) {
       b.edge(j, b0, b1);
-      if (!reaches_into(b, near_b, b0, b1)) continue;
-      const Vec3 q0 = b.corner(b0);
-      const Vec3 q1 = b.corner(b1);
-      const EdgeCrossing crossing = edge_crossing(p0, p1, q0, q1);
-      if (!crossing.is_inside) continue;
+      if (!reaches_into(b, near_b, b0, b1)) return 3.402823e38F;
+      q0 = b.corner(b0);
+      q1 = b.corner(b1);
+      crossing = edge_crossing(p0, p1, q0, q1);
       const Vec3 between = crossing.on_a - crossing.on_b;
-      if (!(dot(between, between) < best.squared_m2)) continue;
-      best = {dot(between, between),
-              crossing.on_a,
-              crossing.on_b,
-              edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
-              edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)),
-              p1 - p0,
-              q1 - q0};
-    }
-  }
+      return crossing.is_inside ? dot(between, between) : 3.402823e38F;
+    };
+    const FirstLeast nearest = PolytopeB::Lanes::first_least(b.edge_count(), measure);
+    if (!(nearest.value < best.squared_m2)) return;
+    best.squared_m2 = measure(nearest.item);
+    best.on_a = crossing.on_a;
+    best.on_b = crossing.on_b;
+    best.name_a = edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1));
+    best.name_b = edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1));
+    best.along_a = p1 - p0;
+    best.along_b = q1 - q0;
+  });
   return best;
 }
 

@@ -25,10 +25,11 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
 
 // Whether these two, apart at the start, are apart at these poses too and on the same side: what went through the other
 // body, or is too far away to tell, is not.
+template <typename Lanes>
 BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
                                  const ContactShape& shape_b, const ContactPose& b, float reach_m) {
   Manifold end[kPatchesOfPair];
-  const int count = make_manifolds(shape_a, a, shape_b, b, reach_m, end);
+  const int count = make_manifolds<Lanes>(shape_a, a, shape_b, b, reach_m, end);
   for (int k = 0; k < count; ++k)
     if (!(least_gap_m(end[k]) > 0.0F && dot(start.normal, end[k].normal) > 0.0F)) return false;
   return count > 0;
@@ -41,14 +42,15 @@ struct ContactPath {
 
 // Whether a patch leads to no contact in this step: neither if both bodies move freely, nor if something holds one of
 // them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests.
+template <typename Lanes = OneLane>
 BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
                             const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
   if (!(least_gap_m(start) > near_m)) return false;
   // Two bodies that go apart by all of their reach are still seen.
   const float seen_m = 2.0F * reach_m;
-  return is_still_apart(start, shape_a, a.end, shape_b, b.end, seen_m) &&
-         is_still_apart(start, shape_a, a.end, shape_b, b.start, seen_m) &&
-         is_still_apart(start, shape_a, a.start, shape_b, b.end, seen_m);
+  return is_still_apart<Lanes>(start, shape_a, a.end, shape_b, b.end, seen_m) &&
+         is_still_apart<Lanes>(start, shape_a, a.end, shape_b, b.start, seen_m) &&
+         is_still_apart<Lanes>(start, shape_a, a.start, shape_b, b.end, seen_m);
 }
 
 }  // namespace broadside::core

@@ -74,6 +74,7 @@ BROADSIDE_HD void cylinder_over_plane(const PlacedShape& c, Vec3 n, Vec3 on_plan
 
 }  // namespace plane_detail
 
+template <typename Lanes>
 BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape& plane, float reach_m, Manifold& out) {
   const Vec3 n = turned(plane.axes, plane.shape->normal);
   const Vec3 on_plane = plane.center;
@@ -98,17 +99,18 @@ BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape&
         return over(box.corner(c), corner(c));
       });
     }
-    case ContactKind::kHull: {
-      const HullPolytope hull = hull_polytope(a);
-      return keep_four_of(out, reach_m, kTurnOfStep, [&](const auto& consider) {
-        for (int k = 0; k < hull.corner_count(); ++k) consider(over(hull.corner(k), corner(k)));
-      });
-    }
     case ContactKind::kCylinder:
       return plane_detail::cylinder_over_plane(a, n, on_plane, reach_m, out);
     default:
-      return;
+      break;
   }
+  if constexpr (Lanes::kKnowsLongShapes)
+    if (a.shape->kind == ContactKind::kHull) {
+      const HullPolytope hull = hull_polytope(a);
+      keep_four_by<Lanes>(
+          out, hull.corner_count(), reach_m, kTurnOfStep, [&](int k) { return over(hull.corner(k), corner(k)); },
+          [](int) { return true; });
+    }
 }
 
 }  // namespace broadside::core

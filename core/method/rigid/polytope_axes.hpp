@@ -47,31 +47,31 @@ BROADSIDE_HD_CALLED SeparatingAxis axis_of_faces(const Reference& reference, con
   Vec3 standing_out[kKept];
   for (int k = 0; k < kKept; ++k) standing_out[k] = other.corner(0);
   int seen = 0;
-  int first = 0;
-  float most = -3.402823e38F;
-  for (int k = 0; k < reference.face_count(); ++k) {
-    const float looks = dot(reference.face_normal(k), other.center) - reference.face_height(k);
-    if (!(looks > most)) continue;
-    most = looks;
-    first = k;
-  }
-  for (int round = -1; round < reference.face_count(); ++round) {
-    const int k = round < 0 ? first : round;
-    if (round == first || k >= reference.face_count()) continue;
+  const auto may_be_wider = [&](int k) {
     const Vec3 out = reference.face_normal(k);
-    const float height = reference.face_height(k);
     float bound = 3.402823e38F;
     for (int c = 0; c < kKept; ++c) bound = fminf(bound, dot(out, standing_out[c]));
-    if (!(bound - height > best.gap_m)) continue;
+    return bound - reference.face_height(k) > best.gap_m;
+  };
+  const auto measure = [&](int k) {
+    const Vec3 out = reference.face_normal(k);
+    const float height = reference.face_height(k);
     const int lowest = lowest_corner(other, out);
     standing_out[seen++ % kKept] = other.corner(lowest);
     const float gap = other.least_at(lowest, out) - height;
-    if (!(gap > best.gap_m)) continue;
+    if (!(gap > best.gap_m)) return;
     if (reference_is_a)
       best = {gap, -out, AxisKind::kFaceOfA, k, 0};
     else
       best = {gap, out, AxisKind::kFaceOfB, 0, k};
-  }
+  };
+  using Lanes = typename Reference::Lanes;
+  const int first = Lanes::first_least(reference.face_count(), [&](int k) {
+                      return reference.face_height(k) - dot(reference.face_normal(k), other.center);
+                    }).item;
+  if (reference.face_count() > 0 && may_be_wider(first)) measure(first);
+  Lanes::each_in_turn(
+      reference.face_count(), [&](int k) { return k != first && may_be_wider(k); }, measure);
   return best;
 }
 
@@ -85,15 +85,16 @@ inline constexpr int kMostEdgePairs = 1 << 16;
 inline constexpr int kMostHalvings = 24;
 
 template <typename Polytope>
+BROADSIDE_HD bool is_in(const Polytope& p, const Layer& layer, int k) {
+  int from = 0;
+  int to = 0;
+  p.edge(k, from, to);
+  return reaches_into(p, layer, from, to);
+}
+
+template <typename Polytope>
 BROADSIDE_HD int edges_in(const Polytope& p, const Layer& layer) {
-  int count = 0;
-  for (int k = 0; k < p.edge_count(); ++k) {
-    int from = 0;
-    int to = 0;
-    p.edge(k, from, to);
-    if (reaches_into(p, layer, from, to)) ++count;
-  }
-  return count;
+  return Polytope::Lanes::count_of(p.edge_count(), [&](int k) { return is_in(p, layer, k); });
 }
 
 struct PlacedEdge {
@@ -104,8 +105,6 @@ struct PlacedEdge {
   Vec3 left;  // normals of its faces
   Vec3 right;
 };
-
-inline constexpr int kChunk = 24;
 
 // False: the edge is not in the layer.
 template <typename Polytope>
@@ -149,8 +148,8 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
                                                    float reach_m) {
   SeparatingAxis best = axes_detail::axis_of_faces(a, b, true);
   if (best.gap_m > reach_m) return best;
-  const SeparatingAxis of_b = axes_detail::axis_of_faces(b, a, false);
-  if (best.kind == AxisKind::kNone || of_b.gap_m > best.gap_m + rounding_m) best = of_b;
+  const SeparatingAxis faces_of_b = axes_detail::axis_of_faces(b, a, false);
+  if (best.kind == AxisKind::kNone || faces_of_b.gap_m > best.gap_m + rounding_m) best = faces_of_b;
   if (best.gap_m > reach_m) return best;
   SeparatingAxis edges;
   // An axis across two edges matters where it is wider than that across the best face, so its edges are at most as far
@@ -178,31 +177,36 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
     near_a.direction = near_b.direction = {0.0F, 0.0F, 0.0F};
   }
   // Edges of B a handful at a time, so that each of A is visited once for many.
-  axes_detail::PlacedEdge chunk[axes_detail::kChunk];
+  using axes_detail::PlacedEdge;
+  typename LanesOf<PolytopeA, PolytopeB>::template Handful<PlacedEdge> of_b;
   for (int j = 0; j < b.edge_count();) {
-    int count = 0;
-    for (; j < b.edge_count() && count < axes_detail::kChunk; ++j)
-      if (axes_detail::place(b, near_b, j, chunk[count])) ++count;
-    for (int i = 0; i < a.edge_count() && count > 0; ++i) {
-      axes_detail::PlacedEdge edge_a;
-      if (!axes_detail::place(a, near_a, i, edge_a)) continue;
-      for (int k = 0; k < count; ++k) {
-        const axes_detail::PlacedEdge& edge_b = chunk[k];
+    j = of_b.fill(j, b.edge_count(), [&](int k, PlacedEdge& out) { return axes_detail::place(b, near_b, k, out); });
+    if (of_b.count == 0) continue;
+    const auto is_near = [&](int i) { return axes_detail::is_in(a, near_a, i); };
+    PolytopeA::Lanes::each_with(a.edge_count(), is_near, [&](int i) {
+      PlacedEdge edge_a;
+      (void)axes_detail::place(a, near_a, i, edge_a);
+      Vec3 n;
+      const auto makes_axis = [&](const PlacedEdge& edge_b) {
         const Vec3 between = (edge_a.start + 0.5F * edge_a.along) - (edge_b.start + 0.5F * edge_b.along);
         const float most = farthest + edge_a.half_length + edge_b.half_length;
-        if (dot(between, between) > most * most) continue;
-        Vec3 n;
-        if (!axes_detail::across(edge_a, a.face_count() > 0, edge_b, b.face_count() > 0, n)) continue;
+        if (dot(between, between) > most * most) return false;
+        if (!axes_detail::across(edge_a, a.face_count() > 0, edge_b, b.face_count() > 0, n)) return false;
         // A sheet has no inside that would say on which side the other body is.
+        if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet) return true;
+        return dot(n, edge_a.start - edge_b.start) > edges.gap_m;
+      };
+      of_b.each_in_turn(makes_axis, [&](const PlacedEdge& edge_b) {
+        (void)axes_detail::across(edge_a, a.face_count() > 0, edge_b, b.face_count() > 0, n);
         if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet) {
           const float back = gap_along(a, b, -n);
           if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, i, edge_b.index};
         }
-        if (!(dot(n, edge_a.start - edge_b.start) > edges.gap_m)) continue;
+        if (!(dot(n, edge_a.start - edge_b.start) > edges.gap_m)) return;
         const float gap = gap_along(a, b, n);
         if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, edge_b.index};
-      }
-    }
+      });
+    });
   }
   return edges.gap_m > best.gap_m + rounding_m ? edges : best;
 }

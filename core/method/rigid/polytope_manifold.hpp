@@ -89,8 +89,12 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     a.edge(axis.of_a, a0, a1);
     b.edge(axis.of_b, b0, b1);
     const EdgeCrossing crossing = edge_crossing(a.corner(a0), a.corner(a1), b.corner(b0), b.corner(b1));
+    bool is_crossing = crossing.is_inside;
+    // Around the edge of a sheet every direction is one of its normals, so another corner may stand out farther.
+    if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet)
+      is_crossing &= dot(axis.normal, crossing.on_a - crossing.on_b) <= axis.gap_m + 2.0F * rounding_m;
     // Overlapping edges cross but for rounding.
-    has_witness = crossing.is_inside || axis.gap_m <= 0.0F;
+    has_witness = is_crossing || axis.gap_m <= 0.0F;
     witness = {middle_of(crossing.on_a, crossing.on_b, axis.normal, axis.gap_m, ball_a_m > ball_b_m), axis.gap_m,
                feature_key(edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
                            edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)))};
@@ -127,10 +131,10 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     if (has_many_edges(a, b)) {
       TiltedContacts more;
       tilted_contacts(a, b, out.normal, unit_across(out.normal), more);
-      return keep_four_of(out, reach_m, kTurnOfStep, [&](const auto& consider) {
-        for (int k = 0; k < area.count; ++k) consider(at(area.points[k]));
-        for (int k = 0; k < more.count; ++k) consider(at(more.points[k]));
-      });
+      return keep_four_by<LanesOf<PolytopeA, PolytopeB>>(
+          out, area.count + more.count, reach_m, kTurnOfStep,
+          [&](int k) { return at(k < area.count ? area.points[k] : more.points[k - area.count]); },
+          [](int) { return true; });
     }
   }
   keep_four(out, area.count, reach_m, [&](int k) { return at(area.points[k]); });

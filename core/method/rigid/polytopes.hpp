@@ -5,12 +5,14 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_shape.hpp"
+#include "core/method/rigid/lanes.hpp"
 
 namespace broadside::core {
 
 // Corner bits: 1, 2, 4 = upper in x, y, z. Face 2 k is the lower one of axis k, 2 k + 1 the upper one. Edges 4 k to
 // 4 k + 3 run along axis k.
 struct BoxPolytope {
+  using Lanes = OneLane;
   static constexpr int kMostFaceCorners = 4;
   static constexpr bool kIsSheet = false;
   Vec3 center;
@@ -77,6 +79,7 @@ BROADSIDE_HD BoxPolytope box_polytope(const PlacedShape& p) {
 
 // The middle line of a capsule: two corners, one edge, no face.
 struct SegmentPolytope {
+  using Lanes = OneLane;
   static constexpr int kMostFaceCorners = 2;
   static constexpr bool kIsSheet = false;
   Vec3 center;
@@ -108,6 +111,7 @@ BROADSIDE_HD SegmentPolytope segment_polytope(const PlacedShape& p) {
 
 // A triangle of a mesh: a sheet with a front (face 0) and a back.
 struct TrianglePolytope {
+  using Lanes = OneLane;
   static constexpr int kMostFaceCorners = 3;
   static constexpr bool kIsSheet = true;
   Vec3 center;
@@ -139,7 +143,10 @@ struct TrianglePolytope {
   BROADSIDE_HD int support_face(Vec3 direction) const { return dot(normal, direction) >= 0.0F ? 0 : 1; }
 };
 
-struct HullPolytope {
+// LanesOfHull: who goes through its corners, edges and faces.
+template <typename LanesOfHull>
+struct HullPolytopeOf {
+  using Lanes = LanesOfHull;
   static constexpr int kMostFaceCorners = kFaceCorners;
   static constexpr bool kIsSheet = false;
   Vec3 center;
@@ -169,27 +176,19 @@ struct HullPolytope {
   }
   BROADSIDE_HD float least(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);
-    float lowest = 3.402823e38F;
-    for (int k = 0; k < corner_count(); ++k) lowest = fminf(lowest, dot(d, hull.vertices[k]));
-    return dot(direction, center) + lowest;
+    return dot(direction, center) +
+           Lanes::first_least(corner_count(), [&](int k) { return dot(d, hull.vertices[k]); }).value;
   }
   BROADSIDE_HD float least_at(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const Vec3 d = turned_back(axes, direction);
-    int best = 0;
-    float most = -2.0F;
-    for (int k = 0; k < face_count(); ++k) {
-      const float along = dot(hull.faces[k].normal, d);
-      if (along > most) {
-        most = along;
-        best = k;
-      }
-    }
-    return best;
+    return Lanes::first_least(face_count(), [&](int k) { return -dot(hull.faces[k].normal, d); }).item;
   }
 };
+using HullPolytope = HullPolytopeOf<OneLane>;
 
-BROADSIDE_HD HullPolytope hull_polytope(const PlacedShape& p) {
+template <typename Lanes = OneLane>
+BROADSIDE_HD HullPolytopeOf<Lanes> hull_polytope(const PlacedShape& p) {
   return {p.center, p.axes, p.shape->hull};
 }
 

@@ -27,23 +27,30 @@ inline constexpr float kLargestTilt = 0.5F;
 // line through x misses the body, or meets a face too steep for the height to be a gap.
 template <typename Polytope>
 BROADSIDE_HD bool height_above(const Polytope& body, Vec3 x, Vec3 up, float& height_m) {
+  using Lanes = typename Polytope::Lanes;
   float entry = -3.402823e38F;
-  float exit = 3.402823e38F;
   float facing = 0.0F;
-  for (int k = 0; k < body.face_count(); ++k) {
+  float exit = 3.402823e38F;
+  float outside = 0.0F;
+  float along = 0.0F;
+  const auto look_at = [&](int k) {
     const Vec3 n = body.face_normal(k);
-    const float outside = dot(n, x) - body.face_height(k);
-    const float along = dot(n, up);
-    if (along > 0.0F) {
-      if (outside <= entry * along) continue;
-      entry = outside / along;
-      facing = along;
-    } else if (along < 0.0F) {
-      exit = fminf(exit, outside / along);
-    } else if (outside > 0.0F) {
-      return false;
-    }
-  }
+    outside = dot(n, x) - body.face_height(k);
+    along = dot(n, up);
+  };
+  const auto is_above_entry = [&](int k) {
+    look_at(k);
+    if (along < 0.0F) exit = fminf(exit, outside / along);
+    // Outside a face that is parallel to it, the line misses.
+    if (along == 0.0F && outside > 0.0F) exit = -HUGE_VALF;
+    return along > 0.0F && outside > entry * along;
+  };
+  Lanes::each_in_turn(body.face_count(), is_above_entry, [&](int k) {
+    look_at(k);
+    entry = outside / along;
+    facing = along;
+  });
+  exit = Lanes::least_of_lanes(exit);
   height_m = entry;
   return entry <= exit && facing >= kSteepestReference;
 }

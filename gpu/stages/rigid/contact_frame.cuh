@@ -10,7 +10,9 @@
 
 namespace broadside::gpu {
 
-__device__ inline void run_contacts(const ContactView& f) {
+// kMayBeLong: shapes may be hulls or meshes (f.has_long_contacts).
+template <bool kMayBeLong>
+__device__ void run_contacts(const ContactView& f) {
   const GridTeam grid(f.barrier);
   mark(f, grid.rank() == 0, core::Stage::kBroad);
   if (lacks_pairs(f)) return;
@@ -18,7 +20,10 @@ __device__ inline void run_contacts(const ContactView& f) {
   grid.sync();
   mark(f, grid.rank() == 0, core::Stage::kConfirm);
   if (f.counts->confirmed > f.confirmed.capacity) return;
-  make_patches(grid, f);
+  if constexpr (kMayBeLong)
+    make_long_patches(grid, f);
+  else
+    make_short_patches(grid, f);
 }
 
 }  // namespace broadside::gpu

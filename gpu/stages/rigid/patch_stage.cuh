@@ -1,5 +1,5 @@
-// Patches of contact of confirmed pairs, and of bodies at faces of the domain; a thread a pair, a thread a body.
-// RIGID 8.4.
+// Patches of contact of confirmed pairs, and of bodies at faces of the domain; a thread a pair, a thread a body, or,
+// where shapes are hulls or meshes, a warp. RIGID 8.4.
 #pragma once
 
 #include "core/contact.hpp"
@@ -10,6 +10,7 @@
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/warp_lanes.cuh"
 #include "gpu/stages/rigid/warp_shares.cuh"
 
 namespace broadside::gpu {
@@ -30,7 +31,8 @@ __device__ inline core::ContactPath path_of(const ContactView& f, std::uint32_t 
 }
 
 // Returns how many patches the pair has.
-__device__ inline int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found) {
+template <typename Lanes>
+__device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found) {
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
   const core::ContactPath path_a = path_of(f, pair.i);
@@ -38,46 +40,79 @@ __device__ inline int touch_bodies(const ContactView& f, core::Pair pair, core::
   const float reach_m = f.reach_m[pair.i] + f.reach_m[pair.j];
   const core::Vec3 pushed_a = f.pushers[pair.i].pushed.v;
   const core::Vec3 pushed_b = f.pushers[pair.j].pushed.v;
-  const int count = core::make_manifolds(a, path_a.start, b, path_b.start, reach_m, found);
+  const int count = core::make_manifolds<Lanes>(a, path_a.start, b, path_b.start, reach_m, found);
   int kept = 0;
   for (int k = 0; k < count; ++k)
-    if (!core::passes_by(found[k], a, path_a, b, path_b, reach_m,
-                         core::near_m(found[k].normal, f.fall_m[pair.i], pushed_a, f.fall_m[pair.j], pushed_b)))
+    if (!core::passes_by<Lanes>(found[k], a, path_a, b, path_b, reach_m,
+                                core::near_m(found[k].normal, f.fall_m[pair.i], pushed_a, f.fall_m[pair.j], pushed_b)))
       found[kept++] = found[k];
   const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
-  return core::add_end_patches(a, path_a, b, path_b, swing_m, found, kept);
+  return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept);
 }
 
 // A body at rest may be driven into a face as fast as its fastest neighbor comes.
-__device__ inline int touch_face(const ContactView& f, std::uint32_t body, std::uint32_t face, core::Manifold* found) {
-  const float reach_m = __uint_as_float(f.pushed_m[body]) + f.reach_m[body];
-  if (!core::may_reach_face(f.shape_boxes[body], reach_m, f.domain, face)) return 0;
+__device__ inline float reach_to_face_m(const ContactView& f, std::uint32_t body) {
+  return __uint_as_float(f.pushed_m[body]) + f.reach_m[body];
+}
+
+__device__ inline bool may_touch_face(const ContactView& f, std::uint32_t body, std::uint32_t face) {
+  return is_moved(f, body) && core::may_reach_face(f.shape_boxes[body], reach_to_face_m(f, body), f.domain, face);
+}
+
+template <typename Lanes>
+__device__ int touch_face(const ContactView& f, std::uint32_t body, std::uint32_t face, core::Manifold* found) {
+  const float reach_m = reach_to_face_m(f, body);
   const core::ContactShape& shape = f.shapes[f.shape_of_body[body]].contact;
   const core::ContactPath path = path_of(f, body);
   const core::ContactPose& pose = f.face_poses[face];
-  const int count = core::make_manifolds(shape, path.start, f.face_shapes[face], pose, reach_m, found);
-  return core::add_end_patches(shape, path, f.face_shapes[face], {pose, pose}, f.pushers[body].drift.w, found, count);
+  const int count = core::make_manifolds<Lanes>(shape, path.start, f.face_shapes[face], pose, reach_m, found);
+  return core::add_end_patches<Lanes>(shape, path, f.face_shapes[face], {pose, pose}, f.pushers[body].drift.w, found,
+                                      count);
 }
 
-// Pairs first, then bodies at faces; by whole warps.
+// Pairs first, then bodies at faces; by whole warps. No shape is a hull or a mesh.
 template <typename Team>
-__device__ void make_patches(const Team& team, const ContactView& f) {
+__device__ void make_short_patches(const Team& team, const ContactView& f) {
+  using Lanes = core::OneLaneOfShortShapes;
   const std::uint64_t confirmed = f.counts->confirmed;
-  each_item_by_warps(team, confirmed + f.body_count, f.has_long_contacts, [&](std::uint64_t k, bool is_item) {
+  each_item_by_warps(team, confirmed + f.body_count, false, [&](std::uint64_t k, bool is_item) {
     core::Manifold found[core::kPatchesOfPair];
     const bool is_pair = is_item && k < confirmed;
     if (__any_sync(kFullWarp, is_pair)) {
       const core::Pair pair = is_pair ? f.confirmed.items[k] : core::Pair{};
-      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies(f, pair, found) : 0);
+      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes>(f, pair, found) : 0);
     }
     const bool is_body = is_item && !is_pair;
     if (!__any_sync(kFullWarp, is_body)) return;
     const auto body = static_cast<std::uint32_t>(is_body ? k - confirmed : 0);
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-      const int count = is_body && is_moved(f, body) ? touch_face(f, body, face, found) : 0;
+      const int count = is_body && may_touch_face(f, body, face) ? touch_face<Lanes>(f, body, face, found) : 0;
       add_patches(f, body, core::kFirstFace + face, found, count);
     }
   });
+}
+
+// The same of any shapes, a warp a pair: the loops over corners, edges, faces and triangles are shared by its lanes,
+// and its code is fetched once for all.
+template <typename Team>
+__device__ void make_long_patches(const Team& team, const ContactView& f) {
+  const std::uint64_t confirmed = f.counts->confirmed;
+  const std::uint64_t items = confirmed + f.body_count;
+  for (std::uint64_t k = team.spread_rank() / 32; k < items; k += team.size() / 32) {
+    core::Manifold found[core::kPatchesOfPair];
+    if (k < confirmed) {
+      const core::Pair pair = f.confirmed.items[k];
+      const int count = touch_bodies<WarpLanes>(f, pair, found);
+      add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
+      continue;
+    }
+    const auto body = static_cast<std::uint32_t>(k - confirmed);
+    for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+      if (!may_touch_face(f, body, face)) continue;
+      const int count = touch_face<WarpLanes>(f, body, face, found);
+      add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
+    }
+  }
 }
 
 }  // namespace broadside::gpu

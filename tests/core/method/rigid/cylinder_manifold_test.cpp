@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "tests/core/method/rigid/manifold_cases.hpp"
+#include "tests/core/method/rigid/mesh_cases.hpp"
 
 namespace broadside::core {
 namespace {
@@ -191,6 +191,78 @@ TEST(Cylinders, StandAndLie) {
   ASSERT_EQ(make_manifolds(can.shape, can.pose, floor.shape, floor.pose, 0.01F, m), 1);
   ASSERT_EQ(m[0].count, 2);
   EXPECT_NEAR(std::abs(m[0].points[0].point.x - m[0].points[1].point.x), 2.0F, 1e-5F);
+}
+
+// Of the convex mesh nothing is known but its triangles; it is certified by its solid. The deepest point of a patch
+// has the patch's normal.
+TEST(Cylinders, BesideAMeshAreRound) {
+  Draw draw(11);
+  for (int trial = 0; trial < 40; ++trial) {
+    Subject a = cylinder(draw.between(0.2F, 0.8F), draw.between(0.2F, 0.8F), draw.below(3));
+    MeshBody mesh(random_hull(draw));
+    Subject b = hull(mesh.mesh);
+    a.pose = {draw.in_cube(1.0F), draw.turn()};
+    b.pose.q = draw.turn();
+    const Vec3 direction = normalized(draw.in_cube(1.0F));
+    const double wanted = draw.between(1e-3F, 0.05F);
+    double low = 0.0;
+    double high = 4.0;
+    for (int k = 0; k < 10; ++k) {
+      b.pose.x = a.pose.x + static_cast<float>(0.5 * (low + high)) * direction;
+      (widest_gap(a, b) < wanted ? low : high) = 0.5 * (low + high);
+    }
+    Manifold m[kPatchesOfPair];
+    const int count = make_manifolds(a.shape, a.pose, mesh.shape, b.pose, 0.1F, m);
+    ASSERT_GE(count, 1) << "trial " << trial;
+    const double rounding = 6.0 * rounding_of(a, b);
+    const float gap = deepest(m, count);
+    const Point n = exact::to_point(m[0].normal);
+    EXPECT_LE(widest_gap(a, b), gap + rounding) << "trial " << trial;
+    EXPECT_NEAR(gap_along(a, b, n), gap, rounding) << "trial " << trial;
+    for (int k = 0; k < m[0].count; ++k) {
+      if (m[0].points[k].gap_m != gap) continue;
+      const Point middle = at_world(a, m[0].points[k].point);
+      // A point's own normal may be up to 8 degrees beside the common one, as above.
+      const double allowed = rounding + 0.5 * 0.1411 * std::abs(gap);
+      EXPECT_LE(off(a, middle + (0.5 * gap) * n), allowed) << "trial " << trial;
+      EXPECT_LE(off(b, middle - (0.5 * gap) * n), allowed) << "trial " << trial;
+    }
+  }
+}
+
+// Standing, it has points spread over its end; lying, along the line that is lowest.
+TEST(Cylinders, StandAndLieOnAFloorOfTriangles) {
+  MeshBody floor(floor_mesh());
+  Draw draw(12);
+  for (int trial = 0; trial < 40; ++trial) {
+    const bool stands = trial % 2 == 0;
+    Subject can = cylinder(0.4F, 0.3F, 1);
+    const float turn = draw.between(0.0F, 3.0F);
+    const Quat about_y{std::cos(0.5F * turn), 0.0F, std::sin(0.5F * turn), 0.0F};
+    const float half = std::sqrt(0.5F);
+    // The axis along x first, then turned about y.
+    const Quat lying{half * about_y.w, half * about_y.y, half * about_y.y, -half * about_y.w};
+    can.pose.q = stands ? about_y : lying;
+    const float depth = draw.between(-0.004F, 0.004F);
+    can.pose.x = {draw.between(-1.0F, 1.0F), (stands ? 0.3F : 0.4F) - depth, draw.between(-1.0F, 1.0F)};
+    Manifold m[kPatchesOfPair];
+    ASSERT_EQ(make_manifolds(can.shape, can.pose, floor.shape, floor.pose, 0.01F, m), 1) << "trial " << trial;
+    EXPECT_NEAR(m[0].normal.y, 1.0F, 1e-5F);
+    const double rounding =
+        3.0 * contact_rounding_m(placed_shape(can.shape, can.pose, {}), placed_shape(floor.shape, floor.pose, {}));
+    EXPECT_NEAR(deepest(m, 1), -depth, rounding) << "trial " << trial;
+    float low = 0.0F, high = 0.0F;  // along the axis of one that lies, along x of one that stands
+    const Vec3 along = stands ? Vec3{1, 0, 0} : rotate(can.pose.q, {0, 1, 0});
+    for (int k = 0; k < m[0].count; ++k) {
+      const float at = dot(m[0].points[k].point, along);
+      low = std::min(low, at), high = std::max(high, at);
+      // Beside the line, the edge of a triangle is met in a direction up to 8 degrees (0.99) from the normal.
+      EXPECT_LE(m[0].points[k].gap_m, -depth + (stands ? 0.0 : 0.4 * (1.0 / 0.99 - 1.0)) + rounding) << trial;
+    }
+    // The deepest of points that are level is one of rounding's choice; from it the farther end of the line is at least
+    // its half away.
+    EXPECT_GT(high - low, stands ? 0.5F : 0.3F - 1e-3F) << "trial " << trial;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,250 @@
+// The lanes of a warp share the long loops of contacts: core/method/rigid/lanes.hpp, with the same bits as one lane.
+// All lanes of a whole warp come to each of these functions with the same values.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "core/method/rigid/lanes.hpp"
+#include "gpu/stages/grid/device.cuh"
+#include "gpu/stages/grid/team.cuh"
+
+namespace broadside::gpu {
+
+// What lane `from` has; lanes may ask different ones.
+template <typename T>
+__device__ __forceinline__ T of_lane(const T& own, unsigned from) {
+  static_assert(sizeof(T) % sizeof(unsigned) == 0);
+  unsigned words[sizeof(T) / sizeof(unsigned)];
+  memcpy(words, &own, sizeof(T));
+#pragma unroll
+  for (unsigned& word : words) word = __shfl_sync(kFullWarp, word, from);
+  T out;
+  memcpy(&out, words, sizeof(T));
+  return out;
+}
+
+// Where the lanes' shares of a list lie in it.
+struct LaneShares {
+  unsigned own = 0;
+  unsigned end = 0;  // behind the lane's share
+  unsigned all = 0;  // of all lanes
+
+  __device__ explicit LaneShares(unsigned count) : own(count), end(count) {
+    for (unsigned step = 1; step < 32; step *= 2) {
+      const unsigned other = __shfl_up_sync(kFullWarp, end, step);
+      if (lane() >= step) end += other;
+    }
+    all = __shfl_sync(kFullWarp, end, 31);
+  }
+  // Whose share place `at` is, and which of it. By all lanes, each with a place of its own; any lane's where it is
+  // none.
+  __device__ unsigned owner(unsigned at, unsigned& within) const {
+    unsigned found = 0;
+    for (unsigned step = 16; step > 0; step /= 2)
+      if (__shfl_sync(kFullWarp, end, found + step - 1) <= at) found += step;
+    within = at - __shfl_sync(kFullWarp, end - own, found);
+    return found;
+  }
+};
+
+struct WarpLanes {
+  static constexpr bool kKnowsLongShapes = true;
+  static constexpr int kLeaf = core::OneLane::kLeaf;
+
+  template <typename Value>
+  __device__ static core::FirstLeast first_least(int count, const Value& value) {
+    core::FirstLeast least;
+    for (int k = own_lane(); k < count; k += 32) {
+      const float own = value(k);
+      if (own < least.value) least = {k, own};
+    }
+    for (unsigned step = 16; step > 0; step /= 2) {
+      const core::FirstLeast other{static_cast<int>(__shfl_xor_sync(kFullWarp, least.item, step)),
+                                   __shfl_xor_sync(kFullWarp, least.value, step)};
+      if (other.value < least.value || (other.value == least.value && other.item < least.item)) least = other;
+    }
+    // A lane without an item below the greatest number says item 0.
+    return least;
+  }
+
+  template <typename Rate>
+  __device__ static int first_best(int count, const Rate& rate) {
+    int best = -1;
+    core::Rated of_best;
+    for (int k = own_lane(); k < count; k += 32) {
+      const core::Rated own = rate(k);
+      if (!own.counts || (best >= 0 && !core::is_better(own.value, own.key, of_best.value, of_best.key))) continue;
+      best = k;
+      of_best = own;
+    }
+    for (unsigned step = 16; step > 0; step /= 2) {
+      const int other = __shfl_xor_sync(kFullWarp, best, step);
+      const float value = __shfl_xor_sync(kFullWarp, of_best.value, step);
+      const std::uint32_t key = __shfl_xor_sync(kFullWarp, of_best.key, step);
+      if (other < 0) continue;
+      const bool is_alike = value == of_best.value && key == of_best.key;
+      if (best >= 0 && !core::is_better(value, key, of_best.value, of_best.key) && !(is_alike && other < best))
+        continue;
+      best = other;
+      of_best = {true, value, key};
+    }
+    // Of what is not a number, lanes may think differently.
+    return __shfl_sync(kFullWarp, best, 0);
+  }
+
+  __device__ static float least_of_lanes(float own) {
+    for (unsigned step = 16; step > 0; step /= 2) own = fminf(own, __shfl_xor_sync(kFullWarp, own, step));
+    return own;
+  }
+
+  template <typename Has>
+  __device__ static int count_of(int count, const Has& has) {
+    int with = 0;
+    for (int first = 0; first < count; first += 32) {
+      const int k = first + own_lane();
+      with += __popc(__ballot_sync(kFullWarp, k < count && has(k)));
+    }
+    return with;
+  }
+
+  template <typename Has, typename Visit>
+  __device__ static void each_with(int count, const Has& has, const Visit& visit) {
+    for (int first = 0; first < count; first += 32) {
+      const int k = first + own_lane();
+      for (unsigned with = __ballot_sync(kFullWarp, k < count && has(k)); with != 0; with &= with - 1)
+        visit(first + first_of(with));
+    }
+  }
+
+  // Lanes look at their items as if none before was visited, and behind a visit again.
+  template <typename Has, typename Visit>
+  __device__ static void each_in_turn(int count, const Has& has, const Visit& visit) {
+    for (int first = 0; first < count; first += 32) {
+      const int k = first + own_lane();
+      for (unsigned left = kFullWarp; left != 0;) {
+        const unsigned with = __ballot_sync(kFullWarp, k < count && has(k)) & left;
+        if (with == 0) break;
+        visit(first + first_of(with));
+        left = behind(first_of(with));
+      }
+    }
+  }
+
+  // The lanes hold the top of the stack and look into it at once. What they find takes its place in order; leaves wait
+  // until nothing is left before them.
+  template <typename Open, typename Items, typename Measure, typename Take>
+  __device__ static void walk(const Open& open, const Items& items, const Measure& measure, const Take& take) {
+    // Entry e of the stack is lane e % 32's.
+    constexpr unsigned kSlots = 64;
+    constexpr unsigned kRoom = 32 * kSlots;
+    constexpr std::uint32_t kIsLeaf = 0x80000000U;
+    core::NodePair slots[kSlots];
+    slots[0] = {};
+    for (unsigned count = 1; count > 0;) {
+      // Fewer at once where room is scarce: one alone leaves at most one more a level.
+      const unsigned at_once = min(min(32U, count), max(1U, (kRoom - count) / 64U));
+      const unsigned holder = (count - 1 - lane()) % 32;  // of the entry that is lane() below the top
+      const unsigned below_top = holder;                  // the same both ways: of the entry that this lane holds
+      core::NodePair pair;
+      if (below_top < at_once) pair = slots[(count - 1 - below_top) / 32];
+      pair = {__shfl_sync(kFullWarp, pair.a, holder), __shfl_sync(kFullWarp, pair.b, holder)};
+      const bool has_one = lane() < at_once;
+      const bool is_leaf = has_one && (pair.a & kIsLeaf) != 0;
+      if (!__any_sync(kFullWarp, has_one && !is_leaf)) {
+        pair.a &= ~kIsLeaf;
+        measure_leaves(pair, has_one, items, measure, take);
+        count -= at_once;
+        continue;
+      }
+      core::NodePair below[2] = {pair, {}};
+      int next = is_leaf ? 1 : 0;
+      if (has_one && !is_leaf) {
+        next = open(pair, below);
+        if (next == kLeaf) {
+          below[0] = {pair.a | kIsLeaf, pair.b};
+          next = 1;
+        }
+      }
+      const LaneShares shares(static_cast<unsigned>(next));
+      const unsigned base = count - at_once;
+      for (unsigned half = 0; half < 2; ++half) {
+        const unsigned at = base + (lane() - base) % 32 + 32 * half;
+        unsigned which = 0;
+        const unsigned owner = shares.owner(base + shares.all - 1 - at, which);
+        const core::NodePair first{__shfl_sync(kFullWarp, below[0].a, owner),
+                                   __shfl_sync(kFullWarp, below[0].b, owner)};
+        const core::NodePair second{__shfl_sync(kFullWarp, below[1].a, owner),
+                                    __shfl_sync(kFullWarp, below[1].b, owner)};
+        if (at < base + shares.all) slots[at / 32] = which == 0 ? first : second;
+      }
+      count = base + shares.all;
+    }
+  }
+
+  // A lane has one of the items.
+  template <typename Item>
+  struct Handful {
+    int count = 0;
+    Item own{};
+
+    template <typename Make>
+    __device__ int fill(int from, int end, const Make& make) {
+      count = 0;
+      while (from < end && count < 32) {
+        Item made{};
+        const int k = from + own_lane();
+        unsigned with = __ballot_sync(kFullWarp, k < end && make(k, made));
+        const int found = min(__popc(with), 32 - count);
+        // The lane's own item comes from the lane that made it.
+        unsigned source = 0;
+        int next = from + 32;
+        for (int nth = 0; with != 0; ++nth, with &= with - 1) {
+          if (nth == found) {
+            next = from + first_of(with);
+            break;
+          }
+          if (own_lane() == count + nth) source = static_cast<unsigned>(first_of(with));
+        }
+        const Item given = of_lane(made, source);
+        if (own_lane() >= count && own_lane() < count + found) own = given;
+        count += found;
+        from = min(next, end);
+      }
+      return from;
+    }
+
+    template <typename Has, typename Visit>
+    __device__ void each_in_turn(const Has& has, const Visit& visit) const {
+      for (unsigned left = kFullWarp; left != 0;) {
+        const unsigned with = __ballot_sync(kFullWarp, own_lane() < count && has(own)) & left;
+        if (with == 0) break;
+        visit(of_lane(own, static_cast<unsigned>(first_of(with))));
+        left = behind(first_of(with));
+      }
+    }
+  };
+
+ private:
+  __device__ static int own_lane() { return static_cast<int>(lane()); }
+  __device__ static int first_of(unsigned lanes) { return __ffs(static_cast<int>(lanes)) - 1; }
+  __device__ static unsigned behind(int of) { return of == 31 ? 0 : kFullWarp << (of + 1); }
+
+  // Items of all leaves, 32 at once.
+  template <typename Items, typename Measure, typename Take>
+  __device__ static void measure_leaves(core::NodePair pair, bool has_one, const Items& items, const Measure& measure,
+                                        const Take& take) {
+    const LaneShares shares(has_one ? static_cast<unsigned>(items(pair)) : 0U);
+    for (unsigned first = 0; first < shares.all; first += 32) {
+      unsigned item = 0;
+      const unsigned owner = shares.owner(first + lane(), item);
+      const core::NodePair leaf{__shfl_sync(kFullWarp, pair.a, owner), __shfl_sync(kFullWarp, pair.b, owner)};
+      decltype(measure(leaf, 0)) found;
+      if (first + lane() < shares.all) found = measure(leaf, static_cast<int>(item));
+      for (unsigned with = __ballot_sync(kFullWarp, found.count > 0); with != 0; with &= with - 1)
+        take(of_lane(found, static_cast<unsigned>(first_of(with))));
+    }
+  }
+};
+
+}  // namespace broadside::gpu
