@@ -32,8 +32,9 @@ inline SettingRow cell_setting() {
 inline SettingRow contact_setting() {
   return {"contact",
           "conjugate",
-          {"conjugate", "soft-step"},
-          "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep"};
+          {"conjugate", "soft-step", "stiff"},
+          "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a "
+          "substep, stiff = for what stands by little, at many times the cost"};
 }
 
 inline SettingRow substeps_setting() {

@@ -73,7 +73,7 @@ struct RigidCounts {
   std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
   // What all threads bring together, in turns (team_sums.cuh).
-  std::uint32_t largest[4][3] = {};
+  std::uint32_t largest[4][4] = {};
   unsigned long long sums[4] = {};
   SolveCounts done;
 };

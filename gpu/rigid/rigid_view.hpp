@@ -52,7 +52,7 @@ struct alignas(32) PackedStart {
   PackedVec3 w;
   // With gravity and wrenches of the substep.
   PackedVec3 driven_v;
-  PackedVec3 driven_w;
+  PackedVec3 driven_angular_momentum;
 };
 
 // Whose barriers the solver's kernel has: all its blocks'. A cluster's is the fastest.

@@ -46,15 +46,18 @@ struct Pusher {
   std::uint32_t pusher = 0;  // that drives it
 };
 
-// What b does to a in the next step: by its own motion, or by that which it is about to be given. Bodies that go apart
-// push nothing.
+// What b does to a in the next step: by its own motion, or by that which it is about to be given, unless a gives it.
+// Before, a body that fell on another was told of its own push, which leads nowhere, in place of the one that came from
+// above: cubes of a heap that were struck again ended up to 46 mm in those that they had just left. Bodies that go
+// apart push nothing.
 BROADSIDE_HD PushWord push_by(const Pusher& a, const Pusher& b, float restitution) {
   const float share = share_of_push(a.inverse_mass, b.inverse_mass, restitution);
   const Vec3 own = b.drift - a.drift;
   const float toward = dot(own, a.x - b.x);
   const float own_m = (toward > 0.0F ? length(own) : 0.0F) + b.swing_m;
   const float given_m = length(b.pushed);
-  const bool is_given = given_m > own_m;
+  // What a itself gave comes back as nothing.
+  const bool is_given = given_m > own_m && b.pusher != a.body;
   const float strength = share * (is_given ? given_m : own_m);
   if (!(strength > 0.0F)) return 0;
   return (static_cast<PushWord>(std::bit_cast<std::uint32_t>(strength)) << 32) | (is_given ? b.pusher : b.body);

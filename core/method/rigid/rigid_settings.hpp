@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 
 #include "core/engine/settings.hpp"
 #include "core/method/rigid/soft_settings.hpp"
@@ -13,7 +14,10 @@ namespace broadside::core {
 // Of "contact" and "substeps".
 inline SoftSettings soft_settings_of(const Settings& settings) {
   constexpr unsigned long kMostSubsteps = 1024;  // more are below the rounding of a step
-  SoftSettings soft = settings.text("contact") == "soft-step" ? soft_step_settings() : SoftSettings{};
+  const std::string_view contact = settings.text("contact");
+  SoftSettings soft = contact == "soft-step" ? soft_step_settings()
+                      : contact == "stiff"   ? stiff_settings()
+                                             : SoftSettings{};
   const unsigned long substeps = std::min(settings.number("substeps"), kMostSubsteps);
   if (substeps > 0) soft.substeps = static_cast<std::uint32_t>(substeps);
   return soft;

@@ -31,6 +31,7 @@ struct SoftStep {
   float settle_m_s = 0.0F;
   float least_done_m_s = 0.0F;   // changes of speed below this are none to sweep on for
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
+  float kept_push_m_s = 0.0F;    // what pushes bodies apart faster is taken back (pushed_apart.hpp)
   float gravity_m_s2 = 0.0F;
 };
 
@@ -72,14 +73,19 @@ BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const PatchMotionOf<
   return square_root(squared);
 }
 
+// Also before: nothing slides yet.
+template <typename Number>
+BROADSIDE_HD void forget_slips(PatchOf<Number>& c) {
+  each_point(c, [&](int k) { c.points[k].slides = false; });
+}
+
 // The impulses of the substep before.
 template <typename Number, typename Body>
-BROADSIDE_HD void warm_start(PatchOf<Number>& c, Body& a, Body& b) {
+BROADSIDE_HD void warm_start(const PatchOf<Number>& c, Body& a, Body& b) {
   BodyGain of_a(a);
   BodyGain of_b(b);
   each_point(c, [&](int k) {
-    PatchPointOf<Number>& p = c.points[k];
-    p.slides = false;
+    const PatchPointOf<Number>& p = c.points[k];
     const VectorOf<Number> impulse = impulse_of(c, p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2);
     of_a.add_to_a(a, p.arm_a, impulse);
     of_b.add_to_b(b, p.arm_b, impulse);
@@ -141,15 +147,19 @@ BROADSIDE_HD Number solve_frictions(PatchOf<Number>& c, PatchMotionOf<Number>& m
   return largest;
 }
 
-// An overlap is pushed apart no faster than half of what it would take to fall out of it, beside what the soft contact
-// yields to the impulse that it bears: where something rides on what is pushed, and keeps its speed, it keeps no more
-// energy than that of a quarter of the lift.
+// How fast the soft contact yields to the impulse that a point bears, m/s.
 template <typename Number>
-BROADSIDE_HD Number fastest_push(const PatchOf<Number>& c, const PatchPointOf<Number>& p, Number depth_m,
-                                 const SoftStep& step) {
-  const Number yields_m_s = step.impulse_scale * p.normal_impulse / (step.mass_scale * p.normal_mass);
-  if (!(step.gravity_m_s2 > 0.0F)) return c.fastest_push_m_s + yields_m_s;
-  return square_root(0.5F * step.gravity_m_s2 * depth_m) + yields_m_s;
+BROADSIDE_HD Number yielding(const PatchPointOf<Number>& p, const SoftStep& step) {
+  return step.impulse_scale * p.normal_impulse / (step.mass_scale * p.normal_mass);
+}
+
+// An overlap is pushed apart no faster than half of what it would take to fall out of it, beside what the soft contact
+// yields: where something rides on what is pushed, and keeps its speed, it keeps no more energy than that of a quarter
+// of the lift.
+template <typename Number>
+BROADSIDE_HD Number most_push(const PatchOf<Number>& c, Number depth_m, const SoftStep& step) {
+  if (!(step.gravity_m_s2 > 0.0F)) return c.fastest_push_m_s;
+  return square_root(0.5F * step.gravity_m_s2 * depth_m);
 }
 
 // What a sweep wants of the points of a patch. It follows from where the bodies are and from the patch's own impulses,
@@ -176,7 +186,7 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const SoftS
     if (any(!is_open)) {
       const Number wish = (gap + c.slop_m) * step.push_rate_per_s;
       const Number slow = pick(wish > step.settle_m_s, step.settle_m_s, wish);
-      const Number fast = fastest_push<Number>(c, p, -gap, step);
+      const Number fast = most_push<Number>(c, -gap, step) + yielding<Number>(p, step);
       goals.allowed_m_s[k] = pick(is_open, goals.allowed_m_s[k], pick(slow < -fast, -fast, slow));
     }
   });

@@ -45,6 +45,18 @@ inline SoftSettings soft_step_settings() {
   return settings;
 }
 
+// Stiffer contacts that are solved farther, for what stands by little: contacts of an arch of 25 stones yield by more
+// than the 1 % by which it stands.
+inline SoftSettings stiff_settings() {
+  SoftSettings settings;
+  settings.substeps = 8;
+  settings.sweeps = 100;
+  settings.done = 1e-5F;
+  settings.done_of_gravity = 0x1p-10F;
+  settings.omega_dt = 20.0F;
+  return settings;
+}
+
 // What a step does at most: its substeps, and how often a substep adds to the velocities of a contact's bodies.
 struct MostOfStep {
   std::uint32_t substeps = 0;
@@ -65,12 +77,15 @@ inline MostOfStep most_of_step(const SoftSettings& settings) {
 
 inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {
   constexpr float kSettleShare = 0.05F;
+  // A push that stays as speed leaves a sixteenth of what explicit and implicit Euler differ by in a step.
+  constexpr float kKeptPushShare = 0.25F;
   const float gravity = length(gravity_m_s2);
   SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
   step.gravity_m_s2 = gravity;
   step.least_done_m_s = settings.done_of_gravity * gravity * step.dt_s;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
+  step.kept_push_m_s = kKeptPushShare * gravity * dt_s;
   return step;
 }
 

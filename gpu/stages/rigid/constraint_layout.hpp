@@ -24,7 +24,8 @@ enum ConstraintWord : std::uint32_t {
   kTotals,                // [3] as impulses
   kBefore = kTotals + 3,  // [3] of core::PatchWay
   kWays = kBefore + 3,    // [3] of core::PatchWay
-  kConstraintWords = kWays + 3,
+  kPushed = kWays + 3,    // [3] of core::PatchImpulsesBefore; the first number is negative where nothing is taken back
+  kConstraintWords = kPushed + 3,
 };
 constexpr std::uint32_t kTile = 32;
 constexpr std::uint32_t kWordBytes = 16;

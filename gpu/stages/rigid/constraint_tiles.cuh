@@ -4,6 +4,7 @@
 
 #include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/pushed_apart.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/rigid/constraint_layout.hpp"
@@ -172,7 +173,7 @@ __device__ __forceinline__ void store_totals(const TileSlot& slot, const core::P
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, all[i]);
 }
 
-// Three numbers of each point: `word` is kBefore or kWays.
+// Three numbers of each point: `word` is kBefore, kWays or kPushed.
 __device__ __forceinline__ void load_triples(const TileSlot& slot, std::uint32_t word,
                                              float (&triples)[kFourPoints][3]) {
 #pragma unroll
@@ -191,6 +192,22 @@ __device__ __forceinline__ void store_triples(const TileSlot& slot, std::uint32_
     const float all[kFourPoints] = {triples[0][i], triples[1][i], triples[2][i], triples[3][i]};
     slot.store_each(word + i, all);
   }
+}
+
+// Of a patch that is pushed apart, its impulses before that; of no other one anything.
+__device__ __forceinline__ void store_before_push(const TileSlot& slot, const core::PatchConstraint& c,
+                                                  bool is_pushed) {
+  if (!is_pushed) {
+    slot.at(kPushed) = {{-1.0F, 0.0F, 0.0F}, 0.0F};
+    return;
+  }
+  store_triples(slot, kPushed, core::impulses_before(c).of);
+}
+
+// Whether it is.
+__device__ __forceinline__ bool load_before_push(const TileSlot& slot, core::PatchImpulsesBefore& before) {
+  load_triples(slot, kPushed, before.of);
+  return !(before.of[0][0] < 0.0F);
 }
 
 // All of it, when it was made. Points that the patch does not have are zeros.

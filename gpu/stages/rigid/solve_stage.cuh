@@ -9,6 +9,7 @@
 #include "gpu/stages/rigid/color_loop.cuh"
 #include "gpu/stages/rigid/constraint_stage.cuh"
 #include "gpu/stages/rigid/kept_impulses.cuh"
+#include "gpu/stages/rigid/pushed_patches.cuh"
 #include "gpu/stages/rigid/sweeps.cuh"
 #include "gpu/stages/rigid/team_sums.cuh"
 
@@ -47,20 +48,24 @@ __device__ __forceinline__ float sum_of_changes(const SolveTeam& team, const Rig
   return change;
 }
 
-// Behind a barrier; ends with one.
-__device__ __forceinline__ void sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+// Behind a barrier; ends with one. Returns the fastest push.
+__device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   float first_change = 0.0F;
   float last_change = 0.0F;
   float share = 0.0F;
   float done = 0.0F;
+  float fastest_push = 0.0F;
   for (std::uint32_t k = 1;; ++k) {
     sweep_along(team, f, solve.soft, k == 1, solve.owes_totals, share, solve.sums);
     ++solve.done.sweeps;
     team.sync();
-    if (k == 1) done = core::done_m_s(solve.soft, f.solver.done, solve.sums.largest(TeamSums::kThird));
+    if (k == 1) {
+      done = core::done_m_s(solve.soft, f.solver.done, solve.sums.largest(TeamSums::kThird));
+      fastest_push = solve.sums.largest(TeamSums::kFourth);
+    }
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);
-    if (k >= f.solver.sweeps || largest_speed <= done) return;
+    if (k >= f.solver.sweeps || largest_speed <= done) return fastest_push;
     const float change = sum_of_changes(team, f, solve, largest_change);
     if (!(last_change > 0.0F)) first_change = change;
     share = core::share_of_direction(first_change, last_change, change);
@@ -106,10 +111,40 @@ __device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_
     start.v = {before.v, 0.0F};
     start.w = {core::angular_velocity(before), 0.0F};
   }
+  start.driven_v = {driven.v, 0.0F};
+  start.driven_angular_momentum = {driven.angular_momentum, 0.0F};
+}
+
+// Sweeps over all contacts before the bodies move, with the barrier before them; ends with one. Returns the fastest
+// push.
+__device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   if (solve.has_way) {
-    start.driven_v = {driven.v, 0.0F};
-    start.driven_w = {core::angular_velocity(driven), 0.0F};
+    team.sync();
+    return sweep_until_done(team, f, solve);
   }
+  sweep_once(team, f, solve.soft, solve.owes_totals, solve.sums);
+  ++solve.done.sweeps;
+  team.sync();
+  const float fastest_push = solve.sums.largest(TeamSums::kFourth);
+  solve.sums.end_turn(team);
+  return fastest_push;
+}
+
+// The same as StepConstraints::relax_pushed of the twin. Begins behind a barrier and ends with one.
+__device__ __forceinline__ void relax_pushed(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
+                                             float fastest_push) {
+  const float done = core::done_m_s(solve.soft, core::kRelaxDone, fastest_push);
+  bool is_done = false;
+  for (int k = 0; k < core::kMostRelaxSweeps && !is_done; ++k, ++solve.sweep) {
+    relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
+    ++solve.done.sweeps;
+    team.sync();
+    is_done = !(largest_of_turn(team, solve) > done);
+  }
+  if (!solve.may_bounce) return;
+  solve.sweep += 2;
+  stir_what_bounces(team, f, solve.soft, solve.sweep, solve.sums);
+  team.sync();
 }
 
 __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
@@ -121,24 +156,24 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     give_kept_impulses(f, i, body);
     store_velocity(f.bodies[i], body);
   });
-  if (solve.has_way) {
-    team.sync();
-    sweep_until_done(team, f, solve);
-  } else {
-    sweep_once(team, f, solve.soft, solve.owes_totals);
-    ++solve.done.sweeps;
+  const float fastest_push = sweep_all(team, f, solve);
+  const bool is_pushed = fastest_push > solve.soft.kept_push_m_s;
+  solve.sweep += 2;  // above what was stirred by the last sweep before
+  if (is_pushed) {
+    take_back_impulses(team, f, solve.sweep);
     team.sync();
   }
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
     core::move(body, f.mass[i], solve.soft.dt_s);
+    if (is_pushed) go_back_to_start(f, i, body);
     store_body(f.bodies[i], body);
   });
   team.sync();
-  solve.sweep += 2;  // above what was stirred by the last sweep before
-  relax_all(team, f, solve.soft, solve.may_bounce, solve.sweep, solve.sums);
+  relax_all(team, f, solve.soft, solve.may_bounce, !is_pushed, solve.sweep, solve.sums);
   team.sync();
   solve.owes_totals = true;
+  if (is_pushed) relax_pushed(team, f, solve, fastest_push);
   if (!solve.may_bounce) return;
   const float fastest = largest_of_turn(team, solve);
   if (!(fastest > 0.0F)) return;

@@ -32,23 +32,30 @@ __device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const
 }
 
 // As a substep's first sweep finds it: nothing slides yet. owes_totals: the substep before left its impulses to be
-// added to the totals.
-__device__ __forceinline__ void begin_substep(const TileSlot& slot, core::PatchConstraint& c, bool owes_totals) {
-  core::each_point(c, [&](int k) { c.points[k].slides = false; });
-  if (!owes_totals) return;
+// added to the totals. Notes the impulses of what is pushed apart, and returns how fast it is pushed, m/s.
+__device__ __forceinline__ float begin_substep(const TileSlot& slot, LoadedPatch& loaded, const core::SoftStep& soft,
+                                               bool owes_totals) {
+  core::PatchConstraint& c = loaded.c;
+  core::forget_slips(c);
+  const float push =
+      core::fastest_push(c, soft, [&](int k) { return core::gap_now(c, c.points[k], loaded.a, loaded.b); });
+  store_before_push(slot, c, core::is_taken_back(push, soft));
+  if (!owes_totals) return push;
   load_totals(slot, c);
   core::add_to_totals(c);
   store_totals(slot, c);
+  return push;
 }
 
-// A substep's only sweep, with the barrier before it.
+// A substep's only sweep, with the barrier before it. Brings the fastest push.
 __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
-                                           bool owes_totals) {
+                                           bool owes_totals, const TeamSums& sums) {
+  float fastest_push = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kWithBarrier,
       [&](const TileSlot& slot) {
         LoadedPatch loaded = load_patch(f, slot);
-        begin_substep(slot, loaded.c, owes_totals);
+        fastest_push = fmaxf(fastest_push, begin_substep(slot, loaded, soft, owes_totals));
         loaded.goals = core::goals_of(loaded.c, loaded.a, loaded.b, soft);
         return loaded;
       },
@@ -56,28 +63,36 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::solve_patch(p.c, p.goals, p.a, p.b, soft); });
         store_impulses(slot, p.c);
       });
+  __syncwarp();
+  sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
 
-__device__ __forceinline__ core::PatchMotion driven_motion(const PackedStart& a, const PackedStart& b) {
-  return {a.driven_v.v, a.driven_w.v, {}, b.driven_v.v, b.driven_w.v, {}};
+// Of the patch's bodies, as the substep drives them before any impulse.
+__device__ __forceinline__ core::PatchMotion driven_motion(const RigidFrameView& f, const LoadedPatch& p) {
+  const PackedStart& a = f.starts[p.c.a];
+  const PackedStart& b = f.starts[p.c.b];
+  return {a.driven_v.v, p.a.inverse_inertia * a.driven_angular_momentum.v, {},
+          b.driven_v.v, p.b.inverse_inertia * b.driven_angular_momentum.v, {}};
 }
 
 // A sweep of several along conjugate directions. The impulses follow the last direction by `share` before, except in
 // the first sweep; what that does to the bodies was done by give_step_along. Brings the largest change of a point's
-// speed, that of f.changes, and, in the first sweep, the largest speed of a point before any impulse.
+// speed, that of f.changes, and, in the first sweep, the largest speed of a point before any impulse and the fastest
+// push.
 __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
                                             bool is_first, bool owes_totals, float share, const TeamSums& sums) {
   float largest_speed = 0.0F;
   float largest_change = 0.0F;
   float fastest = 0.0F;
+  float fastest_push = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
       [&](const TileSlot& slot) {
         LoadedWay loaded{load_patch(f, slot), {}};
         core::PatchConstraint& c = loaded.patch.c;
         if (is_first) {
-          begin_substep(slot, c, owes_totals);
-          fastest = fmaxf(fastest, core::fastest_point(c, driven_motion(f.starts[c.a], f.starts[c.b])));
+          fastest_push = fmaxf(fastest_push, begin_substep(slot, loaded.patch, soft, owes_totals));
+          fastest = fmaxf(fastest, core::fastest_point(c, driven_motion(f, loaded.patch)));
         } else {
           load_triples(slot, kBefore, loaded.way.before);
           load_triples(slot, kWays, loaded.way.way);
@@ -101,7 +116,9 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest_speed);
   sums.bring_largest(TeamSums::kSecond, largest_change);
-  if (is_first) sums.bring_largest(TeamSums::kThird, fastest);
+  if (!is_first) return;
+  sums.bring_largest(TeamSums::kThird, fastest);
+  sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
 
 // Bodies whose patches the sweep has to visit. Those that never move are not stirred.
@@ -129,10 +146,10 @@ __device__ __forceinline__ core::PatchMotion start_motion(const PackedStart& a, 
   return {a.v.v, a.w.v, {}, b.v.v, b.w.v, {}};
 }
 
-// Each contact once, after the bodies moved. may_bounce: what bounces stirs its bodies for `sweep`; brings the fastest
-// approach of what bounces.
+// Each contact once, after the bodies moved. may_bounce: approaches are noted. is_last: of the relaxation; what bounces
+// then stirs its bodies for `sweep`, and the fastest approach of what bounces is brought.
 __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
-                                          bool may_bounce, std::uint32_t sweep, const TeamSums& sums) {
+                                          bool may_bounce, bool is_last, std::uint32_t sweep, const TeamSums& sums) {
   float fastest = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
@@ -148,7 +165,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedPatch& p) {
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::relax_patch(p.c, p.goals, p.a, p.b); });
         store_impulses(slot, p.c);
-        if (!may_bounce) return;
+        if (!may_bounce || !is_last) return;
         const float own = core::fastest_bounce(p.c, soft);
         if (!(own > 0.0F)) return;
         fastest = fmaxf(fastest, own);
@@ -156,7 +173,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         stir(f, p.c.b, sweep);
       });
   __syncwarp();
-  if (may_bounce) sums.bring_largest(TeamSums::kFirst, fastest);
+  if (may_bounce && is_last) sums.bring_largest(TeamSums::kFirst, fastest);
 }
 
 }  // namespace broadside::gpu

@@ -13,8 +13,8 @@ namespace broadside::gpu {
 // barrier.
 class TeamSums {
  public:
-  // Three numbers can be brought in one turn.
-  enum Which : std::uint32_t { kFirst, kSecond, kThird };
+  // Four numbers can be brought in one turn.
+  enum Which : std::uint32_t { kFirst, kSecond, kThird, kFourth };
 
   __device__ explicit TeamSums(RigidCounts* counts) : counts_(counts) {}
 
@@ -39,7 +39,7 @@ class TeamSums {
   template <typename Team>
   __device__ void end_turn(const Team& team) {
     if (team.rank() == 0) {
-      for (std::uint32_t which = kFirst; which <= kThird; ++which) counts_->largest[(turn_ + 2) % 4][which] = 0;
+      for (std::uint32_t which = kFirst; which <= kFourth; ++which) counts_->largest[(turn_ + 2) % 4][which] = 0;
       counts_->sums[(turn_ + 2) % 4] = 0;
     }
     ++turn_;

@@ -8,6 +8,7 @@
 #include "core/math/lane_number.hpp"
 #include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/pushed_apart.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 #include "core/method/rigid/solver_body.hpp"
 #include "reference/octree_cpu/rigid/patch_kernels.hpp"
@@ -183,9 +184,11 @@ void note_fast(const TileRange& range, const core::SoftStep& step, std::uint8_t*
 }
 
 template <typename Lanes>
-void begin_sweeps(const TileRange& range, float* speeds) {
-  each_tile<Lanes>(range, [speeds](Tile<Lanes>& t, const auto& a, const auto& b, std::size_t k) {
+void begin_sweeps(const TileRange& range, const core::SoftStep& step, float* speeds, float* pushes) {
+  each_tile<Lanes>(range, [&](Tile<Lanes>& t, const auto& a, const auto& b, std::size_t k) {
     core::each_point(t.patch, [&](int n) { t.gaps[n] = core::gap_now(t.patch, t.patch.points[n], a, b); });
+    core::forget_slips(t.patch);
+    core::fastest_push(t.patch, step, [&](int n) { return t.gaps[n]; }).store(pushes + k * kTileLanes);
     speeds[k] = largest_of(core::fastest_point(t.patch, core::motion_of(a, b)));
   });
 }

@@ -45,7 +45,8 @@ struct PatchKernels {
   void (*note_approach)(const TileRange& range);
   // By place: whether a point of a patch that gives speed back came fast enough for it.
   void (*note_fast)(const TileRange& range, const core::SoftStep& step, std::uint8_t* came_fast);
-  void (*begin_sweeps)(const TileRange& range, float* speeds);  // notes gaps, and by tile the fastest point's speed
+  // Notes gaps; by tile the fastest point's speed, and by place core::fastest_push.
+  void (*begin_sweeps)(const TileRange& range, const core::SoftStep& step, float* speeds, float* pushes);
   void (*warm_start)(const TileRange& range);
   void (*sweep)(const TileRange& range, const core::SoftStep& step, const SweepWay& way);
   void (*push_along)(const TileRange& range, float share);

@@ -42,7 +42,10 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   speeds_.assign(work_.tiles().count(), 0.0F);
   changes_.assign(work_.tiles().places(), 0.0F);
   last_change_ = 0.0F;
-  work_.each_range([&](const TileRange& range) { kernels_.begin_sweeps(range, speeds_.data()); });
+  pushes_.assign(work_.tiles().places(), 0.0F);
+  work_.each_range(
+      [&](const TileRange& range) { kernels_.begin_sweeps(range, numbers, speeds_.data(), pushes_.data()); });
+  work_.note_pushed(pushes_, numbers);
   const float done = core::done_m_s(numbers, settings_.done, largest_speed());
   work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
   SweepWay way{settings_.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
@@ -57,6 +60,15 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   }
 }
 
+void SoftSolver::relax(const core::SoftStep& numbers) {
+  if (work_.is_pushed()) {
+    work_.take_back_impulses();
+    work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
+  }
+  work_.each_range_by_color([&](const TileRange& range) { kernels_.relax(range, numbers); });
+  if (work_.is_pushed()) sweeps_done_ += work_.relax_pushed(numbers);
+}
+
 void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   const auto bodies = work_.bodies();
   if (work_.may_bounce()) work_.each_range([&](const TileRange& range) { kernels_.note_approach(range); });
@@ -65,7 +77,7 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   });
   sweep_until_done(numbers);
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
-  work_.each_range_by_color([&](const TileRange& range) { kernels_.relax(range, numbers); });
+  relax(numbers);
   work_.bounce(numbers);
   work_.each_range([&](const TileRange& range) { kernels_.add_to_totals(range, numbers); });
 }

@@ -152,6 +152,55 @@ float StepConstraints::change(std::size_t place, const Work& work) {
   return largest;
 }
 
+float StepConstraints::relax_stirred(const core::SoftStep& numbers, float done_m_s) {
+  const auto relax = [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
+    return core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
+  };
+  visit_by_color(place_begin_, [&](std::size_t place) {
+    of_places_[place] = is_stirred(place) ? change(place, relax) : 0.0F;
+    if (of_places_[place] > done_m_s) stir(place, sweep_ + 1);
+  });
+  ++sweep_;
+  return largest_of_places();
+}
+
+void StepConstraints::note_pushed(std::span<const float> pushes, const core::SoftStep& numbers) {
+  pushed_.clear();
+  fastest_push_m_s_ = pushes.empty() ? 0.0F : *std::max_element(pushes.begin(), pushes.end());
+  if (!(fastest_push_m_s_ > numbers.kept_push_m_s)) fastest_push_m_s_ = 0.0F;
+  if (!is_pushed()) return;
+  for (std::size_t place = 0; place < pushes.size(); ++place) {
+    if (tiles_.patch_at()[place] == PatchTiles::kNoPatch || !core::is_taken_back(pushes[place], numbers)) continue;
+    pushed_.push_back({place, core::impulses_before(tiles_.get(place))});
+  }
+  driven_.resize(bodies_.size());
+  each_body([&](std::size_t i) { driven_[i] = {bodies_[i].v, bodies_[i].angular_momentum}; });
+}
+
+void StepConstraints::take_back_impulses() {
+  sweep_ += 2;  // above what was stirred by the last sweep before
+  in_parallel(0, pushed_.size(), [&](std::size_t k) {
+    const PushedPatch& pushed = pushed_[k];
+    PatchConstraint c = tiles_.get(pushed.place);
+    core::go_back_to(pushed.before, c);
+    tiles_.put(pushed.place, c);
+    stir(pushed.place, sweep_);
+  });
+  each_body([&](std::size_t i) {
+    if (!core::is_moved(bodies_[i])) return;
+    bodies_[i].v = driven_[i].v;
+    bodies_[i].angular_momentum = driven_[i].angular_momentum;
+  });
+}
+
+std::uint32_t StepConstraints::relax_pushed(const core::SoftStep& numbers) {
+  const float done = core::done_m_s(numbers, core::kRelaxDone, fastest_push_m_s_);
+  of_places_.assign(tiles_.places(), 0.0F);
+  for (std::uint32_t k = 1; k <= core::kMostRelaxSweeps; ++k)
+    if (!(relax_stirred(numbers, done) > done)) return k;
+  return core::kMostRelaxSweeps;
+}
+
 void StepConstraints::find_fast(const core::SoftStep& numbers) {
   came_fast_.resize(tiles_.places());
   each_range([&](const TileRange& range) { tiles_.kernels().note_fast(range, numbers, came_fast_.data()); });
@@ -184,16 +233,9 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   if (!(done > 0.0F)) return;
   // A share of what stopped them is given back, so that is to be known well.
   float largest = fastest;
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k, ++sweep_) {
-    const auto relax = [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-      return core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
-    };
-    visit_by_color(place_begin_, [&](std::size_t place) {
-      of_places_[place] = is_stirred(place) ? change(place, relax) : 0.0F;
-      if (of_places_[place] > done) stir(place, sweep_ + 1);
-    });
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
+    largest = relax_stirred(numbers, done);
     ++bounce_sweeps_;
-    largest = largest_of_places();
   }
   largest = fastest;
   for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {

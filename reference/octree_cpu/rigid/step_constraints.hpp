@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/pushed_apart.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 #include "core/method/rigid/soft_settings.hpp"
 #include "core/method/rigid/solver_body.hpp"
@@ -52,6 +53,15 @@ class StepConstraints {
       ranges_in_parallel(begin[color], begin[color + 1], work);
   }
 
+  // Before the sweeps of a substep: which patches are pushed apart, by place as core::fastest_push says, and with what
+  // impulses these and with what velocities the bodies begin.
+  void note_pushed(std::span<const float> pushes, const core::SoftStep& numbers);
+  [[nodiscard]] bool is_pushed() const { return fastest_push_m_s_ > 0.0F; }
+  // After the bodies moved: these patches have those impulses again, and bodies the velocities without any impulse.
+  void take_back_impulses();
+  // And after one sweep of relaxation over all: more of them, where it is not done. Returns how many.
+  std::uint32_t relax_pushed(const core::SoftStep& numbers);
+
   // Sweeps of bounces since it was made.
   [[nodiscard]] std::uint64_t bounce_sweeps() const { return bounce_sweeps_; }
 
@@ -74,6 +84,9 @@ class StepConstraints {
   // work(patch, a, b), of one patch alone. Returns what the work does.
   template <typename Work>
   float change(std::size_t place, const Work& work);
+  // One sweep of relaxation over patches whose bodies are stirred; bodies that change by more than done_m_s are stirred
+  // for the next one. Returns the largest change of a point's speed.
+  float relax_stirred(const core::SoftStep& numbers, float done_m_s);
   // Places of patches with a point that came fast enough to bounce.
   void find_fast(const core::SoftStep& numbers);
   // The fastest approach of what bounces, whose bodies are stirred.
@@ -102,6 +115,18 @@ class StepConstraints {
     std::uint32_t b;
   };
   std::vector<Bodies> touched_;
+  // What a push is taken back to.
+  struct PushedPatch {
+    std::size_t place;
+    core::PatchImpulsesBefore before;
+  };
+  std::vector<PushedPatch> pushed_;
+  struct Velocity {
+    core::Vec3 v;
+    core::Vec3 angular_momentum;
+  };
+  std::vector<Velocity> driven_;  // by body, where something is pushed
+  float fastest_push_m_s_ = 0.0F;
   std::vector<PatchImpulses> impulses_;     // by patch as given
   std::vector<float> of_places_;            // what a loop over places found, for the largest of it
   std::vector<std::uint32_t> place_begin_;  // by color

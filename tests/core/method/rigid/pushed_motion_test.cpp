@@ -46,6 +46,17 @@ TEST(PushedMotion, APushIsHandedOn) {
   EXPECT_EQ(pusher_of(push), 9U);
 }
 
+// But not to whom it comes from: that one still feels who comes, more weakly.
+TEST(PushedMotion, ItsOwnPushDoesNotComeBack) {
+  Pusher below = body(1, {0, -1, 0}, {});
+  below.pushed = {0, -0.4F, 0};
+  below.pusher = 2;
+  EXPECT_EQ(push_by(body(2, {}, {0, -0.4F, 0}), below, 0.0F) >> 32,
+            push_by(body(2, {}, {0, -0.4F, 0}), body(1, {0, -1, 0}, {}), 0.0F) >> 32);
+  EXPECT_EQ(push_by(body(2, {}, {}), below, 0.0F), 0U);
+  EXPECT_EQ(pusher_of(push_by(body(3, {}, {}), below, 0.0F)), 2U);
+}
+
 TEST(PushedMotion, TheStrongestPushIsTheLargestWord) {
   const Pusher still = body(0, {}, {});
   const PushWord weak = push_by(still, body(99, {0, 1, 0}, {0, -0.1F, 0}), 0.0F);

@@ -14,6 +14,7 @@
 
 #include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/pushed_apart.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 #include "core/method/rigid/solver_body.hpp"
 
@@ -113,6 +114,7 @@ struct OneByOne {
   std::vector<core::PatchWay> ways;
   std::vector<float> speeds;   // of the fastest point at first, then of each sweep
   std::vector<float> changes;  // of the last sweep
+  std::vector<float> pushes;
 
   template <typename Work>
   void each(const Work& work) {
@@ -130,6 +132,10 @@ struct OneByOne {
       fastest = std::max(fastest, core::fastest_point(c, core::motion_of(a, b)));
     });
     speeds.push_back(fastest);
+    each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) {
+      core::forget_slips(c);
+      pushes.push_back(core::fastest_push(c, step, [&](int k) { return core::gap_now(c, c.points[k], a, b); }));
+    });
     each([](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) { core::warm_start(c, a, b); });
     for (std::size_t n = 0; n <= shares.size(); ++n) {
       float largest = 0.0F;
@@ -157,7 +163,7 @@ void expect_same_substep(const PatchKernels& kernels, unsigned seed, int points,
   SCOPED_TRACE(testing::Message() << kernels.name << ", seed " << seed << ", points " << points);
   Random random(seed);
   const core::SoftStep step = some_step(gravity_m_s2);
-  OneByOne one{some_bodies(random), {}, {}, {}, {}};
+  OneByOne one{some_bodies(random), {}, {}, {}, {}, {}};
   // The last lane has no patch.
   for (std::uint32_t lane = 0; lane + 1 < kTileLanes; ++lane)
     one.patches.push_back(some_patch(random, lane, points, one.bodies));
@@ -178,8 +184,11 @@ void expect_same_substep(const PatchKernels& kernels, unsigned seed, int points,
   float speed = 0.0F;
   std::array<float, kTileLanes> changes{};
   kernels.note_approach(range);
-  kernels.begin_sweeps(range, &speed);
+  std::array<float, kTileLanes> pushes{};
+  kernels.begin_sweeps(range, step, &speed, pushes.data());
   expect_same_bits(speed, one.speeds[0], "fastest point", 0);
+  for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
+    expect_same_bits(pushes[lane], one.pushes[lane], "push", static_cast<int>(lane));
   kernels.warm_start(range);
   SweepWay way{true, true, 0.0F, &speed, changes.data()};
   for (std::size_t n = 0; n <= kShares.size(); ++n) {

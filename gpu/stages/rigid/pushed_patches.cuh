@@ -1,0 +1,57 @@
+// What pushed patches apart within a substep is taken back: core/method/rigid/pushed_apart.hpp.
+#pragma once
+
+#include "core/method/rigid/pushed_apart.hpp"
+#include "gpu/stages/rigid/kept_impulses.cuh"
+#include "gpu/stages/rigid/sweeps.cuh"
+
+namespace broadside::gpu {
+
+// Patches that are pushed have the impulses that the substep began with, and stir their bodies for `sweep`.
+__device__ __forceinline__ void take_back_impulses(const SolveTeam& team, const RigidFrameView& f,
+                                                   std::uint32_t sweep) {
+  each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
+    core::PatchImpulsesBefore before;
+    if (!load_before_push(slot, before)) return;
+    core::PatchConstraint c;
+    load_bodies(slot, c);
+    load_impulses(slot, c);
+    core::go_back_to(before, c);
+    store_impulses(slot, c);
+    stir(f, c.a, sweep);
+    stir(f, c.b, sweep);
+  });
+}
+
+// A body that has moved goes on from the velocity that the substep gave it before any impulse. Behind a barrier.
+__device__ __forceinline__ void go_back_to_start(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body) {
+  const PackedStart& start = f.starts[i];
+  if (core::is_moved(body)) {
+    body.v = start.driven_v.v;
+    body.angular_momentum = start.driven_angular_momentum.v;
+  }
+  give_kept_impulses(f, i, body);
+}
+
+// After these have relaxed: what bounces stirs its bodies for `sweep`. Brings the fastest approach of what bounces.
+__device__ __forceinline__ void stir_what_bounces(const SolveTeam& team, const RigidFrameView& f,
+                                                  const core::SoftStep& soft, std::uint32_t sweep,
+                                                  const TeamSums& sums) {
+  float fastest = 0.0F;
+  each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
+    core::PatchConstraint c;
+    load_bodies(slot, c);
+    load_directions(slot, c);
+    load_impulses(slot, c);
+    load_approach(slot, c);
+    const float own = core::fastest_bounce(c, soft);
+    if (!(own > 0.0F)) return;
+    fastest = fmaxf(fastest, own);
+    stir(f, c.a, sweep);
+    stir(f, c.b, sweep);
+  });
+  __syncwarp();
+  sums.bring_largest(TeamSums::kFirst, fastest);
+}
+
+}  // namespace broadside::gpu

@@ -1,0 +1,64 @@
+// What pushes overlaps apart is not kept as speed: core/method/rigid/pushed_apart.hpp.
+#include "core/method/rigid/pushed_apart.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "tests/reference/octree_cpu/rigid/pipeline_rig.hpp"
+
+namespace broadside::tests {
+namespace {
+
+constexpr float kSide_m = 0.5F;
+constexpr float kDeep_m = 0.04F;
+
+// Ten cubes of 1 kg at rest, each so deep in the next, along x or upward.
+PipelineRig overlapping_row(core::Vec3 along, core::Vec3 gravity_m_s2) {
+  PipelineRig rig;
+  rig.scene.gravity_m_s2 = gravity_m_s2;
+  rig.options.make_solver = [](const core::Scene&) { return reference::make_contact_solver({}); };
+  const std::uint32_t cube = rig.box(kSide_m, kSide_m, kSide_m);
+  for (int k = 0; k < 10; ++k) {
+    const float at_m = static_cast<float>(k) * (kSide_m - kDeep_m);
+    core::Body& body = rig.add(cube, at_m * along + core::Vec3{0, 0.5F * kSide_m, 0}, 1.0F);
+    body.material = {0.0F, 0.0F, 0.0F};
+  }
+  return rig;
+}
+
+double deepest_m(const core::FrameRecord& frame) {
+  double deepest = 0.0;
+  for (const core::ContactPoint& p : frame.points) deepest = std::max(deepest, -static_cast<double>(p.gap_m));
+  return deepest;
+}
+
+double kinetic_j(const core::FrameRecord& frame) {
+  double sum = 0.0;
+  for (const core::Vec3 v : frame.velocity) sum += 0.5 * static_cast<double>(core::dot(v, v));
+  return sum;
+}
+
+// The energy of the row was 8.1 J after the first step.
+TEST(PushedApart, BodiesAtRestPartAndRestAgain) {
+  const auto frames = overlapping_row({1, 0, 0}, {0, 0, 0}).run(60);
+  EXPECT_GT(deepest_m(frames.front()), 0.03);
+  EXPECT_LT(deepest_m(frames.back()), 1e-4);
+  for (const core::FrameRecord& frame : frames) EXPECT_EQ(kinetic_j(frame), 0.0);
+}
+
+// A column rises out of itself and stands: no faster than 1 % of what 4 cm of a fall give.
+TEST(PushedApart, AColumnRisesWithoutJumping) {
+  const auto frames = overlapping_row({0, 1, 0}, {0, -9.81F, 0}).run(120);
+  double highest_m = 0.0;
+  for (const core::FrameRecord& frame : frames)
+    highest_m = std::max(highest_m, static_cast<double>(frame.position.back().y));
+  EXPECT_GT(deepest_m(frames.front()), 0.03);
+  EXPECT_LT(deepest_m(frames.back()), 1e-3);
+  EXPECT_LT(highest_m, 9.5 * static_cast<double>(kSide_m) + 0.01);
+}
+
+}  // namespace
+}  // namespace broadside::tests
