@@ -7,6 +7,8 @@
 // in a row, each 4 cm deep in the next, parted with 8.1 J.
 #pragma once
 
+#include <limits>
+
 #include "core/attributes.hpp"
 #include "core/math/lane_number.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
@@ -36,6 +38,10 @@ BROADSIDE_HD Number fastest_push(const PatchOf<Number>& c, const SoftStep& step,
     fastest = pick(is_closed & (push > fastest), push, fastest);
   });
   return fastest;
+}
+
+BROADSIDE_HD constexpr bool takes_back_pushes(const SoftStep& step) {
+  return step.kept_push_m_s < std::numeric_limits<float>::max();
 }
 
 // Whether what pushed the patch is taken back. Without gravity nothing says how much would be little, and what the push

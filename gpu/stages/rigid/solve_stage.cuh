@@ -111,6 +111,7 @@ __device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_
     start.v = {before.v, 0.0F};
     start.w = {core::angular_velocity(before), 0.0F};
   }
+  if (!solve.has_way && !core::takes_back_pushes(solve.soft)) return;
   start.driven_v = {driven.v, 0.0F};
   start.driven_angular_momentum = {driven.angular_momentum, 0.0F};
 }
@@ -125,6 +126,7 @@ __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFra
   sweep_once(team, f, solve.soft, solve.owes_totals, solve.sums);
   ++solve.done.sweeps;
   team.sync();
+  if (!core::takes_back_pushes(solve.soft)) return 0.0F;
   const float fastest_push = solve.sums.largest(TeamSums::kFourth);
   solve.sums.end_turn(team);
   return fastest_push;

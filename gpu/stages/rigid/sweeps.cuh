@@ -37,9 +37,11 @@ __device__ __forceinline__ float begin_substep(const TileSlot& slot, LoadedPatch
                                                bool owes_totals) {
   core::PatchConstraint& c = loaded.c;
   core::forget_slips(c);
-  const float push =
-      core::fastest_push(c, soft, [&](int k) { return core::gap_now(c, c.points[k], loaded.a, loaded.b); });
-  store_before_push(slot, c, core::is_taken_back(push, soft));
+  float push = 0.0F;
+  if (core::takes_back_pushes(soft)) {
+    push = core::fastest_push(c, soft, [&](int k) { return core::gap_now(c, c.points[k], loaded.a, loaded.b); });
+    store_before_push(slot, c, core::is_taken_back(push, soft));
+  }
   if (!owes_totals) return push;
   load_totals(slot, c);
   core::add_to_totals(c);
@@ -64,7 +66,7 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
         store_impulses(slot, p.c);
       });
   __syncwarp();
-  sums.bring_largest(TeamSums::kFourth, fastest_push);
+  if (core::takes_back_pushes(soft)) sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
 
 // Of the patch's bodies, as the substep drives them before any impulse.
@@ -118,7 +120,7 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
   sums.bring_largest(TeamSums::kSecond, largest_change);
   if (!is_first) return;
   sums.bring_largest(TeamSums::kThird, fastest);
-  sums.bring_largest(TeamSums::kFourth, fastest_push);
+  if (core::takes_back_pushes(soft)) sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
 
 // Bodies whose patches the sweep has to visit. Those that never move are not stirred.
