@@ -49,4 +49,12 @@ inline SettingRow thresholds_setting() {
           "v_threshold_m_s"};
 }
 
+inline SettingRow sleep_setting() {
+  return {"sleep",
+          "off",
+          {"off", "on"},
+          "bodies that turn: on = those that stand still together stop being solved until something awake touches "
+          "them"};
+}
+
 }  // namespace broadside::core

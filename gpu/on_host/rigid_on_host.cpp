@@ -6,6 +6,7 @@
 #include "gpu/stages/rigid/contact_frame.cuh"
 #include "gpu/stages/rigid/place_stage.cuh"
 #include "gpu/stages/rigid/rigid_digest.cuh"
+#include "gpu/stages/rigid/sleep_stage.cuh"
 #include "gpu/stages/rigid/solve_frame.cuh"
 
 namespace broadside::gpu {
@@ -62,6 +63,20 @@ core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& 
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle /*stream*/) {
   on_host::run({{blocks}, {kSolveThreads}, seed()}, sizeof(ColorTable),
                [&](unsigned char* shared) { run_solve(frame, *reinterpret_cast<ColorTable*>(shared)); });
+  return core::Done{};
+}
+
+core::Result<LaunchShape> sleep_launch_shape() {
+  return contact_launch_shape();
+}
+
+core::Status launch_wake(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_wake(frame); });
+  return core::Done{};
+}
+
+core::Status launch_fall_asleep(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_fall_asleep(frame); });
   return core::Done{};
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/method/rigid/sleep.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
 #include "gpu/rigid/rigid_buffers.hpp"
@@ -36,6 +37,7 @@ struct RigidPipeline::Impl {
   LaunchShape contact_shape;
   LaunchShape constraint_shape;
   SolveShape solve_shape;
+  LaunchShape sleep_shape;
   BoxFacts facts;
   RigidFrameView view;
   PairsView pairs_view;
@@ -50,6 +52,7 @@ struct RigidPipeline::Impl {
   std::uint64_t sweeps = 0;
   std::uint64_t bounce_sweeps = 0;
   std::uint64_t waits = 0;
+  std::uint64_t steps_slept = 0;
   float dt_s = 0.0F;
 
   [[nodiscard]] bool has_broad() const;
@@ -74,6 +77,10 @@ constexpr float kRoomForSpeed = 1.25F;
 constexpr std::uint64_t kPairsPerBody = 8;
 // Above so many turns of a cluster's threads a larger grid is sooner done, whose barrier takes longer.
 constexpr std::uint64_t kMostTurnsOfCluster = 2;
+
+std::uint64_t launches_of_frame(const RigidPipelineOptions& options) {
+  return options.sleeps ? 7 : 5;
+}
 
 std::uint32_t as_word(float v) {
   return std::bit_cast<std::uint32_t>(v);
@@ -132,7 +139,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.bodies = std::move(bodies).value();
   d.scene = &scene;
   d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
-  d.sweeps = d.bounce_sweeps = d.waits = 0;
+  d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = 0;
+  d.dt_s = 0.0F;
   d.last = {};
   d.told.forget();
   d.times = {};
@@ -143,7 +151,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.stream = stream.value();
   BROADSIDE_TRY(wait_for_stream(d.stream, "the end of the scene before"));
   BROADSIDE_TRY(d.device_scene.load(scene, d.bodies));
-  BROADSIDE_TRY(d.buffers.load(d.bodies.state));
+  BROADSIDE_TRY(d.buffers.load(d.bodies.state, d.options.sleeps));
   BROADSIDE_TRY(d.outcome.allocate());
   BROADSIDE_TRY(d.broad_outcome.allocate());
   BROADSIDE_TRY(d.broad_counters.reserve(1, "counters"));
@@ -164,6 +172,9 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   auto solve_shape = solve_launch_shape();
   if (!solve_shape.ok()) return solve_shape.error();
   d.solve_shape = solve_shape.value();
+  auto sleep_shape = sleep_launch_shape();
+  if (!sleep_shape.ok()) return sleep_shape.error();
+  d.sleep_shape = sleep_shape.value();
 
   d.facts = {};
   d.facts.count = static_cast<std::uint32_t>(n);
@@ -186,6 +197,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 void RigidPipeline::Impl::fill() {
   buffers.fill(view);
   view.dt_s = dt_s;
+  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, dt_s);
   for (std::uint32_t kind = 0; kind < 2; ++kind) {
     view.substeps[kind] = core::substeps_of(view.solver, kind == 1);
     view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
@@ -231,12 +243,15 @@ core::Status RigidPipeline::Impl::launch_all() {
   if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
   BROADSIDE_TRY(view.has_long_contacts ? launch_long_contacts(view, contact_shape, stream)
                                        : launch_contacts(view, contact_shape, stream));
+  if (options.sleeps) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
   BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
+  if (options.sleeps && view.sleep.speed_m_s > 0.0F) BROADSIDE_TRY(launch_fall_asleep(view, sleep_shape, stream));
   return wait_for_stream(stream, "a frame");
 }
 
-// When its room was too small it has grown, and the frame has to be launched again from the same state.
+// When its room was too small it has grown, and when somebody woke he is awake: the frame has to be launched again from
+// the same state.
 core::Result<bool> RigidPipeline::Impl::is_kept() {
   last = outcome[0].counts;
   if (last.is_aborted == 0) return true;
@@ -262,7 +277,7 @@ void RigidPipeline::Impl::take_frame() {
     times[k] = {core::kStageNames[k], static_cast<double>(end_ns - begin_ns) * 1e-9};
     begin_ns = end_ns;
   }
-  buffers.advance();
+  buffers.advance(last);
   last_pairs = has_broad() ? broad_outcome[0].counters.pairs : 0;
   const std::uint64_t n = bodies.state.size();
   pairs_tested += has_broad() ? last_pairs : n * (n - 1) / 2;
@@ -270,11 +285,14 @@ void RigidPipeline::Impl::take_frame() {
   sweeps += last.done.sweeps;
   bounce_sweeps += last.done.bounce_sweeps;
   waits += last.done.waits;
+  steps_slept += last.asleep_bodies;
   ++steps;
 }
 
 core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
+  // What a contact gives in a step is no longer that of the last one.
+  if (dt_s != d.dt_s) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
   for (bool is_done = false; !is_done;) {
     BROADSIDE_TRY(d.launch_all());
@@ -319,13 +337,16 @@ std::span<const core::StageTime> RigidPipeline::stage_times() const {
 
 std::vector<core::Counter> RigidPipeline::counters() const {
   const Impl& d = *impl_;
-  return {{"launches", 5 * (d.steps + d.repeats)},
-          {"level stage: pairs tested", d.pairs_tested},
-          {"contact patches", d.patches_made},
-          {"solver: sweeps", d.sweeps},
-          {"solver: sweeps of bounces", d.bounce_sweeps},
-          {"solver: waits", d.waits},
-          {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+  std::vector<core::Counter> counters{
+      {"launches", launches_of_frame(d.options) * (d.steps + d.repeats)},
+      {"level stage: pairs tested", d.pairs_tested},
+      {"contact patches", d.patches_made},
+      {"solver: sweeps", d.sweeps},
+      {"solver: sweeps of bounces", d.bounce_sweeps},
+      {"solver: waits", d.waits},
+      {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+  if (d.options.sleeps) counters.push_back({"sleep: bodies asleep", d.steps_slept});
+  return counters;
 }
 
 std::uint64_t RigidPipeline::repeated_frames() const {

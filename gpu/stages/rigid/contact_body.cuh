@@ -15,4 +15,13 @@ __device__ inline bool is_moved(const ContactView& f, std::uint32_t body) {
   return !core::is_face(body) && f.mass[body].inverse_mass > 0.0F;
 }
 
+__device__ inline bool is_asleep(const ContactView& f, std::uint32_t body) {
+  return f.asleep != nullptr && !core::is_face(body) && f.asleep[body] != 0;
+}
+
+// Nothing begins to move it but a touch of a body that is not idle.
+__device__ inline bool is_idle(const ContactView& f, std::uint32_t body) {
+  return !is_moved(f, body) || is_asleep(f, body);
+}
+
 }  // namespace broadside::gpu

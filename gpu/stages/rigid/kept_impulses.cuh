@@ -21,7 +21,7 @@ template <typename Triples>
 __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                     const Triples& triples) {
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
-  const std::uint32_t count = f.memory.count[i];
+  const std::uint32_t count = core::is_moved(body) ? f.memory.count[i] : 0;  // who sleeps is not moved
   const auto load = [&](std::uint32_t place_and_side) {
     const TileSlot slot(f.constraints, place_and_side / 2);
     KnownPatch known;

@@ -33,6 +33,7 @@ __device__ inline core::ContactPath path_of(const ContactView& f, std::uint32_t 
 // Returns how many patches the pair has.
 template <typename Lanes>
 __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found) {
+  if (is_idle(f, pair.i) && is_idle(f, pair.j)) return 0;
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
   const core::ContactPath path_a = path_of(f, pair.i);
@@ -56,7 +57,7 @@ __device__ inline float reach_to_face_m(const ContactView& f, std::uint32_t body
 }
 
 __device__ inline bool may_touch_face(const ContactView& f, std::uint32_t body, std::uint32_t face) {
-  return is_moved(f, body) && core::may_reach_face(f.shape_boxes[body], reach_to_face_m(f, body), f.domain, face);
+  return !is_idle(f, body) && core::may_reach_face(f.shape_boxes[body], reach_to_face_m(f, body), f.domain, face);
 }
 
 template <typename Lanes>

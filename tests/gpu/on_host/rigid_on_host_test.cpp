@@ -99,6 +99,40 @@ TEST(RigidOnHost, BouncesAndWrenches) {
   compare("rigid:flight:pushed", 10);
 }
 
+std::map<std::string, std::uint64_t> counts_of(const core::Dynamics& dynamics) {
+  std::map<std::string, std::uint64_t> counts;
+  for (const core::Counter& counter : dynamics.counters()) counts[std::string(counter.name)] = counter.count;
+  return counts;
+}
+
+// Two piles sleep, and one wakes when the last body comes down on it: digests are equal in every frame, with what
+// contacts of those that sleep go on giving in them.
+TEST(RigidOnHost, PilesSleepAndWake) {
+  core::Scene scene = scene_of("rigid:stack:5");
+  ASSERT_EQ(scene.bodies.size(), 5U);
+  const float side = scene.bodies[1].position.y - scene.bodies[0].position.y;
+  scene.bodies[2].position.x += 3.0F * side;
+  scene.bodies[2].position.y = scene.bodies[0].position.y;
+  scene.bodies[3].position = scene.bodies[2].position;
+  scene.bodies[3].position.y += side;
+  scene.bodies[4].position.y = scene.bodies[1].position.y + 8.0F * side;
+  scene.domain.max.y += 8.0F * side;
+  scene.dt_s = 1.0F / 60.0F;
+  RigidPipelineOptions options;
+  options.sleeps = true;
+  RigidPipeline subject(options);
+  const auto twin = twin_of({{"sleep", "on"}});
+  EXPECT_GT(compare_pipelines(scene, subject, *twin, 110, 10), 0U);
+  auto of_gpu = counts_of(subject);
+  auto of_twin = counts_of(*twin);
+  EXPECT_GT(of_gpu["sleep: bodies asleep"], 100U);
+  EXPECT_EQ(of_gpu["sleep: bodies asleep"], of_twin["sleep: bodies asleep"]);
+  core::FrameRecord last;
+  ASSERT_TRUE(subject.read_back(last, core::RecordLevel::kFull).ok());
+  EXPECT_NE(last.velocity[0], core::Vec3{}) << "the struck pile is awake";
+  EXPECT_EQ(last.velocity[3], core::Vec3{}) << "the other one sleeps";
+}
+
 // Both say how many sweeps they took.
 TEST(RigidOnHost, SweepsAreCountedAlike) {
   const core::Scene scene = scene_of("freefall:cube:12[rigid=1]");
@@ -106,11 +140,6 @@ TEST(RigidOnHost, SweepsAreCountedAlike) {
   const auto twin = twin_of({});
   ASSERT_TRUE(subject.load(scene).ok() && twin->load(scene).ok());
   for (int k = 0; k < 35; ++k) ASSERT_TRUE(subject.step(scene.dt_s).ok() && twin->step(scene.dt_s).ok());
-  const auto counts_of = [](const core::Dynamics& dynamics) {
-    std::map<std::string, std::uint64_t> counts;
-    for (const core::Counter& counter : dynamics.counters()) counts[std::string(counter.name)] = counter.count;
-    return counts;
-  };
   auto of_gpu = counts_of(subject);
   auto of_twin = counts_of(*twin);
   EXPECT_GT(of_gpu["solver: sweeps of bounces"], 0U);
