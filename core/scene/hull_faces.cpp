@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/exact/triangle_distance.hpp"
+#include "core/method/rigid/hull_climb.hpp"
 
 namespace broadside::core {
 namespace {
@@ -39,6 +40,7 @@ class Faces {
     for (const std::uint32_t t : order)
       if (group_[t] == kNone && area[t] > 0.0) add_face(t);
     add_edges();
+    add_ways();
     return std::move(out_);
   }
 
@@ -136,6 +138,27 @@ class Faces {
       if (back == sides_.end() || side.first < side.second)
         out_.edges.push_back({side.first, side.second, face, back == sides_.end() ? face : back->second});
     }
+  }
+
+  void add_ways() {
+    std::vector<std::vector<std::uint32_t>> neighbors(out_.vertices.size());
+    for (const HullEdge& edge : out_.edges) {
+      neighbors[edge.from].push_back(edge.to);
+      neighbors[edge.to].push_back(edge.from);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax_element(out_.vertices.begin(), out_.vertices.end(),
+                                                   [&](Vec3 p, Vec3 q) { return p[axis] < q[axis]; });
+      out_.ways.push_back(static_cast<std::uint32_t>(low - out_.vertices.begin()));
+      out_.ways.push_back(static_cast<std::uint32_t>(high - out_.vertices.begin()));
+    }
+    auto begin = static_cast<std::uint32_t>(kHullEnds + neighbors.size() + 1);
+    for (const auto& of_corner : neighbors) {
+      out_.ways.push_back(begin);
+      begin += static_cast<std::uint32_t>(of_corner.size());
+    }
+    out_.ways.push_back(begin);
+    for (const auto& of_corner : neighbors) out_.ways.insert(out_.ways.end(), of_corner.begin(), of_corner.end());
   }
 
   const Mesh& mesh_;

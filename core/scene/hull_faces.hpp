@@ -14,6 +14,7 @@ struct HullTables {
   std::vector<HullFace> faces;
   std::vector<std::uint32_t> corners;
   std::vector<HullEdge> edges;
+  std::vector<std::uint32_t> ways;  // as HullView::ways
 };
 
 // mesh: closed and convex, triangles outward. A face of more than kFaceCorners corners becomes several in one plane.

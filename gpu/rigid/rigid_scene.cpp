@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/contact.hpp"
+#include "core/method/rigid/hull_climb.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -28,6 +29,7 @@ RigidScene::Places RigidScene::add_tables(const core::RigidShape& shape) {
   at.faces = faces_.add({hull.faces, hull.face_count});
   at.corners = indices_.add({hull.corners, corners_of(hull)});
   at.edges = edges_.add({hull.edges, hull.edge_count});
+  at.ways = indices_.add({hull.ways, hull.ways == nullptr ? 0 : hull.ways[core::kHullEnds + hull.vertex_count]});
   at.triangles = indices_.add({mesh.triangles, 3 * std::size_t{mesh.triangle_count}});
   at.normals = vectors_.add({mesh.normals, mesh.triangle_count});
   at.least_facing = numbers_.add({mesh.least_facing, mesh.triangle_count});
@@ -58,6 +60,7 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
   hull.faces = faces_.at(at.faces);
   hull.corners = indices_.at(at.corners);
   hull.edges = edges_.at(at.edges);
+  if (hull.ways != nullptr) hull.ways = indices_.at(at.ways);
   core::MeshView& mesh = view.contact.mesh;
   mesh.vertices = vectors_.at(at.vertices);
   mesh.triangles = indices_.at(at.triangles);

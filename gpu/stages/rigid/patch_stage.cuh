@@ -7,6 +7,8 @@
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
+#include "core/method/rigid/quick_hulls.hpp"
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
@@ -93,27 +95,50 @@ __device__ void make_short_patches(const Team& team, const ContactView& f) {
   });
 }
 
+// By one lane: what few bounds tell is left out, so that a warp makes patches of no pair that has none.
+__device__ inline bool may_touch(const ContactView& f, core::Pair pair) {
+  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
+  const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
+  if (!core::has_quick_answers(a, b)) return true;
+  const float near_m =
+      core::near_at_most_m(f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j], f.pushers[pair.j].pushed.v);
+  return !core::surely_pass(a, path_of(f, pair.i), b, path_of(f, pair.j), f.reach_m[pair.i] + f.reach_m[pair.j],
+                            near_m);
+}
+
+__device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body) {
+  bool may = false;
+  for (std::uint32_t face = 0; face < core::kFaceCount; ++face) may |= may_touch_face(f, body, face);
+  return may;
+}
+
 // The same of any shapes, a warp a pair: the loops over corners, edges, faces and triangles are shared by its lanes,
-// and its code is fetched once for all.
+// and its code is fetched once for all. Before, each lane looks whether an item of its own has any patches.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
   const std::uint64_t confirmed = f.counts->confirmed;
-  const std::uint64_t items = confirmed + f.body_count;
-  for (std::uint64_t k = team.spread_rank() / 32; k < items; k += team.size() / 32) {
-    core::Manifold found[core::kPatchesOfPair];
-    if (k < confirmed) {
-      const core::Pair pair = f.confirmed.items[k];
-      const int count = touch_bodies<WarpLanes>(f, pair, found);
-      add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
-      continue;
+  each_item_by_warps(team, confirmed + f.body_count, true, [&](std::uint64_t k, bool is_item) {
+    const bool is_pair = k < confirmed;
+    const core::Pair own = is_item && is_pair ? f.confirmed.items[k] : core::Pair{};
+    const bool may_have =
+        is_item && (is_pair ? may_touch(f, own) : may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed)));
+    for (unsigned with = __ballot_sync(kFullWarp, may_have); with != 0; with &= with - 1) {
+      const auto of = static_cast<unsigned>(__ffs(static_cast<int>(with)) - 1);
+      core::Manifold found[core::kPatchesOfPair];
+      if (__shfl_sync(kFullWarp, is_pair ? 1 : 0, of) != 0) {
+        const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
+        const int count = touch_bodies<WarpLanes>(f, pair, found);
+        add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
+        continue;
+      }
+      const std::uint32_t body = __shfl_sync(kFullWarp, static_cast<std::uint32_t>(k - confirmed), of);
+      for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+        if (!may_touch_face(f, body, face)) continue;
+        const int count = touch_face<WarpLanes>(f, body, face, found);
+        add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
+      }
     }
-    const auto body = static_cast<std::uint32_t>(k - confirmed);
-    for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-      if (!may_touch_face(f, body, face)) continue;
-      const int count = touch_face<WarpLanes>(f, body, face, found);
-      add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
-    }
-  }
+  });
 }
 
 }  // namespace broadside::gpu

@@ -5,10 +5,13 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/engine/engine.hpp"
+#include "core/exact/convex_hull.hpp"
 #include "datasets/scenes.hpp"
 #include "gpu/rigid/rigid_pipeline.hpp"
 #include "reference/engines.hpp"
@@ -57,6 +60,22 @@ TEST(RigidOnHost, PrimitivesThatTouch) {
 // Their pairs are spread over all warps.
 TEST(RigidOnHost, HullsThatTouch) {
   EXPECT_GT(compare("rigid:arch:7-stands", 8), 0U);
+}
+
+// Finely cut ones: lanes dismiss pairs by bounds before warps make patches.
+TEST(RigidOnHost, RoundHullsThatFall) {
+  core::Scene scene = scene_of("freefall:cube:5[rigid=1]");
+  std::mt19937 random(4);
+  std::normal_distribution<float> normal;
+  std::vector<core::Vec3> points;
+  for (int k = 0; k < 40; ++k) {
+    const core::Vec3 p{normal(random), normal(random), normal(random)};
+    points.push_back((0.5F / core::length(p)) * p);
+  }
+  core::Mesh mesh = *exact::convex_hull(points);
+  mesh.name = "boulder";
+  for (auto& each : scene.meshes) each = std::make_shared<const core::Mesh>(mesh);
+  EXPECT_GT(compare(scene, 30, {}, {}), 0U);
 }
 
 TEST(RigidOnHost, AHeap) {
