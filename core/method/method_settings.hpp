@@ -57,4 +57,12 @@ inline SettingRow sleep_setting() {
           "them"};
 }
 
+inline SettingRow sweep_setting() {
+  return {"sweep",
+          "off",
+          {"off", "fast"},
+          "bodies that turn: fast = those that move farther in a step than they are thick stop before they pass "
+          "through others"};
+}
+
 }  // namespace broadside::core

@@ -27,6 +27,7 @@ struct RigidShapeView {
   const core::NodeBoxes* nodes = nullptr;
   core::VertexTreeView vertices;
   core::ShapeBalls balls;
+  float half_thickness_m = 0.0F;  // as core::RigidShape has it
 };
 
 // A patch in the list of one of its moved bodies.

@@ -15,6 +15,7 @@
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/rigid/rigid_read_back.hpp"
 #include "gpu/rigid/rigid_scene.hpp"
+#include "gpu/rigid/sweep_stage.hpp"
 #include "gpu/rigid/told_frame.hpp"
 #include "gpu/runtime/host_side.hpp"
 
@@ -42,6 +43,7 @@ struct RigidPipeline::Impl {
   RigidFrameView view;
   PairsView pairs_view;
   ToldFrame told;
+  SweepStage sweep;
   RigidCounts last;
   std::uint64_t last_pairs = 0;
   std::array<core::StageTime, core::kStageCount> times{};
@@ -61,6 +63,7 @@ struct RigidPipeline::Impl {
   core::Status refit(const RigidCounts& counts);
   void fill();
   std::uint32_t choose_solve_team();
+  core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
   // The frame is kept, so what it came to is what the next one starts from.
@@ -163,7 +166,9 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
     return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
   });
-  auto contact_shape = d.view.has_long_contacts ? long_contact_launch_shape() : contact_launch_shape();
+  auto contact_shape = d.options.sweeps_fast      ? swept_contact_launch_shape()
+                       : d.view.has_long_contacts ? long_contact_launch_shape()
+                                                  : contact_launch_shape();
   if (!contact_shape.ok()) return contact_shape.error();
   d.contact_shape = contact_shape.value();
   auto constraint_shape = constraint_launch_shape();
@@ -175,6 +180,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   auto sleep_shape = sleep_launch_shape();
   if (!sleep_shape.ok()) return sleep_shape.error();
   d.sleep_shape = sleep_shape.value();
+
+  if (d.options.sweeps_fast) BROADSIDE_TRY(d.sweep.load(d.bodies));
 
   d.facts = {};
   d.facts.count = static_cast<std::uint32_t>(n);
@@ -233,6 +240,12 @@ std::uint32_t RigidPipeline::Impl::choose_solve_team() {
   return static_cast<std::uint32_t>(std::min(std::bit_ceil(wanted), most));
 }
 
+core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
+  if (options.sweeps_fast) return launch_swept_contacts(view, contact_shape, stream);
+  if (view.has_long_contacts) return launch_long_contacts(view, contact_shape, stream);
+  return launch_contacts(view, contact_shape, stream);
+}
+
 core::Status RigidPipeline::Impl::launch_all() {
   fill();
   const std::uint32_t solve_blocks = choose_solve_team();
@@ -241,8 +254,7 @@ core::Status RigidPipeline::Impl::launch_all() {
   // find that the boxes are too large, and the frame is repeated.
   const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
   if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
-  BROADSIDE_TRY(view.has_long_contacts ? launch_long_contacts(view, contact_shape, stream)
-                                       : launch_contacts(view, contact_shape, stream));
+  BROADSIDE_TRY(launch_contacts_of_scene());
   if (options.sleeps) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
   BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
@@ -300,6 +312,7 @@ core::Status RigidPipeline::step(float dt_s) {
     if (!kept.ok()) return kept.error();
     is_done = kept.value();
   }
+  if (d.options.sweeps_fast) BROADSIDE_TRY(d.sweep.stop_short(d.view, d.view.after, d.stream));
   d.take_frame();
   return core::Done{};
 }
@@ -337,14 +350,15 @@ std::span<const core::StageTime> RigidPipeline::stage_times() const {
 
 std::vector<core::Counter> RigidPipeline::counters() const {
   const Impl& d = *impl_;
-  std::vector<core::Counter> counters{
-      {"launches", launches_of_frame(d.options) * (d.steps + d.repeats)},
-      {"level stage: pairs tested", d.pairs_tested},
-      {"contact patches", d.patches_made},
-      {"solver: sweeps", d.sweeps},
-      {"solver: sweeps of bounces", d.bounce_sweeps},
-      {"solver: waits", d.waits},
-      {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+  std::vector<core::Counter> counters{{"launches", launches_of_frame(d.options) * (d.steps + d.repeats)},
+                                      {"level stage: pairs tested", d.pairs_tested},
+                                      {"contact patches", d.patches_made},
+                                      {"solver: sweeps", d.sweeps},
+                                      {"solver: sweeps of bounces", d.bounce_sweeps},
+                                      {"solver: waits", d.waits},
+                                      {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() +
+                                                           d.pairs.bytes() + d.sweep.bytes()}};
+  if (d.options.sweeps_fast) counters.push_back({"sweep: bodies stopped short", d.sweep.stopped()});
   if (d.options.sleeps) counters.push_back({"sleep: bodies asleep", d.steps_slept});
   return counters;
 }

@@ -21,8 +21,9 @@ struct RigidPipelineOptions {
   core::SoftSettings solver;
   bool has_fixed_thresholds = false;  // the scene's
   std::uint32_t least_for_grid = kLeastBodiesForGrid;
-  bool sleeps = false;      // islands that stand still stop being solved
-  bool may_cluster = true;  // few contacts are solved by one cluster of blocks, where the GPU has them
+  bool sweeps_fast = false;  // bodies that move farther than they are thick stop before they pass through others
+  bool sleeps = false;       // islands that stand still stop being solved
+  bool may_cluster = true;   // few contacts are solved by one cluster of blocks, where the GPU has them
 };
 
 // Uses the current CUDA device; not thread-safe.

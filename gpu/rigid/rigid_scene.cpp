@@ -71,6 +71,7 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
   view.vertices = {boxes_.at(at.tree_boxes) + core::kLevelOffset[1], boxes_.at(at.tree_boxes) + core::kLevelOffset[2],
                    indices_.at(at.leaf_begin), vectors_.at(at.tree_vertices)};
   view.balls = shape.balls;
+  view.half_thickness_m = shape.half_thickness_m;
   return view;
 }
 

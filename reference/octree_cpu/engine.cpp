@@ -36,11 +36,7 @@ std::span<const core::SettingRow> settings_table() {
       core::substeps_setting(),
       core::thresholds_setting(),
       core::sleep_setting(),
-      {"sweep",
-       "off",
-       {"off", "fast"},
-       "bodies that turn: fast = those that move farther in a step than they are thick stop before they pass through "
-       "others"},
+      core::sweep_setting(),
   };
   return rows;
 }

@@ -24,4 +24,11 @@ __device__ inline bool is_idle(const ContactView& f, std::uint32_t body) {
   return !is_moved(f, body) || is_asleep(f, body);
 }
 
+// Half of the least thickness of the thinner one.
+__device__ inline float thinner_m(const ContactView& f, core::Pair pair) {
+  const float a = f.shapes[f.shape_of_body[pair.i]].half_thickness_m;
+  const float b = f.shapes[f.shape_of_body[pair.j]].half_thickness_m;
+  return b < a ? b : a;
+}
+
 }  // namespace broadside::gpu

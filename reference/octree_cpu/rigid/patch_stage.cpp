@@ -74,10 +74,9 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
     const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
     const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
     const float thinner_m = bodies.thinner_m(pair);
-    // The planes of patches far away mislead; what a push makes of such a way, the sweep after the response sees.
-    if (core::length_of(way_a) + core::length_of(way_b) > core::swept_depth_m(thinner_m))
-      return core::least_gap_m(found) > bodies.fall_m[i] + bodies.fall_m[j] + thinner_m &&
-             core::misses(a.contact, way_a, b.contact, way_b, thinner_m);
+    if (core::moves_far(core::length_of(way_a), core::length_of(way_b), thinner_m))
+      return core::misses_patch(found, a.contact, way_a, b.contact, way_b, bodies.fall_m[i] + bodies.fall_m[j],
+                                thinner_m);
   }
   const float near_m =
       core::near_m(found.normal, bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]);

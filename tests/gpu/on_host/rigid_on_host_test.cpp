@@ -152,6 +152,29 @@ TEST(RigidOnHost, PilesSleepAndWake) {
   EXPECT_EQ(last.velocity[3], core::Vec3{}) << "the other one sleeps";
 }
 
+// Bodies that fly at each other, through thin ones and at the floor, faster than they are thick: they stop on the way,
+// at the places of the twin.
+TEST(RigidOnHost, FastBodiesStopShort) {
+  std::uint64_t stopped = 0;
+  RigidPipelineOptions options;
+  options.sweeps_fast = true;
+  for (const char* name : {"rigid:bullet-through-cards", "rigid:needle-through-plate", "freefall:cube:20[rigid=1]",
+                           "freefall:bunny:3[rigid=1]"}) {
+    SCOPED_TRACE(name);
+    core::Scene scene = scene_of(name);
+    if (scene.bodies.size() == 20U)
+      for (core::Body& body : scene.bodies) body.velocity = {0.0F, body.position.y > 3.0F ? -100.0F : 40.0F, 0.0F};
+    RigidPipeline subject(options);
+    const auto twin = twin_of({{"sweep", "fast"}});
+    compare_pipelines(scene, subject, *twin, 12, 3);
+    auto of_gpu = counts_of(subject);
+    auto of_twin = counts_of(*twin);
+    EXPECT_EQ(of_gpu["sweep: bodies stopped short"], of_twin["sweep: bodies stopped short"]);
+    stopped += of_gpu["sweep: bodies stopped short"];
+  }
+  EXPECT_GT(stopped, 10U);
+}
+
 // Both say how many sweeps they took.
 TEST(RigidOnHost, SweepsAreCountedAlike) {
   const core::Scene scene = scene_of("freefall:cube:12[rigid=1]");
