@@ -330,6 +330,9 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
     largest = size > largest ? size : largest;
     changed = size > changed ? size : changed;
   };
+#if defined(__CUDACC__)
+#pragma unroll 1  // copies of it are more than a GPU keeps of its code
+#endif
   for (int k = 0; k < kSweepsOfBounce; k += 2) {
     changed = 0.0F;
     each_point(c, visit);

@@ -31,13 +31,14 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
     triples(slot, known.changes);
     return known;
   };
+  // A patch is asked for one round before it is used, and its place one round before that.
   KnownPatch ahead;
-  if (count > 0) ahead = load(places[0]);
-  std::uint32_t next = count > 1 ? places[1] : 0;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  std::uint32_t next = count > 0 ? places[0] : 0;
+  for (std::uint32_t k = 0; k <= count; ++k) {
     const KnownPatch now = ahead;
-    if (k + 1 < count) ahead = load(next);  // asked for now, used in the next round
-    next = k + 2 < count ? places[k + 2] : 0;
+    if (k < count) ahead = load(next);
+    next = k + 1 < count ? places[k + 1] : 0;
+    if (k == 0) continue;
     core::BodyGain gain(body);
     core::each_point(now.c, [&](int point) {
       const core::PatchPoint& p = now.c.points[point];
