@@ -126,6 +126,7 @@ class Builder {
     append(out_.hull_corners, tables.corners);
     append(out_.hull_edges, tables.edges);
     append(out_.hull_ways, tables.ways);
+    append(out_.hull_beyond, tables.beyond);
     place.shape.kind = ContactKind::kHull;
     place.shape.size_m = farthest_m(tables.vertices);
     place.shape.hull.vertex_count = static_cast<std::uint32_t>(tables.vertices.size());
@@ -154,6 +155,7 @@ class Builder {
       hull.corners = out_.hull_corners.data() + place.corner;
       hull.edges = out_.hull_edges.data() + place.edge;
       hull.ways = out_.hull_ways.data() + place.ways;
+      hull.beyond = out_.hull_beyond.data() + place.corner;
     }
   }
 

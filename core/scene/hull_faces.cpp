@@ -41,6 +41,7 @@ class Faces {
       if (group_[t] == kNone && area[t] > 0.0) add_face(t);
     add_edges();
     add_ways();
+    add_beyond();
     return std::move(out_);
   }
 
@@ -159,6 +160,18 @@ class Faces {
     }
     out_.ways.push_back(begin);
     for (const auto& of_corner : neighbors) out_.ways.insert(out_.ways.end(), of_corner.begin(), of_corner.end());
+  }
+
+  void add_beyond() {
+    for (std::uint32_t f = 0; f < out_.faces.size(); ++f) {
+      const HullFace& face = out_.faces[f];
+      for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+        const std::uint32_t from = out_.corners[face.first_corner + k];
+        const std::uint32_t to = out_.corners[face.first_corner + (k + 1 == face.corner_count ? 0 : k + 1)];
+        const auto back = sides_.find({to, from});
+        out_.beyond.push_back(back == sides_.end() ? f : back->second);
+      }
+    }
   }
 
   const Mesh& mesh_;

@@ -30,6 +30,7 @@ RigidScene::Places RigidScene::add_tables(const core::RigidShape& shape) {
   at.corners = indices_.add({hull.corners, corners_of(hull)});
   at.edges = edges_.add({hull.edges, hull.edge_count});
   at.ways = indices_.add({hull.ways, hull.ways == nullptr ? 0 : hull.ways[core::kHullEnds + hull.vertex_count]});
+  at.beyond = indices_.add({hull.beyond, hull.beyond == nullptr ? 0 : corners_of(hull)});
   at.triangles = indices_.add({mesh.triangles, 3 * std::size_t{mesh.triangle_count}});
   at.normals = vectors_.add({mesh.normals, mesh.triangle_count});
   at.least_facing = numbers_.add({mesh.least_facing, mesh.triangle_count});
@@ -61,6 +62,7 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
   hull.corners = indices_.at(at.corners);
   hull.edges = edges_.at(at.edges);
   if (hull.ways != nullptr) hull.ways = indices_.at(at.ways);
+  if (hull.beyond != nullptr) hull.beyond = indices_.at(at.beyond);
   core::MeshView& mesh = view.contact.mesh;
   mesh.vertices = vectors_.at(at.vertices);
   mesh.triangles = indices_.at(at.triangles);

@@ -25,13 +25,19 @@ struct HullGap {
   float overlap_m = -3.402823e38F;  // a ball of this radius fits around the origin in the difference: depth is no less
 };
 
+struct PlacedHull {
+  HullView hull;
+  Vec3 center;
+  TurnedAxes axes;
+};
+
 // Stops where they are apart by more than stop_m, or both numbers are within `thin` of the larger one or slack_m of
 // each other. Both are hulls that have ways.
-BROADSIDE_HD_CALLED HullGap hull_gap(const PlacedShape& a, const PlacedShape& b, float stop_m, float thin,
+BROADSIDE_HD_CALLED HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, float stop_m, float thin,
                                      float slack_m) {
   constexpr int kMostSteps = 32;
-  const HullView& hull_a = a.shape->hull;
-  const HullView& hull_b = b.shape->hull;
+  const HullView& hull_a = a.hull;
+  const HullView& hull_b = b.hull;
   // Of B in A's axes.
   const Vec3 between = turned_back(a.axes, b.center - a.center);
   const TurnedAxes turn{turned_back(a.axes, b.axes.x), turned_back(a.axes, b.axes.y), turned_back(a.axes, b.axes.z)};

@@ -48,7 +48,8 @@ BROADSIDE_HD Bounds bounds_of(const ContactShape& shape_a, const ContactPose& po
   const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
   Bounds out;
   out.rounding_m = contact_rounding_m(a, b);
-  out.gap = hull_gap(a, b, stop_m + kMargin * out.rounding_m, kThin, out.rounding_m);
+  out.gap = hull_gap({a.shape->hull, a.center, a.axes}, {b.shape->hull, b.center, b.axes},
+                     stop_m + kMargin * out.rounding_m, kThin, out.rounding_m);
   return out;
 }
 
@@ -71,6 +72,14 @@ BROADSIDE_HD QuickAnswer quickly_still_apart(Vec3 start_normal, const ContactSha
   const float same_side = dot(start_normal, end.gap.normal);
   if (same_side >= kSameSide) return QuickAnswer::kYes;
   return same_side <= -kSameSide ? QuickAnswer::kNo : QuickAnswer::kUnknown;
+}
+
+// Whether no point of two hulls has a gap of reach_m or less; that may be negative.
+BROADSIDE_HD bool surely_apart(const ContactShape& shape_a, const ContactPose& a, const ContactShape& shape_b,
+                               const ContactPose& b, float reach_m) {
+  using namespace quick_detail;
+  const Bounds bounds = bounds_of(shape_a, a, shape_b, b, reach_m);
+  return bounds.gap.least_m > reach_m + kMargin * bounds.rounding_m;
 }
 
 // Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near_m: no patch that is

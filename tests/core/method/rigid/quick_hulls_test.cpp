@@ -55,7 +55,8 @@ TEST(HullGap, EnclosesTheDistance) {
     const PlacedShape placed_a = placed_shape(a.shape, a.pose, a.pose.x);
     const PlacedShape placed_b = placed_shape(b.shape, b.pose, a.pose.x);
     const float rounding_m = contact_rounding_m(placed_a, placed_b);
-    const HullGap gap = hull_gap(placed_a, placed_b, 10.0F, 0x1p-10F, rounding_m);
+    const HullGap gap = hull_gap({a.shape.hull, placed_a.center, placed_a.axes},
+                                 {b.shape.hull, placed_b.center, placed_b.axes}, 10.0F, 0x1p-10F, rounding_m);
     const double truth = exact::signed_distance(a.placed(), b.placed()).distance_m;
     EXPECT_LE(gap.least_m, truth + rounding_m) << trial;
     EXPECT_GE(gap.most_m, std::max(truth, 0.0) - rounding_m) << trial;
