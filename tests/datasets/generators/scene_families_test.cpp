@@ -29,7 +29,7 @@ Scene made(const std::string& spec) {
   return scene.ok() ? std::move(scene).value() : Scene{};
 }
 
-std::vector<Box> boxes_of(const Scene& scene) {
+std::vector<Box> leaf_boxes(const Scene& scene) {
   std::vector<Box> boxes;
   for (const core::Body& body : scene.bodies)
     boxes.push_back(core::translated(core::bounds(*scene.meshes[body.mesh]), body.position));
@@ -55,7 +55,7 @@ TEST_P(Family, EveryCountStartsInItsDomainWithoutOverlap) {
   for (const int count : {0, 1, 2, 7, 40}) {
     SCOPED_TRACE(count);
     const Scene scene = made(name("brick", count));
-    const std::vector<Box> boxes = boxes_of(scene);
+    const std::vector<Box> boxes = leaf_boxes(scene);
     int moving = 0;
     for (const core::Body& body : scene.bodies) moving += body.inverse_mass > 0.0F ? 1 : 0;
     const bool is_static = GetParam() == "static";
