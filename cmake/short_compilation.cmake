@@ -1,4 +1,4 @@
-# What makes a build short: small files of a room are compiled together. They read the same headers and instantiate the
+# What makes a build short: small files of a target are compiled together. They read the same headers and instantiate the
 # same templates, which takes most of their time alone. Off, each file is compiled by itself, as preset dev does: then a
 # change of one file compiles that file alone, and a file that forgot an include is found.
 option(BROADSIDE_SHORT_COMPILATION "Compile small files of a room together" ON)
@@ -29,8 +29,9 @@ endfunction()
 
 # broadside_compile_together(TARGET SIZE SOURCE...)
 # Compiles these sources in units of SIZE files, in the order given but for large headers. Names in the unnamed namespaces
-# of a room are therefore distinct. No unit may be so large that the others wait for it. A source with flags of its own
-# stays alone.
+# of a target are therefore distinct. Reading headers is half of what a unit of twelve small files takes, so units are
+# large: some 15 to 40 files, but none that takes so long that the others wait for it. A source with flags of its own stays
+# alone.
 function(broadside_compile_together target size)
   if(NOT BROADSIDE_SHORT_COMPILATION)
     return()

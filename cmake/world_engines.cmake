@@ -14,12 +14,12 @@ mark_as_advanced(BROADSIDE_DART_INCLUDE BROADSIDE_DART_LIBRARY BROADSIDE_IKFAST_
   BROADSIDE_SIMBODY_LIBRARY BROADSIDE_SIMBODY_MATH_LIBRARY BROADSIDE_SIMBODY_COMMON_LIBRARY)
 
 # broadside_world_engine(FOLDER NAME FOUND LIBRARY...)
-# The sources of reference/FOLDER see BROADSIDE_HAS_NAME. Without the library only engine.cpp is compiled there. The library's
-# headers and definitions reach no other file: COMPILE_OPTIONS of these sources alone.
+# The sources of reference see BROADSIDE_HAS_NAME. Without the library only engine.cpp is compiled in reference/FOLDER. The
+# library is linked alone: its definitions and folders of headers reach no source.
 function(broadside_world_engine folder name found)
   file(GLOB_RECURSE inside CONFIGURE_DEPENDS ${folder}/*.cpp)
   if(found)
-    set_source_files_properties(${inside} PROPERTIES COMPILE_DEFINITIONS BROADSIDE_HAS_${name}=1)
+    target_compile_definitions(broadside_reference PRIVATE BROADSIDE_HAS_${name}=1)
     foreach(library ${ARGN})
       target_link_libraries(broadside_reference PRIVATE $<LINK_ONLY:${library}>)
     endforeach()

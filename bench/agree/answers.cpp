@@ -16,7 +16,7 @@ core::Result<Answers> ask(const CellSpec& cell, const PairSource& source, const 
   Answers out;
   out.build = std::move(words.build);
   out.notes = std::move(words.notes);
-  SharedArray<Answer> answers(pairs.size());
+  SharedArray<PairAnswer> answers(pairs.size());
   const auto live = [&](ChildReport& report, std::size_t next, std::size_t last) {
     return ask_pairs(cell, source, pairs, next, last, answers.all(), report);
   };
@@ -27,7 +27,7 @@ core::Result<Answers> ask(const CellSpec& cell, const PairSource& source, const 
   if (core::Status s = ask_in_children(cell.row->id, pairs.size(), limits, live, on_death, progress); !s)
     return s.error();
   out.of_pair.assign(answers.all().begin(), answers.all().end());
-  for (const Answer& answer : out.of_pair)
+  for (const PairAnswer& answer : out.of_pair)
     if (answer.asked == Asked::kThrew) ++out.words[answer.thrown.data()];
   return out;
 }

@@ -16,7 +16,7 @@
 
 namespace broadside::bench {
 
-struct Answer {
+struct PairAnswer {
   Asked asked = Asked::kNothing;
   float seconds = 0.0F;  // of this one query, the adapter's conversions included; elapsed or processor time, the lesser
   core::Separation separation;
@@ -24,7 +24,7 @@ struct Answer {
 };
 
 struct Answers {
-  std::vector<Answer> of_pair;
+  std::vector<PairAnswer> of_pair;
   // Last words of processes that died, or the text of exceptions -> how often.
   std::map<std::string, std::uint64_t> words;
   std::string build;                         // of the engine

@@ -40,7 +40,7 @@ core::Result<core::Engine> make_engine(const CellSpec& cell) {
   return engine;
 }
 
-void ask_one(core::NarrowPhase& narrow, core::Pair pair, const std::vector<core::Pose>& poses, Answer& answer) {
+void ask_one(core::NarrowPhase& narrow, core::Pair pair, const std::vector<core::Pose>& poses, PairAnswer& answer) {
   core::Status measured = core::Done{};
   answer.seconds = seconds_of([&] { measured = narrow.measure({&pair, 1}, poses); });
   auto found = narrow.read_back();
@@ -54,7 +54,7 @@ void ask_one(core::NarrowPhase& narrow, core::Pair pair, const std::vector<core:
 }  // namespace
 
 int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs, std::size_t first,
-              std::size_t last, std::span<Answer> answers, ChildReport& report) {
+              std::size_t last, std::span<PairAnswer> answers, ChildReport& report) {
   report.begin(first, false);
   auto engine = make_engine(cell);
   if (!engine) return kRefused;

@@ -15,7 +15,7 @@ namespace broadside::bench {
 
 // Asks about pairs [first, last); an answer has the index of its pair. Returns the exit code.
 int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs, std::size_t first,
-              std::size_t last, std::span<Answer> answers, ChildReport& report);
+              std::size_t last, std::span<PairAnswer> answers, ChildReport& report);
 
 // The engine's own facts, read in a child too: making the engine may start threads, which must not be forked.
 struct EngineWords {

@@ -67,7 +67,7 @@ int decade(double value, int lowest, int count) {
   return std::clamp(static_cast<int>(std::floor(std::log10(value))) - lowest + 1, 0, count - 1);
 }
 
-void add(AgreementBin& bin, const TestPair& pair, const Answer& answer, Agreement verdict) {
+void add(AgreementBin& bin, const TestPair& pair, const PairAnswer& answer, Agreement verdict) {
   ++bin.count[static_cast<std::size_t>(verdict)];
   if (answer.asked != Asked::kAnswered) return;
   bin.seconds.push_back(answer.seconds);
@@ -94,7 +94,7 @@ double AgreementBin::median_s() const {
   return sorted[sorted.size() / 2];
 }
 
-Agreement judge(const PairSource& source, const TestPair& pair, const Answer& answer) {
+Agreement judge(const PairSource& source, const TestPair& pair, const PairAnswer& answer) {
   switch (answer.asked) {
     case Asked::kThrew:
       return Agreement::kThrew;
@@ -115,7 +115,7 @@ Agreement judge(const PairSource& source, const TestPair& pair, const Answer& an
 }
 
 AgreementTable tabulate(const PairSource& source, const std::vector<TestPair>& pairs,
-                        const std::vector<Answer>& answers, std::vector<Agreement>& verdicts) {
+                        const std::vector<PairAnswer>& answers, std::vector<Agreement>& verdicts) {
   AgreementTable table;
   verdicts.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k) {

@@ -52,11 +52,11 @@ struct AgreementTable {
   std::array<AgreementBin, std::size(kDegeneracies)> by_degeneracy;
 };
 
-Agreement judge(const PairSource& source, const TestPair& pair, const Answer& answer);
+Agreement judge(const PairSource& source, const TestPair& pair, const PairAnswer& answer);
 
 // One verdict a pair in `verdicts`.
 AgreementTable tabulate(const PairSource& source, const std::vector<TestPair>& pairs,
-                        const std::vector<Answer>& answers, std::vector<Agreement>& verdicts);
+                        const std::vector<PairAnswer>& answers, std::vector<Agreement>& verdicts);
 
 // Which known defects of its library an engine met, from these verdicts.
 std::vector<core::DefectHits> defects_met(std::string_view engine_label, PairKind kind,

@@ -34,8 +34,9 @@ core::Result<core::Scene> make_scene_with_meshes(const SceneArguments& wanted) {
   fetch_what_it_names(wanted.spec);
   scene = exact.make();
   if (scene.ok() || !wanted.allow_stand_in) return scene;
-  fmt::print(stderr, "broadside: a procedural body stands in: {}\n", scene.error().line());
-  return wanted.make();
+  auto with_stand_in = wanted.make();
+  if (with_stand_in.ok()) fmt::print(stderr, "broadside: a procedural body stands in: {}\n", scene.error().line());
+  return with_stand_in;
 }
 
 }  // namespace broadside::bench

@@ -142,7 +142,7 @@ core::Exit repeat_case(const AgreeArguments& a) {
     if (!cell) return complain(cell.error());
     auto answers = ask(cell.value(), source, {pair}, a.limits, [](std::uint64_t) {});
     if (!answers) return complain(answers.error());
-    const Answer& answer = answers.value().of_pair.front();
+    const PairAnswer& answer = answers.value().of_pair.front();
     const Agreement verdict = judge(source, pair, answer);
     const core::Separation& s = answer.separation;
     fmt::print("{}: {}", text, kAgreements[static_cast<std::size_t>(verdict)]);

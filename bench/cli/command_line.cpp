@@ -71,6 +71,22 @@ core::Error unknown_subcommand(const CLI::App& program, const std::string& typed
   return {"unknown subcommand '" + typed + "'", "command line", core::advise_name(typed, views)};
 }
 
+// What is wrong with the first argument, where it names nothing: said before CLI11 says that a subcommand is missing.
+core::Status known_first(const CLI::App& program, const std::string& first) {
+  if (first.starts_with('-')) {
+    if (program.get_option_no_throw(first.substr(0, first.find('='))) != nullptr) return core::Done{};
+    return core::Error{"unknown option '" + first + "'", "command line", "see broadside --help"};
+  }
+  if (knows_subcommand(program, first)) return core::Done{};
+  return unknown_subcommand(program, first);
+}
+
+// An error of the arguments after the subcommand tells which help explains them.
+core::Error wrong_argument(const CLI::App& program, const std::string& first, const char* what) {
+  if (!knows_subcommand(program, first)) return {what, "command line", "see broadside --help"};
+  return {what, first, "see broadside " + first + " --help"};
+}
+
 core::Exit parse_and_run(int argc, char** argv) {
   CLI::App program{
       "Runs collision engines side by side on identical scenes, proves what each got right, and times only "
@@ -94,7 +110,7 @@ core::Exit parse_and_run(int argc, char** argv) {
   if (argc < 2)
     return complain({"no subcommand", "command line",
                      "begin with 'broadside demo', which leaves out/demo/report.html, or see broadside --help"});
-  if (argv[1][0] != '-' && !knows_subcommand(program, argv[1])) return complain(unknown_subcommand(program, argv[1]));
+  if (const auto known = known_first(program, argv[1]); !known) return complain(known.error());
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -104,7 +120,7 @@ core::Exit parse_and_run(int argc, char** argv) {
   } catch (const CLI::CallForVersion& version) {
     program.exit(version);
   } catch (const CLI::ParseError& error) {
-    return complain({error.what(), "command line", "see broadside --help"});
+    return complain(wrong_argument(program, argv[1], error.what()));
   }
   return exit;
 }

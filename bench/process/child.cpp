@@ -122,19 +122,19 @@ constexpr double kAfterInterrupt_s = 0.8;
 
 // Reads both pipes until the child closes them, then reaps it; returns its status.
 int attend(pid_t child, int out, int err, StderrTail tail, double time_limit_s, ChildEnding& ending) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  const auto elapsed_s = [](Clock::time_point since) {
-    return std::chrono::duration<double>(Clock::now() - since).count();
+  using SteadyClock = std::chrono::steady_clock;
+  const auto start = SteadyClock::now();
+  const auto elapsed_s = [](SteadyClock::time_point since) {
+    return std::chrono::duration<double>(SteadyClock::now() - since).count();
   };
-  std::optional<Clock::time_point> told;
+  std::optional<SteadyClock::time_point> told;
   bool is_killed = false;
   std::array<pollfd, 2> waiting{pollfd{err, POLLIN, 0}, pollfd{out, POLLIN, 0}};
   while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
     const int ready = poll(waiting.data(), waiting.size(), 100);
     if (is_interrupted() && !told) {
       kill(child, SIGINT);
-      told = Clock::now();
+      told = SteadyClock::now();
       tail.pass_no_more_on();
     }
     if (!told && elapsed_s(start) > time_limit_s) ending.timed_out = true;

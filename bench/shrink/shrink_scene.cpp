@@ -69,7 +69,7 @@ class SceneShrinker {
   [[nodiscard]] bool is_spent() const { return elapsed_s() > limits_.time_s || is_interrupted(); }
 
   // Runs a scene. An error of a smaller scene only means that the scene does not show the fault.
-  std::optional<Answer> ask(const Scene& scene) {
+  std::optional<TrialAnswer> ask(const Scene& scene) {
     ++trials_;
     auto answer = oracle_(scene);
     if (!answer) {
@@ -89,7 +89,7 @@ class SceneShrinker {
     return true;
   }
 
-  void accept(const Scene& scene, Answer answer) {
+  void accept(const Scene& scene, TrialAnswer answer) {
     best_ = scene;
     verdict_ = std::move(answer.verdict);
     ++changes_;

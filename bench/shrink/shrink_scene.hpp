@@ -27,7 +27,7 @@ struct ShrunkScene {
 };
 
 // Anything that judges a scene: ask() with a question, or a test's own.
-using Oracle = std::function<core::Result<Answer>(const core::Scene&)>;
+using Oracle = std::function<core::Result<TrialAnswer>(const core::Scene&)>;
 
 // In this order, until none changes anything or time is up: frames (the run is cut before the fault and, where the
 // engine has no memory but the bodies' states, started from the state just before it), bodies, springs, mesh

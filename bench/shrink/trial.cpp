@@ -35,8 +35,8 @@ core::Result<core::Verdict> only_verdict(core::Result<std::vector<core::Verdict>
   return std::move(verdicts.value().front());
 }
 
-core::Result<Answer> ask_here(const Question& question, const validation::ValidatorRow& validator,
-                              const core::Scene& scene) {
+core::Result<TrialAnswer> ask_here(const Question& question, const validation::ValidatorRow& validator,
+                                   const core::Scene& scene) {
   auto subject = EngineStream::start(scene, question.engine);
   if (!subject) return subject.error();
   std::unique_ptr<EngineStream> baseline;
@@ -50,7 +50,7 @@ core::Result<Answer> ask_here(const Question& question, const validation::Valida
   validation::FrameSource other = baseline ? baseline->source() : source;
   auto verdict = only_verdict(validation::judge(source, baseline ? &other : nullptr, {{question.validator}, {}}));
   if (!verdict) return verdict.error();
-  return Answer{std::move(verdict).value(), subject.value()->bodies()};
+  return TrialAnswer{std::move(verdict).value(), subject.value()->bodies()};
 }
 
 // A trace without frames carries a scene to another process, bit for bit.
@@ -83,7 +83,7 @@ core::Result<std::filesystem::path> record_one(const core::Scene& scene, const C
   return folder / cell.value().trace_file;
 }
 
-core::Result<Answer> ask_child(const Question& question, const core::Scene& scene) {
+core::Result<TrialAnswer> ask_child(const Question& question, const core::Scene& scene) {
   const ScratchFolder scratch;
   if (scratch.path().empty())
     return core::Error{"no folder for temporary files", std::filesystem::temp_directory_path().string(),
@@ -113,7 +113,7 @@ core::Result<Answer> ask_child(const Question& question, const core::Scene& scen
       only_verdict(validation::judge(subject.value(), baseline ? &*baseline : nullptr, {{question.validator}, {}}));
   if (!verdict) return verdict.error();
 
-  Answer answer{std::move(verdict).value(), scene.bodies};
+  TrialAnswer answer{std::move(verdict).value(), scene.bodies};
   auto states = core::TraceReader::open(simulates(question.engine) ? file.value() : driver);
   if (!states) return states.error();
   if (states.value().frame_count() == 0) return answer;
@@ -125,7 +125,7 @@ core::Result<Answer> ask_child(const Question& question, const core::Scene& scen
 
 }  // namespace
 
-core::Result<Answer> ask(const Question& question, const core::Scene& scene) {
+core::Result<TrialAnswer> ask(const Question& question, const core::Scene& scene) {
   const auto validator = find_validator(question.validator);
   if (!validator) return validator.error();
   const bool is_foreign =

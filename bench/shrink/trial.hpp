@@ -21,7 +21,7 @@ struct Question {
   std::optional<CellSpec> against;
 };
 
-struct Answer {
+struct TrialAnswer {
   core::Verdict verdict;
   std::vector<core::Body> end;  // the bodies as the run left them
 };
@@ -29,7 +29,7 @@ struct Answer {
 // Runs all frames of the scene and judges them with the one validator. Engines made of other people's libraries run in
 // a child process, so that one that aborts is an error here and not the end. Errors: an unknown validator, an engine
 // that refuses the scene or fails.
-core::Result<Answer> ask(const Question& question, const core::Scene& scene);
+core::Result<TrialAnswer> ask(const Question& question, const core::Scene& scene);
 
 // The same for test cases: engine and against as on the command line, "octree-cpu[levels=A]"; against may be empty.
 core::Result<core::Verdict> judge_engine(const core::Scene& scene, std::string_view engine, std::string_view validator,

@@ -113,11 +113,11 @@ constexpr std::array<BoxSet, 28> kBoxSets{{
      broadmark<kFreefall, kAssorted>},
     {{"broadmark-gravity:cubes:N", "broadmark-gravity:cubes:10000",
       "Broadmark: fourfold gravity that turns 1.9 degrees a frame; tumbling cubes, 300 frames"},
-     broadmark<kGravity, kCubes>},
+     broadmark<kTurningGravity, kCubes>},
     {{"broadmark-gravity:spheres:N", "broadmark-gravity:spheres:10000", "the same with spheres of diameter 1"},
-     broadmark<kGravity, kSpheres>},
+     broadmark<kTurningGravity, kSpheres>},
     {{"broadmark-gravity:assorted:N", "broadmark-gravity:assorted:10000", "the same with sides from 0.1 to 1.9"},
-     broadmark<kGravity, kAssorted>},
+     broadmark<kTurningGravity, kAssorted>},
 }};
 
 constexpr BoxStreamRow kMeshes{"boxes:mesh:NAME[:copies]", "boxes:mesh:bunny:20",

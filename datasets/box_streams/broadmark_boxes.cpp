@@ -89,7 +89,7 @@ class BroadmarkWorld {
 
   void advance(std::vector<core::Box>& boxes) {
     if (scene_ == BroadmarkScene::kBrownian) stir();
-    if (scene_ == BroadmarkScene::kGravity) {
+    if (scene_ == BroadmarkScene::kTurningGravity) {
       axis_ = turned(axis_, {0.0, 0.0, 1.0});
       down_ = turned(down_, axis_);
     }

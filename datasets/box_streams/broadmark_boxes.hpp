@@ -7,7 +7,7 @@
 
 namespace broadside::datasets {
 
-enum class BroadmarkScene { kBrownian, kFreefall, kGravity };
+enum class BroadmarkScene { kBrownian, kFreefall, kTurningGravity };
 enum class BroadmarkObjects { kCubes, kSpheres, kAssorted };
 
 // After Broadmark: 0.1 objects a unit of volume, so a cube of side L = (n / 0.1)^(1/3); centers start uniform in a ball

@@ -17,7 +17,7 @@ constexpr double kShrink = 0.35;  // of the way to the middle of each two by two
 constexpr double kStray_m = 0.1;
 constexpr double kMostTurn = 0.2;  // half of the angle's tangent
 
-struct Turn {
+struct ScaledQuaternion {
   double w, x, y, z;
 
   // Not a unit: divided by its square.
@@ -71,8 +71,8 @@ continuous::MovingSurface moving_heap(std::uint64_t triangles, std::uint64_t see
     }
     const core::Vec3d axis = lot(1.0);
     const core::Vec3d turn = lot(kMostTurn);
-    const Turn first{1.0, axis.x, axis.y, axis.z};
-    const Turn then{1.0, turn.x, turn.y, turn.z};
+    const ScaledQuaternion first{1.0, axis.x, axis.y, axis.z};
+    const ScaledQuaternion then{1.0, turn.x, turn.y, turn.z};
     const auto base = static_cast<std::uint32_t>(heap.start.size());
     for (const core::Vec3 v : mesh.vertices) {
       const core::Vec3d arm = first.turned({v.x, v.y, v.z});

@@ -30,7 +30,7 @@ using Matrix = fcl::Matrix3<double>;
 using Transform = fcl::Transform3<double>;
 using Geometry = fcl::CollisionGeometry<double>;
 using Motion = fcl::MotionBase<double>;
-using Model = fcl::BVHModel<fcl::RSS<double>>;
+using RssModel = fcl::BVHModel<fcl::RSS<double>>;
 
 enum class Path { kLinear, kTranslation, kScrew, kSpline };
 
@@ -40,7 +40,7 @@ std::unique_ptr<Geometry> mesh_geometry(const core::Mesh& mesh, const Transform&
   for (const core::Vec3 v : mesh.vertices) vertices.push_back(pose * Vector(v.x, v.y, v.z));
   std::vector<fcl::Triangle> triangles;
   for (const core::Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-  auto model = std::make_unique<Model>();
+  auto model = std::make_unique<RssModel>();
   const bool is_built =
       model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size())) == fcl::BVH_OK &&
       model->addSubModel(vertices, triangles) == fcl::BVH_OK && model->endModel() == fcl::BVH_OK;
@@ -121,7 +121,7 @@ std::unique_ptr<Motion> make_motion(Path path, const Transform& from, const Tran
                                                      Vector(0.0, 0.0, 0.0));
 }
 
-struct Query {
+struct MotionOptions {
   Path path = Path::kLinear;
   bool as_mesh = false;
   fcl::ContinuousCollisionRequest<double> request;
@@ -129,7 +129,7 @@ struct Query {
 
 class Bodies final : public core::BodyMotionQuery {
  public:
-  explicit Bodies(Query query) : query_(std::move(query)) {}
+  explicit Bodies(MotionOptions query) : query_(std::move(query)) {}
 
   core::Status load(std::span<const std::shared_ptr<const core::Mesh>> meshes) override {
     meshes_.assign(meshes.begin(), meshes.end());
@@ -192,7 +192,7 @@ class Bodies final : public core::BodyMotionQuery {
     return fcl::continuousCollide<double>(model_a.get(), &motion_a, model_b.get(), &motion_b, query_.request, result);
   }
 
-  Query query_;
+  MotionOptions query_;
   std::vector<std::shared_ptr<const core::Mesh>> meshes_;
   std::vector<Shape> shapes_;
 };
@@ -216,7 +216,7 @@ std::span<const core::SettingRow> setting_rows() {
 }
 
 core::Result<core::MotionEngine> create(const core::Settings& settings) {
-  Query query;
+  MotionOptions query;
   const std::string& motion = settings.text("motion");
   query.path = motion == "translation" ? Path::kTranslation
                : motion == "screw"     ? Path::kScrew

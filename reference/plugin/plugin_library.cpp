@@ -14,8 +14,8 @@ using core::Exit;
 
 template <typename Table>
 const Table* called(void* handle, const char* name, bool& is_there) {
-  using Entry = const Table* (*)();
-  const auto entry = reinterpret_cast<Entry>(dlsym(handle, name));
+  using GetTable = const Table* (*)();
+  const auto entry = reinterpret_cast<GetTable>(dlsym(handle, name));
   is_there = entry != nullptr;
   return is_there ? entry() : nullptr;
 }

@@ -13,11 +13,11 @@ namespace {
 using core::Box;
 
 constexpr std::size_t kLeastBoxes = 4096;
-constexpr std::size_t kGrain = 16'384;
+constexpr std::size_t kIdGrain = 16'384;
 
 void gather(std::span<const Box> boxes, std::span<const std::uint32_t> ids, std::vector<Box>& to) {
   to.resize(ids.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kGrain), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kIdGrain), [&](const auto& range) {
     for (std::size_t k = range.begin(); k != range.end(); ++k) to[k] = boxes[ids[k]];
   });
 }
@@ -25,7 +25,7 @@ void gather(std::span<const Box> boxes, std::span<const std::uint32_t> ids, std:
 // A box that is no number equals none, so it is seen as changed as often as it comes.
 bool are_as_before(std::span<const Box> boxes, std::span<const std::uint32_t> ids, const std::vector<Box>& before) {
   return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, ids.size(), kGrain), true,
+      tbb::blocked_range<std::size_t>(0, ids.size(), kIdGrain), true,
       [&](const auto& range, bool is_same) {
         for (std::size_t k = range.begin(); k != range.end(); ++k) is_same = is_same && boxes[ids[k]] == before[k];
         return is_same;

@@ -14,7 +14,7 @@ using core::Box;
 using core::Pair;
 using Range = tbb::blocked_range<std::size_t>;
 
-constexpr std::size_t kGrain = 16'384;
+constexpr std::size_t kBoxGrain = 16'384;
 // Of the mean side, on each side of a box. Boxes that move by a hundredth a frame stay within for six frames, and some
 // (1 + 1/8)^3 = 1.4 times as many pairs are candidates.
 constexpr float kFat = 0x1p-4F;
@@ -34,7 +34,7 @@ void KeptPairs::start(std::span<const std::uint8_t> is_static) {
 // A box that is no number is within nothing.
 bool KeptPairs::are_within(std::span<const Box> boxes) const {
   return tbb::parallel_reduce(
-      Range(0, boxes.size(), kGrain), true,
+      Range(0, boxes.size(), kBoxGrain), true,
       [&](const Range& range, bool all) {
         for (std::size_t i = range.begin(); i != range.end() && all; ++i) {
           const Box& b = boxes[i];
@@ -50,7 +50,7 @@ bool KeptPairs::are_within(std::span<const Box> boxes) const {
 
 void KeptPairs::fatten(std::span<const Box> boxes) {
   fat_.resize(boxes.size());
-  tbb::parallel_for(Range(0, boxes.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(Range(0, boxes.size(), kBoxGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const core::Vec3 sides = boxes[i].max - boxes[i].min;
       const float fat_m = kFat / 3.0F * ((sides.x + sides.y) + sides.z);
@@ -86,7 +86,7 @@ bool KeptPairs::build(std::span<const Box> boxes) {
     for (std::uint32_t place = 0; place < id_of_place_.size(); ++place) place_of_id_[id_of_place_[place]] = place;
   }
   placed_.resize(boxes.size());
-  tbb::parallel_for(Range(0, boxes.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(Range(0, boxes.size(), kBoxGrain), [&](const Range& range) {
     for (std::size_t k = range.begin(); k != range.end(); ++k) placed_[k] = boxes[id_of_place_[k]];
   });
   return true;

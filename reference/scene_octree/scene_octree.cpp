@@ -16,7 +16,7 @@ using core::Pair;
 
 // Candidates are tested this many at a time into one byte each, a loop that compilers turn into vector compares.
 constexpr std::uint32_t kTile = 64;
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kTreeGrain = 256;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void SceneOctree::build(std::span<const Box> boxes, std::span<const std::uint8_t
   nodes_.resize(n);
   order_.resize(n);
   using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
+  tbb::parallel_for(Range(0, n, kTreeGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       nodes_[i] = core::scene_node(grid, boxes[i]);
       order_[i] = static_cast<std::uint64_t>(nodes_[i].key) << 32U | i;
@@ -44,7 +44,7 @@ void SceneOctree::build(std::span<const Box> boxes, std::span<const std::uint8_t
   id_.resize(n);
   is_static_.resize(n + kTile);
   range_end_.resize(n);
-  tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
+  tbb::parallel_for(Range(0, n, kTreeGrain), [&](const Range& range) {
     for (std::size_t place = range.begin(); place != range.end(); ++place) {
       const auto id = static_cast<std::uint32_t>(order_[place]);
       const Box& box = boxes[id];

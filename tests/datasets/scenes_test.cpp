@@ -23,14 +23,14 @@ Scene made(const std::string& spec, const SceneOptions& options = {}) {
   return scene.ok() ? std::move(scene).value() : Scene{};
 }
 
-std::vector<Box> boxes_of(const Scene& scene) {
+std::vector<Box> body_boxes(const Scene& scene) {
   std::vector<Box> boxes;
   for (const core::Body& body : scene.bodies)
     boxes.push_back(core::translated(core::bounds(*scene.meshes[body.mesh]), body.position));
   return boxes;
 }
 
-int overlap_count(const std::vector<Box>& boxes) {
+int overlaps(const std::vector<Box>& boxes) {
   int count = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = i + 1; j < boxes.size(); ++j) count += core::overlaps(boxes[i], boxes[j]) ? 1 : 0;
@@ -59,8 +59,8 @@ TEST(Freefall, IsTheSceneThatTheMethodFixes) {
   EXPECT_FLOAT_EQ(scene.domain.max.z - scene.domain.min.z, 8.8F);
   EXPECT_EQ(scene.domain.min.y, 0.0F);
 
-  const std::vector<Box> boxes = boxes_of(scene);
-  EXPECT_EQ(overlap_count(boxes), 0);
+  const std::vector<Box> boxes = body_boxes(scene);
+  EXPECT_EQ(overlaps(boxes), 0);
   int lowest_layer = 0;
   for (std::size_t n = 0; n < boxes.size(); ++n) {
     EXPECT_TRUE(contains(scene.domain, boxes[n])) << n;
@@ -77,8 +77,8 @@ TEST(Freefall, EveryCountFitsItsDomain) {
   for (const int n : {0, 1, 2, 8, 9, 27, 28}) {
     const Scene scene = made("freefall:cube:" + std::to_string(n));
     ASSERT_EQ(scene.bodies.size(), static_cast<std::size_t>(n));
-    const auto boxes = boxes_of(scene);
-    EXPECT_EQ(overlap_count(boxes), 0) << n;
+    const auto boxes = body_boxes(scene);
+    EXPECT_EQ(overlaps(boxes), 0) << n;
     for (const Box& box : boxes) EXPECT_TRUE(contains(scene.domain, box)) << n;
   }
 }
@@ -117,8 +117,8 @@ TEST(RandomMove, FillsAFifthOfACubeAndMovesAtUpToFiveMetersPerSecond) {
       volume *= scene.domain.max[k] - scene.domain.min[k];
     }
     EXPECT_NEAR(filled / volume, 0.2, 1e-5);
-    const auto boxes = boxes_of(scene);
-    EXPECT_EQ(overlap_count(boxes), 0);
+    const auto boxes = body_boxes(scene);
+    EXPECT_EQ(overlaps(boxes), 0);
     for (const Box& box : boxes) EXPECT_TRUE(contains(scene.domain, box));
     for (const core::Body& b : scene.bodies) EXPECT_LE(core::length(b.velocity), 5.0F);
   }
@@ -151,7 +151,7 @@ TEST(SmallScenes, AreFewBodiesInsideTheirDomainThatVertexProximityCanSee) {
     // Many threads, so that a race would show.
     EXPECT_LE(scene.bodies.size(), scene.name == "errata:E8" ? 125U : 6U);
     EXPECT_LE(scene.frames, 300U);
-    for (const Box& box : boxes_of(scene)) EXPECT_TRUE(contains(scene.domain, box));
+    for (const Box& box : body_boxes(scene)) EXPECT_TRUE(contains(scene.domain, box));
     for (const auto& mesh : scene.meshes) {
       // Two lattices of square cells of side c that touch: no vertex is farther than c / sqrt 2 from one of the other.
       EXPECT_GT(core::mean_edge_m(*mesh), 0.125F / std::sqrt(2.0F));
@@ -168,7 +168,7 @@ TEST(Errata, E3HasUnequalMassesAndAStaticBody) {
 
 TEST(Errata, E4StartsInsideTheSlop) {
   const Scene scene = made("errata:E4");
-  const auto boxes = boxes_of(scene);
+  const auto boxes = body_boxes(scene);
   const float depth = boxes[2].max.y - boxes[3].min.y;
   EXPECT_GT(depth, 0.0F);
   EXPECT_LT(depth, scene.parameters.delta_m);

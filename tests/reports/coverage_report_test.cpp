@@ -37,7 +37,7 @@ core::RunRows moving_rows(std::uint64_t moved) {
   return rows;
 }
 
-bool has(const std::string& text, const std::string& part) {
+bool page_has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -46,39 +46,40 @@ constexpr const char* kUnproven = "nothing of its motion was proven";
 
 TEST(CoverageReport, TheTerminalSaysHowManyLawsAppliedAndWhetherAMotionWasProven) {
   const std::string still = verdict_table(moving_rows(0).verdicts);
-  EXPECT_TRUE(has(still, kCoverage)) << still;
-  EXPECT_TRUE(has(still, kUnproven)) << still;
-  EXPECT_FALSE(has(verdict_table(moving_rows(4).verdicts), kUnproven));
+  EXPECT_TRUE(page_has(still, kCoverage)) << still;
+  EXPECT_TRUE(page_has(still, kUnproven)) << still;
+  EXPECT_FALSE(page_has(verdict_table(moving_rows(4).verdicts), kUnproven));
   core::RunRows two = moving_rows(0);
   two.verdicts.push_back(two.verdicts[0]);
   two.verdicts[1].stamp.engine = "f";
-  EXPECT_TRUE(has(verdict_table(two.verdicts), std::string("[2] ") + kCoverage)) << verdict_table(two.verdicts);
+  EXPECT_TRUE(page_has(verdict_table(two.verdicts), std::string("[2] ") + kCoverage)) << verdict_table(two.verdicts);
 }
 
 TEST(CoverageReport, AnEngineThatWasFedHasNoMotionToProve) {
   core::RunRows rows = moving_rows(0);
   rows.verdicts[0].is_simulation = false;
-  EXPECT_FALSE(has(verdict_table(rows.verdicts), kUnproven));
-  EXPECT_FALSE(has(markdown_text(rows, {}), kUnproven));
+  EXPECT_FALSE(page_has(verdict_table(rows.verdicts), kUnproven));
+  EXPECT_FALSE(page_has(markdown_text(rows, {}), kUnproven));
 }
 
 TEST(CoverageReport, EachBrokenPartHasItsOwnLineAndPlace) {
   const std::string lines = failure_lines(moving_rows(4).verdicts);
-  EXPECT_TRUE(has(lines, "e: state-sanity, finite: 3 of 10 FAIL")) << lines;
-  EXPECT_TRUE(has(lines, "step 9, body 5")) << lines;
-  EXPECT_FALSE(has(lines, "domain")) << lines;
-  EXPECT_TRUE(has(junit_xml(moving_rows(4), {}), "finite: measured"));
+  EXPECT_TRUE(page_has(lines, "e: state-sanity, finite: 3 of 10 FAIL")) << lines;
+  EXPECT_TRUE(page_has(lines, "step 9, body 5")) << lines;
+  EXPECT_FALSE(page_has(lines, "domain")) << lines;
+  EXPECT_TRUE(page_has(junit_xml(moving_rows(4), {}), "finite: measured"));
 }
 
 TEST(CoverageReport, MarkdownAndJUnitSayItWithTheReasons) {
   const std::string text = markdown_text(moving_rows(0), {});
-  EXPECT_TRUE(has(text, kCoverage)) << text;
-  EXPECT_TRUE(has(text, kUnproven)) << text;
-  EXPECT_TRUE(has(text, "rest: rest explained")) << text;
-  EXPECT_TRUE(has(text, "not declared: taken as cone") || has(text, "| contact\\_model | compliant |")) << text;
+  EXPECT_TRUE(page_has(text, kCoverage)) << text;
+  EXPECT_TRUE(page_has(text, kUnproven)) << text;
+  EXPECT_TRUE(page_has(text, "rest: rest explained")) << text;
+  EXPECT_TRUE(page_has(text, "not declared: taken as cone") || page_has(text, "| contact\\_model | compliant |"))
+      << text;
   const std::string junit = junit_xml(moving_rows(0), {});
-  EXPECT_TRUE(has(junit, std::string("name=\"coverage\" value=\"") + kCoverage)) << junit;
-  EXPECT_TRUE(has(junit, "name=\"declaration.contact_model\" value=\"compliant\"")) << junit;
+  EXPECT_TRUE(page_has(junit, std::string("name=\"coverage\" value=\"") + kCoverage)) << junit;
+  EXPECT_TRUE(page_has(junit, "name=\"declaration.contact_model\" value=\"compliant\"")) << junit;
   EXPECT_EQ(testing_markup::check_markup(junit, false).problem, "");
 }
 
@@ -86,15 +87,15 @@ TEST(CoverageReport, ThePageExplainsLawsWithPicturesAndShowsDeclarations) {
   if (!has_html_page()) GTEST_SKIP() << "built with BROADSIDE_REPORT_HTML=OFF";
   const std::string page = html_page(moving_rows(0), {});
   EXPECT_EQ(testing_markup::check_markup(page, true).problem, "");
-  EXPECT_TRUE(has(page, "How much was judged"));
-  EXPECT_TRUE(has(page, kUnproven));
-  EXPECT_TRUE(has(page, "what ballistic says"));
-  EXPECT_TRUE(has(page, "<svg class=\"sketch\""));
-  EXPECT_TRUE(has(page, "proves motion"));
-  EXPECT_TRUE(has(page, "not declared: taken as cone"));
-  EXPECT_TRUE(has(page, "compliant"));
-  EXPECT_TRUE(has(page, "own &lt;key&gt;"));
-  EXPECT_TRUE(has(page, "3 of 10, worst at step 9, body 5"));
+  EXPECT_TRUE(page_has(page, "How much was judged"));
+  EXPECT_TRUE(page_has(page, kUnproven));
+  EXPECT_TRUE(page_has(page, "what ballistic says"));
+  EXPECT_TRUE(page_has(page, "<svg class=\"sketch\""));
+  EXPECT_TRUE(page_has(page, "proves motion"));
+  EXPECT_TRUE(page_has(page, "not declared: taken as cone"));
+  EXPECT_TRUE(page_has(page, "compliant"));
+  EXPECT_TRUE(page_has(page, "own &lt;key&gt;"));
+  EXPECT_TRUE(page_has(page, "3 of 10, worst at step 9, body 5"));
 }
 
 }  // namespace

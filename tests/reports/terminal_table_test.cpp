@@ -23,7 +23,7 @@ void expect_fits(const std::string& text) {
   EXPECT_TRUE(text.ends_with("\n"));
 }
 
-std::size_t occurrences(const std::string& text, const std::string& part) {
+std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
@@ -37,8 +37,8 @@ TEST(TerminalTable, AMatrixFitsAndNamesEveryTraceAndValidator) {
     EXPECT_NE(text.find(validator), std::string::npos) << validator;
   for (const core::CellVerdicts& cell : rows.verdicts)
     EXPECT_NE(text.find("] " + cell.stamp.label()), std::string::npos) << cell.stamp.label();
-  EXPECT_EQ(occurrences(text, "FAIL"), 2U);
-  EXPECT_EQ(occurrences(text, "unsure"), 1U);
+  EXPECT_EQ(count_of(text, "FAIL"), 2U);
+  EXPECT_EQ(count_of(text, "unsure"), 1U);
 }
 
 TEST(TerminalTable, ManyTracesComeInBlocks) {
@@ -89,7 +89,7 @@ TEST(TerminalTable, NoRowsAreWordsNotABlank) {
 
 TEST(FailureLines, GiveOneLinePerFailedOrInconclusiveVerdict) {
   const std::string text = failure_lines(sample_rows().verdicts);
-  EXPECT_EQ(occurrences(text, "\n"), 3U);
+  EXPECT_EQ(count_of(text, "\n"), 3U);
   EXPECT_NE(text.find("octree-cpu[variant=printed-E3]: center-of-mass FAIL: measured 0.0183 kg m, limit "),
             std::string::npos)
       << text;

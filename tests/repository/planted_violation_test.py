@@ -11,6 +11,7 @@ import contributing
 import formatting
 import include_boundaries
 import mutations
+import one_definition
 import packages
 import readme_commands
 import releases
@@ -48,6 +49,20 @@ class PlantedViolation(unittest.TestCase):
         self.one(include_boundaries, {"core/a.cpp": '#include "gpu/kernel.hpp"\n'}, "core/ may not include")
         self.one(include_boundaries, {"reference/a.cpp": '#include "validation/judge.hpp"\n'}, "reference/ may not")
         self.one(include_boundaries, {"validation/a.hpp": ' # include "reports/page.hpp"\n'}, "validation/ may not")
+
+    def test_two_types_of_one_name(self):
+        body = "// struct C {\nnamespace broadside::core {\nstruct Body final : Base<int> {\n  struct Part {};\n};\n}\n"
+        self.one(one_definition, {"core/a.hpp": body, "core/b.cpp": body.replace("Part", "Other")}, "core/b.cpp:3: broadside::core::Body")
+        self.one(one_definition, {"core/a.hpp": "namespace a {\nenum class E : int { kOne };\n}\n",
+                                  "bench/a.hpp": "namespace a {\nclass E {};\n}\n"}, "a::E is defined in bench/a.hpp too")
+
+    def test_types_whose_names_differ_or_are_seen_by_one_file(self):
+        hidden = "namespace a {\nnamespace {\nstruct Body {};\n}\nchar c = '{';\n#define OPEN {\nvoid f() {\n  struct Local {};\n}\n}\n"
+        for planted in ({"core/a.cpp": hidden, "core/b.cpp": hidden},
+                        {"core/a.hpp": "namespace a {\nstruct B {};\n}\n", "core/b.hpp": "namespace b {\nstruct B {};\n}\nstruct a::B;\n"},
+                        {"core/a.hpp": "struct A {\n  struct P;\n};\n", "core/a.cpp": "struct A::P {};\n", "core/b.cpp": "struct B {\n  struct P {};\n};\n"},
+                        {"gpu/a.cuh": "struct A {};\n", "gpu/on_host/a.hpp": "struct A {};\n"}):
+            self.assertEqual([], self.found(one_definition, planted))
 
     def test_include_that_does_not_start_at_the_root(self):
         self.one(include_boundaries, {"core/a.cpp": '#include "body.hpp"\n'}, "does not start with a folder")

@@ -11,7 +11,7 @@ namespace broadside::validation {
 namespace {
 
 // h |w|, rad: a method of order p errs by its power p, which no longer shrinks from here on.
-constexpr double kLargestTurn = 1.0;
+constexpr double kLargestUsefulTurn = 1.0;
 
 class Turning final : public Validator {
  public:
@@ -47,7 +47,7 @@ class Turning final : public Validator {
     const BodyState& s0 = m.bodies[i].before;
     const BodyState& s1 = m.bodies[i].after;
     const double turn = m.h * std::max(length(s0.w), length(s1.w));
-    if (turn > kLargestTurn) {
+    if (turn > kLargestUsefulTurn) {
       ++too_fast_;
       fastest_ = std::max(fastest_, turn);
     }

@@ -4,7 +4,7 @@
 #include "reference/octree_cpu/rigid/patch_kernel.hpp"
 
 namespace broadside::reference {
-namespace avx2 {
+namespace patch_avx2 {
 
 struct Truth {
   __m256 bits;
@@ -25,7 +25,7 @@ struct Truth {
 };
 
 struct Lanes {
-  using Truth = avx2::Truth;
+  using Truth = patch_avx2::Truth;
   __m256 v;
 
   Lanes() : v(_mm256_setzero_ps()) {}
@@ -87,8 +87,8 @@ struct Lanes {
   }
 };
 
-}  // namespace avx2
+}  // namespace patch_avx2
 
-const PatchKernels kAvx2PatchKernels = tiles::kernels_of<avx2::Lanes>("avx2");
+const PatchKernels kAvx2PatchKernels = tiles::kernels_of<patch_avx2::Lanes>("avx2");
 
 }  // namespace broadside::reference

@@ -29,6 +29,9 @@ INSTANTIATE_TEST_SUITE_P(
     All, BadArguments,
     testing::Values(
         BadCase{"NoSubcommand", {}, "broadside demo"}, BadCase{"UnknownSubcommand", {"rnu"}, "rnu"},
+        BadCase{"UnknownOption", {"--vresion"}, "unknown option '--vresion'; see broadside --help"},
+        BadCase{"MissingArgument", {"run"}, "run: SCENE is required; see broadside run --help"},
+        BadCase{"DemoOfNoScene", {"demo", "--scene", "frefall:cube:5", "--out", "no-such-demo"}, "freefall"},
         BadCase{"UnknownScene", {"run", "frefall:bunny:50", "--engine", "octree-cpu"}, "freefall"},
         BadCase{"MissingSceneFile", {"run", "no-such.toml", "--engine", "octree-cpu"}, "no-such.toml"},
         BadCase{"UnknownEngine", {"run", "errata:E3", "--engine", "octree-cup"}, "octree-cpu"},

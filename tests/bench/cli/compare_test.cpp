@@ -24,13 +24,13 @@ TEST(Compare, TwoBuildsInTurnsLeaveRowsOfBothAndAVerdict) {
   const Ended ended = run_program({"compare", "--interleave", program_path(), program_path(), "errata:E4", "--frames",
                                    "20", "--processes", "7", "--delta", "5", "--out", out, "--json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
-  const auto json = nlohmann::json::parse(ended.out);
-  EXPECT_EQ(json["format"], "broadside-comparison");
-  ASSERT_EQ(json["times"].size(), 1U);
-  EXPECT_EQ(json["times"][0]["speed"], "same") << ended.out;
-  EXPECT_EQ(json["times"][0]["base_processes"], 7);
-  EXPECT_EQ(json["times"][0]["paired"], true);
-  EXPECT_GT(json["same_counters"], 0);
+  const auto report = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(report["format"], "broadside-comparison");
+  ASSERT_EQ(report["times"].size(), 1U);
+  EXPECT_EQ(report["times"][0]["speed"], "same") << ended.out;
+  EXPECT_EQ(report["times"][0]["base_processes"], 7);
+  EXPECT_EQ(report["times"][0]["paired"], true);
+  EXPECT_GT(report["same_counters"], 0);
   // The measured files stay and can be compared again.
   const Ended again = run_program({"compare", out + "/base", out + "/head", "--delta", "5"});
   EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
@@ -44,12 +44,12 @@ TEST(Compare, WhatIsNotToldGetsMoreProcesses) {
   const Ended ended = run_program({"compare", "--interleave", program_path(), program_path(), "errata:E4", "--frames",
                                    "20", "--processes", "6", "--most-processes", "15", "--delta", "0", "--out",
                                    (folder / "out").string(), "--json"});
-  const auto json = nlohmann::json::parse(ended.out);
-  EXPECT_EQ(json["looks"], 3);
-  ASSERT_EQ(json["times"].size(), 1U);
-  const std::string speed = json["times"][0]["speed"];
-  const int processes = json["times"][0]["head_processes"];
-  EXPECT_EQ(json["times"][0]["base_processes"], processes);
+  const auto report = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(report["looks"], 3);
+  ASSERT_EQ(report["times"].size(), 1U);
+  const std::string speed = report["times"][0]["speed"];
+  const int processes = report["times"][0]["head_processes"];
+  EXPECT_EQ(report["times"][0]["base_processes"], processes);
   if (speed == "INCONCLUSIVE") {
     EXPECT_EQ(processes, 15);
     EXPECT_EQ(ended.exit_code, 3);
@@ -140,11 +140,11 @@ TEST(Run, JsonIsOnTheOutputAloneAndTheTableFitsAHundredColumns) {
   const Ended ended = run_program({"run", "errata:E4", "--frames", "5", "--engine", "octree-cpu", "--engine",
                                    "all-pairs", "--json", "--out", (folder / "out").string()});
   EXPECT_EQ(ended.exit_code, 0);
-  const auto json = nlohmann::json::parse(ended.out);
-  ASSERT_EQ(json["cells"].size(), 2U);
-  EXPECT_EQ(json["cells"][0]["label"], "octree-cpu");
-  EXPECT_EQ(json["cells"][0]["frames"], 5);
-  EXPECT_GT(json["cells"][0]["counters"]["level stage: pairs tested"], 0);
+  const auto report = nlohmann::json::parse(ended.out);
+  ASSERT_EQ(report["cells"].size(), 2U);
+  EXPECT_EQ(report["cells"][0]["label"], "octree-cpu");
+  EXPECT_EQ(report["cells"][0]["frames"], 5);
+  EXPECT_GT(report["cells"][0]["counters"]["level stage: pairs tested"], 0);
   const Ended table =
       run_program({"run", "errata:E4", "--frames", "5", "--engine", "octree-cpu", "--out", (folder / "out").string()});
   std::istringstream lines(table.out);

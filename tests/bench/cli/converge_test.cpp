@@ -11,11 +11,11 @@ namespace {
 
 TEST(Converge, AnOrderThatIsDeclaredAndShown) {
   const ScratchFolder folder;
-  const std::string json = (folder / "order.json").string();
-  const Ended ended = run_program({"converge", "rigid:spin-up", "--engine", "plain-rigid", "--json", json});
+  const std::string rows_file = (folder / "order.json").string();
+  const Ended ended = run_program({"converge", "rigid:spin-up", "--engine", "plain-rigid", "--json", rows_file});
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
   EXPECT_NE(ended.out.find("converge: pass of plain-rigid on rigid:spin-up"), std::string::npos) << ended.out;
-  const auto text = core::read_whole_file(json);
+  const auto text = core::read_whole_file(rows_file);
   ASSERT_TRUE(text.ok());
   const auto parsed = nlohmann::json::parse(text.value());
   EXPECT_EQ(parsed["dt_s"].size(), 3U);

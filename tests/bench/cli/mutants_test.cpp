@@ -16,11 +16,11 @@ TEST(MutantsCommand, CatchesEveryMutationAndBlamesNoSoundRun) {
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
   EXPECT_EQ(ended.out.find("SURVIVED"), std::string::npos) << ended.out;
   std::ifstream stream(file);
-  const auto json = nlohmann::json::parse(stream);
-  EXPECT_EQ(json["mutations"], json["caught"]);
-  EXPECT_GE(json["mutations"].get<int>(), 200);
-  EXPECT_EQ(json["random scenes"], 8);  // four of the method, four whose bodies turn
-  EXPECT_TRUE(json["false alarms"].empty());
+  const auto report = nlohmann::json::parse(stream);
+  EXPECT_EQ(report["mutations"], report["caught"]);
+  EXPECT_GE(report["mutations"].get<int>(), 200);
+  EXPECT_EQ(report["random scenes"], 8);  // four of the method, four whose bodies turn
+  EXPECT_TRUE(report["false alarms"].empty());
 }
 
 TEST(MutantsCommand, OneByNameSaysWhoCaughtIt) {
@@ -50,9 +50,9 @@ TEST(TransformedScene, IsComparedByMetamorphicAndByNoOther) {
   const Ended checked = run_program({"check", a, "--against", b, "--json", file});
   EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
   std::ifstream stream(file);
-  const auto json = nlohmann::json::parse(stream);
+  const auto report = nlohmann::json::parse(stream);
   std::string with_baseline;
-  for (const auto& row : json["rows"])
+  for (const auto& row : report["rows"])
     for (const auto& verdict : row["verdicts"])
       if (!verdict["baseline"].get<std::string>().empty()) with_baseline += verdict["validator"].get<std::string>();
   EXPECT_EQ(with_baseline, "metamorphic");

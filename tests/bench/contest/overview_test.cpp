@@ -20,7 +20,7 @@ core::Verdict verdict(const std::string& law, core::Outcome outcome, double meas
 
 // Two scenes of one family and one of another; an engine whose broken laws have causes, one whose have none, and one
 // that is not here.
-ContestTable table() {
+ContestTable two_engine_table() {
   core::RunRows rows;
   for (const char* scene : {"rigid:slide:heading-1", "rigid:bounce", "rigid:slide:heading-2"})
     for (const char* engine : {"mujoco-world", "mine"}) {
@@ -51,7 +51,7 @@ const Mosaic& mosaic_of(const Document& document) {
 }
 
 TEST(ContestOverview, ScenesOfAFamilyStandSideBySide) {
-  const ContestTable t = table();
+  const ContestTable t = two_engine_table();
   const auto families = families_of(t);
   ASSERT_EQ(families.size(), 2U);
   EXPECT_EQ(families[0].name, "slide");
@@ -67,7 +67,7 @@ TEST(ContestOverview, ScenesOfAFamilyStandSideBySide) {
 
 // A square says how many laws are broken where all causes are known, "?" where one is not, and what was worst.
 TEST(ContestOverview, ASquareSaysWhatIsWorst) {
-  const Document document = contest_document(table(), "x");
+  const Document document = contest_document(two_engine_table(), "x");
   const Mosaic& mosaic = mosaic_of(document);
   const Square& known = mosaic.rows[0].squares[0];
   EXPECT_EQ(known.mark, "2");
@@ -85,7 +85,7 @@ TEST(ContestOverview, ASquareSaysWhatIsWorst) {
 }
 
 TEST(ContestOverview, EverySquareThatLeadsSomewhereHasItsLine) {
-  const Document document = contest_document(table(), "x");
+  const Document document = contest_document(two_engine_table(), "x");
   const std::string page = html_text(document);
   for (const MosaicRow& row : mosaic_of(document).rows)
     for (const Square& square : row.squares)
@@ -97,14 +97,14 @@ TEST(ContestOverview, EverySquareThatLeadsSomewhereHasItsLine) {
 
 // One line a cause: what nobody looked into comes first.
 TEST(ContestOverview, CausesAreCounted) {
-  const std::string page = html_text(contest_document(table(), "x"));
+  const std::string page = html_text(contest_document(two_engine_table(), "x"));
   EXPECT_NE(page.find("Of these 2 were looked into"), std::string::npos);
   EXPECT_NE(page.find("The other 2 are not yet looked into"), std::string::npos);
   EXPECT_LT(page.find("not yet looked into</th>"), page.find("what sticks creeps"));
 }
 
 TEST(ContestOverview, MarkdownHasALineOfMarksAnEngine) {
-  const std::string text = markdown_text(contest_document(table(), "x"));
+  const std::string text = markdown_text(contest_document(two_engine_table(), "x"));
   EXPECT_NE(text.find("mujoco-world  2. ."), std::string::npos) << text;
   EXPECT_NE(text.find("mine          ?. ."), std::string::npos);
 }

@@ -18,7 +18,7 @@
 namespace broadside::tests {
 namespace {
 
-using bench::Answer;
+using bench::TrialAnswer;
 
 core::Scene named(const std::string& name, std::uint32_t frames = 0) {
   datasets::SceneOptions options;
@@ -60,7 +60,7 @@ bench::ShrinkLimits no_hurry() {
 }
 
 // A fault of a law of our own: two bodies, both lighter than usual, end a step nearer to each other than 1.5 m.
-core::Result<Answer> light_pair_oracle(const core::Scene& scene) {
+core::Result<TrialAnswer> light_pair_oracle(const core::Scene& scene) {
   auto answer = bench::ask({"state-sanity", {bench::find_engine("octree-cpu").value(), {}}, {}}, scene);
   if (!answer) return answer;
   core::Verdict& v = answer.value().verdict;
@@ -153,8 +153,8 @@ TEST(ShrinkScene, OfAFaultOnSpringsEndsAtOne) {
 }
 
 TEST(ShrinkScene, SaysWhenTimeIsUpBeforeAFaultIsFound) {
-  const auto passes = [](const core::Scene& scene) -> core::Result<Answer> {
-    Answer answer{{}, scene.bodies};
+  const auto passes = [](const core::Scene& scene) -> core::Result<TrialAnswer> {
+    TrialAnswer answer{{}, scene.bodies};
     answer.verdict.outcome = core::Outcome::kPass;
     return answer;
   };

@@ -17,7 +17,7 @@ using core::Box;
 using datasets::make_box_stream;
 using tests::TemporaryFolder;
 
-core::Status write(const std::filesystem::path& path, const std::vector<std::vector<Box>>& frames) {
+core::Status write_boxes(const std::filesystem::path& path, const std::vector<std::vector<Box>>& frames) {
   std::size_t frame = 0;
   return core::write_box_file(path, frames.size(), [&] { return core::Result<std::vector<Box>>(frames[frame++]); });
 }
@@ -32,7 +32,7 @@ TEST(BoxFile, AStreamComesBackFrameByFrame) {
     ASSERT_TRUE(made.advance(boxes).ok());
     frames.push_back(boxes);
   }
-  const core::Status written = write(path, frames);
+  const core::Status written = write_boxes(path, frames);
   ASSERT_TRUE(written.ok()) << written.error().line();
   EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));
 
@@ -50,7 +50,7 @@ TEST(BoxFile, AStreamComesBackFrameByFrame) {
 TEST(BoxFile, NoBoxesAreBoxesToo) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "none.h5";
-  ASSERT_TRUE(write(path, {{}}).ok());
+  ASSERT_TRUE(write_boxes(path, {{}}).ok());
   const auto read = make_box_stream(path.string());
   ASSERT_TRUE(read.ok()) << read.error().line();
   EXPECT_TRUE(read.value().boxes.empty());
@@ -66,15 +66,15 @@ TEST(BoxFile, EachBadFileIsOneClearLine) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   const Box good{{0, 0, 0}, {1, 1, 1}};
   const auto path = folder.path() / "bad.h5";
-  ASSERT_TRUE(write(path, {{good, {{0, 0, -kInf}, {1, 1, 1}}}}).ok());
+  ASSERT_TRUE(write_boxes(path, {{good, {{0, 0, -kInf}, {1, 1, 1}}}}).ok());
   EXPECT_NE(line(path).find("frame 0: box 1: it is NaN or infinite on z"), std::string::npos) << line(path);
-  ASSERT_TRUE(write(path, {{good, {{0, 2, 0}, {1, 1, 1}}}}).ok());
+  ASSERT_TRUE(write_boxes(path, {{good, {{0, 2, 0}, {1, 1, 1}}}}).ok());
   EXPECT_NE(line(path).find("frame 0: box 1: its min is above its max on y"), std::string::npos);
   EXPECT_NE(line(folder.file("text.h5", "no HDF5")).find("not an HDF5 file"), std::string::npos);
   EXPECT_NE(line(folder.path() / "absent.h5").find("no such file"), std::string::npos);
 
   // A later frame is seen when it is reached.
-  ASSERT_TRUE(write(path, {{good}, {{{0, 0, 0}, {kInf, 1, 1}}}}).ok());
+  ASSERT_TRUE(write_boxes(path, {{good}, {{{0, 0, 0}, {kInf, 1, 1}}}}).ok());
   auto stream = make_box_stream(path.string());
   ASSERT_TRUE(stream.ok());
   std::vector<Box> boxes = stream.value().boxes;
@@ -87,7 +87,7 @@ TEST(BoxFile, FramesOfDifferentCountsLeaveNoFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "uneven.h5";
   const Box good{{0, 0, 0}, {1, 1, 1}};
-  const core::Status status = write(path, {{good}, {good, good}});
+  const core::Status status = write_boxes(path, {{good}, {good, good}});
   ASSERT_FALSE(status.ok());
   EXPECT_NE(status.error().line().find("frame 1 has 2 boxes, not 1"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

@@ -19,8 +19,8 @@ namespace {
 
 using namespace core;
 
-constexpr std::uint32_t kBodies = 3;
-constexpr std::uint64_t kFrames = 4;
+constexpr std::uint32_t kFixtureBodies = 3;
+constexpr std::uint64_t kFixtureFrames = 4;
 
 // Over every row of every array, dataset by dataset in the order of their names; one that a file lacks adds nothing.
 std::uint64_t content_digest(const FrameRecord& frame) {
@@ -53,11 +53,11 @@ TEST(Fixture, EveryVersionIsReadAsItWasWritten) {
     auto reader = TraceReader::open(fixture(version));
     ASSERT_TRUE(reader.ok()) << reader.error().line();
     EXPECT_EQ(reader.value().header().stamp.broadside_build, "broadside 0.1.0");
-    EXPECT_EQ(reader.value().header().scene.body_count(), kBodies);
-    ASSERT_EQ(reader.value().frame_count(), kFrames);
+    EXPECT_EQ(reader.value().header().scene.body_count(), kFixtureBodies);
+    ASSERT_EQ(reader.value().frame_count(), kFixtureFrames);
     std::size_t contacts = 0;
     std::size_t separations = 0;
-    for (std::uint64_t k = 0; k < kFrames; ++k) {
+    for (std::uint64_t k = 0; k < kFixtureFrames; ++k) {
       auto frame = reader.value().read(k, reader.value().header().groups);
       ASSERT_TRUE(frame.ok()) << frame.error().line();
       EXPECT_EQ(content_digest(frame.value()), frame.value().digest) << "format " << version << ", frame " << k;
@@ -97,11 +97,11 @@ TEST(Fixture, ALaterVersionIsRefusedWithAdvice) {
 TEST(Fixture, DISABLED_IsWritten) {
   const char* path = std::getenv("BROADSIDE_FIXTURE");
   ASSERT_NE(path, nullptr);
-  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kBodies), kAllGroups));
+  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kFixtureBodies), kAllGroups));
   ASSERT_TRUE(writer.ok()) << writer.error().line();
   Bits bits(21);
-  for (std::uint64_t k = 0; k < kFrames; ++k) {
-    FrameRecord frame = random_frame(bits, k, kBodies, kAllGroups);
+  for (std::uint64_t k = 0; k < kFixtureFrames; ++k) {
+    FrameRecord frame = random_frame(bits, k, kFixtureBodies, kAllGroups);
     frame.digest = content_digest(frame);
     ASSERT_TRUE(writer.value().append(frame).ok());
   }

@@ -14,7 +14,7 @@ namespace {
 
 using namespace core;
 
-constexpr std::uint32_t kBodies = 6;
+constexpr std::uint32_t kComparedBodies = 6;
 
 std::optional<FrameDifference> compared(const FrameRecord& a, const FrameRecord& b) {
   const std::uint32_t wide = a.wide.position.empty() ? 0U : bit(Group::kWideBodies);
@@ -24,16 +24,17 @@ std::optional<FrameDifference> compared(const FrameRecord& a, const FrameRecord&
 // With rows in every dataset, and pairs in order.
 FrameRecord full_frame() {
   Bits bits(11);
-  FrameRecord f = random_frame(bits, 3, kBodies, kAllGroups & ~bit(Group::kPairs));
+  FrameRecord f = random_frame(bits, 3, kComparedBodies, kAllGroups & ~bit(Group::kPairs));
   f.pairs = f.confirmed = f.measured = {{0, 1}, {1, 3}, {2, 4}};
   f.proximity = {{0.5F, 1, 2}, {}, {0.25F, 0, 0}};
   f.separations = {{1.0, false, {}, {}, {}}, {2.0, true, {}, {}, {}}, {3.0, false, {}, {}, {}}};
-  f.contacts = {random_contact(bits, kBodies), random_contact(bits, kBodies), random_contact(bits, kBodies)};
+  f.contacts = {random_contact(bits, kComparedBodies), random_contact(bits, kComparedBodies),
+                random_contact(bits, kComparedBodies)};
   f.contacts[1].a = 1, f.contacts[1].b = 3;
   f.pairs_demanded = f.pairs_raw = 3;
   f.octree_nodes.resize(3);
-  f.octree_node_of_body.resize(kBodies);
-  f.shape_of_body.resize(kBodies);
+  f.octree_node_of_body.resize(kComparedBodies);
+  f.shape_of_body.resize(kComparedBodies);
   f.body_octree_boxes.resize(73);
   f.leaf_of_vertex.resize(4);
   return f;
@@ -42,10 +43,10 @@ FrameRecord full_frame() {
 // States in float64 take the place of those in float32.
 FrameRecord wide_frame() {
   FrameRecord f = full_frame();
-  f.wide.position.assign(kBodies, {1.0, 2.0, 3.0});
-  f.wide.velocity.assign(kBodies, {4.0, 5.0, 6.0});
-  f.wide.angular_velocity.assign(kBodies, {7.0, 8.0, 9.0});
-  f.wide.orientation.assign(kBodies, {0.5, 0.5, 0.5, 0.5});
+  f.wide.position.assign(kComparedBodies, {1.0, 2.0, 3.0});
+  f.wide.velocity.assign(kComparedBodies, {4.0, 5.0, 6.0});
+  f.wide.angular_velocity.assign(kComparedBodies, {7.0, 8.0, 9.0});
+  f.wide.orientation.assign(kComparedBodies, {0.5, 0.5, 0.5, 0.5});
   return f;
 }
 

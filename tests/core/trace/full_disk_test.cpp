@@ -20,19 +20,19 @@ namespace {
 using namespace core;
 
 constexpr int kNoMount = 77;
-constexpr std::uint32_t kBodies = 50;
+constexpr std::uint32_t kLargeFrameBodies = 50;
 
 // Writes random frames until the disk refuses; the line of the error, "" when it never did.
 std::string write_too_much(const std::filesystem::path& path, bool flushes) {
-  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kBodies), kAllGroups));
+  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kLargeFrameBodies), kAllGroups));
   if (!writer) return writer.error().line();
   Bits bits(5);
   for (std::uint64_t k = 0; k < 4000; ++k) {
-    Status s = writer.value().append(random_frame(bits, k, kBodies, kAllGroups));
+    Status s = writer.value().append(random_frame(bits, k, kLargeFrameBodies, kAllGroups));
     if (s.ok() && flushes && k % 50 == 0) s = writer.value().flush();
     if (s.ok()) continue;
     // After a failure every call fails with the same words.
-    const Status again = writer.value().append(random_frame(bits, k + 1, kBodies, kAllGroups));
+    const Status again = writer.value().append(random_frame(bits, k + 1, kLargeFrameBodies, kAllGroups));
     const Status end = writer.value().finish();
     return again.ok() || end.ok() || end.error().line() != s.error().line() ? "it forgot its failure"
                                                                             : s.error().line();
@@ -50,7 +50,7 @@ std::string write_too_much(const std::filesystem::path& path, bool flushes) {
     Bits bits(5);
     for (std::uint64_t k = 0; k < part.value().frame_count(); ++k) {
       const auto frame = part.value().read(k, kAllGroups);
-      const FrameRecord wrote = random_frame(bits, k, kBodies, kAllGroups);
+      const FrameRecord wrote = random_frame(bits, k, kLargeFrameBodies, kAllGroups);
       if (!frame)
         std::cerr << "unreadable: " << frame.error().line() << '\n';
       else if (!first_difference(wrote, frame.value()).empty())
@@ -127,14 +127,14 @@ TEST_F(FullDisk, ATraceIsFinishedWithoutRoomForACompactCopy) {
   const auto fill = [this] {
     if (!mount_small(folder_.path(), "size=8m")) std::exit(kNoMount);
     const std::filesystem::path path = folder_ / "t.h5";
-    auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kBodies), kAllGroups));
+    auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kLargeFrameBodies), kAllGroups));
     if (!writer) std::exit(2);
     Bits bits(5);
     std::uint64_t frames = 0;
     // The part file fills the file system but for 1 MiB; the trace without waste is larger than that.
     for (struct statvfs disk = {};
          statvfs(folder_.path().c_str(), &disk) == 0 && disk.f_bavail * disk.f_bsize > (1U << 20U); ++frames)
-      if (!writer.value().append(random_frame(bits, frames, kBodies, kAllGroups)) || !writer.value().flush())
+      if (!writer.value().append(random_frame(bits, frames, kLargeFrameBodies, kAllGroups)) || !writer.value().flush())
         std::exit(3);
     const Status end = writer.value().finish();
     if (!end) std::cerr << end.error().line() << '\n', std::exit(4);

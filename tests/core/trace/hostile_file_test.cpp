@@ -48,7 +48,7 @@ class HostileFile : public testing::Test {
     if (child == 0) {
       if (kHasLimit) limit_memory();
       const std::string line = read_all();
-      const ssize_t told = write(ends[1], line.data(), line.size());
+      const ssize_t told = ::write(ends[1], line.data(), line.size());
       _exit(told == static_cast<ssize_t>(line.size()) ? 0 : 1);
     }
     close(ends[1]);

@@ -16,19 +16,19 @@ namespace {
 
 using namespace core;
 
-constexpr std::uint32_t kBodies = 20;
-constexpr std::uint64_t kFrames = 2000;
+constexpr std::uint32_t kKilledBodies = 20;
+constexpr std::uint64_t kKilledFrames = 2000;
 
 // Reports through the pipe, one byte per flush, how many frames are safe: flush k comes after frame 10 k.
 [[noreturn]] void write_until_killed(const std::filesystem::path& path, int flushed) {
-  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kBodies), kAllGroups));
+  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kKilledBodies), kAllGroups));
   if (!writer) _exit(1);
   Bits bits(11);
-  for (std::uint64_t k = 0; k < kFrames; ++k) {
-    if (!writer.value().append(random_frame(bits, k, kBodies, kAllGroups))) _exit(2);
+  for (std::uint64_t k = 0; k < kKilledFrames; ++k) {
+    if (!writer.value().append(random_frame(bits, k, kKilledBodies, kAllGroups))) _exit(2);
     if ((k + 1) % 10 != 0) continue;
     if (!writer.value().flush()) _exit(3);
-    if (write(flushed, "x", 1) != 1) _exit(4);
+    if (::write(flushed, "x", 1) != 1) _exit(4);
   }
   for (;;) pause();
 }
@@ -43,7 +43,7 @@ std::uint64_t bytes_in(int pipe_end) {
 void expect_frames(const TraceReader& reader) {
   Bits bits(11);
   for (std::uint64_t k = 0; k < reader.frame_count(); ++k) {
-    const FrameRecord wrote = random_frame(bits, k, kBodies, kAllGroups);
+    const FrameRecord wrote = random_frame(bits, k, kKilledBodies, kAllGroups);
     const auto frame = reader.read(k, kAllGroups);
     ASSERT_TRUE(frame.ok()) << frame.error().line();
     ASSERT_EQ(first_difference(wrote, frame.value()), "") << "frame " << k;
@@ -136,11 +136,11 @@ TEST(KilledWriter, ItsNameCanBeWrittenAgain) {
 
 TEST(KilledWriter, ALiveOneIsReadUpToItsLastFlush) {
   const Folder folder;
-  auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(kBodies), kAllGroups));
+  auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(kKilledBodies), kAllGroups));
   ASSERT_TRUE(writer.ok());
   Bits bits(11);
   for (std::uint64_t k = 0; k < 30; ++k)
-    ASSERT_TRUE(writer.value().append(random_frame(bits, k, kBodies, kAllGroups)).ok());
+    ASSERT_TRUE(writer.value().append(random_frame(bits, k, kKilledBodies, kAllGroups)).ok());
   ASSERT_TRUE(writer.value().flush().ok());
   const auto reader = TraceReader::open(folder / "t.h5.part");
   ASSERT_TRUE(reader.ok()) << reader.error().line();
@@ -155,11 +155,11 @@ TEST(KilledWriter, ALiveOneIsReadUpToItsLastFlush) {
 TEST(KilledWriter, OneThatGoesOutOfScopeKeepsAllFramesInThePartFile) {
   const Folder folder;
   {
-    auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(kBodies), kAllGroups));
+    auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(kKilledBodies), kAllGroups));
     ASSERT_TRUE(writer.ok());
     Bits bits(11);
     for (std::uint64_t k = 0; k < 25; ++k)
-      ASSERT_TRUE(writer.value().append(random_frame(bits, k, kBodies, kAllGroups)).ok());
+      ASSERT_TRUE(writer.value().append(random_frame(bits, k, kKilledBodies, kAllGroups)).ok());
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "t.h5"));
   const auto reader = TraceReader::open(folder / "t.h5.part");

@@ -71,7 +71,7 @@ FrameRecord any_frame(std::uint64_t step, std::uint32_t bodies) {
   return f;
 }
 
-constexpr std::uint32_t kGroups = bit(Group::kBodies) | bit(Group::kContacts);
+constexpr std::uint32_t kStatesAndContacts = bit(Group::kBodies) | bit(Group::kContacts);
 
 std::vector<FrameRecord> any_frames(std::uint32_t bodies) {
   std::vector<FrameRecord> frames;
@@ -89,7 +89,7 @@ void expect_frames(const std::filesystem::path& path, const std::vector<FrameRec
   RC_ASSERT(reader.ok());
   RC_ASSERT(reader.value().frame_count() == wrote.size());
   for (std::uint64_t k = 0; k < wrote.size(); ++k) {
-    auto frame = reader.value().read(k, kGroups);
+    auto frame = reader.value().read(k, kStatesAndContacts);
     RC_ASSERT(frame.ok());
     RC_ASSERT(first_difference(wrote[k], frame.value()) == "");
   }
@@ -108,7 +108,7 @@ TEST(Property, WhatIsWrittenIsWhatIsRead) {
     const Folder folder;
     const std::uint32_t bodies = *rc::gen::inRange(0U, 4U);
     const std::vector<FrameRecord> frames = any_frames(bodies);
-    auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(bodies), kGroups));
+    auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(bodies), kStatesAndContacts));
     RC_ASSERT(writer.ok());
     for (const FrameRecord& f : frames) {
       // Whole chunks that skip the filters, or rows that go through them: no reader sees a difference.
@@ -125,7 +125,7 @@ TEST(Property, AStreamWithAQueueOfAnySizeWritesTheSame) {
   EXPECT_TRUE(holds("a bounded queue loses and reorders nothing", [] {
     const Folder folder;
     const std::vector<FrameRecord> frames = any_frames(2);
-    auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(2), kGroups),
+    auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(2), kStatesAndContacts),
                                       *rc::gen::inRange<std::size_t>(0, 4000));
     RC_ASSERT(stream.ok());
     for (const FrameRecord& f : frames) RC_ASSERT(stream.value().append(f).ok());

@@ -15,16 +15,16 @@ namespace {
 
 using namespace core;
 
-constexpr std::uint32_t kBodies = 3000;
+constexpr std::uint32_t kStreamedBodies = 3000;
 
 std::vector<FrameRecord> frames_of(std::uint64_t count) {
   Bits bits(9);
   std::vector<FrameRecord> frames;
-  for (std::uint64_t k = 0; k < count; ++k) frames.push_back(random_frame(bits, k, kBodies, kAllGroups));
+  for (std::uint64_t k = 0; k < count; ++k) frames.push_back(random_frame(bits, k, kStreamedBodies, kAllGroups));
   return frames;
 }
 
-void expect_frames(const std::filesystem::path& path, const std::vector<FrameRecord>& wrote) {
+void expect_streamed_frames(const std::filesystem::path& path, const std::vector<FrameRecord>& wrote) {
   auto reader = TraceReader::open(path);
   ASSERT_TRUE(reader.ok()) << reader.error().line();
   ASSERT_EQ(reader.value().frame_count(), wrote.size());
@@ -39,44 +39,45 @@ void expect_frames(const std::filesystem::path& path, const std::vector<FrameRec
 TEST(Stream, AFullQueueMakesTheRunWaitAndLosesNothing) {
   const Folder folder;
   const std::vector<FrameRecord> frames = frames_of(60);
-  auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kBodies), kAllGroups), 1U << 20U);
+  auto stream =
+      TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kStreamedBodies), kAllGroups), 1U << 20U);
   ASSERT_TRUE(stream.ok()) << stream.error().line();
   for (const FrameRecord& f : frames) ASSERT_TRUE(stream.value().append(f).ok());
   EXPECT_GT(stream.value().waits(), 0U);
   ASSERT_TRUE(stream.value().finish().ok());
-  expect_frames(folder / "t.h5", frames);
+  expect_streamed_frames(folder / "t.h5", frames);
 }
 
 TEST(Stream, AFrameLargerThanTheQueueGoesThrough) {
   const Folder folder;
   const std::vector<FrameRecord> frames = frames_of(3);
-  auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kBodies), kAllGroups), 0);
+  auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kStreamedBodies), kAllGroups), 0);
   ASSERT_TRUE(stream.ok());
   for (const FrameRecord& f : frames) ASSERT_TRUE(stream.value().append(f).ok());
   ASSERT_TRUE(stream.value().finish().ok());
-  expect_frames(folder / "t.h5", frames);
+  expect_streamed_frames(folder / "t.h5", frames);
 }
 
 TEST(Stream, FlushWaitsUntilAReaderSeesEveryFrame) {
   const Folder folder;
   const std::vector<FrameRecord> frames = frames_of(7);
-  auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kBodies), kAllGroups));
+  auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kStreamedBodies), kAllGroups));
   ASSERT_TRUE(stream.ok());
   for (const FrameRecord& f : frames) ASSERT_TRUE(stream.value().append(f).ok());
   ASSERT_TRUE(stream.value().flush().ok());
-  expect_frames(folder / "t.h5.part", frames);
+  expect_streamed_frames(folder / "t.h5.part", frames);
 }
 
 TEST(Stream, OneThatGoesOutOfScopeKeepsWhatWasQueued) {
   const Folder folder;
   const std::vector<FrameRecord> frames = frames_of(9);
   {
-    auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kBodies), kAllGroups));
+    auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kStreamedBodies), kAllGroups));
     ASSERT_TRUE(stream.ok());
     for (const FrameRecord& f : frames) ASSERT_TRUE(stream.value().append(f).ok());
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "t.h5"));
-  expect_frames(folder / "t.h5.part", frames);
+  expect_streamed_frames(folder / "t.h5.part", frames);
 }
 
 // The disk refuses on the other thread; append or finish returns that error as one and the same line.
@@ -86,7 +87,8 @@ TEST(Stream, AnErrorOfTheThreadReachesTheRun) {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{3U << 20U, 3U << 20U};
     setrlimit(RLIMIT_FSIZE, &limit);
-    auto stream = TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kBodies), kAllGroups), 1U << 20U);
+    auto stream =
+        TraceStream::create(folder / "t.h5", header_of(tetrahedra_scene(kStreamedBodies), kAllGroups), 1U << 20U);
     if (!stream) exit(2);
     std::string line;
     for (const FrameRecord& f : frames_of(60))

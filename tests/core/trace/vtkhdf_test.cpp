@@ -13,15 +13,15 @@ namespace {
 
 using namespace core;
 
-constexpr std::uint32_t kBodies = 5;
-constexpr std::uint64_t kFrames = 7;
+constexpr std::uint32_t kViewedBodies = 5;
+constexpr std::uint64_t kViewedFrames = 7;
 
 // Body b of frame f has the box from (f, b, 0) to (f + 1, b + 2, 3), in numbers that floats hold exactly.
 FrameRecord frame_of(std::uint64_t f) {
   FrameRecord frame;
   frame.step = f + 1;
   frame.time_s = 0.25 * static_cast<double>(f + 1);
-  for (std::uint32_t b = 0; b < kBodies; ++b) {
+  for (std::uint32_t b = 0; b < kViewedBodies; ++b) {
     const auto x = static_cast<float>(f);
     const auto y = static_cast<float>(b);
     frame.boxes.push_back({{x, y, 0.0F}, {x + 1.0F, y + 2.0F, 3.0F}});
@@ -32,7 +32,7 @@ FrameRecord frame_of(std::uint64_t f) {
 }
 
 void write_trace(const std::filesystem::path& path, std::uint64_t frames) {
-  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kBodies), bit(Group::kDetection)));
+  auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kViewedBodies), bit(Group::kDetection)));
   ASSERT_TRUE(writer.ok());
   for (std::uint64_t f = 0; f < frames; ++f) ASSERT_TRUE(writer.value().append(frame_of(f)).ok());
   ASSERT_TRUE(writer.value().finish().ok());
@@ -77,11 +77,12 @@ std::vector<Box> cells_of_step(const std::filesystem::path& file, std::uint64_t 
 
 TEST(Vtkhdf, EveryCellIsItsBodysBoxInEveryFrame) {
   const Folder folder;
-  write_trace(folder / "t.h5", kFrames);
-  for (std::uint64_t f = 0; f < kFrames; ++f) EXPECT_EQ(cells_of_step(folder / "t.h5", f), frame_of(f).boxes) << f;
+  write_trace(folder / "t.h5", kViewedFrames);
+  for (std::uint64_t f = 0; f < kViewedFrames; ++f)
+    EXPECT_EQ(cells_of_step(folder / "t.h5", f), frame_of(f).boxes) << f;
   EXPECT_EQ(values<double>(folder / "t.h5", "/VTKHDF/Steps/Values", H5T_NATIVE_DOUBLE)[3], 1.0);
   const auto types = values<std::uint8_t>(folder / "t.h5", "/VTKHDF/Types", H5T_NATIVE_UINT8);
-  EXPECT_EQ(types, (std::vector<std::uint8_t>(kBodies, 12))) << "12 = VTK_HEXAHEDRON";
+  EXPECT_EQ(types, (std::vector<std::uint8_t>(kViewedBodies, 12))) << "12 = VTK_HEXAHEDRON";
   const auto velocity = values<float>(folder / "t.h5", "/VTKHDF/CellData/velocity", H5T_NATIVE_FLOAT);
   const auto at = static_cast<std::size_t>(integers(folder / "t.h5", "/VTKHDF/Steps/CellDataOffsets/velocity")[2] + 4);
   EXPECT_EQ(velocity[3 * at], 2.0F);
@@ -105,7 +106,7 @@ TEST(Vtkhdf, CornersGoRoundAsVtkWantsThem) {
 
 TEST(Vtkhdf, NothingIsStoredTwice) {
   const Folder folder;
-  write_trace(folder / "t.h5", kFrames);
+  write_trace(folder / "t.h5", kViewedFrames);
   const Handle file = raw_open(folder / "t.h5");
   for (const char* path : {"/VTKHDF/Points", "/VTKHDF/CellData/velocity", "/VTKHDF/Steps/Values"}) {
     const Handle set(H5Dopen2(file.get(), path, H5P_DEFAULT), H5Dclose);
@@ -117,7 +118,7 @@ TEST(Vtkhdf, NothingIsStoredTwice) {
 TEST(Vtkhdf, ATraceWithoutFramesOrBoxesHasNone) {
   const Folder folder;
   write_trace(folder / "none.h5", 0);
-  auto writer = TraceWriter::create(folder / "digests.h5", header_of(tetrahedra_scene(kBodies), 0));
+  auto writer = TraceWriter::create(folder / "digests.h5", header_of(tetrahedra_scene(kViewedBodies), 0));
   ASSERT_TRUE(writer.value().finish().ok());
   for (const char* name : {"none.h5", "digests.h5"}) {
     auto trace = TraceReader::open(folder / name);
@@ -130,7 +131,7 @@ TEST(Vtkhdf, ATraceWithoutFramesOrBoxesHasNone) {
 
 TEST(View, FramesAreChosenAndBoxesAreWrittenOut) {
   const Folder folder;
-  write_trace(folder / "t.h5", kFrames);
+  write_trace(folder / "t.h5", kViewedFrames);
   auto trace = TraceReader::open(folder / "t.h5");
   ViewRequest request;
   request.first_step = 2;
@@ -139,7 +140,7 @@ TEST(View, FramesAreChosenAndBoxesAreWrittenOut) {
   const auto report = write_view(trace.value(), request, folder / "v.vtkhdf");
   ASSERT_TRUE(report.ok()) << report.error().line();
   EXPECT_EQ(report.value().frames, 3U);
-  EXPECT_EQ(report.value().cells, kBodies);
+  EXPECT_EQ(report.value().cells, kViewedBodies);
   EXPECT_EQ(cells_of_step(folder / "v.vtkhdf", 0), frame_of(1).boxes);
   EXPECT_EQ(cells_of_step(folder / "v.vtkhdf", 2), frame_of(5).boxes);
   EXPECT_TRUE(std::filesystem::exists(folder / "v.xdmf"));
@@ -153,7 +154,7 @@ TEST(View, FramesAreChosenAndBoxesAreWrittenOut) {
 // A mesh's cells are its triangles, at its body's place; a level's cells tile what the box of the body covers.
 TEST(View, MeshesAndOctreeBoxesStandWhereTheirBodiesAre) {
   const Folder folder;
-  write_trace(folder / "t.h5", kFrames);
+  write_trace(folder / "t.h5", kViewedFrames);
   auto trace = TraceReader::open(folder / "t.h5");
   const Scene& scene = trace.value().header().scene;
   for (const ViewOf of : {ViewOf::kMeshes, ViewOf::kLevel1, ViewOf::kLevel2}) {
@@ -165,7 +166,7 @@ TEST(View, MeshesAndOctreeBoxesStandWhereTheirBodiesAre) {
     const std::vector<Box> cells = cells_of_step(folder / "v.vtkhdf", 4);
     ASSERT_EQ(body.size(), cells.size());
     if (of == ViewOf::kMeshes) {
-      EXPECT_EQ(cells.size(), kBodies * 4U) << "tetrahedra";
+      EXPECT_EQ(cells.size(), kViewedBodies * 4U) << "tetrahedra";
     }
     // Body 1 is not turned: mesh 1's vertices, moved to its position at detection.
     Box all = empty_box();

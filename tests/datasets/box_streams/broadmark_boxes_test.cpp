@@ -13,11 +13,11 @@ namespace {
 using core::Box;
 using datasets::BoxStream;
 
-constexpr std::uint32_t kCount = 2000;
-const double kWidth = std::cbrt(kCount / 0.1);
+constexpr std::uint32_t kBroadmarkCount = 2000;
+const double kWidth = std::cbrt(kBroadmarkCount / 0.1);
 
 BoxStream stream_of(const std::string& scene) {
-  auto stream = datasets::make_box_stream("broadmark-" + scene + ":" + std::to_string(kCount));
+  auto stream = datasets::make_box_stream("broadmark-" + scene + ":" + std::to_string(kBroadmarkCount));
   EXPECT_TRUE(stream.ok()) << stream.error().line();
   return stream.ok() ? std::move(stream).value() : BoxStream{};
 }
@@ -34,17 +34,17 @@ std::vector<Box> next(BoxStream& stream, std::vector<Box> boxes) {
 TEST(Broadmark, StartsInABallAtATenthOfAnObjectAUnitOfVolume) {
   for (const char* scene : {"brownian:cubes", "freefall:spheres", "gravity:assorted"}) {
     const BoxStream stream = stream_of(scene);
-    ASSERT_EQ(stream.boxes.size(), kCount) << scene;
+    ASSERT_EQ(stream.boxes.size(), kBroadmarkCount) << scene;
     EXPECT_EQ(stream.frames, 300U);
     const auto half = static_cast<float>(0.5 * kWidth);
     double mean = 0.0;
     for (const Box& b : stream.boxes) {
       const double r = distance(core::center(b), {half, half, half});
       ASSERT_LE(r, 0.45 * kWidth + 1e-5) << scene;
-      mean += r / kCount;
+      mean += r / kBroadmarkCount;
     }
     // Uniform in a ball: the mean distance is 3/4 of the radius, its deviation sqrt(3/80) of it.
-    EXPECT_NEAR(mean / (0.45 * kWidth), 0.75, 5.0 * std::sqrt(3.0 / 80.0 / kCount)) << scene;
+    EXPECT_NEAR(mean / (0.45 * kWidth), 0.75, 5.0 * std::sqrt(3.0 / 80.0 / kBroadmarkCount)) << scene;
   }
 }
 
@@ -71,7 +71,7 @@ TEST(Broadmark, CubesTumble) {
       ASSERT_LE(side, 1.7322F);
       wider += side > 1.05F ? 1 : 0;
     }
-  EXPECT_GT(wider, 3 * static_cast<int>(kCount) / 2);
+  EXPECT_GT(wider, 3 * static_cast<int>(kBroadmarkCount) / 2);
 }
 
 // In one frame the first 1 % change their velocity; the others fly on along a straight line, unless a wall was near.
@@ -80,7 +80,7 @@ TEST(Broadmark, BrownianStirsOnePercentAFrame) {
   const std::vector<Box> one = next(stream, stream.boxes);
   const std::vector<Box> two = next(stream, one);
   int bent = 0;
-  for (std::size_t n = 0; n < kCount; ++n) {
+  for (std::size_t n = 0; n < kBroadmarkCount; ++n) {
     const core::Vec3 a = core::center(stream.boxes[n]);
     const core::Vec3 b = core::center(one[n]);
     const core::Vec3 c = core::center(two[n]);
@@ -98,21 +98,21 @@ TEST(Broadmark, FreefallFallsByGravityAndThenLiesStill) {
   const std::vector<Box> two = next(stream, boxes);
   // Twice the same step but for g dt^2; the velocity's cap and the walls spare most.
   int falling = 0;
-  for (std::size_t n = 0; n < kCount; ++n) {
+  for (std::size_t n = 0; n < kBroadmarkCount; ++n) {
     const double bend = double{two[n].min.y} - 2.0 * boxes[n].min.y + stream.boxes[n].min.y;
     falling += std::abs(bend + 9.81 / 900.0) < 1e-4 ? 1 : 0;
   }
-  EXPECT_GT(falling, 9 * static_cast<int>(kCount) / 10);
+  EXPECT_GT(falling, 9 * static_cast<int>(kBroadmarkCount) / 10);
   boxes = two;
   for (std::uint32_t frame = 2; frame + 10 < stream.frames; ++frame) boxes = next(stream, boxes);
   const std::vector<Box> late = boxes;
   for (int frame = 0; frame < 9; ++frame) boxes = next(stream, boxes);
   int still = 0;
-  for (std::size_t n = 0; n < kCount; ++n) {
+  for (std::size_t n = 0; n < kBroadmarkCount; ++n) {
     still += boxes[n] == late[n] ? 1 : 0;
     ASSERT_GE(boxes[n].min.y, -1e-5F);
   }
-  EXPECT_EQ(still, static_cast<int>(kCount));
+  EXPECT_EQ(still, static_cast<int>(kBroadmarkCount));
 }
 
 TEST(Broadmark, GravityPullsAllOneWayAndTurns) {
@@ -122,7 +122,7 @@ TEST(Broadmark, GravityPullsAllOneWayAndTurns) {
   const auto pull = [&](int frame) {
     core::Vec3 sum;
     int free = 0;
-    for (std::size_t n = 0; n < kCount; ++n) {
+    for (std::size_t n = 0; n < kBroadmarkCount; ++n) {
       const core::Vec3 bend = (core::center(frames[frame + 2][n]) - core::center(frames[frame + 1][n])) -
                               (core::center(frames[frame + 1][n]) - core::center(frames[frame][n]));
       if (core::length(bend) > 0.1F) continue;  // turned round at a wall

@@ -11,7 +11,7 @@ namespace {
 
 using core::Box;
 
-std::uint64_t overlap_count(const std::vector<Box>& boxes) {
+std::uint64_t pair_count(const std::vector<Box>& boxes) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = i + 1; j < boxes.size(); ++j) count += core::overlaps(boxes[i], boxes[j]) ? 1 : 0;
@@ -19,14 +19,14 @@ std::uint64_t overlap_count(const std::vector<Box>& boxes) {
 }
 
 TEST(IdenticalBoxes, AllOverlap) {
-  EXPECT_EQ(overlap_count(datasets::identical_boxes(200)), 200U * 199U / 2U);
+  EXPECT_EQ(pair_count(datasets::identical_boxes(200)), 200U * 199U / 2U);
 }
 
 // Per axis a cube has w - 1 neighbor pairs in either order and itself w times, so 3 w - 2 ordered pairs; over three
 // axes (3 w - 2)^3 ordered pairs with w^3 of a cube and itself.
 TEST(TouchingBoxes, TouchAndNeverOverlapByMore) {
   const auto boxes = datasets::touching_boxes(9 * 9 * 9);
-  EXPECT_EQ(overlap_count(boxes), (25U * 25U * 25U - 9U * 9U * 9U) / 2U);
+  EXPECT_EQ(pair_count(boxes), (25U * 25U * 25U - 9U * 9U * 9U) / 2U);
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = i + 1; j < boxes.size(); ++j) {
       bool is_open = true;
@@ -43,7 +43,7 @@ TEST(LineBoxes, OverlapEightOthersOnOneAxis) {
   const double width = kCount / 4.0;
   const double expected = 0.5 * kCount * (kCount - 1) * (2.0 / width - (1.0 + 1.0 / 24.0) / (width * width));
   const auto boxes = datasets::line_boxes(4000, 1);
-  EXPECT_NEAR(static_cast<double>(overlap_count(boxes)), expected, 10.0 * std::sqrt(expected));
+  EXPECT_NEAR(static_cast<double>(pair_count(boxes)), expected, 10.0 * std::sqrt(expected));
   for (const Box& b : boxes) ASSERT_TRUE(b.min.y < 0.0F && b.max.y > 0.0F && b.min.z < 0.0F && b.max.z > 0.0F);
 }
 
@@ -52,7 +52,7 @@ TEST(PlaneBoxes, OverlapEightOthersOnTwoAxes) {
   const double width = std::sqrt(kCount / 2.0);
   const double one_axis = 2.0 / width - (1.0 + 1.0 / 24.0) / (width * width);
   const double expected = 0.5 * kCount * (kCount - 1) * one_axis * one_axis;
-  EXPECT_NEAR(static_cast<double>(overlap_count(datasets::plane_boxes(4000, 1))), expected, 10.0 * std::sqrt(expected));
+  EXPECT_NEAR(static_cast<double>(pair_count(datasets::plane_boxes(4000, 1))), expected, 10.0 * std::sqrt(expected));
 }
 
 TEST(FlatBoxes, ArePointsSegmentsAndSquares) {
@@ -61,7 +61,7 @@ TEST(FlatBoxes, ArePointsSegmentsAndSquares) {
     const core::Vec3 sides = boxes[i].max - boxes[i].min;
     ASSERT_EQ(sides, (core::Vec3{i % 3 == 0 ? 0.0F : 1.0F, i % 3 == 2 ? 1.0F : 0.0F, 0.0F}));
   }
-  EXPECT_GT(overlap_count(boxes), 3000U);
+  EXPECT_GT(pair_count(boxes), 3000U);
 }
 
 TEST(FarBoxes, LieOnTheStepsOfAFloat) {
@@ -92,7 +92,7 @@ TEST(SubnormalBoxes, HaveNoNormalCoordinateAndOverlapLikeUniformOnes) {
   const double width = std::cbrt(2000.0);
   const double one_axis = 2.0 / width - (1.0 + 1.0 / 24.0) / (width * width);
   const double expected = 0.5 * 2000 * 1999 * one_axis * one_axis * one_axis;
-  EXPECT_NEAR(static_cast<double>(overlap_count(boxes)), expected, 10.0 * std::sqrt(expected));
+  EXPECT_NEAR(static_cast<double>(pair_count(boxes)), expected, 10.0 * std::sqrt(expected));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace {
 using core::Box;
 using Boxes = std::vector<Box>;
 
-Boxes boxes_of(const std::string& spec) {
+Boxes hard_boxes(const std::string& spec) {
   auto stream = datasets::make_box_stream(spec);
   EXPECT_TRUE(stream.ok()) << stream.error().line();
   return stream.ok() ? std::move(stream).value().boxes : Boxes{};
@@ -50,7 +50,7 @@ std::size_t agreed_pairs(const Boxes& boxes) {
   return by_trying_all.size();
 }
 
-double side(const Box& b, int axis) {
+double side_of(const Box& b, int axis) {
   return double{b.max[axis]} - double{b.min[axis]};
 }
 
@@ -58,7 +58,7 @@ TEST(HardBoxes, TwoEnginesFindTheSamePairs) {
   for (const char* spec : {"boxes:slivers:9000", "boxes:needles:9000", "boxes:spiral:9000", "boxes:cantor:9000",
                            "boxes:exponents:9000", "boxes:sheet:9000", "boxes:mesh:sphere:7", "boxes:mesh:cube"}) {
     SCOPED_TRACE(spec);
-    EXPECT_GT(agreed_pairs(boxes_of(spec)), 0U);
+    EXPECT_GT(agreed_pairs(hard_boxes(spec)), 0U);
   }
 }
 
@@ -87,11 +87,11 @@ TEST(NeedleBoxes, MeetAsOftenAsTheirFormulaSays) {
   for (const Box& b : boxes) {
     int longest = 0;
     for (int axis = 1; axis < 3; ++axis)
-      if (side(b, axis) > side(b, longest)) longest = axis;
+      if (side_of(b, axis) > side_of(b, longest)) longest = axis;
     ++along[longest];
     // Near 150 m a float's step is 2^-16 m; a side is the difference of two rounded numbers.
-    EXPECT_NEAR(side(b, longest), 100.0, 0x1p-16);
-    EXPECT_NEAR(side(b, (longest + 1) % 3), 1e-4, 0x1p-16);
+    EXPECT_NEAR(side_of(b, longest), 100.0, 0x1p-16);
+    EXPECT_NEAR(side_of(b, (longest + 1) % 3), 1e-4, 0x1p-16);
   }
   for (const int count : along) EXPECT_NEAR(count, kCount / 3.0, 10.0 * std::sqrt(kCount / 3.0));
   // Different axes: 2 of 3 pairs. Half a needle's length is half the cube: within it with probability 3/4, on two axes;
@@ -107,8 +107,8 @@ TEST(SliverBoxes, AreAThousandTimesLongerThanThickAndMeetEightOthers) {
     double longest = 0.0;
     double thinnest = 10.0;
     for (int axis = 0; axis < 3; ++axis) {
-      longest = std::max(longest, side(b, axis));
-      thinnest = std::min(thinnest, side(b, axis));
+      longest = std::max(longest, side_of(b, axis));
+      thinnest = std::min(thinnest, side_of(b, axis));
     }
     // Places are below 4, where a float's step is 2^-22: a side of 5e-4 has an error of up to a thousandth.
     EXPECT_NEAR(longest / thinnest, 1000.0, 2.0);
@@ -139,7 +139,7 @@ TEST(ExponentBoxes, AreOfEveryScale) {
   std::set<int> sizes;
   for (const Box& b : datasets::exponent_boxes(20'000, 1)) {
     places.insert(std::ilogb(b.max.x));
-    if (side(b, 0) > 0.0) sizes.insert(std::ilogb(side(b, 0)));
+    if (side_of(b, 0) > 0.0) sizes.insert(std::ilogb(side_of(b, 0)));
   }
   // Scales from 2^-140 to 2^124; smaller places and sizes are rounded to a few subnormal numbers.
   EXPECT_GT(places.size(), 260U);

@@ -23,13 +23,13 @@ using core::Box;
 using core::Scene;
 using datasets::make_scene;
 
-Scene made(const std::string& spec) {
+Scene family_scene(const std::string& spec) {
   auto scene = make_scene(spec);
   EXPECT_TRUE(scene.ok()) << scene.error().line();
   return scene.ok() ? std::move(scene).value() : Scene{};
 }
 
-std::vector<Box> boxes_of(const Scene& scene) {
+std::vector<Box> leaf_boxes(const Scene& scene) {
   std::vector<Box> boxes;
   for (const core::Body& body : scene.bodies)
     boxes.push_back(core::translated(core::bounds(*scene.meshes[body.mesh]), body.position));
@@ -54,8 +54,8 @@ class Family : public testing::TestWithParam<std::string_view> {
 TEST_P(Family, EveryCountStartsInItsDomainWithoutOverlap) {
   for (const int count : {0, 1, 2, 7, 40}) {
     SCOPED_TRACE(count);
-    const Scene scene = made(name("brick", count));
-    const std::vector<Box> boxes = boxes_of(scene);
+    const Scene scene = family_scene(name("brick", count));
+    const std::vector<Box> boxes = leaf_boxes(scene);
     int moving = 0;
     for (const core::Body& body : scene.bodies) moving += body.inverse_mass > 0.0F ? 1 : 0;
     const bool is_static = GetParam() == "static";
@@ -78,7 +78,7 @@ TEST_P(Family, EveryCountStartsInItsDomainWithoutOverlap) {
 }
 
 TEST_P(Family, TakesModelSizeFramesAndSeed) {
-  const Scene scene = made(name("sphere", 12, "[longest_side_m=0.5,frames=17,seed=9]"));
+  const Scene scene = family_scene(name("sphere", 12, "[longest_side_m=0.5,frames=17,seed=9]"));
   EXPECT_EQ(scene.frames, 17U);
   EXPECT_EQ(scene.seed, 9U);
   EXPECT_EQ(scene.name, name("sphere", 12, "[longest_side_m=0.5,frames=17,seed=9]"));
@@ -87,22 +87,22 @@ TEST_P(Family, TakesModelSizeFramesAndSeed) {
     const core::Vec3 sides = model.max - model.min;
     EXPECT_NEAR(std::max({sides.x, sides.y, sides.z}), 0.5F, 1e-6F);
   }
-  EXPECT_EQ(core::scene_digest(scene), core::scene_digest(made(scene.name)));
+  EXPECT_EQ(core::scene_digest(scene), core::scene_digest(family_scene(scene.name)));
 }
 
 // The same bodies, which may turn; and an engine whose bodies do not is told so by the motion.
 TEST_P(Family, MayTurn) {
-  const Scene still = made(name("cube", 12));
-  const Scene turning = made(name("cube", 12, "[rigid=1]"));
+  const Scene still = family_scene(name("cube", 12));
+  const Scene turning = family_scene(name("cube", 12, "[rigid=1]"));
   EXPECT_EQ(still.motion, core::Motion::kTranslate);
   EXPECT_EQ(turning.motion, core::Motion::kRigid);
   EXPECT_NE(core::scene_digest(still), core::scene_digest(turning));
-  EXPECT_EQ(core::scene_digest(still), core::scene_digest(made(name("cube", 12, "[rigid=0]"))));
+  EXPECT_EQ(core::scene_digest(still), core::scene_digest(family_scene(name("cube", 12, "[rigid=0]"))));
 }
 
 // No verdict of the sound pipeline may fail; the limits of the method show only in the motion.
 TEST_P(Family, TheTwinRunsItAndNoVerdictFails) {
-  Scene scene = made(name("cube", 12));
+  Scene scene = family_scene(name("cube", 12));
   scene.frames = 60;
   for (const core::Verdict& v : tests::verdicts_of(scene)) {
     // Bodies of one place are moved apart by up to a side in one step, some of them through others; the law says so.
@@ -113,10 +113,10 @@ TEST_P(Family, TheTwinRunsItAndNoVerdictFails) {
 
 TEST_P(Family, ComesBackFromAFileAsTheSameScene) {
   const tests::TemporaryFolder folder;
-  const Scene scene = made(name("brick", 9, "[seed=3]"));
+  const Scene scene = family_scene(name("brick", 9, "[seed=3]"));
   const core::Status written = datasets::write_scene_file(scene, folder.path() / "s.toml");
   ASSERT_TRUE(written.ok()) << written.error().line();
-  EXPECT_EQ(core::scene_digest(made((folder.path() / "s.toml").string())), core::scene_digest(scene));
+  EXPECT_EQ(core::scene_digest(family_scene((folder.path() / "s.toml").string())), core::scene_digest(scene));
 }
 
 // The same family from a file's generator: it brings bodies, parts, gravity and domain, unless the file gives them.
@@ -124,8 +124,8 @@ TEST_P(Family, IsAGeneratorOfSceneFiles) {
   const tests::TemporaryFolder folder;
   const std::string common = "seed = 1\n[[mesh]]\nname = \"cube\"\ncatalogue = \"cube\"\nlongest_side_m = 1.0\n";
   const std::string generator = "[generator]\nkind = \"" + std::string(GetParam()) + "\"\ncount = 10\n";
-  const Scene named = made(name("cube", 10));
-  const Scene from_file = made(folder.file("s.toml", common + generator).string());
+  const Scene named = family_scene(name("cube", 10));
+  const Scene from_file = family_scene(folder.file("s.toml", common + generator).string());
   ASSERT_EQ(from_file.bodies.size(), named.bodies.size());
   for (std::size_t b = 0; b < named.bodies.size(); ++b) {
     EXPECT_EQ(from_file.bodies[b].position, named.bodies[b].position);
@@ -138,7 +138,8 @@ TEST_P(Family, IsAGeneratorOfSceneFiles) {
   EXPECT_EQ(from_file.gravity_m_s2, named.gravity_m_s2);
   EXPECT_EQ(from_file.face_material, named.face_material);
   EXPECT_EQ(from_file.parameters.theta_m, named.parameters.theta_m);
-  const Scene upward = made(folder.file("u.toml", "gravity_m_s2 = [0.0, 1.0, 0.0]\n" + common + generator).string());
+  const Scene upward =
+      family_scene(folder.file("u.toml", "gravity_m_s2 = [0.0, 1.0, 0.0]\n" + common + generator).string());
   EXPECT_EQ(upward.gravity_m_s2, (core::Vec3{0.0F, 1.0F, 0.0F}));
 }
 
@@ -160,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(All, Family, testing::ValuesIn(family_names()), [](cons
 class TurningFamily : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(TurningFamily, TheTwinRunsItAndNoVerdictFails) {
-  Scene scene = made(std::string(GetParam()) + ":cube:12[rigid=1]");
+  Scene scene = family_scene(std::string(GetParam()) + ":cube:12[rigid=1]");
   scene.frames = 60;
   int laws_that_tie_motion_to_forces = 0;
   for (const core::Verdict& v : tests::verdicts_of(scene)) {
@@ -185,8 +186,8 @@ TEST(SceneFiles, AreTheBuiltInsOfTheirNames) {
   for (const auto& entry : std::filesystem::directory_iterator(BROADSIDE_SOURCE_DIR "/datasets/scenes")) {
     if (entry.path().extension() != ".toml" || entry.path().stem() == "freefall_bunny_50") continue;  // needs a file
     SCOPED_TRACE(entry.path());
-    const Scene from_file = made(entry.path().string());
-    const Scene built_in = made(from_file.name);
+    const Scene from_file = family_scene(entry.path().string());
+    const Scene built_in = family_scene(from_file.name);
     // The small scenes have no seed of their own.
     datasets::SceneOptions options;
     options.seed = built_in.seed;
@@ -199,7 +200,7 @@ TEST(SceneFiles, AreTheBuiltInsOfTheirNames) {
 }
 
 TEST(Static, NothingMovesAndThereIsNoPair) {
-  Scene scene = made("static:cube:30");
+  Scene scene = family_scene("static:cube:30");
   scene.frames = 20;
   for (const core::FrameRecord& frame : tests::run_twin(scene).frames) {
     EXPECT_TRUE(frame.pairs.empty());
@@ -209,14 +210,14 @@ TEST(Static, NothingMovesAndThereIsNoPair) {
 }
 
 TEST(SamePoint, EveryPairIsFoundInTheFirstFrame) {
-  Scene scene = made("same-point:cube:8");
+  Scene scene = family_scene("same-point:cube:8");
   scene.frames = 1;
   EXPECT_EQ(tests::run_twin(scene).frames[0].pairs.size(), 28U);
 }
 
 // The drum, the funnel and the bin hold what is inside them.
 TEST(Drum, KeepsItsBodies) {
-  Scene scene = made("drum:cube:20");
+  Scene scene = family_scene("drum:cube:20");
   scene.frames = 240;
   const auto run = tests::run_twin(scene);
   float wall = 0.0F;
@@ -229,7 +230,7 @@ TEST(Drum, KeepsItsBodies) {
 }
 
 TEST(Funnel, BodiesReachTheFloorOnlyThroughItsOpening) {
-  Scene scene = made("funnel:cube:20");
+  Scene scene = family_scene("funnel:cube:20");
   scene.frames = 300;
   const auto run = tests::run_twin(scene);
   int through = 0;

@@ -25,7 +25,7 @@ using testing_markup::Element;
 using testing_markup::Markup;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
-const std::string kHostile = "<script>&\"'\x01\xff";
+const std::string kHostileLabel = "<script>&\"'\x01\xff";
 
 std::vector<std::string> labels(const Axis& axis) {
   std::vector<std::string> words;
@@ -167,12 +167,12 @@ TEST(Histogram, EveryFiniteValueIsInOneBin) {
 
 // What every plot needs for readers who cannot see it and for hostile names.
 TEST(Plots, NamesAreEscapedAndTitlesAreThere) {
-  const PlotText text{kHostile, kHostile, kHostile, kHostile};
+  const PlotText text{kHostileLabel, kHostileLabel, kHostileLabel, kHostileLabel};
   const std::vector<double> two{1.0, 2.0};
   const std::vector<std::string> pictures{
-      svg(LinePlot{.text = text, .curves = {{kHostile, two, two}}}),
-      svg(BarPlot{.text = text, .groups = {kHostile}, .series = {{kHostile, {1.0}, {}}}}),
-      svg(HeatMap{text, kHostile, {kHostile}, {kHostile}, {{1.0}}}),
+      svg(LinePlot{.text = text, .curves = {{kHostileLabel, two, two}}}),
+      svg(BarPlot{.text = text, .groups = {kHostileLabel}, .series = {{kHostileLabel, {1.0}, {}}}}),
+      svg(HeatMap{text, kHostileLabel, {kHostileLabel}, {kHostileLabel}, {{1.0}}}),
       svg(Histogram{text, Scale::kLinear, bins_of(two, 2)}),
   };
   for (const std::string& picture : pictures) {

@@ -16,7 +16,7 @@ namespace {
 
 using exact::Point;
 
-double norm(Point p) {
+double norm_of(Point p) {
   return std::sqrt(dot(p, p));
 }
 
@@ -31,12 +31,12 @@ double least(const Subject& s, Point d) {
   if (s.shape.kind != ContactKind::kCylinder) {
     double lowest = 1e300;
     for (const Point p : core.vertices) lowest = std::min(lowest, dot(p, d));
-    return lowest - core.radius_m * norm(d);
+    return lowest - core.radius_m * norm_of(d);
   }
   const Point along = core.directions[0];
   const Point center = 0.5 * (core.vertices[0] + core.vertices[1]);
   const double on_axis = dot(d, along);
-  return dot(d, center) - std::abs(on_axis) * s.shape.half_length_m - s.shape.radius_m * norm(d - on_axis * along);
+  return dot(d, center) - std::abs(on_axis) * s.shape.half_length_m - s.shape.radius_m * norm_of(d - on_axis * along);
 }
 
 double gap_along(const Subject& a, const Subject& b, Point d) {
@@ -49,7 +49,7 @@ double off(const Subject& s, Point p) {
   const Point local = p - 0.5 * (core.vertices[0] + core.vertices[1]);
   const double on_axis = dot(local, core.directions[0]);
   const double over_end = std::abs(on_axis) - s.shape.half_length_m;
-  const double over_side = norm(local - on_axis * core.directions[0]) - s.shape.radius_m;
+  const double over_side = norm_of(local - on_axis * core.directions[0]) - s.shape.radius_m;
   if (over_end > 0.0 && over_side > 0.0) return std::hypot(over_end, over_side);
   return std::abs(std::max(over_end, over_side));
 }
@@ -79,7 +79,7 @@ double widest_gap(const Subject& a, const Subject& b) {
       const Point u = std::abs(at.x) < 0.7 ? cross(at, {1, 0, 0}) : cross(at, {0, 1, 0});
       const Point w = cross(at, u);
       const Point d = at + (step * std::cos(turn)) * u + (step * std::sin(turn)) * w;
-      attempt((1.0 / norm(d)) * d);
+      attempt((1.0 / norm_of(d)) * d);
     }
   return best;
 }

@@ -16,9 +16,9 @@
 namespace broadside::core {
 namespace {
 
-using Point = std::array<double, 3>;
+using Triple = std::array<double, 3>;
 
-Point placed(const ContactPose& pose, Vec3 v) {
+Triple placed(const ContactPose& pose, Vec3 v) {
   const Quat q = pose.q;
   const double n = std::sqrt(double(q.w) * q.w + double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z);
   const double w = q.w / n;
@@ -44,36 +44,36 @@ float size_of(const Box& b) {
 
 // In double, by projections on the same 15 axes of exact orientations: the widest gap, relative to unit axes.
 double widest_gap(const Box& a, const ContactPose& pa, const Box& b, const ContactPose& pb) {
-  std::array<Point, 8> p;
-  std::array<Point, 8> q;
+  std::array<Triple, 8> p;
+  std::array<Triple, 8> q;
   for (std::size_t k = 0; k < 8; ++k) {
     p[k] = placed(pa, {k & 1U ? a.max.x : a.min.x, k & 2U ? a.max.y : a.min.y, k & 4U ? a.max.z : a.min.z});
     q[k] = placed(pb, {k & 1U ? b.max.x : b.min.x, k & 2U ? b.max.y : b.min.y, k & 4U ? b.max.z : b.min.z});
   }
   const auto axis = [](const ContactPose& pose, int k) {
-    const Point o = placed({{}, pose.q}, {});
-    Point d = placed({{}, pose.q}, axis_vector(k, 1.0F));
+    const Triple o = placed({{}, pose.q}, {});
+    Triple d = placed({{}, pose.q}, axis_vector(k, 1.0F));
     for (std::size_t i = 0; i < 3; ++i) d[i] -= o[i];
     return d;
   };
-  std::vector<Point> axes;
+  std::vector<Triple> axes;
   for (int i = 0; i < 3; ++i) axes.push_back(axis(pa, i));
   for (int i = 0; i < 3; ++i) axes.push_back(axis(pb, i));
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 3; j < 6; ++j) {
-      const Point& u = axes[i];
-      const Point& v = axes[j];
-      const Point c{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+      const Triple& u = axes[i];
+      const Triple& v = axes[j];
+      const Triple c{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
       const double size = std::sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
       if (size > 1e-6) axes.push_back({c[0] / size, c[1] / size, c[2] / size});
     }
   double widest = -1e300;
-  for (const Point& d : axes) {
-    const auto along = [&d](const Point& r) { return d[0] * r[0] + d[1] * r[1] + d[2] * r[2]; };
-    const auto ends = [&](const std::array<Point, 8>& r) {
+  for (const Triple& d : axes) {
+    const auto along = [&d](const Triple& r) { return d[0] * r[0] + d[1] * r[1] + d[2] * r[2]; };
+    const auto ends = [&](const std::array<Triple, 8>& r) {
       double low = along(r[0]);
       double high = low;
-      for (const Point& s : r) low = std::min(low, along(s)), high = std::max(high, along(s));
+      for (const Triple& s : r) low = std::min(low, along(s)), high = std::max(high, along(s));
       return std::pair(low, high);
     };
     const auto [la, ha] = ends(p);

@@ -15,12 +15,12 @@
 namespace broadside::core {
 namespace {
 
-struct Point {
+struct TurnedPoint {
   double x, y, z;
 };
 
 // By the rotation of q, of any length, in double.
-Point turned_by(Quat q, Point p) {
+TurnedPoint turned_by(Quat q, TurnedPoint p) {
   const double n = std::sqrt(double(q.w) * q.w + double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z);
   const double w = q.w / n;
   const double x = q.x / n;
@@ -31,7 +31,7 @@ Point turned_by(Quat q, Point p) {
           2 * (x * z - w * y) * p.x + 2 * (y * z + w * x) * p.y + (1 - 2 * (x * x + y * y)) * p.z};
 }
 
-Quat random_quat(std::mt19937& random) {
+Quat random_turn(std::mt19937& random) {
   std::normal_distribution<float> normal;
   const Quat q{normal(random), normal(random), normal(random), normal(random)};
   return (1.0F / std::sqrt(dot(q, q))) * q;
@@ -45,7 +45,8 @@ VertexTreeView view_of(const BodyOctree& tree) {
 // The extent along a unit axis of the world, from the shape's center, by its definition: the farthest of its points.
 // A round part is a ball or a rim, whose farthest point is where its normal is the axis.
 double exact_reach(const ContactShape& s, const std::vector<Vec3>& vertices, Quat q, int axis, double sign) {
-  Point back = turned_by({q.w, -q.x, -q.y, -q.z}, {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0});
+  TurnedPoint back =
+      turned_by({q.w, -q.x, -q.y, -q.z}, {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0});
   const double d[3] = {back.x, back.y, back.z};
   if (s.kind == ContactKind::kBox)
     return std::abs(d[0]) * s.half.x + std::abs(d[1]) * s.half.y + std::abs(d[2]) * s.half.z;
@@ -91,12 +92,12 @@ TEST(TurnedBox, ContainsTheShapeAndIsTight) {
   for (const Case& c : cases(random)) {
     const BodyOctree tree = build_body_octree(c.vertices);
     for (int k = 0; k < 200; ++k) {
-      Quat q = random_quat(random);
+      Quat q = random_turn(random);
       if (k == 0) q = {};
       if (k == 1) q = {std::sqrt(0.5F), std::sqrt(0.5F), 0.0F, 0.0F};
       const Vec3 x{place(random), place(random), place(random)};
       const Box box = turned_box(c.shape, view_of(tree), x, q);
-      const Point center = turned_by(q, {c.shape.center.x, c.shape.center.y, c.shape.center.z});
+      const TurnedPoint center = turned_by(q, {c.shape.center.x, c.shape.center.y, c.shape.center.z});
       const double from[3] = {center.x, center.y, center.z};
       for (int axis = 0; axis < 3; ++axis) {
         const double high = x[axis] + from[axis] + exact_reach(c.shape, c.vertices, q, axis, 1.0);
@@ -122,7 +123,7 @@ TEST(TurnedBox, TheVertexTreeFindsWhatALoopOverAllVerticesFinds) {
     for (int k = 0; k < count; ++k) vertices.push_back({normal(random), normal(random), 0.2F * normal(random)});
     const BodyOctree tree = build_body_octree(vertices);
     for (int k = 0; k < 300; ++k) {
-      const Vec3 d = rotate(random_quat(random), {1.0F, 0.0F, 0.0F});
+      const Vec3 d = rotate(random_turn(random), {1.0F, 0.0F, 0.0F});
       float most = -std::numeric_limits<float>::infinity();
       for (const Vec3 v : vertices) most = std::max(most, dot(d, v));
       ASSERT_EQ(vertex_support(view_of(tree), d), most);
