@@ -12,7 +12,7 @@ namespace {
 constexpr double kHeadLength = 5.0;
 constexpr double kHeadHalfAngle = 0.45;  // rad
 
-std::string number(double value) {
+std::string sketch_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
   return text;
@@ -40,7 +40,7 @@ std::string with_class(Ink ink, std::string_view more = "") {
 
 std::string points_text(const std::vector<SketchPoint>& points) {
   std::string text;
-  for (const SketchPoint& p : points) text += (text.empty() ? "" : " ") + number(p.x) + "," + number(p.y);
+  for (const SketchPoint& p : points) text += (text.empty() ? "" : " ") + sketch_number(p.x) + "," + sketch_number(p.y);
   return text;
 }
 
@@ -51,18 +51,18 @@ SketchPoint on_circle(SketchPoint center, double radius, double angle) {
 }  // namespace
 
 LawSketch& LawSketch::box(SketchPoint corner, double width, double height, Ink ink, double degrees) {
-  body_ += "<rect x=\"" + number(corner.x) + "\" y=\"" + number(corner.y) + "\" width=\"" + number(width) +
-           "\" height=\"" + number(height) + "\"" + with_class(ink);
+  body_ += "<rect x=\"" + sketch_number(corner.x) + "\" y=\"" + sketch_number(corner.y) + "\" width=\"" +
+           sketch_number(width) + "\" height=\"" + sketch_number(height) + "\"" + with_class(ink);
   if (degrees != 0.0)
-    body_ += " transform=\"rotate(" + number(degrees) + " " + number(corner.x + width / 2) + " " +
-             number(corner.y + height / 2) + ")\"";
+    body_ += " transform=\"rotate(" + sketch_number(degrees) + " " + sketch_number(corner.x + width / 2) + " " +
+             sketch_number(corner.y + height / 2) + ")\"";
   body_ += "/>";
   return *this;
 }
 
 LawSketch& LawSketch::ball(SketchPoint center, double radius, Ink ink) {
-  body_ += "<circle cx=\"" + number(center.x) + "\" cy=\"" + number(center.y) + "\" r=\"" + number(radius) + "\"" +
-           with_class(ink) + "/>";
+  body_ += "<circle cx=\"" + sketch_number(center.x) + "\" cy=\"" + sketch_number(center.y) + "\" r=\"" +
+           sketch_number(radius) + "\"" + with_class(ink) + "/>";
   return *this;
 }
 
@@ -108,8 +108,8 @@ LawSketch& LawSketch::turn(SketchPoint center, double radius, double from_degree
 }
 
 LawSketch& LawSketch::dot(SketchPoint at, Ink ink) {
-  body_ +=
-      "<circle cx=\"" + number(at.x) + "\" cy=\"" + number(at.y) + "\" r=\"2.2\"" + with_class(ink, " head") + "/>";
+  body_ += "<circle cx=\"" + sketch_number(at.x) + "\" cy=\"" + sketch_number(at.y) + "\" r=\"2.2\"" +
+           with_class(ink, " head") + "/>";
   return *this;
 }
 
@@ -127,8 +127,8 @@ LawSketch& LawSketch::ground(double y, double from, double to) {
 }
 
 LawSketch& LawSketch::text(SketchPoint at, std::string_view words, Ink ink) {
-  body_ += "<text x=\"" + number(at.x) + "\" y=\"" + number(at.y) + "\" text-anchor=\"middle\"" + with_class(ink) +
-           ">" + html(words) + "</text>";
+  body_ += "<text x=\"" + sketch_number(at.x) + "\" y=\"" + sketch_number(at.y) + "\" text-anchor=\"middle\"" +
+           with_class(ink) + ">" + html(words) + "</text>";
   return *this;
 }
 

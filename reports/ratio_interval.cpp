@@ -23,7 +23,7 @@ class Draws {
   std::uint64_t state_ = 0;
 };
 
-double median_of(std::vector<double>& values) {
+double median_in_place(std::vector<double>& values) {
   const std::size_t upper = values.size() / 2;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(upper);
   std::nth_element(values.begin(), middle, values.end());
@@ -40,9 +40,9 @@ class Side {
     figures_.clear();
     for (const ProcessRuns& runs : processes_) {
       scratch_ = runs;
-      figures_.push_back(median_of(scratch_));
+      figures_.push_back(median_in_place(scratch_));
     }
-    return median_of(figures_);
+    return median_in_place(figures_);
   }
 
   double draw(Draws& draws) {
@@ -51,9 +51,9 @@ class Side {
       const ProcessRuns& runs = processes_[draws.below(processes_.size())];
       scratch_.resize(runs.size());
       for (double& value : scratch_) value = runs[draws.below(runs.size())];
-      figures_.push_back(median_of(scratch_));
+      figures_.push_back(median_in_place(scratch_));
     }
-    return median_of(figures_);
+    return median_in_place(figures_);
   }
 
  private:

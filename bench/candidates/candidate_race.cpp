@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
+double candidate_seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -32,7 +32,7 @@ core::Result<std::vector<core::Pair>> pairs_by(const CellSpec& cell, const std::
   if (core::Status s = broad->load(boxes, is_static); !s) return s.error();
   if (core::Status s = broad->find(); !s) return s.error();
   auto found = broad->read_back();
-  seconds = seconds_since(start);
+  seconds = candidate_seconds_since(start);
   if (!found) return found.error();
   return std::move(found.value().pairs);
 }
@@ -105,7 +105,7 @@ core::Result<continuous::FeaturePairs> candidates_by(const CellSpec& cell, const
   const auto start = Clock::now();
   const continuous::CandidateFinder finder(surface, features);
   continuous::FeaturePairs found = reference::find_candidates(finder, pairs.value());
-  row.candidates_s = seconds_since(start);
+  row.candidates_s = candidate_seconds_since(start);
   fill(row, found);
   return found;
 }
@@ -128,7 +128,7 @@ core::Result<std::vector<CandidateRow>> race_candidates(const MotionSource& sour
     row.triangles = surface.value().triangles.size();
     const auto start = Clock::now();
     const auto found = continuous::CandidateFinder(surface.value(), features).try_all();
-    row.candidates_s = seconds_since(start);
+    row.candidates_s = candidate_seconds_since(start);
     fill(row, found);
     rows.push_back(row);
   }

@@ -108,7 +108,7 @@ core::Result<Questions> drawn_questions(const MotionArguments& a, MotionKind kin
   return out;
 }
 
-bool is_worth_a_file(MotionVerdict verdict) {
+bool is_motion_worth_a_file(MotionVerdict verdict) {
   return verdict != MotionVerdict::kAgree && verdict != MotionVerdict::kUndecided &&
          verdict != MotionVerdict::kRounded && verdict != MotionVerdict::kOtherPath;
 }
@@ -128,7 +128,7 @@ core::Status save_cases(const MotionArguments& a, const Questions& questions, Mo
   for (std::size_t k = 0; k < questions.tests.size(); ++k) {
     const MotionVerdict verdict = study.table.verdicts[k];
     std::uint64_t& count = saved[static_cast<std::size_t>(verdict)];
-    if (!is_worth_a_file(verdict) || count >= kMotionCasesPerClass) continue;
+    if (!is_motion_worth_a_file(verdict) || count >= kMotionCasesPerClass) continue;
     std::string word(kMotionVerdicts[static_cast<std::size_t>(verdict)]);
     std::replace(word.begin(), word.end(), ' ', '-');
     const std::filesystem::path file =
@@ -192,7 +192,7 @@ void say_truths(const Questions& questions) {
 }
 
 bool has_wrong_answers(const MotionTable& table) {
-  return std::any_of(table.verdicts.begin(), table.verdicts.end(), is_worth_a_file);
+  return std::any_of(table.verdicts.begin(), table.verdicts.end(), is_motion_worth_a_file);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ core::RunRows moved_up(core::RunRows rows) {
 }
 
 template <typename T>
-void append(std::vector<T>& to, std::vector<T> more) {
+void append_all(std::vector<T>& to, std::vector<T> more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
@@ -81,9 +81,9 @@ core::RunRows selected(const core::RunRows& rows, const std::vector<std::string>
 }
 
 core::RunRows joined(core::RunRows rows, core::RunRows more) {
-  append(rows.cells, std::move(more.cells));
-  append(rows.verdicts, std::move(more.verdicts));
-  append(rows.samples, std::move(more.samples));
+  append_all(rows.cells, std::move(more.cells));
+  append_all(rows.verdicts, std::move(more.verdicts));
+  append_all(rows.samples, std::move(more.samples));
   return rows;
 }
 

@@ -34,7 +34,7 @@ constexpr std::string_view kSinks = "a spring must be pressed in before it carri
 constexpr std::string_view kMujocoArch =
     "springs give way by more than the millimeter to spare, and as it ships convex meshes have one point a pair: tuned, an "
     "arch of seven stands at 1.1 times the least thickness, in 3.14 at 1.3 times";
-constexpr std::string_view kTwoSteps =
+constexpr std::string_view kTwoStepsAtOwn =
     "springs of two steps a time constant, as 1/60 s asks for, let twenty cubes fall: at 1/240 s they stand";
 constexpr std::string_view kConvexCone = "friction as a convex problem throws up what slides fast";
 constexpr std::string_view kMujocoBoxes =
@@ -201,7 +201,7 @@ constexpr std::array kRows{
     Row{"mujoco", "closed-form", "rigid:slide:heading-12", kConvexCone},
     Row{"mujoco", "closed-form", "rigid:slide:", "pyramids inside the cone, as the library ships"},
     Row{"mujoco", "rest", "rigid:arch:", kMujocoArch},
-    Row{"mujoco3", "rest", "rigid:stack:20", kTwoSteps},
+    Row{"mujoco3", "rest", "rigid:stack:20", kTwoStepsAtOwn},
     Row{"mujoco-world[tuning", "rest", "rigid:stack:20",
         "springs of two steps a time constant, as 1/60 s asks for, give by 0.1 m in all and the column buckles, twice "
         "as far every second: at 1/240 s it stands"},

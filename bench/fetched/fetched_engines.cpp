@@ -25,7 +25,7 @@ struct FetchedEngine {
 };
 
 // To add one: a folder in reference/programs with the program, package.json and package-lock.json, and a line here.
-constexpr std::array kTable{
+constexpr std::array kFetchedTable{
     FetchedEngine{"jolt", "Jolt Physics under Node"},
     FetchedEngine{"rapier", "Rapier 3-D, its deterministic build, under Node"},
     FetchedEngine{"mujoco3", "MuJoCo 3 under Node"},
@@ -72,16 +72,16 @@ bool is_installed(std::string_view id) {
 
 template <std::size_t kPlace>
 std::string why_not_here() {
-  const std::string id(kTable[kPlace].id);
+  const std::string id(kFetchedTable[kPlace].id);
   return is_installed(id) ? "" : "not installed: broadside fetch-engine " + id;
 }
 
 template <std::size_t... kPlaces>
 std::vector<core::EngineRow> rows_of(std::index_sequence<kPlaces...>) {
   std::vector<core::EngineRow> rows;
-  (rows.push_back({.id = kTable[kPlaces].id,
+  (rows.push_back({.id = kFetchedTable[kPlaces].id,
                    .capabilities = "dynamics",
-                   .what = kTable[kPlaces].what,
+                   .what = kFetchedTable[kPlaces].what,
                    .absent = why_not_here<kPlaces>}),
    ...);
   return rows;
@@ -101,12 +101,13 @@ core::Status write_files(const fs::path& folder, std::string_view id) {
 }  // namespace
 
 std::span<const core::EngineRow> fetched_engine_rows() {
-  static const std::vector<core::EngineRow> kRows = rows_of(std::make_index_sequence<kTable.size()>{});
+  static const std::vector<core::EngineRow> kRows = rows_of(std::make_index_sequence<kFetchedTable.size()>{});
   return kRows;
 }
 
 std::string fetched_command(std::string_view id) {
-  const bool is_known = std::any_of(kTable.begin(), kTable.end(), [id](const FetchedEngine& e) { return e.id == id; });
+  const bool is_known =
+      std::any_of(kFetchedTable.begin(), kFetchedTable.end(), [id](const FetchedEngine& e) { return e.id == id; });
   return is_known && is_installed(id) ? "node '" + program_in(root_of_all() / id, id).string() + "'" : std::string();
 }
 
@@ -116,7 +117,7 @@ fs::path fetched_folder(std::string_view id) {
 
 core::Status fetch_engine(std::string_view id, const std::function<void(std::string_view)>& say) {
   std::vector<std::string_view> ids;
-  for (const FetchedEngine& e : kTable) ids.push_back(e.id);
+  for (const FetchedEngine& e : kFetchedTable) ids.push_back(e.id);
   if (std::find(ids.begin(), ids.end(), id) == ids.end())
     return core::Error{"no engine '" + std::string(id) + "' can be fetched", "fetch-engine",
                        core::advise_name(id, ids)};

@@ -24,7 +24,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-core::Error interrupted() {
+core::Error interrupted_error() {
   return {"interrupted: times of pairs that did not end are dropped", "compare", "", core::Exit::kMissing};
 }
 
@@ -133,7 +133,7 @@ class Side {
   core::Status judge_ending(const std::string& command, const core::Result<int>& code, const std::filesystem::path& log,
                             const std::vector<int>& good) const {
     if (!code) return code.error();
-    if (is_interrupted()) return interrupted();
+    if (is_interrupted()) return interrupted_error();
     if (std::find(good.begin(), good.end(), code.value()) != good.end()) return core::Done{};
     return core::Error{"'" + command + "' exits " + std::to_string(code.value()) + ": " + last_line(log), program_,
                        "see " + log.string(), code.value() == 2 ? core::Exit::kBadInput : core::Exit::kMissing};

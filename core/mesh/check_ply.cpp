@@ -48,7 +48,7 @@ struct Property {
   const Type* value = nullptr;
 };
 
-struct Element {
+struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
   std::vector<Property> properties;
@@ -58,7 +58,7 @@ enum class Format { kText, kLittle, kBig };
 
 struct Header {
   Format format = Format::kText;
-  std::vector<Element> elements;
+  std::vector<PlyElement> elements;
   std::size_t body = 0;  // offset of its first byte
 };
 
@@ -121,7 +121,7 @@ class PlyCheck {
       return Done{};
     }
     if (words[0] == "element" && words.size() == 3) {
-      Element element{words[1], 0, {}};
+      PlyElement element{words[1], 0, {}};
       const char* end = words[2].data() + words[2].size();
       const auto [stop, failed] = std::from_chars(words[2].data(), end, element.count);
       if (failed != std::errc() || stop != end) return bad(where);
@@ -140,14 +140,14 @@ class PlyCheck {
 
   Status check_elements() {
     const auto has = [&](std::string_view element, std::string_view property, bool is_list) {
-      for (const Element& e : header_.elements)
+      for (const PlyElement& e : header_.elements)
         for (const Property& p : e.properties)
           if (e.name == element && p.name == property && (p.count != nullptr) == is_list) return true;
       return false;
     };
     if (!has("vertex", "x", false) || !has("vertex", "y", false) || !has("vertex", "z", false))
       return bad("it has no vertices with x, y and z");
-    for (const Element& e : header_.elements)
+    for (const PlyElement& e : header_.elements)
       for (const Property& p : e.properties)
         if (e.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index") &&
             !(p.count != nullptr && p.value->is_whole))
@@ -159,7 +159,7 @@ class PlyCheck {
 
   Status check_text() const {
     std::uint64_t items = 0;
-    for (const Element& e : header_.elements)
+    for (const PlyElement& e : header_.elements)
       if (__builtin_add_overflow(items, e.count, &items)) return cut();
     std::uint64_t lines = 0;
     std::istringstream body(bytes_.substr(header_.body));
@@ -169,7 +169,7 @@ class PlyCheck {
 
   Status check_binary() const {
     std::size_t at = header_.body;
-    for (const Element& element : header_.elements) {
+    for (const PlyElement& element : header_.elements) {
       std::size_t fixed = 0;
       bool has_list = false;
       for (const Property& p : element.properties) {
@@ -185,7 +185,7 @@ class PlyCheck {
     return Done{};
   }
 
-  bool skip_item(const Element& element, std::size_t& at) const {
+  bool skip_item(const PlyElement& element, std::size_t& at) const {
     for (const Property& p : element.properties) {
       const std::size_t first = p.count != nullptr ? p.count->bytes : p.value->bytes;
       if (bytes_.size() - at < first) return false;

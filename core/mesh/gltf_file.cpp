@@ -7,9 +7,9 @@
 namespace broadside::core {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 12;  // magic, version, length of the whole file
-constexpr std::size_t kChunkBytes = 8;    // length, type
-constexpr std::uint32_t kMagic = 0x46546C67U;
+constexpr std::size_t kHeaderBytes = 12;      // magic, version, length of the whole file
+constexpr std::size_t kChunkHeaderBytes = 8;  // length, type
+constexpr std::uint32_t kGltfMagic = 0x46546C67U;
 constexpr std::uint32_t kJson = 0x4E4F534AU;
 constexpr std::uint32_t kBody = 0x004E4942U;
 
@@ -34,10 +34,10 @@ void append_chunk(std::string& bytes, std::uint32_t type, std::string_view conte
 
 // The chunk at this offset, and moves it behind the chunk; false where its length runs past the end.
 bool take_chunk(std::string_view bytes, std::size_t& at, std::uint32_t& type, std::string_view& content) {
-  if (bytes.size() - at < kChunkBytes) return false;
+  if (bytes.size() - at < kChunkHeaderBytes) return false;
   const std::uint32_t length = word_at(bytes, at);
   type = word_at(bytes, at + 4);
-  at += kChunkBytes;
+  at += kChunkHeaderBytes;
   if (length > bytes.size() - at) return false;
   content = bytes.substr(at, length);
   at += length;
@@ -58,7 +58,7 @@ Status read_gltf_file(const std::filesystem::path& path, bool is_binary, GltfFil
   if (!is_binary) return Done{};
 
   const std::string_view all = file.bytes;
-  if (all.size() < kHeaderBytes || word_at(all, 0) != kMagic) return bad("it does not begin with 'glTF'");
+  if (all.size() < kHeaderBytes || word_at(all, 0) != kGltfMagic) return bad("it does not begin with 'glTF'");
   const std::uint32_t version = word_at(all, 4);
   if (version != 2) return bad("its container has version " + std::to_string(version) + ", and version 2 is read here");
   const std::uint32_t length = word_at(all, 8);
@@ -78,7 +78,7 @@ Status read_gltf_file(const std::filesystem::path& path, bool is_binary, GltfFil
 std::string with_json(const GltfFile& file, std::string json) {
   if (!file.is_binary) return json;
   std::string bytes;
-  append_word(bytes, kMagic);
+  append_word(bytes, kGltfMagic);
   append_word(bytes, 2);
   append_word(bytes, 0);
   append_chunk(bytes, kJson, json, ' ');

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string text_of(std::size_t number) {
+std::string node_text(std::size_t number) {
   return "node " + std::to_string(number);
 }
 
@@ -20,13 +20,13 @@ class NodeTree {
     children_.resize(nodes.size());
     has_parent_.resize(nodes.size(), false);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (!nodes[k].is_object()) return text_of(k) + " is no object";
+      if (!nodes[k].is_object()) return node_text(k) + " is no object";
       if (!nodes[k].contains("children")) continue;
-      if (!nodes[k]["children"].is_array()) return text_of(k) + " has children that are no list";
+      if (!nodes[k]["children"].is_array()) return node_text(k) + " has children that are no list";
       for (const Json& child : nodes[k]["children"]) {
-        if (!is_node(child)) return text_of(k) + " has a child that does not exist";
+        if (!is_node(child)) return node_text(k) + " has a child that does not exist";
         const auto number = child.get<std::size_t>();
-        if (has_parent_[number]) return text_of(number) + " has two parents, and nodes form a tree";
+        if (has_parent_[number]) return node_text(number) + " has two parents, and nodes form a tree";
         has_parent_[number] = true;
         children_[k].push_back(number);
       }
@@ -60,7 +60,7 @@ class NodeTree {
       if (!is_node(entry)) return "a scene lists a node that does not exist";
       const auto number = entry.get<std::size_t>();
       if (has_parent_[number] || is_listed[number])
-        return "a scene lists " + text_of(number) + ", which has a parent or is listed twice";
+        return "a scene lists " + node_text(number) + ", which has a parent or is listed twice";
       is_listed[number] = true;
     }
     return {};

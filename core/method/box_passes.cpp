@@ -24,7 +24,7 @@ constexpr double kLeastGain = 2.0;
 // The mapped world's width in cells is at most this, so that places are not lost in the rounding of a float.
 constexpr double kMostCells = 0x1p18;
 
-struct Group {
+struct BoxGroup {
   double share = 0.0;
   std::array<double, 3> side{};
   [[nodiscard]] double longest() const { return std::max({side[0], side[1], side[2]}); }
@@ -35,13 +35,13 @@ using Widths = std::array<double, 3>;
 double chance(double reach, double width) {
   return width > 0.0 ? std::min(1.0, 2.0 * reach / width) : 1.0;
 }
-double cubic(const Group& a, const Group& b, const Widths& world) {
+double cubic(const BoxGroup& a, const BoxGroup& b, const Widths& world) {
   double p = a.share * b.share;
   for (const double width : world) p *= chance(std::max(a.longest(), b.longest()), width);
   return p;
 }
 // In a pass whose cells are as long on each axis as those of `c` and `d`.
-double fitted(const Group& a, const Group& b, const Group& c, const Group& d, const Widths& world) {
+double fitted(const BoxGroup& a, const BoxGroup& b, const BoxGroup& c, const BoxGroup& d, const Widths& world) {
   double p = a.share * b.share;
   for (std::size_t k = 0; k < 3; ++k) p *= chance(std::max(c.side[k], d.side[k]), world[k]);
   return p;
@@ -101,7 +101,7 @@ bool is_crowded(const std::vector<Box>& sample) {
 
 // Of the sample, in the coordinates of the map: what each kind of long axes (core::long_axes) is like.
 struct Kinds {
-  std::array<Group, 8> kind;
+  std::array<BoxGroup, 8> kind;
   Widths world{};
 };
 
@@ -111,7 +111,7 @@ Kinds kinds_of(const std::vector<Box>& sample, const PassMap& map) {
   for (const Box& given : sample) {
     const Box b = map(given);
     bounds = grown(grown(bounds, b.min), b.max);
-    Group& kind = kinds.kind[long_axes(b)];
+    BoxGroup& kind = kinds.kind[long_axes(b)];
     kind.share += 1.0;
     for (int k = 0; k < 3; ++k)
       kind.side[static_cast<std::size_t>(k)] += static_cast<double>(b.max[k]) - static_cast<double>(b.min[k]);
@@ -122,19 +122,19 @@ Kinds kinds_of(const std::vector<Box>& sample, const PassMap& map) {
 }
 
 // The commonest kinds are groups, `most` at most; the others join the last one, which then is whatever is left.
-std::vector<Group> groups_of(const Kinds& kinds, std::uint32_t most, double boxes_a_sample, PassPlan& plan) {
+std::vector<BoxGroup> groups_of(const Kinds& kinds, std::uint32_t most, double boxes_a_sample, PassPlan& plan) {
   std::array<std::uint8_t, 8> by_share{0, 1, 2, 3, 4, 5, 6, 7};
   std::stable_sort(by_share.begin(), by_share.end(),
                    [&](std::uint8_t a, std::uint8_t b) { return kinds.kind[a].share > kinds.kind[b].share; });
-  std::vector<Group> groups;
+  std::vector<BoxGroup> groups;
   for (const std::uint8_t which : by_share) {
-    const Group& kind = kinds.kind[which];
+    const BoxGroup& kind = kinds.kind[which];
     if (kind.share > 0.0 && groups.size() < most) groups.emplace_back();
     plan.group_of[which] = static_cast<std::uint8_t>(groups.size() - 1);
     groups.back().share += kind.share;
     for (std::size_t k = 0; k < 3; ++k) groups.back().side[k] += kind.side[k];
   }
-  for (Group& g : groups) {
+  for (BoxGroup& g : groups) {
     for (double& side : g.side) side /= g.share;
     g.share *= boxes_a_sample;
   }
@@ -142,7 +142,7 @@ std::vector<Group> groups_of(const Kinds& kinds, std::uint32_t most, double boxe
 }
 
 // Scales the axes to the sides of two groups, and puts the one with the most cells first.
-void fit_map(PassMap& map, const Group& a, const Group& b, const Widths& world) {
+void fit_map(PassMap& map, const BoxGroup& a, const BoxGroup& b, const Widths& world) {
   Widths cells{};
   for (std::size_t k = 0; k < 3; ++k) {
     map.axis[k].scale *= scale_for(std::max(a.side[k], b.side[k]), world[k]);
@@ -153,7 +153,7 @@ void fit_map(PassMap& map, const Group& a, const Group& b, const Widths& world) 
 }
 
 // A pass for each two groups, or for the only one.
-void add_passes(const std::vector<Group>& groups, const Widths& world, PassPlan& plan) {
+void add_passes(const std::vector<BoxGroup>& groups, const Widths& world, PassPlan& plan) {
   std::array<double, kMostGroups> own_tests;
   own_tests.fill(INFINITY);
   std::array<std::size_t, kMostGroups> owner{};

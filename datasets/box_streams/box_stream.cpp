@@ -120,16 +120,16 @@ constexpr std::array<BoxSet, 28> kBoxSets{{
      broadmark<kTurningGravity, kAssorted>},
 }};
 
-constexpr BoxStreamRow kMeshes{"boxes:mesh:NAME[:copies]", "boxes:mesh:bunny:20",
-                               "triangles of a mesh of the catalogue; of several copies: turned, in a heap", true,
-                               false};
+constexpr BoxStreamRow kMeshStream{"boxes:mesh:NAME[:copies]", "boxes:mesh:bunny:20",
+                                   "triangles of a mesh of the catalogue; of several copies: turned, in a heap", true,
+                                   false};
 
 Result<BoxStream> from_mesh(const std::string& spec, std::uint64_t seed) {
-  Result<std::vector<core::Box>> boxes = mesh_boxes_of(spec.substr(kMeshes.prefix().size()), seed, kMaxBoxes);
+  Result<std::vector<core::Box>> boxes = mesh_boxes_of(spec.substr(kMeshStream.prefix().size()), seed, kMaxBoxes);
   if (!boxes) return boxes.error();
   BoxStream stream = one_frame(std::move(boxes).value());
   stream.name = spec;
-  stream.what = std::string(kMeshes.what);
+  stream.what = std::string(kMeshStream.what);
   return stream;
 }
 
@@ -183,13 +183,13 @@ bool names_a_file(const std::string& spec) {
 std::vector<BoxStreamRow> box_stream_table() {
   std::vector<BoxStreamRow> table;
   for (const BoxSet& set : kBoxSets) table.push_back(set.row);
-  table.push_back(kMeshes);
+  table.push_back(kMeshStream);
   return table;
 }
 
 Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::uint64_t> seed) {
   if (names_a_file(spec)) return from_file(spec);
-  if (spec.starts_with(kMeshes.prefix())) return from_mesh(spec, seed.value_or(kDefaultSeed));
+  if (spec.starts_with(kMeshStream.prefix())) return from_mesh(spec, seed.value_or(kDefaultSeed));
   for (const BoxSet& set : kBoxSets) {
     if (!spec.starts_with(set.row.prefix())) continue;
     const std::string_view digits = std::string_view(spec).substr(set.row.prefix().size());

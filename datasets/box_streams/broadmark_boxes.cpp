@@ -12,7 +12,7 @@ namespace broadside::datasets {
 namespace {
 
 constexpr double kStep_s = 1.0 / 30.0;
-constexpr std::uint32_t kFrames = 300;
+constexpr std::uint32_t kBroadmarkFrames = 300;
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kGravityScale = 4.0;
 // Cosine and sine of 360 / 30 / 6.2 degrees, as literals: libraries differ in the last bit of both.
@@ -166,7 +166,7 @@ class BroadmarkWorld {
 BoxStream broadmark_boxes(BroadmarkScene scene, BroadmarkObjects objects, std::uint32_t n, std::uint64_t seed) {
   auto world = std::make_shared<BroadmarkWorld>(scene, objects, n, seed);
   BoxStream stream;
-  stream.frames = kFrames;
+  stream.frames = kBroadmarkFrames;
   stream.boxes = world->boxes();
   stream.advance = [world](std::vector<core::Box>& boxes) {
     world->advance(boxes);

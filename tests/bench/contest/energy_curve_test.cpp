@@ -20,7 +20,7 @@ using bench::contest::EnergyCurve;
 
 // A trace of plain-rigid on this scene; with changed states where the test says so.
 template <typename Change>
-void record(const core::Scene& scene, const std::filesystem::path& file, const Change& change) {
+void record_changed(const core::Scene& scene, const std::filesystem::path& file, const Change& change) {
   reference::plain::PlainWorld engine({});
   EXPECT_TRUE(engine.load(scene).ok());
   core::TraceHeader header;
@@ -42,7 +42,7 @@ void record(const core::Scene& scene, const std::filesystem::path& file, const C
 template <typename Change>
 EnergyCurve curve_of(const core::Scene& scene, std::size_t most_frames, const Change& change) {
   const Folder folder;
-  record(scene, folder / "t.h5", change);
+  record_changed(scene, folder / "t.h5", change);
   auto curve = bench::contest::energy_curve(folder / "t.h5", most_frames);
   EXPECT_TRUE(curve.ok()) << curve.error().line();
   return curve.ok() ? curve.value() : EnergyCurve{};
@@ -84,7 +84,7 @@ TEST(EnergyCurve, AWrenchAddsItsWork) {
 // Cells may be kept without their traces, which are large.
 TEST(EnergyCurve, IsKeptWhereTheTraceIsNot) {
   const Folder folder;
-  record(datasets::make_scene("rigid:spin-up[frames=240]").value(), folder / "t.h5", kAsItIs);
+  record_changed(datasets::make_scene("rigid:spin-up[frames=240]").value(), folder / "t.h5", kAsItIs);
   bench::contest::ContestTable table;
   table.entrants = {{"mine", ""}};
   table.scenes = {{.scene = "rigid:spin-up"}};
