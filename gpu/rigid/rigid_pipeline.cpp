@@ -55,6 +55,7 @@ struct RigidPipeline::Impl {
   std::uint64_t bounce_sweeps = 0;
   std::uint64_t waits = 0;
   std::uint64_t steps_slept = 0;
+  std::uint64_t launches = 0;
   float dt_s = 0.0F;
 
   [[nodiscard]] bool has_broad() const;
@@ -80,10 +81,6 @@ constexpr float kRoomForSpeed = 1.25F;
 constexpr std::uint64_t kPairsPerBody = 8;
 // Above so many turns of a cluster's threads a larger grid is sooner done, whose barrier takes longer.
 constexpr std::uint64_t kMostTurnsOfCluster = 2;
-
-std::uint64_t launches_of_frame(const RigidPipelineOptions& options) {
-  return options.sleeps ? 7 : 5;
-}
 
 std::uint32_t as_word(float v) {
   return std::bit_cast<std::uint32_t>(v);
@@ -142,7 +139,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.bodies = std::move(bodies).value();
   d.scene = &scene;
   d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
-  d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = 0;
+  d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = d.launches = 0;
   d.dt_s = 0.0F;
   d.last = {};
   d.told.forget();
@@ -255,15 +252,18 @@ core::Status RigidPipeline::Impl::launch_all() {
   const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
   if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
   BROADSIDE_TRY(launch_contacts_of_scene());
-  if (options.sleeps) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
+  // Without gravity nothing says how slow is slow, and nobody sleeps.
+  const bool may_sleep = options.sleeps && view.sleep.speed_m_s > 0.0F;
+  launches += may_sleep ? 7 : 5;
+  if (may_sleep) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
   BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
-  if (options.sleeps && view.sleep.speed_m_s > 0.0F) BROADSIDE_TRY(launch_fall_asleep(view, sleep_shape, stream));
+  if (may_sleep) BROADSIDE_TRY(launch_fall_asleep(view, sleep_shape, stream));
   return wait_for_stream(stream, "a frame");
 }
 
-// When its room was too small it has grown, and when somebody woke he is awake: the frame has to be launched again from
-// the same state.
+// When its room was too small it has grown, and an island that was touched is awake: the frame has to be launched again
+// from the same state.
 core::Result<bool> RigidPipeline::Impl::is_kept() {
   last = outcome[0].counts;
   if (last.is_aborted == 0) return true;
@@ -350,7 +350,7 @@ std::span<const core::StageTime> RigidPipeline::stage_times() const {
 
 std::vector<core::Counter> RigidPipeline::counters() const {
   const Impl& d = *impl_;
-  std::vector<core::Counter> counters{{"launches", launches_of_frame(d.options) * (d.steps + d.repeats)},
+  std::vector<core::Counter> counters{{"launches", d.launches},
                                       {"level stage: pairs tested", d.pairs_tested},
                                       {"contact patches", d.patches_made},
                                       {"solver: sweeps", d.sweeps},
