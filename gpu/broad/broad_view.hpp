@@ -47,6 +47,7 @@ struct Counters {
   unsigned long long entry_cursor = 0;  // entries given out to buckets
   unsigned long long listed = 0;        // places given out in the lists of bodies
   unsigned long long measured = 0;      // confirmed pairs given out to warps that measure their proximity
+  unsigned long long group_pairs = 0;   // of groups of boxes: grouped_view.hpp
   unsigned long long digest = 0;        // its blocks' shares until now
   std::uint32_t oversized = 0;          // bodies in too many cells of the spatial hash
   std::uint32_t arrived = 0;            // of PartialGridTeam
