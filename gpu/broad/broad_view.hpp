@@ -84,6 +84,9 @@ struct alignas(16) HashEntry {
   std::uint32_t body = 0;
 };
 
+// A body that touches more cells is entered in none. As in hash-cpu: 16 cells a side.
+inline constexpr std::uint64_t kMostHashCells = 4096;
+
 struct HashView {
   float cells_per_m = 0.0F;
   std::uint32_t bucket_mask = 0;
