@@ -125,7 +125,7 @@ struct CylinderPolytope {
 
 // pass 0: even, in the directions of the body's axes. Later passes: about `towards`, the direction from the axis to
 // where the cylinder touches; where that has no part across the axis, even again.
-BROADSIDE_HD CylinderPolytope cylinder_polytope(const PlacedShape& p, int pass, Vec3 towards) {
+BROADSIDE_HD_CALLED CylinderPolytope cylinder_polytope(const PlacedShape& p, int pass, Vec3 towards) {
   const int axis = p.shape->axis;
   CylinderPolytope out;
   out.center = p.center;
