@@ -62,16 +62,6 @@ core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, Str
   return core::Done{};
 }
 
-core::Result<LaunchShape> swept_contact_launch_shape() {
-  return contact_launch_shape();
-}
-
-core::Status launch_swept_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0,
-               [&](unsigned char*) { run_contacts<true, true>(frame); });
-  return core::Done{};
-}
-
 core::Result<LaunchShape> swept_launch_shape() {
   return contact_launch_shape();
 }

@@ -99,6 +99,7 @@ struct ContactView {
   core::Levels levels = core::Levels::kC;
   bool has_broad = true;           // else the levels test all pairs of bodies
   bool has_long_contacts = false;  // some shapes are hulls or meshes
+  bool follows_ways = false;       // sweep=fast: patches of bodies that move far are followed on their way
   core::Box domain;
 
   const RigidShapeView* shapes = nullptr;
