@@ -141,8 +141,8 @@ __device__ inline void join_clusters(const GroupView& g, JoinRoom& room, JoinCou
   BlockShare share(counts, pieces);
   std::uint64_t piece = 0;
   while (const std::uint32_t taken = share.take(want, piece)) {
-    const auto p = static_cast<std::uint32_t>(piece % clusters);
-    const auto step = static_cast<std::uint32_t>(piece / clusters);
+    const std::uint32_t p = static_cast<std::uint32_t>(piece) % clusters;
+    const std::uint32_t step = static_cast<std::uint32_t>(piece) / clusters;
     const std::uint32_t q = p + step < clusters ? p + step : p + step - clusters;
     const PackedBox of_p = g.clusters[p];
     const PackedBox of_q = g.clusters[q];

@@ -136,6 +136,7 @@ TEST(FittedCellsOnHost, GroupsWhereCellsAreFull) {
   EXPECT_TRUE(is_grouped(datasets::mixed_boxes(100'000, 1)));
   EXPECT_FALSE(is_grouped(datasets::uniform_boxes(100'000, 1)));
   EXPECT_FALSE(is_grouped(datasets::heap_boxes(100'000, 1)));
+  EXPECT_FALSE(is_grouped(datasets::uniform_boxes(2'000'000, 1))) << "by another sample";
 }
 
 TEST(FittedCellsOnHost, AreFoundOutOfAMillionBoxesToo) {
