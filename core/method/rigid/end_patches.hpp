@@ -8,6 +8,7 @@
 
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
+#include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
@@ -47,26 +48,30 @@ BROADSIDE_HD bool is_foreseen(const ManifoldPoint& p, float end_gap_m, const Man
 }  // namespace end_detail
 
 // Adds to the patches of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most.
-// swing_m: by how much turning moves points of both.
+// swing_m: by how much turning moves points of both. known: of these hulls, or nothing.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
-                                        const ContactPath& b, float swing_m, Manifold* found, int count) {
-  // In sizes of the smaller body: what is less is left to the patches of the start; points nearer to each other than
-  // this are one; what ends deeper is too deep to tell from which side it came.
-  constexpr float kUnseen = 0x1p-7F;
+                                        const ContactPath& b, float swing_m, Manifold* found, int count,
+                                        const KnownGaps* known = nullptr) {
+  // In sizes of the smaller body: points nearer to each other than this are one; what ends deeper is too deep to tell
+  // from which side it came.
   constexpr float kNear = 0x1p-3F;
   constexpr float kDeepest = 0x1p-2F;
   const bool is_plane = shape_b.kind == ContactKind::kHalfSpace;
   const float size_m = is_plane ? shape_a.size_m : fminf(shape_a.size_m, shape_b.size_m);
-  const float unseen_m = kUnseen * size_m;
-  if (count == 0 || !(swing_m > unseen_m)) return count;
+  const float unseen = unseen_m(shape_a, shape_b);
+  if (count == 0 || !(swing_m > unseen)) return count;
   if constexpr (Lanes::kKnowsLongShapes)
-    if (has_quick_answers(shape_a, shape_b) && surely_apart(shape_a, a.end, shape_b, b.end, -unseen_m)) return count;
+    if (known != nullptr || has_quick_answers(shape_a, shape_b)) {
+      const HullBounds bounds =
+          known != nullptr ? known->deep_end : hull_bounds(shape_a, a.end, shape_b, b.end, -unseen);
+      if (surely_apart(bounds, -unseen)) return count;
+    }
   float least_m = least_gap_m(found[0]);
   for (int k = 1; k < count; ++k) least_m = fminf(least_m, least_gap_m(found[k]));
   least_m = fminf(least_m, 0.0F);
   Manifold end[kPatchesOfPair];
-  const int ends = make_manifolds<Lanes>(shape_a, a.end, shape_b, b.end, -unseen_m, end);
+  const int ends = make_manifolds<Lanes>(shape_a, a.end, shape_b, b.end, -unseen, end);
   const int at_start = count;
   for (int k = 0; k < ends && count < kPatchesOfPair; ++k) {
     const Manifold& m = end[k];
@@ -83,7 +88,7 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
       const float gap = dot(m.normal, on_a - on_b);
       const Vec3 middle = is_plane ? on_a - (0.5F * gap) * m.normal : 0.5F * (on_a + on_b);
       const ManifoldPoint back{middle, fmaxf(gap, least_m), p.feature};
-      if (!end_detail::is_foreseen(back, p.gap_m, found, at_start, a, b, kNear * size_m, unseen_m))
+      if (!end_detail::is_foreseen(back, p.gap_m, found, at_start, a, b, kNear * size_m, unseen))
         out.points[out.count++] = back;
     }
     if (out.count > 0) ++count;

@@ -83,4 +83,9 @@ BROADSIDE_HD_CALLED HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, f
   return out;
 }
 
+// As close as rounding allows.
+BROADSIDE_HD HullGap exact_hull_gap(const PlacedHull& a, const PlacedHull& b, float rounding_m) {
+  return hull_gap(a, b, 3.402823e38F, 0.0F, rounding_m);
+}
+
 }  // namespace broadside::core

@@ -73,12 +73,13 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
 
 // Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
 // apart by up to this much are given too, so that a solver may stop bodies before they touch. Lanes: all of them call
-// it together (lanes.hpp).
+// it together (lanes.hpp). known_gap: exact_hull_gap of two hulls at these poses, or nothing.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
                                        const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,
-                                       Manifold* out) {
-  const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
+                                       Manifold* out, const HullGap* known_gap = nullptr) {
+  PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
+  a.known_gap = known_gap;
   const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
   const float rounding_m = contact_rounding_m(a, b);
   if (shape_a.kind <= shape_b.kind) return manifold_detail::ordered<Lanes>(a, b, rounding_m, reach_m, out);

@@ -43,8 +43,9 @@ BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b,
   constexpr int kMostSteps = 24;
   constexpr float kThin = 0x1p-7F;
   if constexpr (kIsHull<PolytopeA> && kIsHull<PolytopeB>) {
-    const HullGap gap =
-        hull_gap({a.hull, a.center, a.axes}, {b.hull, b.center, b.axes}, 3.402823e38F, 0.0F, rounding_m);
+    const HullGap gap = a.known_gap != nullptr
+                            ? *a.known_gap
+                            : exact_hull_gap({a.hull, a.center, a.axes}, {b.hull, b.center, b.axes}, rounding_m);
     if (gap.least_m > parted_m) return {gap.normal, gap.least_m, gap.most_m};
     return {parting, parted_m, gap.most_m};
   }

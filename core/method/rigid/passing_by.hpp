@@ -4,6 +4,7 @@
 
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
+#include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
@@ -25,13 +26,15 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
 }
 
 // Whether these two, apart at the start, are apart at these poses too and on the same side: what went through the other
-// body, or is too far away to tell, is not.
+// body, or is too far away to tell, is not. known: of hulls at these poses, or nothing.
 template <typename Lanes>
 BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
-                                 const ContactShape& shape_b, const ContactPose& b, float reach_m) {
+                                 const ContactShape& shape_b, const ContactPose& b, float reach_m,
+                                 const HullBounds* known) {
   if constexpr (Lanes::kKnowsLongShapes)
-    if (has_quick_answers(shape_a, shape_b)) {
-      const QuickAnswer quick = quickly_still_apart(start.normal, shape_a, a, shape_b, b, reach_m);
+    if (known != nullptr || has_quick_answers(shape_a, shape_b)) {
+      const HullBounds bounds = known != nullptr ? *known : hull_bounds(shape_a, a, shape_b, b, reach_m);
+      const QuickAnswer quick = quickly_still_apart(start.normal, bounds, reach_m);
       if (quick != QuickAnswer::kUnknown) return quick == QuickAnswer::kYes;
     }
   Manifold end[kPatchesOfPair];
@@ -42,16 +45,20 @@ BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shap
 }
 
 // Whether a patch leads to no contact in this step: neither if both bodies move freely, nor if something holds one of
-// them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests.
+// them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests. known: of
+// these hulls, or nothing.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
-                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
+                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m,
+                            const KnownGaps* known = nullptr) {
   if (!(least_gap_m(start) > near_m)) return false;
-  // Two bodies that go apart by all of their reach are still seen.
-  const float seen_m = 2.0F * reach_m;
-  return is_still_apart<Lanes>(start, shape_a, a.end, shape_b, b.end, seen_m) &&
-         is_still_apart<Lanes>(start, shape_a, a.end, shape_b, b.start, seen_m) &&
-         is_still_apart<Lanes>(start, shape_a, a.start, shape_b, b.end, seen_m);
+  const float seen_m = seen_reach_m(reach_m);
+  const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b, const HullBounds* bounds) {
+    return is_still_apart<Lanes>(start, shape_a, at_a, shape_b, at_b, seen_m, bounds);
+  };
+  return are_apart(a.end, b.end, known != nullptr ? &known->end_end : nullptr) &&
+         are_apart(a.end, b.start, known != nullptr ? &known->end_start : nullptr) &&
+         are_apart(a.start, b.end, known != nullptr ? &known->start_end : nullptr);
 }
 
 }  // namespace broadside::core

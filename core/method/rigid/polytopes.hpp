@@ -158,6 +158,7 @@ struct HullPolytopeOf {
   Vec3 center;
   TurnedAxes axes;
   HullView hull;
+  const HullGap* known_gap = nullptr;  // as in PlacedShape
 
   BROADSIDE_HD int corner_count() const { return static_cast<int>(hull.vertex_count); }
   BROADSIDE_HD int edge_count() const { return static_cast<int>(hull.edge_count); }
@@ -198,7 +199,7 @@ using HullPolytope = HullPolytopeOf<OneLane>;
 
 template <typename Lanes = OneLane>
 BROADSIDE_HD HullPolytopeOf<Lanes> hull_polytope(const PlacedShape& p) {
-  return {p.center, p.axes, p.shape->hull};
+  return {p.center, p.axes, p.shape->hull, p.known_gap};
 }
 
 }  // namespace broadside::core

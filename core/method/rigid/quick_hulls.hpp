@@ -24,6 +24,11 @@ BROADSIDE_HD bool has_quick_answers(const ContactShape& a, const ContactShape& b
          b.hull.ways != nullptr && a.hull.edge_count * b.hull.edge_count > kManyEdgePairs;
 }
 
+struct HullBounds {
+  HullGap gap;
+  float rounding_m = 0.0F;
+};
+
 namespace quick_detail {
 
 // Bounds are sums of a dozen roundings of the same lengths as a gap, whose own allowance this is four times.
@@ -37,35 +42,30 @@ inline constexpr float kThin = 0x1p-6F;
 // Two normals are then each within twenty degrees of what patches say.
 inline constexpr float kSameSide = 0.77F;
 
-struct Bounds {
-  HullGap gap;
-  float rounding_m = 0.0F;
-};
-
-BROADSIDE_HD Bounds bounds_of(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
-                              const ContactPose& pose_b, float stop_m) {
-  const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
-  const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
-  Bounds out;
-  out.rounding_m = contact_rounding_m(a, b);
-  out.gap = hull_gap({a.shape->hull, a.center, a.axes}, {b.shape->hull, b.center, b.axes},
-                     stop_m + kMargin * out.rounding_m, kThin, out.rounding_m);
-  return out;
-}
-
-BROADSIDE_HD bool is_clear(const Bounds& b) {
+BROADSIDE_HD bool is_clear(const HullBounds& b) {
   return b.gap.least_m > kClearlyApart * b.rounding_m && b.gap.least_m >= (1.0F - 2.0F * kThin) * b.gap.most_m;
 }
 
 }  // namespace quick_detail
 
+// Of two hulls, as close as answers need it; how far they are apart beyond stop_m is not looked for.
+BROADSIDE_HD HullBounds hull_bounds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
+                                    const ContactPose& pose_b, float stop_m) {
+  const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
+  const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
+  HullBounds out;
+  out.rounding_m = contact_rounding_m(a, b);
+  out.gap = hull_gap({a.shape->hull, a.center, a.axes}, {b.shape->hull, b.center, b.axes},
+                     stop_m + quick_detail::kMargin * out.rounding_m, quick_detail::kThin, out.rounding_m);
+  return out;
+}
+
 enum class QuickAnswer { kUnknown, kNo, kYes };
 
-// is_still_apart (passing_by.hpp) of two hulls, whose patch of the start has this normal.
-BROADSIDE_HD QuickAnswer quickly_still_apart(Vec3 start_normal, const ContactShape& shape_a, const ContactPose& a,
-                                             const ContactShape& shape_b, const ContactPose& b, float reach_m) {
+// is_still_apart (passing_by.hpp) of two hulls, whose patch of the start has this normal. end: hull_bounds of these
+// poses, with reach_m.
+BROADSIDE_HD QuickAnswer quickly_still_apart(Vec3 start_normal, const HullBounds& end, float reach_m) {
   using namespace quick_detail;
-  const Bounds end = bounds_of(shape_a, a, shape_b, b, reach_m);
   const float margin_m = kMargin * end.rounding_m;
   if (end.gap.least_m > reach_m + margin_m || end.gap.overlap_m > margin_m) return QuickAnswer::kNo;
   if (!is_clear(end) || !(end.gap.most_m < reach_m - margin_m)) return QuickAnswer::kUnknown;
@@ -74,12 +74,15 @@ BROADSIDE_HD QuickAnswer quickly_still_apart(Vec3 start_normal, const ContactSha
   return same_side <= -kSameSide ? QuickAnswer::kNo : QuickAnswer::kUnknown;
 }
 
-// Whether no point of two hulls has a gap of reach_m or less; that may be negative.
-BROADSIDE_HD bool surely_apart(const ContactShape& shape_a, const ContactPose& a, const ContactShape& shape_b,
-                               const ContactPose& b, float reach_m) {
-  using namespace quick_detail;
-  const Bounds bounds = bounds_of(shape_a, a, shape_b, b, reach_m);
-  return bounds.gap.least_m > reach_m + kMargin * bounds.rounding_m;
+// Whether no point of two hulls has a gap of reach_m or less; that may be negative. bounds: hull_bounds with reach_m.
+BROADSIDE_HD bool surely_apart(const HullBounds& bounds, float reach_m) {
+  return bounds.gap.least_m > reach_m + quick_detail::kMargin * bounds.rounding_m;
+}
+
+// How far patches of other poses than the start are looked for: two bodies that go apart by all of their reach are
+// still seen.
+BROADSIDE_HD float seen_reach_m(float reach_m) {
+  return 2.0F * reach_m;
 }
 
 // Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near_m: no patch that is
@@ -87,15 +90,17 @@ BROADSIDE_HD bool surely_apart(const ContactShape& shape_a, const ContactPose& a
 BROADSIDE_HD_CALLED bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                      const ContactPath& b, float reach_m, float near_m) {
   using namespace quick_detail;
-  const Bounds start = bounds_of(shape_a, a.start, shape_b, b.start, reach_m);
+  const HullBounds start = hull_bounds(shape_a, a.start, shape_b, b.start, reach_m);
   const float margin_m = kMargin * start.rounding_m;
   if (start.gap.least_m > reach_m + margin_m) return true;
   if (!is_clear(start) || !(start.gap.least_m > near_m + margin_m)) return false;
-  const float seen_m = 2.0F * reach_m;
+  const float seen_m = seen_reach_m(reach_m);
   const Vec3 n = start.gap.normal;
-  return quickly_still_apart(n, shape_a, a.end, shape_b, b.end, seen_m) == QuickAnswer::kYes &&
-         quickly_still_apart(n, shape_a, a.end, shape_b, b.start, seen_m) == QuickAnswer::kYes &&
-         quickly_still_apart(n, shape_a, a.start, shape_b, b.end, seen_m) == QuickAnswer::kYes;
+  const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b) {
+    const HullBounds end = hull_bounds(shape_a, at_a, shape_b, at_b, seen_m);
+    return quickly_still_apart(n, end, seen_m) == QuickAnswer::kYes;
+  };
+  return are_apart(a.end, b.end) && are_apart(a.end, b.start) && are_apart(a.start, b.end);
 }
 
 }  // namespace broadside::core

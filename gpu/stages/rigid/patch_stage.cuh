@@ -35,7 +35,8 @@ __device__ inline core::ContactPath path_of(const ContactView& f, std::uint32_t 
 
 // Whether a patch leads to no contact in this step.
 template <typename Lanes>
-__device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found) {
+__device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found,
+                           const core::KnownGaps* known) {
   const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
   const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
   const core::ContactPath path_a = path_of(f, pair.i);
@@ -51,24 +52,26 @@ __device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Ma
   const float near_m = core::near_m(found.normal, f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j],
                                     f.pushers[pair.j].pushed.v);
   return core::passes_by<Lanes>(found, a.contact, path_a, b.contact, path_b, f.reach_m[pair.i] + f.reach_m[pair.j],
-                                near_m);
+                                near_m, known);
 }
 
-// Returns how many patches the pair has.
+// Returns how many patches the pair has. known: of two hulls, or nothing.
 template <typename Lanes>
-__device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found) {
+__device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found,
+                            const core::KnownGaps* known = nullptr) {
   if (is_idle(f, pair.i) && is_idle(f, pair.j)) return 0;
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
   const core::ContactPath path_a = path_of(f, pair.i);
   const core::ContactPath path_b = path_of(f, pair.j);
   const float reach_m = f.reach_m[pair.i] + f.reach_m[pair.j];
-  const int count = core::make_manifolds<Lanes>(a, path_a.start, b, path_b.start, reach_m, found);
+  const int count = core::make_manifolds<Lanes>(a, path_a.start, b, path_b.start, reach_m, found,
+                                                known != nullptr ? &known->start : nullptr);
   int kept = 0;
   for (int k = 0; k < count; ++k)
-    if (!is_passing<Lanes>(f, pair, found[k])) found[kept++] = found[k];
+    if (!is_passing<Lanes>(f, pair, found[k], known)) found[kept++] = found[k];
   const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
-  return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept);
+  return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept, known);
 }
 
 // A body at rest may be driven into a face as fast as its fastest neighbor comes.
@@ -130,8 +133,18 @@ __device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body)
   return may;
 }
 
+// By one lane, too: lanes cannot share a search for a distance, but each can do one.
+__device__ inline bool find_gaps(const ContactView& f, core::Pair pair, core::KnownGaps& gaps) {
+  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
+  const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
+  if (!core::has_quick_answers(a, b) || (is_idle(f, pair.i) && is_idle(f, pair.j))) return false;
+  gaps = core::known_gaps(a, path_of(f, pair.i), b, path_of(f, pair.j), f.reach_m[pair.i] + f.reach_m[pair.j]);
+  return true;
+}
+
 // The same of any shapes, a warp a pair: the loops over corners, edges, faces and triangles are shared by its lanes,
-// and its code is fetched once for all. Before, each lane looks whether an item of its own has any patches.
+// and its code is fetched once for all. Before, each lane looks whether an item of its own has any patches, and how far
+// two hulls are from each other.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
   const std::uint64_t confirmed = f.counts->confirmed;
@@ -140,12 +153,17 @@ __device__ void make_long_patches(const Team& team, const ContactView& f) {
     const core::Pair own = is_item && is_pair ? f.confirmed.items[k] : core::Pair{};
     const bool may_have = is_item && (is_pair ? f.follows_ways || may_touch(f, own)
                                               : may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed)));
+    core::KnownGaps own_gaps;
+    const bool has_gaps = may_have && is_pair && !f.follows_ways && find_gaps(f, own, own_gaps);
     for (unsigned with = __ballot_sync(kFullWarp, may_have); with != 0; with &= with - 1) {
       const auto of = static_cast<unsigned>(__ffs(static_cast<int>(with)) - 1);
       core::Manifold found[core::kPatchesOfPair];
       if (__shfl_sync(kFullWarp, is_pair ? 1 : 0, of) != 0) {
         const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
-        const int count = touch_bodies<WarpLanes>(f, pair, found);
+        const bool are_known = __shfl_sync(kFullWarp, has_gaps ? 1 : 0, of) != 0;
+        core::KnownGaps gaps;
+        if (are_known) gaps = of_lane(own_gaps, of);
+        const int count = touch_bodies<WarpLanes>(f, pair, found, are_known ? &gaps : nullptr);
         add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
         continue;
       }

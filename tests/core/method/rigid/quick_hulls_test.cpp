@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/exact/convex_hull.hpp"
+#include "core/method/rigid/end_patches.hpp"
 #include "core/method/rigid/hull_climb.hpp"
+#include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "tests/core/method/rigid/manifold_cases.hpp"
 
@@ -77,6 +79,63 @@ TEST(HullGap, EnclosesTheDistance) {
   EXPECT_GT(overlapping, 30);
 }
 
+// Two boulders that turn and come near each other within a step.
+struct Meeting {
+  Subject a;
+  Subject b;
+  ContactPath path_a;
+  ContactPath path_b;
+  float reach_m = 0.0F;
+};
+Meeting meeting(Draw& draw) {
+  Meeting m{boulder(draw, 60), boulder(draw, 60), {}, {}};
+  m.path_a = {{{}, draw.turn()}, {draw.in_cube(0.1F), draw.turn()}};
+  m.path_b.start = {draw.between(0.7F, 1.2F) * normalized(draw.in_cube(1.0F)), draw.turn()};
+  m.path_b.end = {m.path_b.start.x + draw.in_cube(0.1F), draw.turn()};
+  m.reach_m = length(m.path_a.end.x) + length(m.path_b.end.x - m.path_b.start.x);
+  return m;
+}
+
+bool is_same(const Manifold& a, const Manifold& b) {
+  if (a.count != b.count || !(a.normal == b.normal)) return false;
+  for (int k = 0; k < a.count; ++k)
+    if (!(a.points[k].point == b.points[k].point) || a.points[k].gap_m != b.points[k].gap_m ||
+        a.points[k].feature != b.points[k].feature)
+      return false;
+  return true;
+}
+
+// Whoever hands in known gaps gets the same patches, bit by bit.
+TEST(QuickHulls, KnownGapsChangeNoPatch) {
+  Draw draw(17);
+  int patches = 0;
+  int passing = 0;
+  int added = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Meeting m = meeting(draw);
+    const ContactShape& a = m.a.shape;
+    const ContactShape& b = m.b.shape;
+    const KnownGaps gaps = known_gaps(a, m.path_a, b, m.path_b, m.reach_m);
+    Manifold plain[kPatchesOfPair];
+    Manifold known[kPatchesOfPair];
+    const int count = make_manifolds(a, m.path_a.start, b, m.path_b.start, m.reach_m, plain);
+    ASSERT_EQ(make_manifolds(a, m.path_a.start, b, m.path_b.start, m.reach_m, known, &gaps.start), count);
+    if (count == 0) continue;
+    ++patches;
+    EXPECT_TRUE(is_same(plain[0], known[0])) << trial;
+    const bool passes = passes_by(plain[0], a, m.path_a, b, m.path_b, m.reach_m, 0.0F);
+    EXPECT_EQ(passes_by(plain[0], a, m.path_a, b, m.path_b, m.reach_m, 0.0F, &gaps), passes) << trial;
+    passing += passes ? 1 : 0;
+    const int all = add_end_patches(a, m.path_a, b, m.path_b, 1.0F, plain, count);
+    ASSERT_EQ(add_end_patches(a, m.path_a, b, m.path_b, 1.0F, known, count, &gaps), all) << trial;
+    for (int k = 0; k < all; ++k) EXPECT_TRUE(is_same(plain[k], known[k])) << trial;
+    added += all - count;
+  }
+  EXPECT_GT(patches, 50);
+  EXPECT_GT(passing, 10);
+  EXPECT_GT(added, 10);
+}
+
 // As is_still_apart says it, by patches alone.
 bool stays_apart(const Manifold& start, const Subject& a, const ContactPose& at_a, const Subject& b,
                  const ContactPose& at_b, float reach_m) {
@@ -112,7 +171,9 @@ TEST(QuickHulls, TellWhatPatchesTell) {
       for (const auto& [at_a, at_b] : ends) {
         const bool apart = stays_apart(start[0], a, *at_a, b, *at_b, 2.0F * reach_m);
         passes &= apart;
-        const QuickAnswer answer = quickly_still_apart(start[0].normal, a.shape, *at_a, b.shape, *at_b, 2.0F * reach_m);
+        const float seen_m = seen_reach_m(reach_m);
+        const HullBounds bounds = hull_bounds(a.shape, *at_a, b.shape, *at_b, seen_m);
+        const QuickAnswer answer = quickly_still_apart(start[0].normal, bounds, seen_m);
         ++answers[static_cast<int>(answer)];
         if (answer != QuickAnswer::kUnknown) {
           EXPECT_EQ(answer == QuickAnswer::kYes, apart) << trial;

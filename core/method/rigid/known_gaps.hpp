@@ -1,0 +1,44 @@
+// Bounds of the distance of two hulls at all poses of a step at which their patches ask for them. Whoever makes patches
+// of many pairs, a warp a pair, has them worked out before, a lane a pair: a distance is a search that lanes cannot
+// share.
+#pragma once
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/contact_shape.hpp"
+#include "core/method/rigid/hull_gap.hpp"
+#include "core/method/rigid/quick_hulls.hpp"
+
+namespace broadside::core {
+
+struct KnownGaps {
+  HullGap start;  // exact_hull_gap
+  // hull_bounds for passing_by.hpp: where A is, then B
+  HullBounds end_end;
+  HullBounds end_start;
+  HullBounds start_end;
+  HullBounds deep_end;  // for end_patches.hpp: both where they end
+};
+
+// What ends less deep than this is left to the patches of the start.
+BROADSIDE_HD float unseen_m(const ContactShape& a, const ContactShape& b) {
+  constexpr float kUnseen = 0x1p-7F;
+  return kUnseen * (b.kind == ContactKind::kHalfSpace ? a.size_m : fminf(a.size_m, b.size_m));
+}
+
+// Of hulls that have quick answers.
+BROADSIDE_HD KnownGaps known_gaps(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
+                                  const ContactPath& b, float reach_m) {
+  const PlacedShape start_a = placed_shape(shape_a, a.start, a.start.x);
+  const PlacedShape start_b = placed_shape(shape_b, b.start, a.start.x);
+  KnownGaps gaps;
+  gaps.start = exact_hull_gap({shape_a.hull, start_a.center, start_a.axes},
+                              {shape_b.hull, start_b.center, start_b.axes}, contact_rounding_m(start_a, start_b));
+  gaps.end_end = hull_bounds(shape_a, a.end, shape_b, b.end, seen_reach_m(reach_m));
+  gaps.end_start = hull_bounds(shape_a, a.end, shape_b, b.start, seen_reach_m(reach_m));
+  gaps.start_end = hull_bounds(shape_a, a.start, shape_b, b.end, seen_reach_m(reach_m));
+  gaps.deep_end = hull_bounds(shape_a, a.end, shape_b, b.end, -unseen_m(shape_a, shape_b));
+  return gaps;
+}
+
+}  // namespace broadside::core
