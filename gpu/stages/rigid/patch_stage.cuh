@@ -148,31 +148,36 @@ __device__ inline bool find_gaps(const ContactView& f, core::Pair pair, core::Kn
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
   const std::uint64_t confirmed = f.counts->confirmed;
-  each_item_by_warps(team, confirmed + f.body_count, true, [&](std::uint64_t k, bool is_item) {
-    const bool is_pair = k < confirmed;
-    const core::Pair own = is_item && is_pair ? f.confirmed.items[k] : core::Pair{};
-    const bool may_have = is_item && (is_pair ? f.follows_ways || may_touch(f, own)
-                                              : may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed)));
-    core::KnownGaps own_gaps;
-    const bool has_gaps = may_have && is_pair && !f.follows_ways && find_gaps(f, own, own_gaps);
-    for (unsigned with = __ballot_sync(kFullWarp, may_have); with != 0; with &= with - 1) {
-      const auto of = static_cast<unsigned>(__ffs(static_cast<int>(with)) - 1);
-      core::Manifold found[core::kPatchesOfPair];
-      if (__shfl_sync(kFullWarp, is_pair ? 1 : 0, of) != 0) {
-        const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
-        const bool are_known = __shfl_sync(kFullWarp, has_gaps ? 1 : 0, of) != 0;
-        core::KnownGaps gaps;
-        if (are_known) gaps = of_lane(own_gaps, of);
-        const int count = touch_bodies<WarpLanes>(f, pair, found, are_known ? &gaps : nullptr);
-        add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
-        continue;
-      }
-      const std::uint32_t body = __shfl_sync(kFullWarp, static_cast<std::uint32_t>(k - confirmed), of);
-      for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-        if (!may_touch_face(f, body, face)) continue;
-        const int count = touch_face<WarpLanes>(f, body, face, found);
-        add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
-      }
+  core::Pair own;
+  core::KnownGaps own_gaps;
+  bool has_gaps = false;
+  const auto prepare = [&](std::uint64_t k, bool is_item) {
+    has_gaps = false;
+    if (!is_item) return false;
+    if (k >= confirmed) return may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed));
+    own = f.confirmed.items[k];
+    if (f.follows_ways) return true;
+    if (!may_touch(f, own)) return false;
+    has_gaps = find_gaps(f, own, own_gaps);
+    return true;
+  };
+  each_item_in_step(team, confirmed + f.body_count, prepare, [&](std::uint64_t own_k, unsigned of) {
+    const std::uint64_t k = __shfl_sync(kFullWarp, own_k, of);
+    core::Manifold found[core::kPatchesOfPair];
+    if (k < confirmed) {
+      const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
+      const bool are_known = __shfl_sync(kFullWarp, has_gaps ? 1 : 0, of) != 0;
+      core::KnownGaps gaps;
+      if (are_known) gaps = of_lane(own_gaps, of);
+      const int count = touch_bodies<WarpLanes>(f, pair, found, are_known ? &gaps : nullptr);
+      add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
+      return;
+    }
+    const auto body = static_cast<std::uint32_t>(k - confirmed);
+    for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+      if (!may_touch_face(f, body, face)) continue;
+      const int count = touch_face<WarpLanes>(f, body, face, found);
+      add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
     }
   });
 }
