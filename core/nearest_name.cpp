@@ -44,9 +44,16 @@ std::string_view nearest_of_kind(std::string_view typed, std::span<const std::st
   for (const std::string_view name : known) heads.push_back(head_of(name));
   const std::string_view head = nearest_name(head_of(typed), heads);
   if (!is_near(head_of(typed), head)) return {};
+  // Of those, the ones that begin like it for longest.
   std::vector<std::string_view> of_kind;
-  for (const std::string_view name : known)
-    if (head_of(name) == head) of_kind.push_back(name);
+  std::ptrdiff_t longest = -1;
+  for (const std::string_view name : known) {
+    if (head_of(name) != head) continue;
+    const std::ptrdiff_t shared =
+        std::mismatch(typed.begin(), typed.end(), name.begin(), name.end()).first - typed.begin();
+    if (shared > longest) of_kind.clear(), longest = shared;
+    if (shared == longest) of_kind.push_back(name);
+  }
   return nearest_name(typed, of_kind);
 }
 
