@@ -221,6 +221,29 @@ TEST_P(ContactSolvers, BouncesBackWithTheShareOfRestitution) {
   }
 }
 
+// A pillar that lands is sure to bounce in several substeps, if it may. At rest nobody looks for what bounces.
+TEST_P(ContactSolvers, BouncesOnceAStep) {
+  constexpr std::uint64_t kMostSweeps = 8 + 8;  // to stop what came fast, and to give its share back
+  BoxRig rig = pillar(5, 1.0F);
+  for (core::Material& material : rig.materials) material.restitution = 0.5F;
+  rig.face_material.restitution = 0.5F;
+  for (core::RigidState& state : rig.states) {
+    state.x.y += 0.02F;
+    state.v.y = -2.0F;
+  }
+  const auto solver = this->solver();
+  std::uint64_t before = 0;
+  const auto sweeps_of_step = [&] {
+    step_pillar(rig, *solver);
+    const std::uint64_t sweeps = solver->sweeps_done().bouncing - before;
+    before += sweeps;
+    return sweeps;
+  };
+  EXPECT_GT(sweeps_of_step(), 0U);
+  EXPECT_GT(rig.states[0].v.y, 0.0F);
+  for (int k = 1; k < 300; ++k) ASSERT_LE(sweeps_of_step(), k < 240 ? kMostSweeps : 0U) << "step " << k;
+}
+
 // Spinning boxes hit the floor with a corner, with much friction and restitution: Newton's rule alone gives some of
 // them more energy than they had.
 TEST(ConjugateSolver, CornerThatBouncesGainsNoEnergy) {
