@@ -4,6 +4,7 @@
 
 #include "core/method/rigid/point_digest.hpp"
 #include "core/method/rigid/rigid_declaration.hpp"
+#include "core/method/rigid/step_in_parts.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -52,7 +53,8 @@ core::Status PipelineByMotion::finish_copy(core::FrameRecord& frame) {
 }
 
 core::Declaration PipelineByMotion::declaration_for(const core::Scene& scene) const {
-  return turns(scene) ? core::rigid_declaration(turning_options_.solver, twin_) : core::method_declaration(twin_);
+  return turns(scene) ? core::rigid_declaration(turning_options_.solver, core::largest_mass_ratio(scene), twin_)
+                      : core::method_declaration(twin_);
 }
 
 std::uint32_t PipelineByMotion::groups_for(const core::Scene& scene) const {

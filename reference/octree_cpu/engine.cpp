@@ -10,6 +10,7 @@
 #include "core/method/rigid/refuse_method_settings.hpp"
 #include "core/method/rigid/rigid_declaration.hpp"
 #include "core/method/rigid/rigid_settings.hpp"
+#include "core/method/rigid/step_in_parts.hpp"
 #include "core/variant.hpp"
 #include "reference/engines.hpp"
 #include "reference/octree_cpu/pipeline_by_motion.hpp"
@@ -82,7 +83,9 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   turning.make_solver = [soft, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
     return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
   };
-  turning.declaration = core::rigid_declaration(soft);
+  turning.declare = [soft](const core::Scene& scene) {
+    return core::rigid_declaration(soft, core::largest_mass_ratio(scene));
+  };
   turning.sleeps = settings.text("sleep") == "on";
   turning.sweeps_fast = settings.text("sweep") == "fast";
   turning.threads = threads;

@@ -4,15 +4,18 @@
 #include <string>
 
 namespace broadside::core {
-Declaration rigid_declaration(const SoftSettings& solver, std::string_view twin_of) {
+
+Declaration rigid_declaration(const SoftSettings& solver, float largest_mass_ratio, std::string_view twin_of) {
+  const MostOfStep most = most_of_step(solver, largest_mass_ratio);
+  const bool is_in_parts = parts_of_step(solver, largest_mass_ratio) > 1;
   std::map<std::string, std::string> given{
       {"motion", "rigid"},
-      {"detection_at", "start"},
+      {"detection_at", is_in_parts ? "within" : "start"},
       {"contacts", "totals"},
       {"integrator", "semi-implicit Euler; Runge-Kutta 4 for orientation, angular momentum constant"},
       {"order", "1"},
-      {"substeps", std::to_string(most_of_step(solver).substeps)},
-      {"iterations", std::to_string(most_of_step(solver).applications)},
+      {"substeps", std::to_string(most.substeps)},
+      {"iterations", std::to_string(most.applications)},
       {"friction", "cone"},
       {"contact_model", "rigid"},
       {"correction", "position"},

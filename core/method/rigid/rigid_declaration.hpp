@@ -8,7 +8,7 @@
 
 namespace broadside::core {
 
-// twin_of: empty, or the engine whose bits it repeats.
-Declaration rigid_declaration(const SoftSettings& solver, std::string_view twin_of = {});
+// twin_of: empty, or the engine whose bits it repeats. largest_mass_ratio: of the scene's bodies that move.
+Declaration rigid_declaration(const SoftSettings& solver, float largest_mass_ratio, std::string_view twin_of = {});
 
 }  // namespace broadside::core
