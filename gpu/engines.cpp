@@ -24,6 +24,8 @@ std::span<const core::SettingRow> octree_settings() {
       core::contact_setting(),
       core::substeps_setting(),
       core::thresholds_setting(),
+      core::sleep_setting(),
+      core::sweep_setting(),
       {"pairs_at_once", "0", {}, "boxes alone: room on the device for so many pairs, found in chunks; 0 = for all"},
       {"parts", "0", {}, "boxes alone: ranges of space, searched each on a device; 0 = one for each device"},
       {"devices", "1", {}, "boxes alone: GPUs that share them; 0 = all that there are"},

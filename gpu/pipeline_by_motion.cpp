@@ -4,6 +4,7 @@
 
 #include "core/method/rigid/point_digest.hpp"
 #include "core/method/rigid/rigid_declaration.hpp"
+#include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/step_in_parts.hpp"
 
 namespace broadside::gpu {
@@ -53,8 +54,11 @@ core::Status PipelineByMotion::finish_copy(core::FrameRecord& frame) {
 }
 
 core::Declaration PipelineByMotion::declaration_for(const core::Scene& scene) const {
-  return turns(scene) ? core::rigid_declaration(turning_options_.solver, core::largest_mass_ratio(scene), twin_)
-                      : core::method_declaration(twin_);
+  if (!turns(scene)) return core::method_declaration(twin_);
+  const core::Declaration awake =
+      core::rigid_declaration(turning_options_.solver, core::largest_mass_ratio(scene), twin_);
+  if (!turning_options_.sleeps) return awake;
+  return core::with_sleep(awake, core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s));
 }
 
 std::uint32_t PipelineByMotion::groups_for(const core::Scene& scene) const {

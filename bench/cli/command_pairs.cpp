@@ -41,12 +41,13 @@ void print_table(const std::vector<RaceRow>& rows) {
   }
   for (const RaceRow& r : rows)
     if (!r.path.empty()) fmt::print("{}: {}\n", r.label, r.path);
-  for (const RaceRow& r : rows)
-    if (r.parts > 1 && r.absent.empty())
-      fmt::print("{}: {} parts with {:.3g} % more boxes, cut in {:.3f} ms of the update; at most {} pairs at once\n",
-                 r.label, r.parts,
-                 100.0 * (static_cast<double>(r.dealt) / std::max(1.0, static_cast<double>(r.boxes * r.frames)) - 1.0),
-                 r.cut_s * 1e3, r.most_pairs_at_once);
+  for (const RaceRow& r : rows) {
+    if (r.parts <= 1 || !r.absent.empty()) continue;
+    const auto given = static_cast<double>(r.boxes * r.frames);
+    const double more = given == 0.0 ? 0.0 : 100.0 * (static_cast<double>(r.dealt) / given - 1.0);
+    fmt::print("{}: {} parts with {:.3g} % more boxes, cut in {:.3f} ms of the update; at most {} pairs at once\n",
+               r.label, r.parts, more, r.cut_s * 1e3, r.most_pairs_at_once);
+  }
   // All engines had the same boxes.
   for (const RaceRow& r : rows) {
     if (!r.absent.empty()) continue;

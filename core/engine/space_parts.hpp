@@ -25,8 +25,9 @@ struct SpaceCut {
   [[nodiscard]] std::uint32_t part_at(float x_m) const {
     return static_cast<std::uint32_t>(std::upper_bound(faces.begin(), faces.end(), x_m) - faces.begin());
   }
+  // part_at(b.min) <= part <= part_at(b.max), by a look at the part's own two faces.
   [[nodiscard]] bool reaches(const Box& b, std::uint32_t part) const {
-    return part_at(b.min[axis]) <= part && part <= part_at(b.max[axis]);
+    return (part == faces.size() || b.min[axis] < faces[part]) && (part == 0 || faces[part - 1] <= b.max[axis]);
   }
   // Of two that overlap.
   [[nodiscard]] std::uint32_t part_of_pair(const Box& a, const Box& b) const {

@@ -49,4 +49,20 @@ inline SettingRow thresholds_setting() {
           "v_threshold_m_s"};
 }
 
+inline SettingRow sleep_setting() {
+  return {"sleep",
+          "off",
+          {"off", "on"},
+          "bodies that turn: on = those that stand still together stop being solved until something awake touches "
+          "them"};
+}
+
+inline SettingRow sweep_setting() {
+  return {"sweep",
+          "off",
+          {"off", "fast"},
+          "bodies that turn: fast = those that move farther in a step than they are thick stop before they pass "
+          "through others"};
+}
+
 }  // namespace broadside::core

@@ -71,6 +71,7 @@ class Builder {
     std::size_t face = 0;
     std::size_t corner = 0;
     std::size_t edge = 0;
+    std::size_t ways = 0;
     ContactShape shape;
   };
   struct MeshPlace {
@@ -118,12 +119,14 @@ class Builder {
 
   ContactShape add_hull(std::uint32_t index, const Mesh& convex) {
     const HullTables tables = hull_tables(convex);
-    HullPlace place{
-        out_.hull_vertices.size(), out_.hull_faces.size(), out_.hull_corners.size(), out_.hull_edges.size(), {}};
+    HullPlace place{out_.hull_vertices.size(), out_.hull_faces.size(), out_.hull_corners.size(),
+                    out_.hull_edges.size(),    out_.hull_ways.size(),  {}};
     append(out_.hull_vertices, tables.vertices);
     append(out_.hull_faces, tables.faces);
     append(out_.hull_corners, tables.corners);
     append(out_.hull_edges, tables.edges);
+    append(out_.hull_ways, tables.ways);
+    append(out_.hull_beyond, tables.beyond);
     place.shape.kind = ContactKind::kHull;
     place.shape.size_m = farthest_m(tables.vertices);
     place.shape.hull.vertex_count = static_cast<std::uint32_t>(tables.vertices.size());
@@ -151,6 +154,8 @@ class Builder {
       hull.faces = out_.hull_faces.data() + place.face;
       hull.corners = out_.hull_corners.data() + place.corner;
       hull.edges = out_.hull_edges.data() + place.edge;
+      hull.ways = out_.hull_ways.data() + place.ways;
+      hull.beyond = out_.hull_beyond.data() + place.corner;
     }
   }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/exact/triangle_distance.hpp"
+#include "core/method/rigid/hull_climb.hpp"
 
 namespace broadside::core {
 namespace {
@@ -39,6 +40,8 @@ class Faces {
     for (const std::uint32_t t : order)
       if (group_[t] == kNone && area[t] > 0.0) add_face(t);
     add_edges();
+    add_ways();
+    add_beyond();
     return std::move(out_);
   }
 
@@ -135,6 +138,39 @@ class Faces {
       const auto back = sides_.find({side.second, side.first});
       if (back == sides_.end() || side.first < side.second)
         out_.edges.push_back({side.first, side.second, face, back == sides_.end() ? face : back->second});
+    }
+  }
+
+  void add_ways() {
+    std::vector<std::vector<std::uint32_t>> neighbors(out_.vertices.size());
+    for (const HullEdge& edge : out_.edges) {
+      neighbors[edge.from].push_back(edge.to);
+      neighbors[edge.to].push_back(edge.from);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax_element(out_.vertices.begin(), out_.vertices.end(),
+                                                   [&](Vec3 p, Vec3 q) { return p[axis] < q[axis]; });
+      out_.ways.push_back(static_cast<std::uint32_t>(low - out_.vertices.begin()));
+      out_.ways.push_back(static_cast<std::uint32_t>(high - out_.vertices.begin()));
+    }
+    auto begin = static_cast<std::uint32_t>(kHullEnds + neighbors.size() + 1);
+    for (const auto& of_corner : neighbors) {
+      out_.ways.push_back(begin);
+      begin += static_cast<std::uint32_t>(of_corner.size());
+    }
+    out_.ways.push_back(begin);
+    for (const auto& of_corner : neighbors) out_.ways.insert(out_.ways.end(), of_corner.begin(), of_corner.end());
+  }
+
+  void add_beyond() {
+    for (std::uint32_t f = 0; f < out_.faces.size(); ++f) {
+      const HullFace& face = out_.faces[f];
+      for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+        const std::uint32_t from = out_.corners[face.first_corner + k];
+        const std::uint32_t to = out_.corners[face.first_corner + (k + 1 == face.corner_count ? 0 : k + 1)];
+        const auto back = sides_.find({to, from});
+        out_.beyond.push_back(back == sides_.end() ? f : back->second);
+      }
     }
   }
 

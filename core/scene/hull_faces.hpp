@@ -14,6 +14,8 @@ struct HullTables {
   std::vector<HullFace> faces;
   std::vector<std::uint32_t> corners;
   std::vector<HullEdge> edges;
+  std::vector<std::uint32_t> ways;  // as HullView has them
+  std::vector<std::uint32_t> beyond;
 };
 
 // mesh: closed and convex, triangles outward. A face of more than kFaceCorners corners becomes several in one plane.

@@ -11,6 +11,11 @@ namespace {
 // Some eight overlaps a box in the densest scenes of the campaign; a frame that finds more is found again.
 constexpr std::uint64_t kPairsPerBox = 8;
 
+// What a pass finds in its own coordinates is up to some twenty times what it keeps. Where pairs are handed on in
+// chunks, as many a box: room of its own, so that a chunk is as large as asked for, and more than one box alone can
+// find.
+constexpr std::uint64_t kFoundPerBox = 2;
+
 // Shares are of sets too large to need more than one.
 std::uint32_t lanes_for(const BoxFacts& facts, const PairFinderOptions& options) {
   return options.has_shares ? 1 : facts.fit.lanes_per_box;
@@ -82,6 +87,7 @@ core::Status BoxSearch::settle_on_given(std::uint32_t owned, const PairFinderOpt
   if (!shape.ok()) return shape.error();
   settle_shape_ = shape.value();
   BROADSIDE_TRY(settled_.reserve(first_room(options), "pairs"));
+  BROADSIDE_TRY(pairs_.reserve(std::max(first_room(options), kFoundPerBox * count_), "pairs of a pass"));
   settle_.given = given_.data();
   settle_.owned = owned;
   settle_.counters = view_.counters;
@@ -146,6 +152,15 @@ core::Status BoxSearch::grow() {
 core::Status BoxSearch::count_work(WorkCounter& work, StreamHandle stream) {
   return work.count_broad({view_.broad, view_.bulk, view_.boxes, view_.box_count, view_.counters},
                           shape_.search.multiprocessors, stream);
+}
+
+double BoxSearch::fullness() const {
+  const Counters& counts = outcome_[0].counters;
+  const auto part = [](std::uint64_t pairs, std::uint64_t room) {
+    return static_cast<double>(pairs) / static_cast<double>(room);
+  };
+  const double found = part(counts.pairs, pairs_.capacity());
+  return is_settled() ? std::max(found, part(counts.confirmed, settled_.capacity())) : found;
 }
 
 FoundPairs BoxSearch::found() const {

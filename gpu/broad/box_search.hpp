@@ -59,7 +59,10 @@ class BoxSearch {
   core::Status count_work(WorkCounter& work, StreamHandle stream);
 
   [[nodiscard]] FoundPairs found() const;
-  [[nodiscard]] std::uint64_t room_for_pairs() const { return pairs_.capacity(); }
+  [[nodiscard]] std::uint64_t room_for_pairs() const { return is_settled() ? settled_.capacity() : pairs_.capacity(); }
+  // How much of its room for pairs the last launch needed: above 1, there was too little. Of a pass, of what it found
+  // or of what it kept, whichever needed more of its own.
+  [[nodiscard]] double fullness() const;
   // The pairs of the last launch, behind those that are there.
   core::Status append_pairs(std::vector<core::Pair>& to) const;
 

@@ -12,11 +12,10 @@ constexpr std::uint64_t kExpectedPairsPerBox = 16;
 constexpr double kAim = 0.75;
 constexpr double kMostGrowth = 4.0;
 
-// By what the last share of this width has found.
-std::uint64_t next_width(std::uint64_t width, std::uint64_t found, std::uint64_t room) {
-  const double wanted = kAim * static_cast<double>(room) / static_cast<double>(std::max<std::uint64_t>(found, 1));
-  return std::max<std::uint64_t>(
-      1, static_cast<std::uint64_t>(static_cast<double>(width) * std::min(wanted, kMostGrowth)));
+// By how full the last share of this width has made a chunk.
+std::uint64_t next_width(std::uint64_t width, double fullness) {
+  const double growth = fullness * kMostGrowth > kAim ? kAim / fullness : kMostGrowth;
+  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(static_cast<double>(width) * growth));
 }
 
 // Sets that have boxes beyond the cells of the grid are found at once.
@@ -46,19 +45,18 @@ core::Status for_each_chunk(BoxSearch& search, const Stream& stream, const Chunk
     BROADSIDE_TRY(search.launch_share(share, stream.get()));
     BROADSIDE_TRY(stream.wait("finding a chunk of pairs"));
     share.is_in_order = true;
-    const std::uint64_t found = search.outcome().counters.pairs;
     const std::uint64_t searched = share.end_place - share.first_place;
     if (search.is_aborted()) {
       if (searched == 1)
-        return core::Error{
-            "one box alone has " + std::to_string(found) + " pairs, and a chunk has room for " + std::to_string(room),
-            "broad phase on the GPU", "give pairs_at_once of at least that many", core::Exit::kMissing};
-      width = std::min(next_width(searched, found, room), searched / 2);
+        return core::Error{"one box alone has " + std::to_string(search.found().count) +
+                               " pairs, and a chunk has room for " + std::to_string(room),
+                           "broad phase on the GPU", "give pairs_at_once of at least that many", core::Exit::kMissing};
+      width = std::min(next_width(searched, search.fullness()), searched / 2);
       continue;
     }
     BROADSIDE_TRY(take(search.found()));
     share.first_place = share.end_place;
-    width = next_width(searched, found, room);
+    width = next_width(searched, search.fullness());
   }
   return core::Done{};
 }

@@ -142,6 +142,12 @@ T atomicMin(T* to, T value) {
   return old;
 }
 template <typename T>
+T atomicCAS(T* at, T seen, T value) {
+  const T before = *at;
+  if (before == seen) *at = value;
+  return before;
+}
+template <typename T>
 T atomicMax(T* to, T value) {
   const T old = *to;
   *to = std::max(old, value);

@@ -2,11 +2,14 @@
 #include <cstdlib>
 
 #include "gpu/rigid/rigid_kernel.hpp"
+#include "gpu/rigid/swept_launch.hpp"
 #include "gpu/stages/rigid/constraint_frame.cuh"
 #include "gpu/stages/rigid/contact_frame.cuh"
 #include "gpu/stages/rigid/place_stage.cuh"
 #include "gpu/stages/rigid/rigid_digest.cuh"
+#include "gpu/stages/rigid/sleep_stage.cuh"
 #include "gpu/stages/rigid/solve_frame.cuh"
+#include "gpu/stages/rigid/swept_stage.cuh"
 
 namespace broadside::gpu {
 namespace {
@@ -62,6 +65,43 @@ core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& 
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle /*stream*/) {
   on_host::run({{blocks}, {kSolveThreads}, seed()}, sizeof(ColorTable),
                [&](unsigned char* shared) { run_solve(frame, *reinterpret_cast<ColorTable*>(shared)); });
+  return core::Done{};
+}
+
+core::Result<LaunchShape> swept_contact_launch_shape() {
+  return contact_launch_shape();
+}
+
+core::Status launch_swept_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts<true, true>(frame); });
+  return core::Done{};
+}
+
+core::Result<LaunchShape> swept_launch_shape() {
+  return contact_launch_shape();
+}
+
+core::Status launch_ways(const SweptView& view, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_ways(view); });
+  return core::Done{};
+}
+
+core::Status launch_stop_short(const SweptView& view, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_stop_short(view); });
+  return core::Done{};
+}
+
+core::Result<LaunchShape> sleep_launch_shape() {
+  return contact_launch_shape();
+}
+
+core::Status launch_wake(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_wake(frame); });
+  return core::Done{};
+}
+
+core::Status launch_fall_asleep(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_fall_asleep(frame); });
   return core::Done{};
 }
 

@@ -1,5 +1,5 @@
-// The launches that find the contacts of turning bodies: contact_kernel.cu and long_contact_kernel.cu implement them on
-// CUDA, on_host/rigid_on_host.cpp with fibers.
+// The launches that find the contacts of turning bodies: contact_kernel.cu and
+// long_contact_kernel.cu implement them on CUDA, on_host/rigid_on_host.cpp with fibers.
 #pragma once
 
 #include "core/result.hpp"
@@ -11,10 +11,13 @@ namespace broadside::gpu {
 
 core::Result<LaunchShape> contact_launch_shape();
 core::Result<LaunchShape> long_contact_launch_shape();
+core::Result<LaunchShape> swept_contact_launch_shape();
 
 // Levels and patches of contact, behind the broad phase. Asynchronous. Does nothing where the frame has no pairs.
 core::Status launch_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
 // The same where frame.has_long_contacts.
 core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
+// The same of any shapes with sweep=fast.
+core::Status launch_swept_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
 
 }  // namespace broadside::gpu

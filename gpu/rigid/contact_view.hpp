@@ -27,6 +27,7 @@ struct RigidShapeView {
   const core::NodeBoxes* nodes = nullptr;
   core::VertexTreeView vertices;
   core::ShapeBalls balls;
+  float half_thickness_m = 0.0F;  // as core::RigidShape has it
 };
 
 // A patch in the list of one of its moved bodies.
@@ -76,6 +77,13 @@ struct RigidCounts {
   std::uint32_t largest[4][4] = {};
   unsigned long long sums[4] = {};
   SolveCounts done;
+  // Where bodies sleep. Patches of those that sleep lie behind the others and are not solved.
+  unsigned long long asleep_patches = 0;
+  unsigned long long asleep_bodies = 0;
+  std::uint32_t woken = 0;  // 1: the frame begins again, for an island wakes
+  // Of the frame that the host was told of, for the launch behind that.
+  std::uint32_t told_is_aborted = 0;
+  unsigned long long told_patches = 0;
 };
 
 // What the host reads after a frame, in host memory that the device writes.
@@ -99,6 +107,8 @@ struct ContactView {
   const core::Material* material = nullptr;
   const core::ContactShape* face_shapes = nullptr;  // [6]
   const core::ContactPose* face_poses = nullptr;    // [6]
+
+  std::uint8_t* asleep = nullptr;  // [bodies] 1: asleep; null where none ever is
 
   const core::RigidState* before = nullptr;  // at the start of the step, which is the pose of detection
   // Of detection, as core::RigidBodies has them.

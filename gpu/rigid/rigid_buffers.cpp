@@ -50,12 +50,44 @@ std::uint64_t RigidBuffers::Memory::bytes() const {
   return begin.bytes() + count.bytes() + filled.bytes() + entries.bytes() + feature.bytes() + impulse.bytes();
 }
 
+core::Status RigidBuffers::Sleep::reserve_bodies(std::size_t bodies) {
+  BROADSIDE_TRY(asleep.reserve(bodies, "bodies"));
+  BROADSIDE_TRY(still.reserve(bodies, "bodies"));
+  BROADSIDE_TRY(island.reserve(bodies, "bodies"));
+  BROADSIDE_TRY(parent.reserve(bodies, "bodies"));
+  return restless.reserve(bodies, "bodies");
+}
+
+void RigidBuffers::Sleep::fill(RigidFrameView& view) const {
+  view.asleep = asleep.data();
+  view.sleep.still = still.data();
+  view.sleep.island = island.data();
+  view.sleep.parent = parent.data();
+  view.sleep.restless = restless.data();
+  view.sleep.old = old.data();
+  view.sleep.old_count = old_count;
+  view.sleep.now = {now.data(), now.capacity()};
+}
+
+std::uint64_t RigidBuffers::Sleep::bytes() const {
+  return asleep.bytes() + still.bytes() + island.bytes() + parent.bytes() + restless.bytes() + old.bytes() +
+         now.bytes();
+}
+
+core::Status RigidBuffers::wake_all() {
+  if (!may_sleep_) return core::Done{};
+  sleep_.old_count = 0;
+  BROADSIDE_TRY(sleep_.asleep.fill_bytes(0));
+  return sleep_.still.fill_bytes(0);
+}
+
 core::Status RigidBuffers::reserve_patches(std::size_t patches) {
   BROADSIDE_TRY(patches_.reserve(patches, "contacts"));
   BROADSIDE_TRY(ranks_.reserve(patches, "contacts"));
   BROADSIDE_TRY(patch_colors_.reserve(patches, "contacts"));
   BROADSIDE_TRY(impulses_.reserve(4 * patches, "contacts"));
   BROADSIDE_TRY(by_color_.reserve(2 * patches, "contacts"));
+  if (may_sleep_) BROADSIDE_TRY(sleep_.now.reserve(patches, "contacts"));
   return memory_.reserve_patches(patches);
 }
 
@@ -73,8 +105,13 @@ core::Status RigidBuffers::reserve_colors(std::size_t colors) {
   return color_count_.fill_bytes(0);
 }
 
-core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
+core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool may_sleep) {
   const std::size_t n = states.size();
+  may_sleep_ = may_sleep;
+  if (may_sleep) {
+    BROADSIDE_TRY(sleep_.reserve_bodies(n));
+    BROADSIDE_TRY(wake_all());
+  }
   BROADSIDE_TRY(before_.upload(states, "bodies"));
   BROADSIDE_TRY(after_.upload(states, "bodies"));
   BROADSIDE_TRY(free_end_.reserve(n, "bodies"));
@@ -107,9 +144,9 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states) {
 
 // The two memories change places, and grow when it is their turn.
 std::size_t RigidBuffers::patch_room() const {
-  return std::min({patches_.capacity(), ranks_.capacity(), patch_colors_.capacity(), impulses_.capacity() / 4,
-                   by_color_.capacity() / 2, memory_.entries.capacity() / 2, memory_.feature.capacity() / 4,
-                   memory_.impulse.capacity() / 4});
+  return std::min({may_sleep_ ? sleep_.now.capacity() : patches_.capacity(), patches_.capacity(), ranks_.capacity(),
+                   patch_colors_.capacity(), impulses_.capacity() / 4, by_color_.capacity() / 2,
+                   memory_.entries.capacity() / 2, memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4});
 }
 
 core::Status RigidBuffers::grow(const RigidCounts& demanded) {
@@ -121,7 +158,9 @@ core::Status RigidBuffers::grow(const RigidCounts& demanded) {
   return wait_for_device("making room for contacts");
 }
 
-void RigidBuffers::advance() {
+void RigidBuffers::advance(const RigidCounts& kept) {
+  if (may_sleep_) sleep_.old.swap(sleep_.now);
+  sleep_.old_count = kept.asleep_patches;
   before_.swap(after_);
   old_push_.swap(push_);
   old_memory_.swap(memory_);
@@ -159,6 +198,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.impulses = impulses_.data();
   view.old_memory = old_memory_.view();
   view.memory = memory_.view();
+  if (may_sleep_) sleep_.fill(view);
   view.counts = counts_.data();
   view.barrier = barrier_.data();
 }
@@ -169,8 +209,8 @@ std::uint64_t RigidBuffers::bytes() const {
          confirmed_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
          color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
          constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + starts_.bytes() +
-         stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + counts_.bytes() +
-         barrier_.bytes();
+         stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + sleep_.bytes() +
+         counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -12,11 +12,13 @@ namespace broadside::gpu {
 
 class RigidBuffers {
  public:
-  core::Status load(std::span<const core::RigidState> states);
+  core::Status load(std::span<const core::RigidState> states, bool may_sleep);
+  // As if nobody had ever stood still.
+  core::Status wake_all();
   // Room for what the aborted frame demanded.
   core::Status grow(const RigidCounts& demanded);
   // The step is kept: what was after is before now.
-  void advance();
+  void advance(const RigidCounts& kept);
   void fill(RigidFrameView& view) const;
   [[nodiscard]] std::uint64_t bytes() const;
 
@@ -40,6 +42,20 @@ class RigidBuffers {
     core::Status reserve_patches(std::size_t patches);
     void swap(Memory& other) noexcept;
     [[nodiscard]] PatchMemory view() const;
+    [[nodiscard]] std::uint64_t bytes() const;
+  };
+  struct Sleep {
+    DeviceBuffer<std::uint8_t> asleep;
+    DeviceBuffer<std::uint32_t> still;
+    DeviceBuffer<std::uint32_t> island;
+    DeviceBuffer<std::uint32_t> parent;
+    DeviceBuffer<std::uint32_t> restless;
+    DeviceBuffer<AsleepPatch> old;
+    DeviceBuffer<AsleepPatch> now;
+    std::uint64_t old_count = 0;
+
+    core::Status reserve_bodies(std::size_t bodies);
+    void fill(RigidFrameView& view) const;
     [[nodiscard]] std::uint64_t bytes() const;
   };
   [[nodiscard]] std::size_t patch_room() const;
@@ -76,6 +92,8 @@ class RigidBuffers {
   DeviceBuffer<core::Vec3> impulses_;
   Memory old_memory_;
   Memory memory_;
+  bool may_sleep_ = false;
+  Sleep sleep_;  // empty unless bodies may sleep
   DeviceBuffer<RigidCounts> counts_;
   DeviceBuffer<unsigned long long> barrier_;
   std::size_t colors_ = 0;

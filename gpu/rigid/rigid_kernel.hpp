@@ -15,9 +15,9 @@
 
 namespace broadside::gpu {
 
-// A frame is four launches beside its broad phase; these are all asynchronous. Each is a kernel of its own, so that
-// none has the registers of another. One that finds that the frame is aborted does nothing, except that the last tells
-// the host.
+// A frame is four launches beside its broad phase, six where bodies sleep; these are all asynchronous. Each is a kernel
+// of its own, so that none has the registers of another. One that finds that the frame is aborted does nothing, except
+// that the solver's tells the host.
 
 core::Result<LaunchShape> constraint_launch_shape();
 
@@ -34,6 +34,11 @@ core::Status launch_place(const RigidFrameView& frame, const LaunchShape& shape,
 core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 // The substeps. blocks: at most those of the shape, for frame.solve_team.
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle stream);
+
+// Where bodies sleep, behind the contacts and behind the substeps.
+core::Result<LaunchShape> sleep_launch_shape();
+core::Status launch_wake(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
+core::Status launch_fall_asleep(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 
 // What the last frame left. Adds to *digest.
 struct RigidDigestView {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/step_in_parts.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
@@ -15,6 +16,7 @@
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/rigid/rigid_read_back.hpp"
 #include "gpu/rigid/rigid_scene.hpp"
+#include "gpu/rigid/sweep_stage.hpp"
 #include "gpu/rigid/told_frame.hpp"
 #include "gpu/runtime/host_side.hpp"
 
@@ -37,10 +39,12 @@ struct RigidPipeline::Impl {
   LaunchShape contact_shape;
   LaunchShape constraint_shape;
   SolveShape solve_shape;
+  LaunchShape sleep_shape;
   BoxFacts facts;
   RigidFrameView view;
   PairsView pairs_view;
   ToldFrame told;
+  SweepStage sweep;
   RigidCounts last;
   std::uint64_t last_pairs = 0;
   std::array<core::StageTime, core::kStageCount> times{};
@@ -51,6 +55,7 @@ struct RigidPipeline::Impl {
   std::uint64_t sweeps = 0;
   std::uint64_t bounce_sweeps = 0;
   std::uint64_t waits = 0;
+  std::uint64_t steps_slept = 0;
   float dt_s = 0.0F;        // of the step
   std::uint32_t parts = 1;  // of a step
   core::StepInParts earlier_parts;
@@ -63,6 +68,7 @@ struct RigidPipeline::Impl {
   void fill();
   core::Status run_part();
   std::uint32_t choose_solve_team();
+  core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
   // The frame is kept, so what it came to is what the next one starts from.
@@ -79,6 +85,10 @@ constexpr float kRoomForSpeed = 1.25F;
 constexpr std::uint64_t kPairsPerBody = 8;
 // Above so many turns of a cluster's threads a larger grid is sooner done, whose barrier takes longer.
 constexpr std::uint64_t kMostTurnsOfCluster = 2;
+
+std::uint64_t launches_of_frame(const RigidPipelineOptions& options) {
+  return options.sleeps ? 7 : 5;
+}
 
 std::uint32_t as_word(float v) {
   return std::bit_cast<std::uint32_t>(v);
@@ -137,7 +147,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.bodies = std::move(bodies).value();
   d.scene = &scene;
   d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
-  d.sweeps = d.bounce_sweeps = d.waits = 0;
+  d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = 0;
+  d.dt_s = 0.0F;
   d.last = {};
   d.parts = core::parts_of_step(d.options.solver, core::largest_mass_ratio(scene));
   d.earlier_parts.begin();
@@ -150,7 +161,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.stream = stream.value();
   BROADSIDE_TRY(wait_for_stream(d.stream, "the end of the scene before"));
   BROADSIDE_TRY(d.device_scene.load(scene, d.bodies));
-  BROADSIDE_TRY(d.buffers.load(d.bodies.state));
+  BROADSIDE_TRY(d.buffers.load(d.bodies.state, d.options.sleeps));
   BROADSIDE_TRY(d.outcome.allocate());
   BROADSIDE_TRY(d.broad_outcome.allocate());
   BROADSIDE_TRY(d.broad_counters.reserve(1, "counters"));
@@ -162,7 +173,9 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
     return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
   });
-  auto contact_shape = d.view.has_long_contacts ? long_contact_launch_shape() : contact_launch_shape();
+  auto contact_shape = d.options.sweeps_fast      ? swept_contact_launch_shape()
+                       : d.view.has_long_contacts ? long_contact_launch_shape()
+                                                  : contact_launch_shape();
   if (!contact_shape.ok()) return contact_shape.error();
   d.contact_shape = contact_shape.value();
   auto constraint_shape = constraint_launch_shape();
@@ -171,6 +184,11 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   auto solve_shape = solve_launch_shape();
   if (!solve_shape.ok()) return solve_shape.error();
   d.solve_shape = solve_shape.value();
+  auto sleep_shape = sleep_launch_shape();
+  if (!sleep_shape.ok()) return sleep_shape.error();
+  d.sleep_shape = sleep_shape.value();
+
+  if (d.options.sweeps_fast) BROADSIDE_TRY(d.sweep.load(d.bodies));
 
   d.facts = {};
   d.facts.count = static_cast<std::uint32_t>(n);
@@ -193,6 +211,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 void RigidPipeline::Impl::fill() {
   buffers.fill(view);
   view.dt_s = part_s();
+  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, view.dt_s);
   for (std::uint32_t kind = 0; kind < 2; ++kind) {
     view.substeps[kind] = core::substeps_of(view.solver, kind == 1);
     view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, view.dt_s, kind == 1);
@@ -228,6 +247,12 @@ std::uint32_t RigidPipeline::Impl::choose_solve_team() {
   return static_cast<std::uint32_t>(std::min(std::bit_ceil(wanted), most));
 }
 
+core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
+  if (options.sweeps_fast) return launch_swept_contacts(view, contact_shape, stream);
+  if (view.has_long_contacts) return launch_long_contacts(view, contact_shape, stream);
+  return launch_contacts(view, contact_shape, stream);
+}
+
 core::Status RigidPipeline::Impl::launch_all() {
   fill();
   const std::uint32_t solve_blocks = choose_solve_team();
@@ -236,14 +261,16 @@ core::Status RigidPipeline::Impl::launch_all() {
   // find that the boxes are too large, and the frame is repeated.
   const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
   if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
-  BROADSIDE_TRY(view.has_long_contacts ? launch_long_contacts(view, contact_shape, stream)
-                                       : launch_contacts(view, contact_shape, stream));
+  BROADSIDE_TRY(launch_contacts_of_scene());
+  if (options.sleeps) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
   BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
+  if (options.sleeps && view.sleep.speed_m_s > 0.0F) BROADSIDE_TRY(launch_fall_asleep(view, sleep_shape, stream));
   return wait_for_stream(stream, "a frame");
 }
 
-// When its room was too small it has grown, and the frame has to be launched again from the same state.
+// When its room was too small it has grown, and when somebody woke he is awake: the frame has to be launched again from
+// the same state.
 core::Result<bool> RigidPipeline::Impl::is_kept() {
   last = outcome[0].counts;
   if (last.is_aborted == 0) return true;
@@ -269,7 +296,7 @@ void RigidPipeline::Impl::take_frame() {
     times[k] = {core::kStageNames[k], times[k].seconds + static_cast<double>(end_ns - begin_ns) * 1e-9};
     begin_ns = end_ns;
   }
-  buffers.advance();
+  buffers.advance(last);
   last_pairs = has_broad() ? broad_outcome[0].counters.pairs : 0;
   const std::uint64_t n = bodies.state.size();
   pairs_tested += has_broad() ? last_pairs : n * (n - 1) / 2;
@@ -277,6 +304,7 @@ void RigidPipeline::Impl::take_frame() {
   sweeps += last.done.sweeps;
   bounce_sweeps += last.done.bounce_sweeps;
   waits += last.done.waits;
+  steps_slept += last.asleep_bodies;
 }
 
 core::Status RigidPipeline::Impl::run_part() {
@@ -286,12 +314,15 @@ core::Status RigidPipeline::Impl::run_part() {
     if (!kept.ok()) return kept.error();
     is_done = kept.value();
   }
+  if (options.sweeps_fast) BROADSIDE_TRY(sweep.stop_short(view, view.after, stream));
   take_frame();
   return core::Done{};
 }
 
 core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
+  // What a contact gives in a step is no longer that of the last one.
+  if (dt_s != d.dt_s) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
   d.times = {};
   d.earlier_parts.begin();
@@ -348,13 +379,17 @@ std::span<const core::StageTime> RigidPipeline::stage_times() const {
 
 std::vector<core::Counter> RigidPipeline::counters() const {
   const Impl& d = *impl_;
-  return {{"launches", 5 * (d.steps + d.repeats)},
-          {"level stage: pairs tested", d.pairs_tested},
-          {"contact patches", d.patches_made},
-          {"solver: sweeps", d.sweeps},
-          {"solver: sweeps of bounces", d.bounce_sweeps},
-          {"solver: waits", d.waits},
-          {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes()}};
+  std::vector<core::Counter> counters{{"launches", launches_of_frame(d.options) * (d.steps + d.repeats)},
+                                      {"level stage: pairs tested", d.pairs_tested},
+                                      {"contact patches", d.patches_made},
+                                      {"solver: sweeps", d.sweeps},
+                                      {"solver: sweeps of bounces", d.bounce_sweeps},
+                                      {"solver: waits", d.waits},
+                                      {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() +
+                                                           d.pairs.bytes() + d.sweep.bytes()}};
+  if (d.options.sweeps_fast) counters.push_back({"sweep: bodies stopped short", d.sweep.stopped()});
+  if (d.options.sleeps) counters.push_back({"sleep: bodies asleep", d.steps_slept});
+  return counters;
 }
 
 std::uint64_t RigidPipeline::repeated_frames() const {

@@ -21,7 +21,9 @@ struct RigidPipelineOptions {
   core::SoftSettings solver;
   bool has_fixed_thresholds = false;  // the scene's
   std::uint32_t least_for_grid = kLeastBodiesForGrid;
-  bool may_cluster = true;  // few contacts are solved by one cluster of blocks, where the GPU has them
+  bool sweeps_fast = false;  // bodies that move farther than they are thick stop before they pass through others
+  bool sleeps = false;       // islands that stand still stop being solved
+  bool may_cluster = true;   // few contacts are solved by one cluster of blocks, where the GPU has them
 };
 
 // Uses the current CUDA device; not thread-safe.
@@ -32,8 +34,9 @@ class RigidPipeline final : public core::Dynamics, public core::FrameOnDevice {
 
   // Refuses what the twin refuses.
   core::Status load(const core::Scene& scene) override;
-  // Five launches: boxes, candidate pairs, contacts, constraints, substeps; again, from the same state, when room or a
-  // cell of the broad phase turned out too small. Synchronizes. An error when a body has left the finite numbers.
+  // Five launches: boxes, candidate pairs, contacts, constraints, substeps; two more where bodies sleep; again, from
+  // the same state, when room or a cell of the broad phase turned out too small, or somebody wakes. Synchronizes. An
+  // error when a body has left the finite numbers.
   core::Status step(float dt_s) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/contact.hpp"
+#include "core/method/rigid/hull_climb.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -28,6 +29,8 @@ RigidScene::Places RigidScene::add_tables(const core::RigidShape& shape) {
   at.faces = faces_.add({hull.faces, hull.face_count});
   at.corners = indices_.add({hull.corners, corners_of(hull)});
   at.edges = edges_.add({hull.edges, hull.edge_count});
+  at.ways = indices_.add({hull.ways, hull.ways == nullptr ? 0 : hull.ways[core::kHullEnds + hull.vertex_count]});
+  at.beyond = indices_.add({hull.beyond, hull.beyond == nullptr ? 0 : corners_of(hull)});
   at.triangles = indices_.add({mesh.triangles, 3 * std::size_t{mesh.triangle_count}});
   at.normals = vectors_.add({mesh.normals, mesh.triangle_count});
   at.least_facing = numbers_.add({mesh.least_facing, mesh.triangle_count});
@@ -58,6 +61,8 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
   hull.faces = faces_.at(at.faces);
   hull.corners = indices_.at(at.corners);
   hull.edges = edges_.at(at.edges);
+  if (hull.ways != nullptr) hull.ways = indices_.at(at.ways);
+  if (hull.beyond != nullptr) hull.beyond = indices_.at(at.beyond);
   core::MeshView& mesh = view.contact.mesh;
   mesh.vertices = vectors_.at(at.vertices);
   mesh.triangles = indices_.at(at.triangles);
@@ -68,6 +73,7 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
   view.vertices = {boxes_.at(at.tree_boxes) + core::kLevelOffset[1], boxes_.at(at.tree_boxes) + core::kLevelOffset[2],
                    indices_.at(at.leaf_begin), vectors_.at(at.tree_vertices)};
   view.balls = shape.balls;
+  view.half_thickness_m = shape.half_thickness_m;
   return view;
 }
 

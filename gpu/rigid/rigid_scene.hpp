@@ -25,6 +25,8 @@ class RigidScene {
     std::size_t faces = 0;
     std::size_t corners = 0;
     std::size_t edges = 0;
+    std::size_t ways = 0;
+    std::size_t beyond = 0;
     std::size_t triangles = 0;
     std::size_t normals = 0;
     std::size_t least_facing = 0;

@@ -10,6 +10,7 @@
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/soft_settings.hpp"
 #include "gpu/rigid/contact_view.hpp"
+#include "gpu/rigid/sleep_view.hpp"
 
 namespace broadside::gpu {
 
@@ -91,6 +92,7 @@ struct RigidFrameView : ContactView {
   core::Vec3* impulses = nullptr;  // [4 * patches] N s on A, of the whole step
   PatchMemory old_memory;          // of the step before
   SolveTeamKind solve_team = SolveTeamKind::kGrid;
+  SleepView sleep;
 };
 
 }  // namespace broadside::gpu

@@ -36,15 +36,8 @@ std::span<const core::SettingRow> settings_table() {
       core::contact_setting(),
       core::substeps_setting(),
       core::thresholds_setting(),
-      {"sleep",
-       "off",
-       {"off", "on"},
-       "bodies that turn: on = those that stand still together stop being solved until something awake touches them"},
-      {"sweep",
-       "off",
-       {"off", "fast"},
-       "bodies that turn: fast = those that move farther in a step than they are thick stop before they pass through "
-       "others"},
+      core::sleep_setting(),
+      core::sweep_setting(),
   };
   return rows;
 }

@@ -39,6 +39,10 @@ struct HullView {
   const HullFace* faces = nullptr;
   const std::uint32_t* corners = nullptr;  // of faces: indices of vertices
   const HullEdge* edges = nullptr;
+  // Which corners are neighbors along edges (hull_climb.hpp); none of hulls that are made on the way.
+  const std::uint32_t* ways = nullptr;
+  // As `corners`: the face beyond the side from this corner to the next one, or the face itself where there is none.
+  const std::uint32_t* beyond = nullptr;
   std::uint32_t vertex_count = 0;
   std::uint32_t face_count = 0;
   std::uint32_t edge_count = 0;

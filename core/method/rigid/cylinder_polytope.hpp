@@ -88,6 +88,8 @@ struct CylinderPolytope {
     return normalized(rim[k - 2] + rim[k - 1 == kRimCorners ? 0 : k - 1]);
   }
   BROADSIDE_HD float face_height(int k) const { return -least(-face_normal(k)); }
+  BROADSIDE_HD Vec3 local_point(Vec3 x) const { return x; }
+  BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(face_normal(k), x) - face_height(k); }
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
   BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int face_corner_count(int k) const { return k < 2 ? kRimCorners : 4; }

@@ -10,6 +10,7 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/quick_hulls.hpp"
 
 namespace broadside::core {
 
@@ -59,6 +60,8 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
   const float size_m = is_plane ? shape_a.size_m : fminf(shape_a.size_m, shape_b.size_m);
   const float unseen_m = kUnseen * size_m;
   if (count == 0 || !(swing_m > unseen_m)) return count;
+  if constexpr (Lanes::kKnowsLongShapes)
+    if (has_quick_answers(shape_a, shape_b) && surely_apart(shape_a, a.end, shape_b, b.end, -unseen_m)) return count;
   float least_m = least_gap_m(found[0]);
   for (int k = 1; k < count; ++k) least_m = fminf(least_m, least_gap_m(found[k]));
   least_m = fminf(least_m, 0.0F);

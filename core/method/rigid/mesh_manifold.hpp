@@ -155,7 +155,7 @@ BROADSIDE_HD_CALLED void cylinder_against_triangle(const PlacedShape& a, const P
   const HullFace faces[2] = {{triangle.normal, offset_m, 0, 3}, {-triangle.normal, -offset_m, 3, 3}};
   ContactShape sheet;
   sheet.kind = ContactKind::kHull;
-  sheet.hull = {vertices, faces, corners, edges, 3, 2, 3};
+  sheet.hull = {vertices, faces, corners, edges, nullptr, nullptr, 3, 2, 3};
   const PlacedShape placed{&sheet, triangle.center, turned_axes({})};
   cylinder_manifold<OneLane>(a, placed, rounding_m, reach_m, m);
   keep_if_seen(m, mesh, t, triangle.normal);
@@ -175,6 +175,8 @@ struct PointPolytope {
   BROADSIDE_HD void edge_faces(int, int& left, int& right) const { left = right = 0; }
   BROADSIDE_HD Vec3 face_normal(int) const { return {}; }
   BROADSIDE_HD float face_height(int) const { return 0.0F; }
+  BROADSIDE_HD Vec3 local_point(Vec3 x) const { return x; }
+  BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(face_normal(k), x) - face_height(k); }
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
   BROADSIDE_HD float height(int, Vec3 direction) const { return dot(direction, center); }
   BROADSIDE_HD int face_corner_count(int) const { return 1; }

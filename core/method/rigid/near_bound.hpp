@@ -11,6 +11,8 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/corner_layer.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/hull_gap.hpp"
+#include "core/method/rigid/polytopes.hpp"
 
 namespace broadside::core {
 
@@ -28,12 +30,24 @@ struct NearBound {
   float farthest_m = 0.0F;  // and nowhere need be farther apart than this
 };
 
+template <typename Polytope>
+inline constexpr bool kIsHull = false;
+template <typename Lanes>
+inline constexpr bool kIsHull<HullPolytopeOf<Lanes>> = true;
+
 // Of bodies that are parted by parted_m > 0 along the unit direction.
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m) {
+BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m,
+                                         float rounding_m) {
   // More steps thin the layer that is searched by less than they cost: each looks at all corners.
   constexpr int kMostSteps = 24;
   constexpr float kThin = 0x1p-7F;
+  if constexpr (kIsHull<PolytopeA> && kIsHull<PolytopeB>) {
+    const HullGap gap =
+        hull_gap({a.hull, a.center, a.axes}, {b.hull, b.center, b.axes}, 3.402823e38F, 0.0F, rounding_m);
+    if (gap.least_m > parted_m) return {gap.normal, gap.least_m, gap.most_m};
+    return {parting, parted_m, gap.most_m};
+  }
   NearBound bound{parting, parted_m, 3.402823e38F};
   Vec3 x = a.corner(lowest_corner(a, parting)) - b.corner(lowest_corner(b, -parting));
   for (int step = 0; step < kMostSteps; ++step) {

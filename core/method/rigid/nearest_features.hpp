@@ -189,7 +189,7 @@ BROADSIDE_HD_CALLED NearestDirection nearest_direction(const PolytopeA& a, const
                                                        float parted_m, float rounding_m, float reach_m) {
   NearestDirection best;
   if (has_many_edges(a, b) && parted_m > 0.0F) {
-    const NearBound bound = near_bound(a, b, parting, parted_m);
+    const NearBound bound = near_bound(a, b, parting, parted_m, rounding_m);
     parting = bound.parting;
     parted_m = bound.parted_m;
     reach_m = fminf(reach_m, bound.farthest_m + 4.0F * rounding_m);

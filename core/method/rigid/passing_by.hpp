@@ -5,6 +5,7 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/quick_hulls.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 
@@ -28,17 +29,17 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
 template <typename Lanes>
 BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
                                  const ContactShape& shape_b, const ContactPose& b, float reach_m) {
+  if constexpr (Lanes::kKnowsLongShapes)
+    if (has_quick_answers(shape_a, shape_b)) {
+      const QuickAnswer quick = quickly_still_apart(start.normal, shape_a, a, shape_b, b, reach_m);
+      if (quick != QuickAnswer::kUnknown) return quick == QuickAnswer::kYes;
+    }
   Manifold end[kPatchesOfPair];
   const int count = make_manifolds<Lanes>(shape_a, a, shape_b, b, reach_m, end);
   for (int k = 0; k < count; ++k)
     if (!(least_gap_m(end[k]) > 0.0F && dot(start.normal, end[k].normal) > 0.0F)) return false;
   return count > 0;
 }
-
-struct ContactPath {
-  ContactPose start;
-  ContactPose end;  // if it touches nothing
-};
 
 // Whether a patch leads to no contact in this step: neither if both bodies move freely, nor if something holds one of
 // them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests.

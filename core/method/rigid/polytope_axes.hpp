@@ -41,23 +41,24 @@ BROADSIDE_HD bool lies_between(Vec3 n, Vec3 left, Vec3 right) {
 // The face that looks most at a point comes first: its gap is near the widest. A face that is in front of one of the
 // last corners that stood out by no more than the best gap so far is passed over.
 template <typename Reference, typename Other>
-BROADSIDE_HD_CALLED SeparatingAxis axis_of_faces(const Reference& reference, const Other& other, bool reference_is_a) {
+BROADSIDE_HD_CALLED SeparatingAxis axis_of_faces(const Reference& reference, const Other& other, bool reference_is_a,
+                                                 float rounding_m) {
   constexpr int kKept = 4;
   SeparatingAxis best;
   Vec3 standing_out[kKept];
-  for (int k = 0; k < kKept; ++k) standing_out[k] = other.corner(0);
+  for (int k = 0; k < kKept; ++k) standing_out[k] = reference.local_point(other.corner(0));
   int seen = 0;
   const auto may_be_wider = [&](int k) {
-    const Vec3 out = reference.face_normal(k);
-    float bound = 3.402823e38F;
-    for (int c = 0; c < kKept; ++c) bound = fminf(bound, dot(out, standing_out[c]));
-    return bound - reference.face_height(k) > best.gap_m;
+    const float least = best.gap_m - rounding_m;
+    bool may = true;
+    for (int c = 0; c < kKept; ++c) may &= reference.height_over(k, standing_out[c]) > least;
+    return may;
   };
   const auto measure = [&](int k) {
     const Vec3 out = reference.face_normal(k);
     const float height = reference.face_height(k);
     const int lowest = lowest_corner(other, out);
-    standing_out[seen++ % kKept] = other.corner(lowest);
+    standing_out[seen++ % kKept] = reference.local_point(other.corner(lowest));
     const float gap = other.least_at(lowest, out) - height;
     if (!(gap > best.gap_m)) return;
     if (reference_is_a)
@@ -146,9 +147,9 @@ BROADSIDE_HD bool across(const PlacedEdge& a, bool a_is_solid, const PlacedEdge&
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB& b, float rounding_m,
                                                    float reach_m) {
-  SeparatingAxis best = axes_detail::axis_of_faces(a, b, true);
+  SeparatingAxis best = axes_detail::axis_of_faces(a, b, true, rounding_m);
   if (best.gap_m > reach_m) return best;
-  const SeparatingAxis faces_of_b = axes_detail::axis_of_faces(b, a, false);
+  const SeparatingAxis faces_of_b = axes_detail::axis_of_faces(b, a, false, rounding_m);
   if (best.kind == AxisKind::kNone || faces_of_b.gap_m > best.gap_m + rounding_m) best = faces_of_b;
   if (best.gap_m > reach_m) return best;
   SeparatingAxis edges;
@@ -160,10 +161,17 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
   if (a.edge_count() * b.edge_count() > axes_detail::kFewEdgePairs && best.kind != AxisKind::kNone) {
     NearBound bound{best.normal, best.gap_m, fmaxf(reach_m, -best.gap_m)};
     if (has_many_edges(a, b) && best.gap_m > 0.0F) {
-      bound = near_bound(a, b, best.normal, best.gap_m);
+      bound = near_bound(a, b, best.normal, best.gap_m, rounding_m);
       bound.farthest_m = fminf(reach_m, bound.farthest_m + 3.0F * rounding_m);
       // No axis is wider than the bodies are apart.
       if (!(bound.farthest_m > best.gap_m + 4.0F * rounding_m)) return best;
+    }
+    if constexpr (kIsHull<PolytopeA> && kIsHull<PolytopeB>) {
+      // No axis parts them, so of those that matter the edges are no farther apart than the bodies are deep.
+      if (has_many_edges(a, b) && !(best.gap_m > 0.0F)) {
+        const float apart_m = near_bound(a, b, best.normal, best.gap_m, rounding_m).farthest_m;
+        bound.farthest_m = fminf(bound.farthest_m, fmaxf(apart_m + 4.0F * rounding_m, -best.gap_m));
+      }
     }
     farthest = bound.farthest_m + rounding_m;
     float thickness = farthest - bound.parted_m;

@@ -42,6 +42,8 @@ struct BoxPolytope {
   BROADSIDE_HD Vec3 face_normal(int k) const { return (k & 1) != 0 ? axes[k / 2] : -axes[k / 2]; }
   // Of the plane of a face, along its normal.
   BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + half[k / 2]; }
+  BROADSIDE_HD Vec3 local_point(Vec3 x) const { return x; }
+  BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(face_normal(k), x) - face_height(k); }
   // Heights of corners along a direction that local() has prepared; of one body among each other.
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
   BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corner(k)); }
@@ -96,6 +98,8 @@ struct SegmentPolytope {
   BROADSIDE_HD void edge_faces(int, int& left, int& right) const { left = right = 0; }
   BROADSIDE_HD Vec3 face_normal(int) const { return {}; }
   BROADSIDE_HD float face_height(int) const { return 0.0F; }
+  BROADSIDE_HD Vec3 local_point(Vec3 x) const { return x; }
+  BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(face_normal(k), x) - face_height(k); }
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
   BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int face_corner_count(int) const { return 2; }
@@ -132,6 +136,8 @@ struct TrianglePolytope {
   }
   BROADSIDE_HD Vec3 face_normal(int k) const { return k == 0 ? normal : -normal; }
   BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), corners[0]); }
+  BROADSIDE_HD Vec3 local_point(Vec3 x) const { return x; }
+  BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(face_normal(k), x) - face_height(k); }
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
   BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corners[k]); }
   BROADSIDE_HD int face_corner_count(int) const { return 3; }
@@ -167,6 +173,9 @@ struct HullPolytopeOf {
   }
   BROADSIDE_HD Vec3 face_normal(int k) const { return turned(axes, hull.faces[k].normal); }
   BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + hull.faces[k].offset_m; }
+  // Heights over faces of points that local_point() has prepared: as exact, and cheaper where points are few.
+  BROADSIDE_HD Vec3 local_point(Vec3 x) const { return turned_back(axes, x - center); }
+  BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(hull.faces[k].normal, x) - hull.faces[k].offset_m; }
   // In body axes, from the hull's own center: differences of heights of one hull alone.
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return turned_back(axes, direction); }
   BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, hull.vertices[k]); }

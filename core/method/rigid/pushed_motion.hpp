@@ -92,4 +92,9 @@ BROADSIDE_HD float near_m(Vec3 normal, float fall_a_m, Vec3 pushed_a, float fall
   return (fall_a_m + fall_b_m) + (pushed_reach_m(pushed_a, -normal) + pushed_reach_m(pushed_b, normal));
 }
 
+// No less than near_m, whatever the normal.
+BROADSIDE_HD float near_at_most_m(float fall_a_m, Vec3 pushed_a, float fall_b_m, Vec3 pushed_b) {
+  return (1.0F + 0x1p-20F) * ((fall_a_m + fall_b_m) + (length(pushed_a) + length(pushed_b)));
+}
+
 }  // namespace broadside::core

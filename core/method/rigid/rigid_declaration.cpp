@@ -1,5 +1,7 @@
 #include "core/method/rigid/rigid_declaration.hpp"
 
+#include <array>
+#include <charconv>
 #include <map>
 #include <string>
 
@@ -21,6 +23,16 @@ Declaration rigid_declaration(const SoftSettings& solver, float largest_mass_rat
       {"correction", "position"},
       {"precision", "f32"}};
   if (!twin_of.empty()) given["twin_of"] = twin_of;
+  return Declaration::of(given);
+}
+
+Declaration with_sleep(const Declaration& declaration, float sleep_speed_m_s) {
+  if (!(sleep_speed_m_s > 0.0F)) return declaration;
+  const auto& declared = declaration.declared();
+  std::map<std::string, std::string> given(declared.begin(), declared.end());
+  std::array<char, 32> text{};
+  std::to_chars(text.data(), text.data() + text.size() - 1, sleep_speed_m_s);
+  given["sleep_speed_m_s"] = text.data();
   return Declaration::of(given);
 }
 

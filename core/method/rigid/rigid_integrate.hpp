@@ -105,10 +105,16 @@ BROADSIDE_HD constexpr RestedQuat turned_part(const RigidMass& mass, Vec3 angula
 // The orientation after dt while no torque acts.
 BROADSIDE_HD RestedQuat turned(const RigidMass& mass, Vec3 angular_momentum, RestedQuat s, float dt_s) {
   const float most = dt_s * fastest_spin_rad_s(mass, s.q, angular_momentum) * (1.0F / kLargestTurnOfPart);
-  if (!(most > 1.0F)) return turned_part(mass, angular_momentum, s, dt_s);
-  const bool is_resolved = most < static_cast<float>(kMostTurnParts);
-  const int parts = is_resolved ? static_cast<int>(most) + 1 : kMostTurnParts;
-  const float part_s = is_resolved ? dt_s / static_cast<float>(parts) : dt_s / most;
+  int parts = 1;
+  float part_s = dt_s;
+  if (most > 1.0F) {
+    const bool is_resolved = most < static_cast<float>(kMostTurnParts);
+    parts = is_resolved ? static_cast<int>(most) + 1 : kMostTurnParts;
+    part_s = is_resolved ? dt_s / static_cast<float>(parts) : dt_s / most;
+  }
+#if defined(__CUDACC__)
+#pragma unroll 1
+#endif
   for (int k = 0; k < parts; ++k) s = turned_part(mass, angular_momentum, s, part_s);
   return s;
 }

@@ -28,8 +28,10 @@ struct UnevenSettings {
   // Of a step or its part in which such bodies touch: so many times the substeps, and what its sweeps are.
   std::uint32_t factor = 1;
   std::uint32_t sweeps = 1000;
-  float done = 1e-5F;
-  float done_of_gravity = 0x1p-10F;
+  // Of what is at rest: there sweeps may go on and on, friction makes them change little and never less.
+  std::uint32_t calm_sweeps = 500;
+  float done = 1e-4F;
+  float done_of_gravity = 0x1p-5F;
   float omega_dt = 200.0F;
 };
 
@@ -59,7 +61,7 @@ inline SoftSettings soft_step_settings() {
   settings.substeps = 8;
   settings.sweeps = 1;
   settings.omega_dt = 1.2F;
-  settings.uneven = {1, 4, 1, settings.done, settings.done_of_gravity, settings.omega_dt};
+  settings.uneven = {1, 4, 1, 1, settings.done, settings.done_of_gravity, settings.omega_dt};
   return settings;
 }
 
@@ -107,11 +109,13 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   SoftStep step = soft_step(dt_s / static_cast<float>(substeps_of(settings, is_uneven)),
                             is_uneven ? uneven.omega_dt : settings.omega_dt, settings.damping);
   step.most_sweeps = is_uneven ? uneven.sweeps : settings.sweeps;
+  step.calm_sweeps = is_uneven ? uneven.calm_sweeps : settings.sweeps;
   step.done_share = is_uneven ? uneven.done : settings.done;
   step.gravity_m_s2 = gravity;
   step.least_done_m_s = (is_uneven ? uneven.done_of_gravity : settings.done_of_gravity) * gravity * step.dt_s;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
+  step.calm_m_s = 2.0F * dt_s * gravity;
   const bool takes_back_pushes = settings.sweeps > 1;
   step.kept_push_m_s = takes_back_pushes ? kKeptPushShare * gravity * dt_s : std::numeric_limits<float>::max();
   return step;

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "core/attributes.hpp"
+#include "core/math/box.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/passing_by.hpp"
@@ -20,6 +21,10 @@ namespace broadside::core {
 // A body's way is cut into so many equal parts, and a body stops after a whole number of them. So a body that others
 // stop again and again has finitely many places to stop at, and the stage ends.
 inline constexpr std::uint32_t kPartsOfWay = 256;
+
+// After so many rounds, which a pile of bodies that stop each other one after another may need, what still meets stays
+// at the start.
+inline constexpr std::uint32_t kMostSweepRounds = 64;
 
 // Of the thinner body's half thickness, what two bodies may be in each other beyond how deep they are at the start.
 inline constexpr float kSweptDepthShare = 0.25F;
@@ -69,10 +74,11 @@ struct NearestPatch {
   bool is_found = false;
 };
 
-BROADSIDE_HD NearestPatch nearest_patch(const ContactShape& a, ContactPose at_a, const ContactShape& b,
-                                        ContactPose at_b, float reach_m) {
+template <typename Lanes = OneLane>
+BROADSIDE_HD_CALLED NearestPatch nearest_patch(const ContactShape& a, ContactPose at_a, const ContactShape& b,
+                                               ContactPose at_b, float reach_m) {
   Manifold found[kPatchesOfPair];
-  const int count = make_manifolds(a, at_a, b, at_b, reach_m, found);
+  const int count = make_manifolds<Lanes>(a, at_a, b, at_b, reach_m, found);
   NearestPatch nearest;
   for (int k = 0; k < count; ++k) {
     const float gap = least_gap_m(found[k]);
@@ -85,8 +91,9 @@ BROADSIDE_HD NearestPatch nearest_patch(const ContactShape& a, ContactPose at_a,
 // The share of both ways, gone at the same time, up to which the bodies are in each other by no more than allowed_m,
 // or than they are at the start; it stops where less than done_m of that is left. Of two convex shapes a plane that
 // parts them, or the direction of least depth, tells: along it alone they come nearer.
-BROADSIDE_HD float clear_share(const ContactShape& a, const SweptWay& way_a, const ContactShape& b,
-                               const SweptWay& way_b, float allowed_m, float done_m) {
+template <typename Lanes = OneLane>
+BROADSIDE_HD_CALLED float clear_share(const ContactShape& a, const SweptWay& way_a, const ContactShape& b,
+                                      const SweptWay& way_b, float allowed_m, float done_m) {
   const Vec3 toward = (way_b.end.x - way_b.start.x) - (way_a.end.x - way_a.start.x);
   const float swing = way_a.swing_m + way_b.swing_m;
   const bool is_mesh = a.kind == ContactKind::kMesh || b.kind == ContactKind::kMesh;
@@ -95,7 +102,7 @@ BROADSIDE_HD float clear_share(const ContactShape& a, const SweptWay& way_a, con
   float share = 0.0F;
   for (int k = 0; k < kMostAdvances; ++k) {
     const NearestPatch near =
-        nearest_patch(a, pose_at(way_a, share), b, pose_at(way_b, share), (1.0F - share) * most + done_m);
+        nearest_patch<Lanes>(a, pose_at(way_a, share), b, pose_at(way_b, share), (1.0F - share) * most + done_m);
     if (!near.is_found) return 1.0F;
     if (k == 0) allowed = fmaxf(allowed, 2.0F * done_m - near.gap_m);
     const float clear = near.gap_m + allowed;
@@ -117,14 +124,47 @@ BROADSIDE_HD constexpr float swept_done_m(float thinner_m) {
 }
 
 // Whether two bodies that go their free ways do not touch: neither if both go, nor if something holds one of them.
+template <typename Lanes = OneLane>
 BROADSIDE_HD bool misses(const ContactShape& a, const SweptWay& way_a, const ContactShape& b, const SweptWay& way_b,
                          float thinner_m) {
   const SweptWay held_a{way_a.start, way_a.start, 0.0F};
   const SweptWay held_b{way_b.start, way_b.start, 0.0F};
   const float done_m = swept_done_m(thinner_m);
-  return clear_share(a, way_a, b, way_b, 0.0F, done_m) == 1.0F &&
-         clear_share(a, way_a, b, held_b, 0.0F, done_m) == 1.0F &&
-         clear_share(a, held_a, b, way_b, 0.0F, done_m) == 1.0F;
+  return clear_share<Lanes>(a, way_a, b, way_b, 0.0F, done_m) == 1.0F &&
+         clear_share<Lanes>(a, way_a, b, held_b, 0.0F, done_m) == 1.0F &&
+         clear_share<Lanes>(a, held_a, b, way_b, 0.0F, done_m) == 1.0F;
+}
+
+// Whether bodies that go these ways may pass through each other.
+BROADSIDE_HD bool moves_far(float way_a_m, float way_b_m, float thinner_m) {
+  return way_a_m + way_b_m > swept_depth_m(thinner_m);
+}
+
+// Whether a patch of two bodies that move far leads to no contact in the step. The planes of patches far away mislead;
+// what a push makes of such a way, the sweep after the response sees. fall_m: of both.
+template <typename Lanes = OneLane>
+BROADSIDE_HD bool misses_patch(const Manifold& found, const ContactShape& a, const SweptWay& way_a,
+                               const ContactShape& b, const SweptWay& way_b, float fall_m, float thinner_m) {
+  return least_gap_m(found) > fall_m + thinner_m && misses<Lanes>(a, way_a, b, way_b, thinner_m);
+}
+
+// The way up to so many of its parts.
+BROADSIDE_HD SweptWay part_of_way(SweptWay way, std::uint32_t parts) {
+  if (parts == kPartsOfWay) return way;
+  const float share = static_cast<float>(parts) / static_cast<float>(kPartsOfWay);
+  way.end = pose_at(way, share);
+  way.swing_m = share * way.swing_m;
+  return way;
+}
+
+// Contains the body on all of its way: there a point is off the line between its two ends by less than the swing.
+BROADSIDE_HD Box box_of_way(const Box& start, const Box& end, float swing_m) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = fminf(start.min[axis], end.min[axis]) - swing_m;
+    box.max[axis] = fmaxf(start.max[axis], end.max[axis]) + swing_m;
+  }
+  return box;
 }
 
 }  // namespace broadside::core

@@ -15,7 +15,9 @@
 #include "core/method/rigid/corner_layer.hpp"
 #include "core/method/rigid/cross.hpp"
 #include "core/method/rigid/face_clipping.hpp"
+#include "core/method/rigid/hull_climb.hpp"
 #include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/polytopes.hpp"
 
 namespace broadside::core {
 
@@ -23,36 +25,76 @@ namespace broadside::core {
 inline constexpr int kTilts = 8;
 inline constexpr float kLargestTilt = 0.5F;
 
-// How far x, a point of the other body, is above this one along the unit direction up; negative inside. False where the
-// line through x misses the body, or meets a face too steep for the height to be a gap.
+namespace tilt_detail {
+
 template <typename Polytope>
-BROADSIDE_HD bool height_above(const Polytope& body, Vec3 x, Vec3 up, float& height_m) {
-  using Lanes = typename Polytope::Lanes;
+BROADSIDE_HD int lowest_of(const Polytope& p, Vec3 direction) {
+  return lowest_corner(p, direction);
+}
+template <typename Lanes>
+BROADSIDE_HD int lowest_of(const HullPolytopeOf<Lanes>& p, Vec3 direction) {
+  const Vec3 local = p.local(direction);
+  return static_cast<int>(climb_down(p.hull, local, climb_start(p.hull, local)));
+}
+
+// The face that the line through x along `up` leaves the body by on its way up; -1: it misses the body. From face
+// `from` on, over the sides that the line passes: seen along `up` each step leads to where the body is less high, so no
+// face comes twice. rounding_m: within it a line counts as over a face.
+template <typename Lanes>
+BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m) {
+  const HullView& hull = p.hull;
+  const Vec3 local = turned_back(p.axes, x - p.center);
+  const Vec3 local_up = turned_back(p.axes, up);
+  auto at = static_cast<std::uint32_t>(from);
+  for (std::uint32_t step = 0; step < hull.face_count; ++step) {
+    const HullFace& face = hull.faces[at];
+    std::uint32_t next = at;
+    bool is_over = true;
+    for (std::uint32_t k = 0; k < face.corner_count && is_over; ++k) {
+      const std::uint32_t of_next = face.first_corner + (k + 1 == face.corner_count ? 0 : k + 1);
+      const Vec3 start = hull.vertices[hull.corners[face.first_corner + k]];
+      const Vec3 side = cross(hull.vertices[hull.corners[of_next]] - start, local_up);
+      if (!(dot(side, local - start) > rounding_m * length(side))) continue;
+      is_over = false;
+      next = hull.beyond[face.first_corner + k];
+    }
+    if (is_over) return static_cast<int>(at);
+    if (next == at || !(dot(hull.faces[next].normal, local_up) > 0.0F)) return -1;
+    at = next;
+  }
+  return -1;
+}
+// Of few faces all are looked at.
+template <typename Polytope>
+BROADSIDE_HD int face_below(const Polytope& p, int, Vec3 x, Vec3 up, float rounding_m) {
+  int entered = -1;
   float entry = -3.402823e38F;
-  float facing = 0.0F;
   float exit = 3.402823e38F;
-  float outside = 0.0F;
-  float along = 0.0F;
-  const auto look_at = [&](int k) {
-    const Vec3 n = body.face_normal(k);
-    outside = dot(n, x) - body.face_height(k);
-    along = dot(n, up);
-  };
-  const auto is_above_entry = [&](int k) {
-    look_at(k);
+  for (int k = 0; k < p.face_count(); ++k) {
+    const Vec3 n = p.face_normal(k);
+    const float outside = dot(n, x) - p.face_height(k);
+    const float along = dot(n, up);
+    if (along == 0.0F && outside > rounding_m) return -1;
     if (along < 0.0F) exit = fminf(exit, outside / along);
-    // Outside a face that is parallel to it, the line misses.
-    if (along == 0.0F && outside > 0.0F) exit = -HUGE_VALF;
-    return along > 0.0F && outside > entry * along;
-  };
-  Lanes::each_in_turn(body.face_count(), is_above_entry, [&](int k) {
-    look_at(k);
+    if (!(along > 0.0F) || !(outside > entry * along)) continue;
     entry = outside / along;
-    facing = along;
-  });
-  exit = Lanes::least_of_lanes(exit);
-  height_m = entry;
-  return entry <= exit && facing >= kSteepestReference;
+    entered = k;
+  }
+  return entry <= exit ? entered : -1;
+}
+
+}  // namespace tilt_detail
+
+// How far x, a point of the other body, is above this one along the unit direction up; negative inside. False where the
+// line through x misses the body, or meets a face too steep for the height to be a gap. top: a face that looks up.
+template <typename Polytope>
+BROADSIDE_HD bool height_above(const Polytope& body, int top, Vec3 x, Vec3 up, float rounding_m, float& height_m) {
+  const int face = tilt_detail::face_below(body, top, x, up, rounding_m);
+  if (face < 0) return false;
+  const Vec3 n = body.face_normal(face);
+  const float facing = dot(n, up);
+  height_m = (dot(n, x) - body.face_height(face)) / facing;
+  return facing >= kSteepestReference;
 }
 
 struct TiltedContacts {
@@ -63,26 +105,37 @@ struct TiltedContacts {
 // normal: unit, from B to A.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED void tilted_contacts(const PolytopeA& a, const PolytopeB& b, Vec3 normal, Vec3 across,
-                                         TiltedContacts& out) {
+                                         float rounding_m, TiltedContacts& out) {
   out.count = 0;
   const Vec3 other = cross(normal, across);
+  const int top_of_a = a.support_face(-normal);
+  const int top_of_b = b.support_face(normal);
   // The corner of a body that is lowest along a direction, and its height above the other body.
-  const auto add = [&](const auto& body, const auto& below, Vec3 up, Vec3 tilted, bool is_a) {
-    const int corner = lowest_corner(body, tilted);
+  const auto make = [&](const auto& body, const auto& below, int top, Vec3 up, Vec3 tilted, bool is_a,
+                        ManifoldPoint& made) {
+    const int corner = tilt_detail::lowest_of(body, tilted);
     const auto name = corner_name(static_cast<std::uint32_t>(corner));
-    const std::uint32_t key = is_a ? feature_key(name, face_name(0)) : feature_key(face_name(0), name);
-    for (int k = 0; k < out.count; ++k)
-      if (out.points[k].feature == key) return;
     const Vec3 x = body.corner(corner);
     float gap = 0.0F;
-    if (height_above(below, x, up, gap)) out.points[out.count++] = {x - (0.5F * gap) * up, gap, key};
+    if (!height_above(below, top, x, up, rounding_m, gap)) return false;
+    made = {x - (0.5F * gap) * up, gap, is_a ? feature_key(name, face_name(0)) : feature_key(face_name(0), name)};
+    return true;
   };
-  for (int k = 0; k < kTilts; ++k) {
-    const float size = k < kTilts / 2 ? kLargestTilt : 0.25F * kLargestTilt;
-    const Vec3 way = ((k & 1) != 0 ? -size : size) * ((k & 2) != 0 ? other : across);
-    add(a, b, normal, normal + way, true);
-    add(b, a, -normal, way - normal, false);
-  }
+  // First of A, then of B, by each tilt.
+  typename LanesOf<PolytopeA, PolytopeB>::template Handful<ManifoldPoint> found;
+  (void)found.fill(0, 2 * kTilts, [&](int k, ManifoldPoint& made) {
+    const int tilt = k / 2;
+    const float size = tilt < kTilts / 2 ? kLargestTilt : 0.25F * kLargestTilt;
+    const Vec3 way = ((tilt & 1) != 0 ? -size : size) * ((tilt & 2) != 0 ? other : across);
+    return (k & 1) == 0 ? make(a, b, top_of_b, normal, normal + way, true, made)
+                        : make(b, a, top_of_a, -normal, way - normal, false, made);
+  });
+  found.each_in_turn([](const ManifoldPoint&) { return true; },
+                     [&](const ManifoldPoint& p) {
+                       for (int k = 0; k < out.count; ++k)
+                         if (out.points[k].feature == p.feature) return;
+                       out.points[out.count++] = p;
+                     });
 }
 
 }  // namespace broadside::core

@@ -25,36 +25,45 @@ __device__ __forceinline__ void each_place(const SolveTeam& team, const RigidFra
 // Whether the barrier before a sweep is the sweep's: its first constraint is then loaded meanwhile.
 enum class SweepBegin : std::uint8_t { kAtOnce, kWithBarrier };
 
+// What a thread waits for before it goes on with the next color.
+enum class ColorWait : std::uint8_t { kNothing, kTeam, kBlock };
+
 // work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. load(slot) gives
 // what work needs of the constraint, and of its bodies what no sweep changes. A thread loads its next constraint right
 // after its last one, mostly some colors ahead: nobody but this thread writes it during a sweep.
+//
+// Both are called at one place each: they are long, and with a copy of load at every barrier the solver's code was
+// several times what a multiprocessor keeps of it, so that warps waited for instructions.
 template <typename Load, typename Work>
 __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, SweepBegin begin,
                                                     const Load& load, const Work& work) {
   decltype(load(TileSlot(nullptr, 0))) loaded;
   ColorTurn turn = team.turn_from(0);
   bool is_loaded = false;
-  const auto load_next = [&] {
-    if (!is_loaded && turn.color != kNoColor) loaded = load(TileSlot(f.constraints, turn.place));
-    is_loaded = true;
-  };
-  if (begin == SweepBegin::kWithBarrier)
-    team.sync(load_next);
-  else
-    load_next();
-  for (std::uint32_t color = 0;; ++color) {
-    while (turn.color == color) {
-      load_next();
+  ColorWait wait = begin == SweepBegin::kWithBarrier ? ColorWait::kTeam : ColorWait::kNothing;
+  if (wait == ColorWait::kTeam) team.arrive();
+  for (std::uint32_t color = 0;;) {
+    // Not before it arrives at the barrier behind its last turn of a color.
+    const bool loads = wait != ColorWait::kNothing || turn.color == color;
+    if (loads && !is_loaded && turn.color != kNoColor) {
+      loaded = load(TileSlot(f.constraints, turn.place));
+      is_loaded = true;
+    }
+    if (wait == ColorWait::kTeam) team.wait();
+    if (wait == ColorWait::kBlock) __syncthreads();
+    wait = ColorWait::kNothing;
+    if (turn.color == color) {
       work(TileSlot(f.constraints, turn.place), turn.place, loaded);
       turn = team.turn_after(turn);
       is_loaded = false;
     }
-    if (color + 1 >= team.colors()) return;
-    if (color + 1 <= team.alone_from()) {
-      team.sync(load_next);
+    if (__any_sync(kFullWarp, turn.color == color)) continue;
+    if (++color >= team.colors()) return;
+    if (color <= team.alone_from()) {
+      team.arrive();
+      wait = ColorWait::kTeam;
     } else if (blockIdx.x == 0) {
-      load_next();
-      __syncthreads();
+      wait = ColorWait::kBlock;
     } else {
       return;
     }

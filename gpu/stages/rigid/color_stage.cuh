@@ -10,6 +10,11 @@
 
 namespace broadside::gpu {
 
+// The patches of those that sleep lie behind these, and have no color.
+__device__ inline std::uint64_t solved_patches(const RigidFrameView& f) {
+  return f.counts->patches - f.counts->asleep_patches;
+}
+
 // The number of this body's patches that come before.
 __device__ inline std::uint32_t rank_among(const RigidFrameView& f, std::uint32_t body, std::uint32_t patch,
                                            std::uint64_t priority) {
@@ -27,14 +32,16 @@ __device__ inline std::uint32_t rank_among(const RigidFrameView& f, std::uint32_
 template <typename Team>
 __device__ void rank_patches(const Team& team, const RigidFrameView& f) {
   float ratio = 1.0F;
+  const std::uint64_t solved = solved_patches(f);
   for (std::uint64_t k = team.rank(); k < f.counts->patches; k += team.size()) {
     const std::uint32_t a = f.patches.items[k].a;
     const std::uint32_t b = f.patches.items[k].b;
     const std::uint64_t priority = core::color_priority({a, b});
     const auto patch = static_cast<std::uint32_t>(k);
     if (!core::is_face(b)) ratio = fmaxf(ratio, core::mass_ratio(f.mass[a].inverse_mass, f.mass[b].inverse_mass));
-    f.ranks[k] = {rank_among(f, a, patch, priority), rank_among(f, b, patch, priority), a, b};
     f.colors[k] = kUncolored;
+    if (k >= solved) continue;
+    f.ranks[k] = {rank_among(f, a, patch, priority), rank_among(f, b, patch, priority), a, b};
   }
   __syncwarp();
   const std::uint32_t largest = warp_max(__float_as_uint(ratio));
@@ -84,7 +91,7 @@ __device__ inline std::uint32_t try_color(const RigidFrameView& f, const PatchRa
 // barrier. All blocks are resident, and the first patch of all waits for none: so all get a color.
 template <typename Team>
 __device__ void color_patches(const Team& team, const RigidFrameView& f) {
-  const std::uint64_t patches = f.counts->patches;
+  const std::uint64_t patches = solved_patches(f);
   std::uint32_t colors = 0;
   for (bool is_done = false; !is_done;) {
     is_done = true;
@@ -120,7 +127,7 @@ __device__ void each_color_of_warp(std::uint32_t color, const Work& work) {
 // Behind a barrier: how many patches each color has.
 template <typename Team>
 __device__ void count_colors(const Team& team, const RigidFrameView& f) {
-  const std::uint64_t patches = f.counts->patches;
+  const std::uint64_t patches = solved_patches(f);
   for (std::uint64_t of_warp = team.rank() - lane(); of_warp < patches; of_warp += team.size()) {
     const std::uint64_t k = of_warp + lane();
     each_color_of_warp(k < patches ? f.colors[k] : kUncolored, [&](std::uint32_t color, unsigned lanes) {
@@ -155,7 +162,7 @@ __device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body
 
 template <typename Team>
 __device__ void place_patches(const Team& team, const RigidFrameView& f) {
-  const std::uint64_t patches = f.counts->patches;
+  const std::uint64_t patches = solved_patches(f);
   for (std::uint64_t of_warp = team.rank() - lane(); of_warp < patches; of_warp += team.size()) {
     const std::uint64_t k = of_warp + lane();
     const std::uint32_t own = k < patches ? f.colors[k] : kUncolored;

@@ -15,4 +15,20 @@ __device__ inline bool is_moved(const ContactView& f, std::uint32_t body) {
   return !core::is_face(body) && f.mass[body].inverse_mass > 0.0F;
 }
 
+__device__ inline bool is_asleep(const ContactView& f, std::uint32_t body) {
+  return f.asleep != nullptr && !core::is_face(body) && f.asleep[body] != 0;
+}
+
+// Nothing begins to move it but a touch of a body that is not idle.
+__device__ inline bool is_idle(const ContactView& f, std::uint32_t body) {
+  return !is_moved(f, body) || is_asleep(f, body);
+}
+
+// Half of the least thickness of the thinner one.
+__device__ inline float thinner_m(const ContactView& f, core::Pair pair) {
+  const float a = f.shapes[f.shape_of_body[pair.i]].half_thickness_m;
+  const float b = f.shapes[f.shape_of_body[pair.j]].half_thickness_m;
+  return b < a ? b : a;
+}
+
 }  // namespace broadside::gpu

@@ -10,8 +10,9 @@
 
 namespace broadside::gpu {
 
-// kMayBeLong: shapes may be hulls or meshes (f.has_long_contacts).
-template <bool kMayBeLong>
+// kMayBeLong: shapes may be hulls or meshes (f.has_long_contacts). kSweeps: sweep=fast, any
+// shapes.
+template <bool kMayBeLong, bool kSweeps = false>
 __device__ void run_contacts(const ContactView& f) {
   const GridTeam grid(f.barrier);
   mark(f, grid.rank() == 0, core::Stage::kBroad);
@@ -21,7 +22,7 @@ __device__ void run_contacts(const ContactView& f) {
   mark(f, grid.rank() == 0, core::Stage::kConfirm);
   if (f.counts->confirmed > f.confirmed.capacity) return;
   if constexpr (kMayBeLong)
-    make_long_patches(grid, f);
+    make_long_patches<kSweeps>(grid, f);
   else
     make_short_patches(grid, f);
 }

@@ -7,10 +7,11 @@
 
 namespace broadside::gpu {
 
-// The frame stops: a count is above its room. Counts of kernels to come are zero.
+// The frame stops: a count is above its room, or who slept wakes. Counts of kernels to come are zero.
 __device__ inline bool lacks_room(const RigidFrameView& f) {
-  return lacks_pairs(f) || f.counts->confirmed > f.confirmed.capacity || f.counts->patches > f.patches.capacity ||
-         f.counts->colors > f.color_capacity || f.counts->places > f.place_capacity;
+  return lacks_pairs(f) || f.counts->woken != 0 || f.counts->confirmed > f.confirmed.capacity ||
+         f.counts->patches > f.patches.capacity || f.counts->colors > f.color_capacity ||
+         f.counts->places > f.place_capacity;
 }
 
 // By one thread, when no other reads the counts any more. Of an aborted frame they say what it needed. Leaves zeros for
@@ -20,6 +21,8 @@ __device__ inline void tell_host(const RigidFrameView& f, bool is_aborted) {
   counts.is_aborted = is_aborted ? 1 : 0;
   f.outcome->counts = counts;
   *f.counts = RigidCounts{};
+  f.counts->told_is_aborted = counts.is_aborted;
+  f.counts->told_patches = counts.patches;
   for (std::uint32_t color = 0; color < counts.colors && color < f.color_capacity; ++color) f.color_count[color] = 0;
 }
 

@@ -21,7 +21,7 @@ template <typename Triples>
 __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                     const Triples& triples) {
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
-  const std::uint32_t count = f.memory.count[i];
+  const std::uint32_t count = core::is_moved(body) ? f.memory.count[i] : 0;  // who sleeps is not moved
   const auto load = [&](std::uint32_t place_and_side) {
     const TileSlot slot(f.constraints, place_and_side / 2);
     KnownPatch known;
@@ -31,13 +31,14 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
     triples(slot, known.changes);
     return known;
   };
+  // A patch is asked for one round before it is used, and its place one round before that.
   KnownPatch ahead;
-  if (count > 0) ahead = load(places[0]);
-  std::uint32_t next = count > 1 ? places[1] : 0;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  std::uint32_t next = count > 0 ? places[0] : 0;
+  for (std::uint32_t k = 0; k <= count; ++k) {
     const KnownPatch now = ahead;
-    if (k + 1 < count) ahead = load(next);  // asked for now, used in the next round
-    next = k + 2 < count ? places[k + 2] : 0;
+    if (k < count) ahead = load(next);
+    next = k + 1 < count ? places[k + 1] : 0;
+    if (k == 0) continue;
     core::BodyGain gain(body);
     core::each_point(now.c, [&](int point) {
       const core::PatchPoint& p = now.c.points[point];

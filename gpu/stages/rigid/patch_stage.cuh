@@ -7,6 +7,9 @@
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
+#include "core/method/rigid/quick_hulls.hpp"
+#include "core/method/rigid/sweep.hpp"
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
@@ -30,22 +33,40 @@ __device__ inline core::ContactPath path_of(const ContactView& f, std::uint32_t 
   return {pose_of(f, body), f.free_end[body]};
 }
 
+// Whether a patch leads to no contact in this step. kSweeps: sweep=fast.
+template <typename Lanes, bool kSweeps>
+__device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found) {
+  const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
+  const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
+  const core::ContactPath path_a = path_of(f, pair.i);
+  const core::ContactPath path_b = path_of(f, pair.j);
+  if constexpr (kSweeps) {
+    const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
+    const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
+    const float thin_m = thinner_m(f, pair);
+    if (core::moves_far(core::length_of(way_a), core::length_of(way_b), thin_m))
+      return core::misses_patch<Lanes>(found, a.contact, way_a, b.contact, way_b, f.fall_m[pair.i] + f.fall_m[pair.j],
+                                       thin_m);
+  }
+  const float near_m = core::near_m(found.normal, f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j],
+                                    f.pushers[pair.j].pushed.v);
+  return core::passes_by<Lanes>(found, a.contact, path_a, b.contact, path_b, f.reach_m[pair.i] + f.reach_m[pair.j],
+                                near_m);
+}
+
 // Returns how many patches the pair has.
-template <typename Lanes>
+template <typename Lanes, bool kSweeps>
 __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found) {
+  if (is_idle(f, pair.i) && is_idle(f, pair.j)) return 0;
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
   const core::ContactPath path_a = path_of(f, pair.i);
   const core::ContactPath path_b = path_of(f, pair.j);
   const float reach_m = f.reach_m[pair.i] + f.reach_m[pair.j];
-  const core::Vec3 pushed_a = f.pushers[pair.i].pushed.v;
-  const core::Vec3 pushed_b = f.pushers[pair.j].pushed.v;
   const int count = core::make_manifolds<Lanes>(a, path_a.start, b, path_b.start, reach_m, found);
   int kept = 0;
   for (int k = 0; k < count; ++k)
-    if (!core::passes_by<Lanes>(found[k], a, path_a, b, path_b, reach_m,
-                                core::near_m(found[k].normal, f.fall_m[pair.i], pushed_a, f.fall_m[pair.j], pushed_b)))
-      found[kept++] = found[k];
+    if (!is_passing<Lanes, kSweeps>(f, pair, found[k])) found[kept++] = found[k];
   const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
   return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept);
 }
@@ -56,7 +77,7 @@ __device__ inline float reach_to_face_m(const ContactView& f, std::uint32_t body
 }
 
 __device__ inline bool may_touch_face(const ContactView& f, std::uint32_t body, std::uint32_t face) {
-  return is_moved(f, body) && core::may_reach_face(f.shape_boxes[body], reach_to_face_m(f, body), f.domain, face);
+  return !is_idle(f, body) && core::may_reach_face(f.shape_boxes[body], reach_to_face_m(f, body), f.domain, face);
 }
 
 template <typename Lanes>
@@ -80,7 +101,7 @@ __device__ void make_short_patches(const Team& team, const ContactView& f) {
     const bool is_pair = is_item && k < confirmed;
     if (__any_sync(kFullWarp, is_pair)) {
       const core::Pair pair = is_pair ? f.confirmed.items[k] : core::Pair{};
-      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes>(f, pair, found) : 0);
+      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes, false>(f, pair, found) : 0);
     }
     const bool is_body = is_item && !is_pair;
     if (!__any_sync(kFullWarp, is_body)) return;
@@ -92,27 +113,50 @@ __device__ void make_short_patches(const Team& team, const ContactView& f) {
   });
 }
 
+// By one lane: what few bounds tell is left out, so that a warp makes patches of no pair that has none.
+__device__ inline bool may_touch(const ContactView& f, core::Pair pair) {
+  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
+  const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
+  if (!core::has_quick_answers(a, b)) return true;
+  const float near_m =
+      core::near_at_most_m(f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j], f.pushers[pair.j].pushed.v);
+  return !core::surely_pass(a, path_of(f, pair.i), b, path_of(f, pair.j), f.reach_m[pair.i] + f.reach_m[pair.j],
+                            near_m);
+}
+
+__device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body) {
+  bool may = false;
+  for (std::uint32_t face = 0; face < core::kFaceCount; ++face) may |= may_touch_face(f, body, face);
+  return may;
+}
+
 // The same of any shapes, a warp a pair: the loops over corners, edges, faces and triangles are shared by its lanes,
-// and its code is fetched once for all.
-template <typename Team>
+// and its code is fetched once for all. Before, each lane looks whether an item of its own has any patches.
+template <bool kSweeps, typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
   const std::uint64_t confirmed = f.counts->confirmed;
-  const std::uint64_t items = confirmed + f.body_count;
-  for (std::uint64_t k = team.spread_rank() / 32; k < items; k += team.size() / 32) {
-    core::Manifold found[core::kPatchesOfPair];
-    if (k < confirmed) {
-      const core::Pair pair = f.confirmed.items[k];
-      const int count = touch_bodies<WarpLanes>(f, pair, found);
-      add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
-      continue;
+  each_item_by_warps(team, confirmed + f.body_count, true, [&](std::uint64_t k, bool is_item) {
+    const bool is_pair = k < confirmed;
+    const core::Pair own = is_item && is_pair ? f.confirmed.items[k] : core::Pair{};
+    const bool may_have = is_item && (is_pair ? kSweeps || may_touch(f, own)
+                                              : may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed)));
+    for (unsigned with = __ballot_sync(kFullWarp, may_have); with != 0; with &= with - 1) {
+      const auto of = static_cast<unsigned>(__ffs(static_cast<int>(with)) - 1);
+      core::Manifold found[core::kPatchesOfPair];
+      if (__shfl_sync(kFullWarp, is_pair ? 1 : 0, of) != 0) {
+        const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
+        const int count = touch_bodies<WarpLanes, kSweeps>(f, pair, found);
+        add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
+        continue;
+      }
+      const std::uint32_t body = __shfl_sync(kFullWarp, static_cast<std::uint32_t>(k - confirmed), of);
+      for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+        if (!may_touch_face(f, body, face)) continue;
+        const int count = touch_face<WarpLanes>(f, body, face, found);
+        add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
+      }
     }
-    const auto body = static_cast<std::uint32_t>(k - confirmed);
-    for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-      if (!may_touch_face(f, body, face)) continue;
-      const int count = touch_face<WarpLanes>(f, body, face, found);
-      add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
-    }
-  }
+  });
 }
 
 }  // namespace broadside::gpu

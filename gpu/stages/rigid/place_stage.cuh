@@ -7,6 +7,7 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/contact_body.cuh"
 #include "gpu/stages/rigid/solver_bodies.cuh"
 
 namespace broadside::gpu {
@@ -50,7 +51,8 @@ __device__ inline void run_place(const RigidFrameView& f) {
     f.fall_m[i] = core::length(motion.fall);
     f.pushed_m[i] = 0;
     f.memory.count[i] = 0;
-    store_body(f.bodies[i], core::solver_body(s, mass));
+    store_body(f.bodies[i], is_asleep(f, i) ? core::SolverBody{} : core::solver_body(s, mass));
+    if (f.asleep != nullptr) f.sleep.restless[i] = 0;
     f.stirred[i] = 0;
     f.shape_boxes[i] = shape_box;
     f.boxes[i] = pack(box, i, mass.inverse_mass > 0.0F ? 0U : 1U);

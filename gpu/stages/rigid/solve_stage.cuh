@@ -54,18 +54,21 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
   float last_change = 0.0F;
   float share = 0.0F;
   float done = 0.0F;
+  std::uint32_t most = 1;
   float fastest_push = 0.0F;
   for (std::uint32_t k = 1;; ++k) {
     sweep_along(team, f, solve.soft, k == 1, solve.owes_totals, share, solve.sums);
     ++solve.done.sweeps;
     team.sync();
     if (k == 1) {
-      done = core::done_m_s(solve.soft, solve.soft.done_share, solve.sums.largest(TeamSums::kThird));
+      const float fastest = solve.sums.largest(TeamSums::kThird);
+      done = core::done_m_s(solve.soft, solve.soft.done_share, fastest);
+      most = core::most_sweeps(solve.soft, fastest);
       fastest_push = solve.sums.largest(TeamSums::kFourth);
     }
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);
-    if (k >= solve.soft.most_sweeps || largest_speed <= done) return fastest_push;
+    if (k >= most || largest_speed <= done) return fastest_push;
     const float change = sum_of_changes(team, f, solve, largest_change);
     if (!(last_change > 0.0F)) first_change = change;
     share = core::share_of_direction(first_change, last_change, change);
@@ -79,28 +82,65 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
   }
 }
 
-// fastest: the approach of what bounces, whose bodies are stirred. The same as StepConstraints::bounce of the twin.
-// Begins behind a barrier and ends with one.
-__device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
-                                           float fastest) {
-  const float done = core::kBounceDone * fastest;
-  const bool has_sweeps = done > 0.0F;
-  float largest = fastest;
-  for (int k = 0; has_sweeps && k < core::kMostBounceSweeps && largest > done; ++k, ++solve.sweep) {
+// What sweeps over stirred bodies are for.
+enum class Stirred : std::uint8_t { kPushed, kBouncing };
+
+// Sweeps over patches of stirred bodies until one changes no point's speed by more than `done`. At one place for both,
+// because it is long.
+__device__ __forceinline__ void relax_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
+                                                 Stirred of, float done) {
+  const int most = of == Stirred::kPushed ? core::kMostRelaxSweeps : core::kMostBounceSweeps;
+  bool is_done = false;
+  for (int k = 0; k < most && !is_done; ++k, ++solve.sweep) {
     relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
-    ++solve.done.bounce_sweeps;
+    ++(of == Stirred::kPushed ? solve.done.sweeps : solve.done.bounce_sweeps);
     team.sync();
-    largest = largest_of_turn(team, solve);
+    is_done = !(largest_of_turn(team, solve) > done);
   }
-  largest = fastest;
-  for (int k = 0; has_sweeps && k < core::kMostBounceSweeps && largest > done; ++k) {
+}
+
+// fastest: the approach of what bounces. The same as the second half of StepConstraints::bounce of the twin. Begins
+// behind a barrier and ends with one.
+__device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve, float fastest,
+                                           float done) {
+  float largest = fastest;
+  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
     sweep_bouncing(team, f, solve.soft, k == 0, done, solve.sums);
     ++solve.done.bounce_sweeps;
     team.sync();
     largest = largest_of_turn(team, solve);
   }
+}
+
+// The same as StepConstraints::relax_pushed and bounce of the twin. Begins behind a barrier and ends with one.
+__device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
+                                            bool is_pushed, float fastest_push) {
+  for (Stirred of = is_pushed ? Stirred::kPushed : Stirred::kBouncing;; of = Stirred::kBouncing) {
+    float fastest = 0.0F;
+    float done = 0.0F;
+    if (of == Stirred::kPushed) {
+      done = core::done_m_s(solve.soft, core::kRelaxDone, fastest_push);
+    } else {
+      if (!solve.may_bounce) return;
+      fastest = largest_of_turn(team, solve);
+      if (!(fastest > 0.0F)) return;
+      done = core::kBounceDone * fastest;
+    }
+    // A bounce so slow that its share vanishes has no sweeps.
+    const bool has_sweeps = of == Stirred::kPushed || done > 0.0F;
+    if (has_sweeps) relax_until_done(team, f, solve, of, done);
+    if (of == Stirred::kBouncing) {
+      if (has_sweeps) bounce_all(team, f, solve, fastest, done);
+      break;
+    }
+    if (!solve.may_bounce) return;
+    solve.sweep += 2;
+    stir_what_bounces(team, f, solve.soft, solve.sweep, solve.sums);
+    team.sync();
+  }
   end_bounces(team, f, solve.soft);
   team.sync();
+  solve.owes_totals = false;
 }
 
 // What contacts ask of a body later: how it moves before the substep drives it, and after.
@@ -132,23 +172,6 @@ __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFra
   return fastest_push;
 }
 
-// The same as StepConstraints::relax_pushed of the twin. Begins behind a barrier and ends with one.
-__device__ __forceinline__ void relax_pushed(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
-                                             float fastest_push) {
-  const float done = core::done_m_s(solve.soft, core::kRelaxDone, fastest_push);
-  bool is_done = false;
-  for (int k = 0; k < core::kMostRelaxSweeps && !is_done; ++k, ++solve.sweep) {
-    relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
-    ++solve.done.sweeps;
-    team.sync();
-    is_done = !(largest_of_turn(team, solve) > done);
-  }
-  if (!solve.may_bounce) return;
-  solve.sweep += 2;
-  stir_what_bounces(team, f, solve.soft, solve.sweep, solve.sums);
-  team.sync();
-}
-
 __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
@@ -175,12 +198,7 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
   relax_all(team, f, solve.soft, solve.may_bounce, !is_pushed, solve.sweep, solve.sums);
   team.sync();
   solve.owes_totals = true;
-  if (is_pushed) relax_pushed(team, f, solve, fastest_push);
-  if (!solve.may_bounce) return;
-  const float fastest = largest_of_turn(team, solve);
-  if (!(fastest > 0.0F)) return;
-  bounce_all(team, f, solve, fastest);
-  solve.owes_totals = false;
+  end_substep(team, f, solve, is_pushed, fastest_push);
 }
 
 // Returns whether the impulses of the last substep are still to be added to the totals.

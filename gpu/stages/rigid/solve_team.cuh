@@ -61,17 +61,17 @@ class SolveTeam : public GridPlaces {
   }
 
   __device__ void sync() const {
-    sync([] {});
+    arrive();
+    wait();
   }
-  // meanwhile(): between arriving at the barrier and waiting for the others. What it reads, no other thread has
-  // written.
-  template <typename Work>
-  __device__ __forceinline__ void sync(const Work& meanwhile) const {
+  // The barrier in two parts: what a thread reads between them, no other thread has written.
+  __device__ void arrive() const {
     if (kind_ == SolveTeamKind::kCluster)
       ClusterBarrier::arrive();
     else
       barrier_.arrive();
-    meanwhile();
+  }
+  __device__ void wait() const {
     if (kind_ == SolveTeamKind::kCluster)
       ClusterBarrier::wait();
     else

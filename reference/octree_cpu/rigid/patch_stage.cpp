@@ -38,6 +38,17 @@ bool is_before(const ContactPatch& p, const ContactPatch& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
 
+// Whether no patch of the pair leads to a contact in this step, told without making them.
+bool surely_passes(const core::RigidBodies& bodies, core::Pair pair) {
+  const auto [i, j] = pair;
+  const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
+  const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
+  return core::has_quick_answers(a, b) &&
+         core::surely_pass(
+             a, bodies.path(i), b, bodies.path(j), bodies.reach_m[i] + bodies.reach_m[j],
+             core::near_at_most_m(bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]));
+}
+
 }  // namespace
 
 void PatchStage::load(const core::Scene& scene, bool sweeps_fast) {
@@ -63,10 +74,9 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
     const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
     const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
     const float thinner_m = bodies.thinner_m(pair);
-    // The planes of patches far away mislead; what a push makes of such a way, the sweep after the response sees.
-    if (core::length_of(way_a) + core::length_of(way_b) > core::swept_depth_m(thinner_m))
-      return core::least_gap_m(found) > bodies.fall_m[i] + bodies.fall_m[j] + thinner_m &&
-             core::misses(a.contact, way_a, b.contact, way_b, thinner_m);
+    if (core::moves_far(core::length_of(way_a), core::length_of(way_b), thinner_m))
+      return core::misses_patch(found, a.contact, way_a, b.contact, way_b, bodies.fall_m[i] + bodies.fall_m[j],
+                                thinner_m);
   }
   const float near_m =
       core::near_m(found.normal, bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]);
@@ -79,6 +89,7 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
   fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
     const auto [i, j] = confirmed[k];
     if (is_idle(i) && is_idle(j)) return;
+    if (!sweeps_fast_ && surely_passes(bodies, confirmed[k])) return;
     core::Manifold found[core::kPatchesOfPair];
     const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
     const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;

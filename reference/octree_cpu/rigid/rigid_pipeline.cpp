@@ -4,10 +4,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <iterator>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -15,6 +12,7 @@
 #include "core/method/frame_digest.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/point_digest.hpp"
+#include "core/method/rigid/rigid_declaration.hpp"
 #include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/told_point.hpp"
 #include "core/method/rigid/turned_box.hpp"
@@ -36,15 +34,8 @@ RigidPipeline::RigidPipeline(RigidPipelineOptions options)
 RigidPipeline::~RigidPipeline() = default;
 
 core::Declaration RigidPipeline::declaration_for(const core::Scene& scene) const {
-  const float speed_m_s = options_.sleeps ? core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s) : 0.0F;
-  const core::Declaration declaration = options_.declare(scene);
-  if (!(speed_m_s > 0.0F)) return declaration;
-  const auto& declared = declaration.declared();
-  std::map<std::string, std::string> given(declared.begin(), declared.end());
-  std::array<char, 32> text{};
-  std::to_chars(text.data(), text.data() + text.size() - 1, speed_m_s);
-  given["sleep_speed_m_s"] = text.data();
-  return core::Declaration::of(given);
+  if (!options_.sleeps) return options_.declare(scene);
+  return core::with_sleep(options_.declare(scene), core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s));
 }
 
 core::Status RigidPipeline::load(const core::Scene& scene) {

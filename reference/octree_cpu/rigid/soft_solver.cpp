@@ -48,13 +48,14 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
       [&](const TileRange& range) { kernels_.begin_sweeps(range, numbers, speeds_.data(), pushes_.data()); });
   work_.note_pushed(pushes_, numbers);
   const float done = core::done_m_s(numbers, numbers.done_share, largest_speed());
+  const std::uint32_t most = core::most_sweeps(numbers, largest_speed());
   work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
   SweepWay way{settings_.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
   for (std::uint32_t k = 1;; ++k) {
     work_.each_range_by_color([&](const TileRange& range) { kernels_.sweep(range, numbers, way); });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
-    if (k >= numbers.most_sweeps || largest_speed() <= done) return;
+    if (k >= most || largest_speed() <= done) return;
     way.is_first = false;
     way.share = next_share();
     work_.each_range_by_color([&](const TileRange& range) { kernels_.push_along(range, way.share); });

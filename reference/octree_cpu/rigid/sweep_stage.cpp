@@ -14,10 +14,6 @@ using core::Pair;
 
 namespace {
 
-// After so many rounds, which a pile of bodies that stop each other one after another may need, what still meets stays
-// at the start.
-constexpr std::uint32_t kMostRounds = 64;
-
 void lower(std::uint32_t& parts, std::uint32_t to) {
   const std::atomic_ref<std::uint32_t> shared(parts);
   std::uint32_t now = shared.load(std::memory_order_relaxed);
@@ -49,11 +45,7 @@ core::SweptWay SweepStage::way(const core::RigidBodies& bodies, std::uint32_t bo
   way.start = bodies.pose(body);
   way.end = {bodies.state[body].x, bodies.state[body].q};
   way.swing_m = core::swing_of(way.start, way.end, bodies.shapes[bodies.shape[body]].balls.outer_m);
-  if (parts_.empty() || parts_[body] == core::kPartsOfWay) return way;
-  const float share = static_cast<float>(parts_[body]) / static_cast<float>(core::kPartsOfWay);
-  way.end = core::pose_at(way, share);
-  way.swing_m = share * way.swing_m;
-  return way;
+  return parts_.empty() ? way : core::part_of_way(way, parts_[body]);
 }
 
 core::Status SweepStage::find_pairs(const core::RigidBodies& bodies) {
@@ -63,11 +55,7 @@ core::Status SweepStage::find_pairs(const core::RigidBodies& bodies) {
     const core::RigidShape& shape = bodies.shapes[bodies.shape[i]];
     const core::SweptWay way = this->way(bodies, i);
     const core::Box end = core::turned_box(shape.contact, shape.vertices(), way.end.x, way.end.q);
-    // On the way a point is off the line between its two ends by less than the swing.
-    for (int axis = 0; axis < 3; ++axis) {
-      boxes_[i].min[axis] = std::min(bodies.shape_boxes[i].min[axis], end.min[axis]) - way.swing_m;
-      boxes_[i].max[axis] = std::max(bodies.shape_boxes[i].max[axis], end.max[axis]) + way.swing_m;
-    }
+    boxes_[i] = core::box_of_way(bodies.shape_boxes[i], end, way.swing_m);
   });
   std::vector<Pair> near;
   if (make_broad_phase_) {
@@ -88,8 +76,8 @@ core::Status SweepStage::find_pairs(const core::RigidBodies& bodies) {
   // Who does not move farther than the thinner one is thick passes through nothing.
   for (const Pair p : near) {
     if (bodies.is_static[p.i] != 0 && bodies.is_static[p.j] != 0) continue;
-    const float moved = core::length_of(way(bodies, p.i)) + core::length_of(way(bodies, p.j));
-    if (moved > core::swept_depth_m(bodies.thinner_m(p))) pairs_.push_back(p);
+    if (core::moves_far(core::length_of(way(bodies, p.i)), core::length_of(way(bodies, p.j)), bodies.thinner_m(p)))
+      pairs_.push_back(p);
   }
   at_faces_.clear();
   for (std::uint32_t i = 0; i < bodies.count(); ++i) {
@@ -150,7 +138,7 @@ core::Status SweepStage::stop_short(core::RigidBodies& bodies) {
       is_changed_[i] = next_parts_[i] < parts_[i] ? 1 : 0;
       if (is_changed_[i] == 0) continue;
       is_done = false;
-      parts_[i] = round < kMostRounds ? next_parts_[i] : 0;
+      parts_[i] = round < core::kMostSweepRounds ? next_parts_[i] : 0;
     }
     if (is_done) break;
   }

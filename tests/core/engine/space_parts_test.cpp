@@ -52,6 +52,23 @@ TEST(SpaceParts, FindTheWholeSetsPairsEachOnce) {
   }
 }
 
+// A box is in the parts from where it begins to where it ends, also where faces lie in one place and boxes end on them.
+TEST(SpaceParts, ABoxReachesIntoThePartsFromItsBeginningToItsEnd) {
+  const SpaceCut cut{0, {0.0F, 1.0F, 1.0F, 3.0F}};
+  const float places[] = {-1.0F, 0.0F, 0.5F, 1.0F, 2.0F, 3.0F, 4.0F};
+  for (const float low : places)
+    for (const float high : places) {
+      if (high < low) continue;
+      SCOPED_TRACE(testing::Message() << low << " to " << high);
+      const auto faces_up_to = [&](float x) {
+        return std::count_if(cut.faces.begin(), cut.faces.end(), [x](float f) { return f <= x; });
+      };
+      for (std::uint32_t part = 0; part < cut.parts(); ++part)
+        EXPECT_EQ(cut.reaches({{low, 0, 0}, {high, 1, 1}}, part),
+                  faces_up_to(low) <= part && part <= faces_up_to(high));
+    }
+}
+
 // Faces share out beginnings, and few boxes are in two parts where they are small.
 TEST(SpaceParts, AreOfLikeSizeAndShareLittle) {
   const std::vector<Box> boxes = datasets::uniform_boxes(30'000, 1);

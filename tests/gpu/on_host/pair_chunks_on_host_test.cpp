@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/box_streams/box_sets.hpp"
+#include "datasets/box_streams/box_stream.hpp"
 #include "datasets/box_streams/thin_boxes.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "gpu/stages/broad/pair_queue.cuh"
@@ -85,6 +86,23 @@ TEST(PairChunksOnHost, NoneIsLargerThanAsked) {
   ASSERT_TRUE(finder.load(c.boxes, c.is_static).ok());
   EXPECT_FALSE(finder.plan().is_plain());
   EXPECT_EQ(handed_on(finder).pairs, tests::every_pair(c));
+}
+
+// A pass by exponent finds some fifteen times what it keeps. Chunks were as small as if all of that were handed on: of
+// these 94, in some of which there were four pairs.
+TEST(PairChunksOnHost, APassThatFindsMoreThanItKeepsHasNoMoreChunks) {
+  auto made = datasets::make_box_stream("boxes:exponents:6000");
+  ASSERT_TRUE(made.ok());
+  tests::BoxCase c;
+  c.boxes = made.value().boxes;
+  c.is_static.resize(c.boxes.size());
+  PairFinder finder(at_once(400));
+  ASSERT_TRUE(finder.load(c.boxes, c.is_static).ok());
+  EXPECT_FALSE(finder.plan().is_plain());
+  const Chunks found = handed_on(finder);
+  EXPECT_EQ(found.pairs, tests::every_pair(c));
+  EXPECT_LE(found.largest, 400U);
+  EXPECT_LE(found.count, 25U);
 }
 
 TEST(PairChunksOnHost, ABoxWithMorePairsThanAChunkIsAnErrorWithTheNumber) {

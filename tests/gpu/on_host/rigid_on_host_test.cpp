@@ -6,10 +6,13 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/engine/engine.hpp"
+#include "core/exact/convex_hull.hpp"
 #include "core/method/rigid/step_in_parts.hpp"
 #include "datasets/scenes.hpp"
 #include "gpu/rigid/rigid_pipeline.hpp"
@@ -59,6 +62,22 @@ TEST(RigidOnHost, PrimitivesThatTouch) {
 // Their pairs are spread over all warps.
 TEST(RigidOnHost, HullsThatTouch) {
   EXPECT_GT(compare("rigid:arch:7-stands", 8), 0U);
+}
+
+// Finely cut ones: lanes dismiss pairs by bounds before warps make patches.
+TEST(RigidOnHost, RoundHullsThatFall) {
+  core::Scene scene = scene_of("freefall:cube:5[rigid=1]");
+  std::mt19937 random(4);
+  std::normal_distribution<float> normal;
+  std::vector<core::Vec3> points;
+  for (int k = 0; k < 40; ++k) {
+    const core::Vec3 p{normal(random), normal(random), normal(random)};
+    points.push_back((0.5F / core::length(p)) * p);
+  }
+  core::Mesh mesh = *exact::convex_hull(points);
+  mesh.name = "boulder";
+  for (auto& each : scene.meshes) each = std::make_shared<const core::Mesh>(mesh);
+  EXPECT_GT(compare(scene, 30, {}, {}), 0U);
 }
 
 TEST(RigidOnHost, AHeap) {
@@ -112,6 +131,63 @@ TEST(RigidOnHost, BouncesAndWrenches) {
   compare("rigid:flight:pushed", 10);
 }
 
+std::map<std::string, std::uint64_t> counts_of(const core::Dynamics& dynamics) {
+  std::map<std::string, std::uint64_t> counts;
+  for (const core::Counter& counter : dynamics.counters()) counts[std::string(counter.name)] = counter.count;
+  return counts;
+}
+
+// Two piles sleep, and one wakes when the last body comes down on it: digests are equal in every frame, with what
+// contacts of those that sleep go on giving in them.
+TEST(RigidOnHost, PilesSleepAndWake) {
+  core::Scene scene = scene_of("rigid:stack:5");
+  ASSERT_EQ(scene.bodies.size(), 5U);
+  const float side = scene.bodies[1].position.y - scene.bodies[0].position.y;
+  scene.bodies[2].position.x += 3.0F * side;
+  scene.bodies[2].position.y = scene.bodies[0].position.y;
+  scene.bodies[3].position = scene.bodies[2].position;
+  scene.bodies[3].position.y += side;
+  scene.bodies[4].position.y = scene.bodies[1].position.y + 8.0F * side;
+  scene.domain.max.y += 8.0F * side;
+  scene.dt_s = 1.0F / 60.0F;
+  RigidPipelineOptions options;
+  options.sleeps = true;
+  RigidPipeline subject(options);
+  const auto twin = twin_of({{"sleep", "on"}});
+  EXPECT_GT(compare_pipelines(scene, subject, *twin, 110, 10), 0U);
+  auto of_gpu = counts_of(subject);
+  auto of_twin = counts_of(*twin);
+  EXPECT_GT(of_gpu["sleep: bodies asleep"], 100U);
+  EXPECT_EQ(of_gpu["sleep: bodies asleep"], of_twin["sleep: bodies asleep"]);
+  core::FrameRecord last;
+  ASSERT_TRUE(subject.read_back(last, core::RecordLevel::kFull).ok());
+  EXPECT_NE(last.velocity[0], core::Vec3{}) << "the struck pile is awake";
+  EXPECT_EQ(last.velocity[3], core::Vec3{}) << "the other one sleeps";
+}
+
+// Bodies that fly at each other, through thin ones and at the floor, faster than they are thick: they stop on the way,
+// at the places of the twin.
+TEST(RigidOnHost, FastBodiesStopShort) {
+  std::uint64_t stopped = 0;
+  RigidPipelineOptions options;
+  options.sweeps_fast = true;
+  for (const char* name : {"rigid:bullet-through-cards", "rigid:needle-through-plate", "freefall:cube:20[rigid=1]",
+                           "freefall:bunny:3[rigid=1]"}) {
+    SCOPED_TRACE(name);
+    core::Scene scene = scene_of(name);
+    if (scene.bodies.size() == 20U)
+      for (core::Body& body : scene.bodies) body.velocity = {0.0F, body.position.y > 3.0F ? -100.0F : 40.0F, 0.0F};
+    RigidPipeline subject(options);
+    const auto twin = twin_of({{"sweep", "fast"}});
+    compare_pipelines(scene, subject, *twin, 12, 3);
+    auto of_gpu = counts_of(subject);
+    auto of_twin = counts_of(*twin);
+    EXPECT_EQ(of_gpu["sweep: bodies stopped short"], of_twin["sweep: bodies stopped short"]);
+    stopped += of_gpu["sweep: bodies stopped short"];
+  }
+  EXPECT_GT(stopped, 10U);
+}
+
 // Both say how many sweeps they took.
 TEST(RigidOnHost, SweepsAreCountedAlike) {
   const core::Scene scene = scene_of("freefall:cube:12[rigid=1]");
@@ -119,11 +195,6 @@ TEST(RigidOnHost, SweepsAreCountedAlike) {
   const auto twin = twin_of({});
   ASSERT_TRUE(subject.load(scene).ok() && twin->load(scene).ok());
   for (int k = 0; k < 35; ++k) ASSERT_TRUE(subject.step(scene.dt_s).ok() && twin->step(scene.dt_s).ok());
-  const auto counts_of = [](const core::Dynamics& dynamics) {
-    std::map<std::string, std::uint64_t> counts;
-    for (const core::Counter& counter : dynamics.counters()) counts[std::string(counter.name)] = counter.count;
-    return counts;
-  };
   auto of_gpu = counts_of(subject);
   auto of_twin = counts_of(*twin);
   EXPECT_GT(of_gpu["solver: sweeps of bounces"], 0U);

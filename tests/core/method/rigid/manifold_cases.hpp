@@ -84,6 +84,8 @@ inline Subject hull(const Mesh& mesh) {
                     tables->faces.data(),
                     tables->corners.data(),
                     tables->edges.data(),
+                    tables->ways.data(),
+                    tables->beyond.data(),
                     static_cast<std::uint32_t>(tables->vertices.size()),
                     static_cast<std::uint32_t>(tables->faces.size()),
                     static_cast<std::uint32_t>(tables->edges.size())};

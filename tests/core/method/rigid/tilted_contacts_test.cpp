@@ -29,6 +29,83 @@ double off_surface(const Subject& s, Vec3 x) {
   return std::abs(exact::signed_distance(point, s.placed()).distance_m);
 }
 
+// The height of the surface over a line, by all planes: the least height of those that look up.
+double height_by_planes(const Subject& s, Vec3 x, Vec3 up, double& below) {
+  const PlacedShape placed = placed_shape(s.shape, s.pose, s.pose.x);
+  double entry = -1e30;
+  below = 1e30;
+  for (std::uint32_t f = 0; f < s.shape.hull.face_count; ++f) {
+    const exact::Point n = exact::to_point(turned(placed.axes, s.shape.hull.faces[f].normal));
+    const double outside = dot(n, exact::to_point(x)) - static_cast<double>(s.shape.hull.faces[f].offset_m);
+    const double along = dot(n, exact::to_point(up));
+    if (along > 0.0) entry = std::max(entry, outside / along);
+    if (along < 0.0) below = std::min(below, outside / along);
+  }
+  return entry;
+}
+
+TEST(TiltedContacts, HeightsAreThoseOfTheSurface) {
+  Draw draw(6);
+  int over = 0;
+  int missed = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Subject s = pebble(draw);
+    s.pose.q = draw.turn();
+    const PlacedShape placed = placed_shape(s.shape, s.pose, s.pose.x);
+    const auto hull = hull_polytope(placed);
+    for (int k = 0; k < 50; ++k) {
+      const Vec3 up = normalized(draw.in_cube(1.0F));
+      const Vec3 x = draw.in_cube(0.6F);
+      double below = 0.0;
+      const double truth = height_by_planes(s, x, up, below);
+      // A line that passes the rim nearer than this may be on either side of it.
+      if (std::abs(truth - below) < 1e-4) continue;
+      float height = 0.0F;
+      const int face = tilt_detail::face_below(hull, hull.support_face(up), x, up, 1e-6F);
+      EXPECT_EQ(face >= 0, truth <= below) << trial << " line " << k;
+      if (face < 0) {
+        ++missed;
+      } else if (height_above(hull, hull.support_face(up), x, up, 1e-6F, height)) {
+        ++over;
+        EXPECT_NEAR(height, truth, 1e-5) << trial << " line " << k;
+      }
+    }
+  }
+  EXPECT_GT(over, 200);
+  EXPECT_GT(missed, 200);
+}
+
+// A flat side of many corners is stored as faces of one plane: a line beyond it is followed over all of them.
+TEST(TiltedContacts, FlatSidesOfManyCornersAreCrossed) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < 60; ++k) {
+    const double angle = 0.1047197551196598 * k;
+    const auto c = static_cast<float>(std::cos(angle));
+    const auto w = static_cast<float>(std::sin(angle));
+    points.push_back({c, 0.5F, w});
+    points.push_back({1.5F * c, 0.0F, 1.5F * w});
+    points.push_back({c, -0.5F, w});
+  }
+  const Subject s = hull(*exact::convex_hull(points));
+  const auto placed = hull_polytope(placed_shape(s.shape, s.pose, s.pose.x));
+  const Vec3 up{0.0F, 1.0F, 0.0F};
+  for (int k = 0; k < 100; ++k) {
+    const double angle = 0.37 * k;
+    const float radius = 0.0147F * static_cast<float>(k);
+    const Vec3 x{radius * static_cast<float>(std::cos(angle)), 0.7F, radius * static_cast<float>(std::sin(angle))};
+    float height = 0.0F;
+    const bool is_over = height_above(placed, placed.support_face(up), x, up, 1e-6F, height);
+    if (radius < 0.99F) {
+      ASSERT_TRUE(is_over) << radius;
+      EXPECT_NEAR(height, 0.2F, 1e-5) << radius;
+    } else if (radius > 1.01F && radius < 1.48F) {
+      // The slope falls by 1 m a meter; its facets are flat between corners 3 degrees to either side.
+      ASSERT_TRUE(is_over) << radius;
+      EXPECT_NEAR(height, 0.2F + (radius - 1.0F), 3e-3) << radius;
+    }
+  }
+}
+
 TEST(TiltedContacts, LieOnBothSurfacesAndApart) {
   Draw draw(5);
   int spread = 0;

@@ -1,0 +1,135 @@
+// Bounds of the distance of hulls are bounds, and what they tell of a pair is what its patches tell.
+#include "core/method/rigid/quick_hulls.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/exact/convex_hull.hpp"
+#include "core/method/rigid/hull_climb.hpp"
+#include "core/method/rigid/passing_by.hpp"
+#include "tests/core/method/rigid/manifold_cases.hpp"
+
+namespace broadside::core {
+namespace {
+
+// Of a radius of about half a meter, flatter by up to a third.
+Subject boulder(Draw& draw, int corners) {
+  const Vec3 half{draw.between(0.35F, 0.5F), draw.between(0.35F, 0.5F), draw.between(0.35F, 0.5F)};
+  std::vector<Vec3> points;
+  for (int k = 0; k < corners; ++k) {
+    const Vec3 p = normalized(draw.in_cube(1.0F));
+    points.push_back({half.x * p.x, half.y * p.y, half.z * p.z});
+  }
+  return hull(*exact::convex_hull(points));
+}
+
+TEST(HullClimb, EndsAtTheLowestCorner) {
+  Draw draw(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Subject s = boulder(draw, 30 + draw.below(200));
+    const HullView& view = s.shape.hull;
+    for (int k = 0; k < 50; ++k) {
+      const Vec3 direction = normalized(draw.in_cube(1.0F));
+      float least = 1e30F;
+      for (std::uint32_t v = 0; v < view.vertex_count; ++v) least = std::min(least, dot(direction, view.vertices[v]));
+      const std::uint32_t low = climb_down(view, direction, climb_start(view, direction));
+      EXPECT_NEAR(dot(direction, view.vertices[low]), least, 4.0F * 0x1p-24F * s.shape.size_m);
+      const std::uint32_t from_anywhere = climb_down(view, direction, static_cast<std::uint32_t>(draw.below(10)));
+      EXPECT_NEAR(dot(direction, view.vertices[from_anywhere]), least, 4.0F * 0x1p-24F * s.shape.size_m);
+    }
+  }
+}
+
+TEST(HullGap, EnclosesTheDistance) {
+  Draw draw(2);
+  int apart = 0;
+  int overlapping = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    Subject a = boulder(draw, 40);
+    Subject b = boulder(draw, 40);
+    a.pose.q = draw.turn();
+    b.pose.q = draw.turn();
+    b.pose.x = draw.between(0.3F, 1.3F) * normalized(draw.in_cube(1.0F));
+    const PlacedShape placed_a = placed_shape(a.shape, a.pose, a.pose.x);
+    const PlacedShape placed_b = placed_shape(b.shape, b.pose, a.pose.x);
+    const float rounding_m = contact_rounding_m(placed_a, placed_b);
+    const HullGap gap = hull_gap({a.shape.hull, placed_a.center, placed_a.axes},
+                                 {b.shape.hull, placed_b.center, placed_b.axes}, 10.0F, 0x1p-10F, rounding_m);
+    const double truth = exact::signed_distance(a.placed(), b.placed()).distance_m;
+    EXPECT_LE(gap.least_m, truth + rounding_m) << trial;
+    EXPECT_GE(gap.most_m, std::max(truth, 0.0) - rounding_m) << trial;
+    EXPECT_LE(gap.overlap_m, -truth + rounding_m) << trial;
+    EXPECT_NEAR(length(gap.normal), 1.0F, 1e-6F);
+    const double along = -exact::overlap_along(a.placed(), b.placed(), exact::to_point(gap.normal));
+    EXPECT_NEAR(gap.least_m, along, rounding_m) << trial;
+    if (truth > 0.01) {
+      ++apart;
+      EXPECT_LE(gap.most_m - gap.least_m, 0x1p-9F * gap.most_m) << "they did not meet, trial " << trial;
+    }
+    if (truth < -0.01) {
+      ++overlapping;
+      EXPECT_EQ(gap.most_m, 0.0F) << trial;
+    }
+  }
+  EXPECT_GT(apart, 30);
+  EXPECT_GT(overlapping, 30);
+}
+
+// As is_still_apart says it, by patches alone.
+bool stays_apart(const Manifold& start, const Subject& a, const ContactPose& at_a, const Subject& b,
+                 const ContactPose& at_b, float reach_m) {
+  Manifold end[kPatchesOfPair];
+  if (make_manifolds(a.shape, at_a, b.shape, at_b, reach_m, end) == 0) return false;
+  return least_gap_m(end[0]) > 0.0F && dot(start.normal, end[0].normal) > 0.0F;
+}
+
+TEST(QuickHulls, TellWhatPatchesTell) {
+  Draw draw(3);
+  int passing = 0;
+  int told = 0;
+  int answers[3] = {};
+  for (int trial = 0; trial < 300; ++trial) {
+    const Subject a = boulder(draw, 60);
+    const Subject b = boulder(draw, 60);
+    ASSERT_TRUE(has_quick_answers(a.shape, b.shape));
+    ContactPath path_a{{{}, draw.turn()}, {}};
+    ContactPath path_b{{draw.between(0.7F, 1.2F) * normalized(draw.in_cube(1.0F)), draw.turn()}, {}};
+    path_a.end = {draw.in_cube(0.1F), path_a.start.q};
+    path_b.end = {path_b.start.x + draw.in_cube(0.1F), path_b.start.q};
+    const float reach_m = length(path_a.end.x - path_a.start.x) + length(path_b.end.x - path_b.start.x);
+    const float near_m = 0.01F * static_cast<float>(draw.below(4));
+    const bool surely = surely_pass(a.shape, path_a, b.shape, path_b, reach_m, near_m);
+    told += surely ? 1 : 0;
+    Manifold start[kPatchesOfPair];
+    const int count = make_manifolds(a.shape, path_a.start, b.shape, path_b.start, reach_m, start);
+    bool passes = count == 0;
+    if (count > 0) {
+      const ContactPose* const ends[3][2] = {
+          {&path_a.end, &path_b.end}, {&path_a.end, &path_b.start}, {&path_a.start, &path_b.end}};
+      passes = least_gap_m(start[0]) > near_m;
+      for (const auto& [at_a, at_b] : ends) {
+        const bool apart = stays_apart(start[0], a, *at_a, b, *at_b, 2.0F * reach_m);
+        passes &= apart;
+        const QuickAnswer answer = quickly_still_apart(start[0].normal, a.shape, *at_a, b.shape, *at_b, 2.0F * reach_m);
+        ++answers[static_cast<int>(answer)];
+        if (answer != QuickAnswer::kUnknown) {
+          EXPECT_EQ(answer == QuickAnswer::kYes, apart) << trial;
+        }
+      }
+    }
+    passing += passes ? 1 : 0;
+    if (surely) {
+      EXPECT_TRUE(passes) << trial;
+    }
+  }
+  // Most are told, or it would save nothing.
+  EXPECT_GT(told, passing * 2 / 3);
+  EXPECT_GT(answers[static_cast<int>(QuickAnswer::kYes)], 50);
+  EXPECT_GT(answers[static_cast<int>(QuickAnswer::kNo)], 50);
+  EXPECT_LT(answers[static_cast<int>(QuickAnswer::kUnknown)], 100);
+}
+
+}  // namespace
+}  // namespace broadside::core
