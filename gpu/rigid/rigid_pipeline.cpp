@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/method/rigid/sleep.hpp"
+#include "core/method/rigid/step_in_parts.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
 #include "gpu/rigid/rigid_buffers.hpp"
@@ -56,19 +57,23 @@ struct RigidPipeline::Impl {
   std::uint64_t waits = 0;
   std::uint64_t steps_slept = 0;
   std::uint64_t launches = 0;
-  float dt_s = 0.0F;
+  float dt_s = 0.0F;        // of the step
+  std::uint32_t parts = 1;  // of a step
+  core::StepInParts earlier_parts;
 
   [[nodiscard]] bool has_broad() const;
   [[nodiscard]] Start start() const;
   core::Status load_broad();
   core::Status refit(const RigidCounts& counts);
+  [[nodiscard]] float part_s() const { return dt_s / static_cast<float>(parts); }
   void fill();
+  core::Status run_part();
   std::uint32_t choose_solve_team();
   core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
   // The frame is kept, so what it came to is what the next one starts from.
-  [[nodiscard]] RigidLeft left() const { return {bodies, buffers, pairs, steps == 0 ? 0 : last_pairs, last}; }
+  [[nodiscard]] RigidLeft left() const { return {bodies, buffers, pairs, last_pairs, last}; }
   void take_frame();
 };
 
@@ -142,6 +147,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = d.launches = 0;
   d.dt_s = 0.0F;
   d.last = {};
+  d.parts = core::parts_of_step(d.options.solver, core::largest_mass_ratio(scene));
+  d.earlier_parts.begin();
   d.told.forget();
   d.times = {};
   d.view = {};
@@ -200,11 +207,11 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 
 void RigidPipeline::Impl::fill() {
   buffers.fill(view);
-  view.dt_s = dt_s;
-  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, dt_s);
+  view.dt_s = part_s();
+  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, view.dt_s);
   for (std::uint32_t kind = 0; kind < 2; ++kind) {
     view.substeps[kind] = core::substeps_of(view.solver, kind == 1);
-    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
+    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, view.dt_s, kind == 1);
   }
   view.pairs = pairs.data();
   view.pair_capacity = pairs.capacity();
@@ -286,7 +293,7 @@ void RigidPipeline::Impl::take_frame() {
   for (std::size_t k = 0; k < core::kStageCount; ++k) {
     // The broad phase ends where the kernel behind it begins; boxes and pairs are timed together.
     const unsigned long long end_ns = k == 0 ? begin_ns : outcome[0].stage_end_ns[k];
-    times[k] = {core::kStageNames[k], static_cast<double>(end_ns - begin_ns) * 1e-9};
+    times[k] = {core::kStageNames[k], times[k].seconds + static_cast<double>(end_ns - begin_ns) * 1e-9};
     begin_ns = end_ns;
   }
   buffers.advance(last);
@@ -298,7 +305,18 @@ void RigidPipeline::Impl::take_frame() {
   bounce_sweeps += last.done.bounce_sweeps;
   waits += last.done.waits;
   steps_slept += last.asleep_bodies;
-  ++steps;
+}
+
+core::Status RigidPipeline::Impl::run_part() {
+  for (bool is_done = false; !is_done;) {
+    BROADSIDE_TRY(launch_all());
+    const auto kept = is_kept();
+    if (!kept.ok()) return kept.error();
+    is_done = kept.value();
+  }
+  if (options.sweeps_fast) BROADSIDE_TRY(sweep.stop_short(view, view.after, stream));
+  take_frame();
+  return core::Done{};
 }
 
 core::Status RigidPipeline::step(float dt_s) {
@@ -306,14 +324,16 @@ core::Status RigidPipeline::step(float dt_s) {
   // What a contact gives in a step is no longer that of the last one.
   if (dt_s != d.dt_s) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
-  for (bool is_done = false; !is_done;) {
-    BROADSIDE_TRY(d.launch_all());
-    const auto kept = d.is_kept();
-    if (!kept.ok()) return kept.error();
-    is_done = kept.value();
+  d.times = {};
+  d.earlier_parts.begin();
+  for (std::uint32_t part = 1; part <= d.parts; ++part) {
+    BROADSIDE_TRY(d.run_part());
+    if (part == d.parts) break;
+    core::FrameRecord told;
+    BROADSIDE_TRY(read_back_rigid(d.left(), told));
+    d.earlier_parts.add(std::move(told));
   }
-  if (d.options.sweeps_fast) BROADSIDE_TRY(d.sweep.stop_short(d.view, d.view.after, d.stream));
-  d.take_frame();
+  ++d.steps;
   return core::Done{};
 }
 
@@ -323,6 +343,11 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame.step = d.steps;
   frame.time_s = static_cast<double>(d.steps) * static_cast<double>(d.dt_s);
   const RigidLeft left = d.left();
+  if (d.parts > 1 && d.steps > 0) {
+    BROADSIDE_TRY(read_back_rigid(left, frame));
+    d.earlier_parts.join(frame, level);
+    return core::Done{};
+  }
   auto digest = rigid_digest_of(left, d.contact_shape, d.stream);
   if (!digest.ok()) return digest.error();
   frame.digest = digest.value();
@@ -332,6 +357,10 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
 core::Result<core::DeviceFrame> RigidPipeline::frame_on_device() {
   Impl& d = *impl_;
   if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
+  // Points of the parts before the last one are on the host by now.
+  if (d.parts > 1)
+    return core::Error{"a step of this scene is taken in parts, whose points are put together on the host",
+                       "octree-gpu", "read the frame back, or give bodies whose masses are nearer to each other"};
   return d.told.tell(d.left(), d.steps, d.stream);
 }
 

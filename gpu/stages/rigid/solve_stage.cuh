@@ -54,18 +54,21 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
   float last_change = 0.0F;
   float share = 0.0F;
   float done = 0.0F;
+  std::uint32_t most = 1;
   float fastest_push = 0.0F;
   for (std::uint32_t k = 1;; ++k) {
     sweep_along(team, f, solve.soft, k == 1, solve.owes_totals, share, solve.sums);
     ++solve.done.sweeps;
     team.sync();
     if (k == 1) {
-      done = core::done_m_s(solve.soft, f.solver.done, solve.sums.largest(TeamSums::kThird));
+      const float fastest = solve.sums.largest(TeamSums::kThird);
+      done = core::done_m_s(solve.soft, solve.soft.done_share, fastest);
+      most = core::most_sweeps(solve.soft, fastest);
       fastest_push = solve.sums.largest(TeamSums::kFourth);
     }
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);
-    if (k >= f.solver.sweeps || largest_speed <= done) return fastest_push;
+    if (k >= most || largest_speed <= done) return fastest_push;
     const float change = sum_of_changes(team, f, solve, largest_change);
     if (!(last_change > 0.0F)) first_change = change;
     share = core::share_of_direction(first_change, last_change, change);

@@ -13,6 +13,7 @@
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "core/method/rigid/soft_settings.hpp"
+#include "core/scene/scene.hpp"
 
 namespace broadside::reference {
 
@@ -47,6 +48,9 @@ class ContactSolver {
   // threads. Called inside the oneTBB arena that it may use.
   virtual void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                        const RigidStep& step) = 0;
+
+  // In how many equal parts, each with its own call of advance, it wants a step of this scene.
+  [[nodiscard]] virtual std::uint32_t parts_of_step(const core::Scene& scene) const = 0;
 
   // Of the last step, by patch.
   [[nodiscard]] virtual std::span<const PatchImpulses> impulses() const = 0;

@@ -34,8 +34,8 @@ RigidPipeline::RigidPipeline(RigidPipelineOptions options)
 RigidPipeline::~RigidPipeline() = default;
 
 core::Declaration RigidPipeline::declaration_for(const core::Scene& scene) const {
-  if (!options_.sleeps) return options_.declaration;
-  return core::with_sleep(options_.declaration, core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s));
+  if (!options_.sleeps) return options_.declare(scene);
+  return core::with_sleep(options_.declare(scene), core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s));
 }
 
 core::Status RigidPipeline::load(const core::Scene& scene) {
@@ -45,6 +45,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   scene_ = &scene;
   bodies_ = std::move(bodies).value();
   solver_ = options_.make_solver(scene);
+  parts_ = solver_->parts_of_step(scene);
+  earlier_parts_.begin();
   sleepers_.load(bodies_);
   last_patches_.clear();
   dt_s_ = 0.0F;
@@ -58,20 +60,32 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   sweep_stage_.load(scene, bodies_, options_.make_broad_phase);
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
-  threads_->arena.execute([&] { place(scene.dt_s); });
+  threads_->arena.execute([&] { place(scene.dt_s / static_cast<float>(parts_)); });
   return broad_phase_->load(bodies_.boxes, bodies_.is_static);
 }
 
 core::Status RigidPipeline::step(float dt_s) {
-  core::Status status = core::Done{};
-  threads_->arena.execute([&] { status = run_stages(dt_s); });
-  return status;
+  // What a contact gives in a step is no longer that of the last one.
+  if (dt_s != dt_s_) sleepers_.wake_all();
+  const float part_s = dt_s / static_cast<float>(parts_);
+  times_ = {};
+  earlier_parts_.begin();
+  for (std::uint32_t part = 1; part <= parts_; ++part) {
+    core::Status status = core::Done{};
+    threads_->arena.execute([&] { status = run_stages(part_s); });
+    if (!status) return status;
+    if (part == parts_) break;
+    core::FrameRecord frame;
+    read_back_part(frame, core::RecordLevel::kFull);
+    earlier_parts_.add(std::move(frame));
+  }
+  ++steps_;
+  dt_s_ = dt_s;
+  return core::Done{};
 }
 
 core::Status RigidPipeline::run_stages(float dt_s) {
   StageClock clock(times_);
-  // What a contact gives in a step is no longer that of the last one.
-  if (dt_s != dt_s_) sleepers_.wake_all();
   place(dt_s);
   clock.lap(core::Stage::kIntegrate);
   if (core::Status s = find_candidates(); !s) return s;
@@ -89,8 +103,6 @@ core::Status RigidPipeline::run_stages(float dt_s) {
     if (core::Status s = stop_short(); !s) return s;
   tell_points();
   clock.lap(core::Stage::kResponse);
-  ++steps_;
-  dt_s_ = dt_s;
   return core::Done{};
 }
 
@@ -231,11 +243,19 @@ std::uint64_t RigidPipeline::digest() const {
 }
 
 core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
-  frame = {};
+  const bool is_in_parts = parts_ > 1 && steps_ > 0;
+  read_back_part(frame, is_in_parts ? core::RecordLevel::kFull : level);
   frame.step = steps_;
   frame.time_s = static_cast<double>(steps_) * static_cast<double>(dt_s_);
+  if (is_in_parts) earlier_parts_.join(frame, level);
+  if (level == core::RecordLevel::kFull) record(frame);
+  return core::Done{};
+}
+
+void RigidPipeline::read_back_part(core::FrameRecord& frame, core::RecordLevel level) {
+  frame = {};
   frame.digest = digest();
-  if (level != core::RecordLevel::kFull) return core::Done{};
+  if (level != core::RecordLevel::kFull) return;
 
   for (std::uint32_t i = 0; i < bodies_.count(); ++i) {
     const core::RigidState& s = bodies_.state[i];
@@ -254,8 +274,6 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame.pairs_raw = candidates_.raw;
   frame.confirmed = confirmed_;
   frame.points = points_;
-  record(frame);
-  return core::Done{};
 }
 
 }  // namespace broadside::reference

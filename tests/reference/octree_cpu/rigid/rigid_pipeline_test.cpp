@@ -29,7 +29,7 @@ RigidPipelineOptions options(int threads = 0, Levels levels = Levels::kC) {
   o.make_broad_phase = [](const Scene&) { return reference::make_tree_broad_phase(); };
   o.levels = levels;
   o.make_solver = [](const Scene&) { return reference::make_contact_solver({}); };
-  o.declaration = reference::rigid_declaration({});
+  o.declare = [](const core::Scene& scene) { return reference::rigid_declaration({}, scene); };
   o.threads = threads;
   return o;
 }
