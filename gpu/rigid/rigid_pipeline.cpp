@@ -7,9 +7,11 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/step_in_parts.hpp"
+#include "core/scene/calm_bodies.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
 #include "gpu/rigid/rigid_buffers.hpp"
@@ -58,7 +60,9 @@ struct RigidPipeline::Impl {
   std::uint64_t steps_slept = 0;
   std::uint64_t launches = 0;
   float dt_s = 0.0F;        // of the step
-  std::uint32_t parts = 1;  // of a step
+  float mass_ratio = 1.0F;  // core::largest_mass_ratio
+  bool is_calm = false;     // as the step began
+  std::uint32_t parts = 1;  // of the step
   core::StepInParts earlier_parts;
 
   [[nodiscard]] bool has_broad() const;
@@ -67,6 +71,7 @@ struct RigidPipeline::Impl {
   core::Status refit(const RigidCounts& counts);
   [[nodiscard]] float part_s() const { return dt_s / static_cast<float>(parts); }
   void fill();
+  core::Status choose_parts(float step_s);
   core::Status run_part();
   std::uint32_t choose_solve_team();
   core::Status launch_contacts_of_scene();
@@ -147,7 +152,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = d.launches = 0;
   d.dt_s = 0.0F;
   d.last = {};
-  d.parts = core::parts_of_step(d.options.solver, core::largest_mass_ratio(scene));
+  d.mass_ratio = core::largest_mass_ratio(scene);
+  d.parts = 1;
   d.earlier_parts.begin();
   d.told.forget();
   d.times = {};
@@ -210,8 +216,9 @@ void RigidPipeline::Impl::fill() {
   view.dt_s = part_s();
   view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, view.dt_s);
   for (std::uint32_t kind = 0; kind < 2; ++kind) {
-    view.substeps[kind] = core::substeps_of(view.solver, kind == 1);
-    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, view.dt_s, kind == 1);
+    const core::SolveNumbers& numbers = core::solve_numbers(view.solver, kind == 1, is_calm);
+    view.substeps[kind] = numbers.substeps;
+    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, view.dt_s, numbers);
   }
   view.pairs = pairs.data();
   view.pair_capacity = pairs.capacity();
@@ -307,6 +314,16 @@ void RigidPipeline::Impl::take_frame() {
   steps_slept += last.asleep_bodies;
 }
 
+// From the states that the step begins with, where the masses ask for it.
+core::Status RigidPipeline::Impl::choose_parts(float step_s) {
+  if (!core::is_uneven(options.solver, mass_ratio)) return core::Done{};
+  std::vector<core::RigidState> states;
+  BROADSIDE_TRY(buffers.before().download(states, bodies.state.size()));
+  is_calm = core::are_calm(bodies, states, scene->gravity_m_s2, step_s);
+  parts = core::parts_of_step(options.solver, mass_ratio, is_calm);
+  return core::Done{};
+}
+
 core::Status RigidPipeline::Impl::run_part() {
   for (bool is_done = false; !is_done;) {
     BROADSIDE_TRY(launch_all());
@@ -321,8 +338,10 @@ core::Status RigidPipeline::Impl::run_part() {
 
 core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
-  // What a contact gives in a step is no longer that of the last one.
-  if (dt_s != d.dt_s) BROADSIDE_TRY(d.buffers.wake_all());
+  const std::uint32_t parts_before = d.parts;
+  BROADSIDE_TRY(d.choose_parts(dt_s));
+  // What a contact gives in a part is no longer that of the last one.
+  if (dt_s != d.dt_s || d.parts != parts_before) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
   d.times = {};
   d.earlier_parts.begin();
@@ -358,7 +377,7 @@ core::Result<core::DeviceFrame> RigidPipeline::frame_on_device() {
   Impl& d = *impl_;
   if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
   // Points of the parts before the last one are on the host by now.
-  if (d.parts > 1)
+  if (core::most_parts(d.options.solver, d.mass_ratio) > 1)
     return core::Error{"a step of this scene is taken in parts, whose points are put together on the host",
                        "octree-gpu", "read the frame back, or give bodies whose masses are nearer to each other"};
   return d.told.tell(d.left(), d.steps, d.stream);

@@ -23,7 +23,7 @@ bool may_bounce(const Scene& scene) {
 Declaration rigid_declaration(const SoftSettings& solver, const Scene& scene, std::string_view twin_of) {
   const float ratio = largest_mass_ratio(scene);
   const MostOfStep most = most_of_step(solver, ratio, may_bounce(scene));
-  const bool is_in_parts = parts_of_step(solver, ratio) > 1;
+  const bool is_in_parts = most_parts(solver, ratio) > 1;
   std::map<std::string, std::string> given{
       {"motion", "rigid"},
       {"detection_at", is_in_parts ? "within" : "start"},

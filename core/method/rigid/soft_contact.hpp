@@ -35,10 +35,8 @@ struct SoftStep {
   float kept_push_m_s = 0.0F;    // what pushes bodies apart faster is taken back (pushed_apart.hpp)
   float gravity_m_s2 = 0.0F;
   // The last sweep is one that changes no point's speed by more than this share of the fastest, and at most the so
-  // many-th: of contacts that are calm, where no point is faster, and of others.
+  // many-th.
   float done_share = 0.0F;
-  float calm_m_s = 0.0F;
-  std::uint32_t calm_sweeps = 1;
   std::uint32_t most_sweeps = 1;
 };
 
@@ -61,10 +59,6 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
 BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, float fastest_m_s) {
   const float of_fastest = done_share * fastest_m_s;
   return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
-}
-
-BROADSIDE_HD constexpr std::uint32_t most_sweeps(const SoftStep& step, float fastest_m_s) {
-  return fastest_m_s > step.calm_m_s ? step.most_sweeps : step.calm_sweeps;
 }
 
 // Before anything else of a substep: how fast the points come.

@@ -1,6 +1,7 @@
 // What the soft solver may be set to, and the numbers of a step that follow.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,36 +20,36 @@ struct PatchLimits {
   float fixed_slop_m = 0.0F;  // in its place, where it is given
 };
 
-// Where masses are further apart than SoftSettings::even_masses. A contact of a light body bears what a heavy one needs
-// to stop: as stiff as the light one alone allows, 8 kg at 9 m/s sank into 16 g by a quarter of its side, and sweeps
-// that stop early leave as much.
-struct UnevenSettings {
-  // A step of a scene with such masses is taken in so many equal parts, each of which detects anew: light bodies that
-  // are struck turn by half a radian within a step, and meet in points that its start does not show.
-  std::uint32_t parts = 4;
-  // Of a step or its part in which such bodies touch: so many times the substeps, and what its sweeps are.
-  std::uint32_t factor = 1;
-  std::uint32_t sweeps = 1000;
-  // Of what is at rest: there sweeps may go on and on, friction makes them change little and never less.
-  std::uint32_t calm_sweeps = 500;
-  float done = 1e-4F;
-  float done_of_gravity = 0x1p-5F;
-  float omega_dt = 200.0F;
+// What contacts are solved with in a step, or a part of one.
+struct SolveNumbers {
+  std::uint32_t substeps = 1;
+  // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
+  std::uint32_t sweeps = 1;
+  // A sweep is the last one that changes no point's speed by more than this share of the fastest, or by more than this
+  // share of what gravity gives in a substep.
+  float done = 0.0F;
+  float done_of_gravity = 0.0F;
+  float omega_dt = 0.0F;  // soft_step of soft_contact.hpp
+};
+
+// A step of a scene whose masses are further apart than SoftSettings::even_masses.
+struct UnevenStep {
+  std::uint32_t parts = 1;  // equal ones, each of which detects anew
+  SolveNumbers numbers;     // of a part in which such bodies touch
 };
 
 // core/method/rigid/SOLVERS.md has the measurements that the defaults were chosen by.
 struct SoftSettings {
-  std::uint32_t substeps = 4;  // of a step, or of its part
+  // A sweep that changes points by no more than a share of gravity is the last one, because where all rests, the
+  // fastest is no faster than that, and one point of a thousand kept everybody sweeping.
+  SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F};
   float even_masses = 64.0F;
-  UnevenSettings uneven;
-  // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
-  std::uint32_t sweeps = 12;
-  // A sweep is the last one that changes no point's speed by more than this share of the fastest, or by more than this
-  // share of what gravity gives in a substep: where all rests, the fastest is no faster than that, and one point of a
-  // thousand kept everybody sweeping.
-  float done = 0x1p-10F;
-  float done_of_gravity = 0x1p-5F;
-  float omega_dt = 6.0F;
+  // A contact of a light body bears what a heavy one needs to stop: as stiff as the light one alone allows, 8 kg at
+  // 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts, because light
+  // bodies that are struck turn by half a radian within a step, and meet in points that its start does not show.
+  UnevenStep lively{4, {4, 1000, 1e-4F, 0x1p-5F, 200.0F}};
+  // The same where nothing moves fast (core/scene/calm_bodies.hpp). What is solved less well sways.
+  UnevenStep calm{1, {4, 500, 0x1p-8F, 0x1p-5F, 200.0F}};
   float damping = 1.0F;
   PatchLimits limits{0x1p-16F, 0.0F};
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
@@ -59,10 +60,16 @@ struct SoftSettings {
 // until little changes made a step of 1,000 resting cubes fifteen times as long.
 inline SoftSettings soft_step_settings() {
   SoftSettings settings;
-  settings.substeps = 8;
-  settings.sweeps = 1;
-  settings.omega_dt = 1.2F;
-  settings.uneven = {1, 4, 1, 1, settings.done, settings.done_of_gravity, settings.omega_dt};
+  settings.even = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F};
+  settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F}};
+  return settings;
+}
+
+// So many substeps of a step in place of the solver's own; where masses are far apart as many times more as those have.
+inline SoftSettings with_substeps(SoftSettings settings, std::uint32_t substeps) {
+  const std::uint32_t own = settings.even.substeps;
+  for (SolveNumbers* numbers : {&settings.even, &settings.lively.numbers, &settings.calm.numbers})
+    numbers->substeps = numbers->substeps * substeps / own;
   return settings;
 }
 
@@ -70,11 +77,7 @@ inline SoftSettings soft_step_settings() {
 // than the 1 % by which it stands.
 inline SoftSettings stiff_settings() {
   SoftSettings settings;
-  settings.substeps = 8;
-  settings.sweeps = 100;
-  settings.done = 1e-5F;
-  settings.done_of_gravity = 0x1p-10F;
-  settings.omega_dt = 20.0F;
+  settings.even = {8, 100, 1e-5F, 0x1p-10F, 20.0F};
   return settings;
 }
 
@@ -84,49 +87,64 @@ struct MostOfStep {
   std::uint32_t applications = 0;
 };
 
-BROADSIDE_HD constexpr std::uint32_t substeps_of(const SoftSettings& settings, bool is_uneven) {
-  return is_uneven ? settings.uneven.factor * settings.substeps : settings.substeps;
+constexpr const UnevenStep& uneven_step(const SoftSettings& settings, bool is_calm) {
+  return is_calm ? settings.calm : settings.lively;
+}
+
+// Of a step, or of its part. is_uneven: bodies touch whose masses are far apart.
+constexpr const SolveNumbers& solve_numbers(const SoftSettings& settings, bool is_uneven, bool is_calm) {
+  return is_uneven ? uneven_step(settings, is_calm).numbers : settings.even;
+}
+
+constexpr bool is_uneven(const SoftSettings& settings, float largest_mass_ratio) {
+  return largest_mass_ratio > settings.even_masses;
 }
 
 // A solver whose cost is known ahead keeps what pushes.
 constexpr bool takes_back_pushes(const SoftSettings& settings) {
-  return settings.sweeps > 1;
+  return settings.even.sweeps > 1;
 }
 
 // In how many parts a step is taken of bodies whose masses are so many times apart.
-constexpr std::uint32_t parts_of_step(const SoftSettings& settings, float largest_mass_ratio) {
-  return largest_mass_ratio > settings.even_masses ? settings.uneven.parts : 1;
+constexpr std::uint32_t parts_of_step(const SoftSettings& settings, float largest_mass_ratio, bool is_calm) {
+  return is_uneven(settings, largest_mass_ratio) ? uneven_step(settings, is_calm).parts : 1;
+}
+constexpr std::uint32_t most_parts(const SoftSettings& settings, float largest_mass_ratio) {
+  return std::max(parts_of_step(settings, largest_mass_ratio, false),
+                  parts_of_step(settings, largest_mass_ratio, true));
 }
 
 inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_ratio, bool may_bounce) {
-  const bool is_uneven = largest_mass_ratio > settings.even_masses;
-  const std::uint32_t sweeps = is_uneven ? settings.uneven.sweeps : settings.sweeps;
-  // The start from the last impulse, sweeps with a step along the direction between two, and relaxation.
-  std::uint32_t applications = 1 + (2 * sweeps - 1) + 1;
-  // What pushes apart is taken back: a start without it, and what changes by that relaxes.
-  if (takes_back_pushes(settings)) applications += 1 + kMostRelaxSweeps;
-  // Before a bounce all relaxes; a sweep of it visits a patch's points several times, and its friction.
-  if (may_bounce) applications += kMostBounceSweeps + kMostBounceSweeps * (kSweepsOfBounce + 1);
-  return {parts_of_step(settings, largest_mass_ratio) * substeps_of(settings, is_uneven), applications};
+  const auto most_of = [&](std::uint32_t parts, const SolveNumbers& numbers) {
+    // The start from the last impulse, sweeps with a step along the direction between two, and relaxation.
+    std::uint32_t applications = 1 + (2 * numbers.sweeps - 1) + 1;
+    // What pushes apart is taken back: a start without it, and what changes by that relaxes.
+    if (takes_back_pushes(settings)) applications += 1 + kMostRelaxSweeps;
+    // Before a bounce all relaxes; a sweep of it visits a patch's points several times, and its friction.
+    if (may_bounce) applications += kMostBounceSweeps + kMostBounceSweeps * (kSweepsOfBounce + 1);
+    return MostOfStep{parts * numbers.substeps, applications};
+  };
+  MostOfStep most = most_of(1, settings.even);
+  if (!is_uneven(settings, largest_mass_ratio)) return most;
+  for (const UnevenStep& step : {settings.lively, settings.calm})
+    for (const MostOfStep of : {most_of(step.parts, step.numbers), most_of(step.parts, settings.even)})
+      most = {std::max(most.substeps, of.substeps), std::max(most.applications, of.applications)};
+  return most;
 }
 
 // dt_s: of the step, or of its part.
-inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, bool is_uneven) {
+inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, const SolveNumbers& numbers) {
   constexpr float kSettleShare = 0.05F;
   // A push that stays as speed leaves a sixteenth of what explicit and implicit Euler differ by in a step.
   constexpr float kKeptPushShare = 0.25F;
   const float gravity = length(gravity_m_s2);
-  const UnevenSettings& uneven = settings.uneven;
-  SoftStep step = soft_step(dt_s / static_cast<float>(substeps_of(settings, is_uneven)),
-                            is_uneven ? uneven.omega_dt : settings.omega_dt, settings.damping);
-  step.most_sweeps = is_uneven ? uneven.sweeps : settings.sweeps;
-  step.calm_sweeps = is_uneven ? uneven.calm_sweeps : settings.sweeps;
-  step.done_share = is_uneven ? uneven.done : settings.done;
+  SoftStep step = soft_step(dt_s / static_cast<float>(numbers.substeps), numbers.omega_dt, settings.damping);
+  step.most_sweeps = numbers.sweeps;
+  step.done_share = numbers.done;
   step.gravity_m_s2 = gravity;
-  step.least_done_m_s = (is_uneven ? uneven.done_of_gravity : settings.done_of_gravity) * gravity * step.dt_s;
+  step.least_done_m_s = numbers.done_of_gravity * gravity * step.dt_s;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
-  step.calm_m_s = 2.0F * dt_s * gravity;
   step.kept_push_m_s =
       takes_back_pushes(settings) ? kKeptPushShare * gravity * dt_s : std::numeric_limits<float>::max();
   return step;

@@ -1,6 +1,6 @@
 // A step that is taken in several equal parts, each of which detects anew, as one frame of a trace: RIGID 8.4.
 //
-// Where masses are far apart (UnevenSettings), light bodies that are struck move and turn within a step to where no
+// Where masses are far apart (UnevenStep), light bodies that are struck move and turn within a step to where no
 // contact of its start is. The frame tells bodies as the last part left them, what detection saw at the start of the
 // step, and the points of all parts: of one contact that lasts, one in each part, with what it gave there.
 #pragma once

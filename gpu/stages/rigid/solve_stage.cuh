@@ -54,7 +54,6 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
   float last_change = 0.0F;
   float share = 0.0F;
   float done = 0.0F;
-  std::uint32_t most = 1;
   float fastest_push = 0.0F;
   for (std::uint32_t k = 1;; ++k) {
     sweep_along(team, f, solve.soft, k == 1, solve.owes_totals, share, solve.sums);
@@ -63,12 +62,11 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
     if (k == 1) {
       const float fastest = solve.sums.largest(TeamSums::kThird);
       done = core::done_m_s(solve.soft, solve.soft.done_share, fastest);
-      most = core::most_sweeps(solve.soft, fastest);
       fastest_push = solve.sums.largest(TeamSums::kFourth);
     }
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);
-    if (k >= most || largest_speed <= done) return fastest_push;
+    if (k >= solve.soft.most_sweeps || largest_speed <= done) return fastest_push;
     const float change = sum_of_changes(team, f, solve, largest_change);
     if (!(last_change > 0.0F)) first_change = change;
     share = core::share_of_direction(first_change, last_change, change);
@@ -204,7 +202,7 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
 // Returns whether the impulses of the last substep are still to be added to the totals.
 __device__ __forceinline__ bool run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
-  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.sweeps > 1, TeamSums(f.counts), 0, false, {}};
+  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.even.sweeps > 1, TeamSums(f.counts), 0, false, {}};
   for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve);
   if (team.rank() == 0) {
     f.counts->done = solve.done;

@@ -25,10 +25,9 @@ core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSetti
   card.push_back({"friction rule", "geometric mean", ""});
   card.push_back({"restitution rule", "the larger", ""});
   const float ratio = core::largest_mass_ratio(scene);
-  const std::uint32_t parts = core::parts_of_step(solver, ratio);
-  const std::string substeps =
-      std::to_string(parts * core::substeps_of(solver, ratio > solver.even_masses)) + " substeps";
-  const bool is_swept = solver.sweeps > 1;
+  const std::uint32_t parts = core::most_parts(solver, ratio);
+  const std::string substeps = std::to_string(core::most_of_step(solver, ratio, true).substeps) + " substeps";
+  const bool is_swept = solver.even.sweeps > 1;
   card.push_back({"contact solver",
                   std::string("substeps with soft constraints and relaxation") +
                       (is_swept ? ", along conjugate directions" : ", color by color"),
@@ -38,7 +37,7 @@ core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSetti
        is_swept ? "until little changes, in at most " + substeps : "one sweep in each of at most " + substeps,
        "one pass"});
   card.push_back({"detection in a step",
-                  parts > 1 ? std::to_string(parts) + " times: masses are far apart" : std::string("once"),
+                  parts > 1 ? "up to " + std::to_string(parts) + " times: masses are far apart" : std::string("once"),
                   parts > 1 ? "once" : ""});
   card.push_back({"rotation", "bodies turn, with the gyroscopic torque", ""});
   card.push_back({"warm starting", "by the features that meet", ""});

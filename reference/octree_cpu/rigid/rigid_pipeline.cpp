@@ -16,6 +16,7 @@
 #include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/told_point.hpp"
 #include "core/method/rigid/turned_box.hpp"
+#include "core/scene/calm_bodies.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
 #include "reference/octree_cpu/stage_clock.hpp"
@@ -45,7 +46,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   scene_ = &scene;
   bodies_ = std::move(bodies).value();
   solver_ = options_.make_solver(scene);
-  parts_ = solver_->parts_of_step(scene);
+  mass_ratio_ = core::largest_mass_ratio(scene);
+  parts_ = 1;
   earlier_parts_.begin();
   sleepers_.load(bodies_);
   last_patches_.clear();
@@ -60,13 +62,16 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   sweep_stage_.load(scene, bodies_, options_.make_broad_phase);
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
-  threads_->arena.execute([&] { place(scene.dt_s / static_cast<float>(parts_)); });
+  threads_->arena.execute([&] { place(scene.dt_s); });
   return broad_phase_->load(bodies_.boxes, bodies_.is_static);
 }
 
 core::Status RigidPipeline::step(float dt_s) {
-  // What a contact gives in a step is no longer that of the last one.
-  if (dt_s != dt_s_) sleepers_.wake_all();
+  const std::uint32_t parts_before = parts_;
+  is_calm_ = mass_ratio_ > solver_->even_masses() && core::are_calm(bodies_, bodies_.state, scene_->gravity_m_s2, dt_s);
+  parts_ = solver_->parts_of_step(mass_ratio_, is_calm_);
+  // What a contact gives in a part is no longer that of the last one.
+  if (dt_s != dt_s_ || parts_ != parts_before) sleepers_.wake_all();
   const float part_s = dt_s / static_cast<float>(parts_);
   times_ = {};
   earlier_parts_.begin();
@@ -181,8 +186,8 @@ void RigidPipeline::keep_sleeping_patches() {
 }
 
 void RigidPipeline::respond(float dt_s) {
-  const RigidStep step{bodies_.mass, bodies_.material,  bodies_.wrench, scene_->face_material, scene_->gravity_m_s2,
-                       dt_s,         sleepers_.asleep()};
+  const RigidStep step{bodies_.mass, bodies_.material,   bodies_.wrench, scene_->face_material, scene_->gravity_m_s2,
+                       dt_s,         sleepers_.asleep(), is_calm_};
   solver_->advance(bodies_.state, patches_, step);
 }
 

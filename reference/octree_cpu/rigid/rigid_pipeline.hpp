@@ -102,7 +102,9 @@ class RigidPipeline : public core::Dynamics {
   std::vector<core::ContactPatch> last_patches_;  // of the step before, where bodies sleep
   float dt_s_ = 0.0F;                             // of the step
   std::uint64_t steps_ = 0;
-  std::uint32_t parts_ = 1;  // of a step
+  float mass_ratio_ = 1.0F;  // core::largest_mass_ratio
+  bool is_calm_ = false;     // as the step began
+  std::uint32_t parts_ = 1;  // of the step
   core::StepInParts earlier_parts_;
 };
 

@@ -6,7 +6,6 @@
 #include "core/contact.hpp"
 #include "core/math/order_free_sum.hpp"
 #include "core/method/rigid/conjugate_directions.hpp"
-#include "core/method/rigid/step_in_parts.hpp"
 
 namespace broadside::reference {
 
@@ -48,14 +47,13 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
       [&](const TileRange& range) { kernels_.begin_sweeps(range, numbers, speeds_.data(), pushes_.data()); });
   work_.note_pushed(pushes_, numbers);
   const float done = core::done_m_s(numbers, numbers.done_share, largest_speed());
-  const std::uint32_t most = core::most_sweeps(numbers, largest_speed());
   work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
-  SweepWay way{settings_.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
+  SweepWay way{settings_.even.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
   for (std::uint32_t k = 1;; ++k) {
     work_.each_range_by_color([&](const TileRange& range) { kernels_.sweep(range, numbers, way); });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
-    if (k >= most || largest_speed() <= done) return;
+    if (k >= numbers.most_sweeps || largest_speed() <= done) return;
     way.is_first = false;
     way.share = next_share();
     work_.each_range_by_color([&](const TileRange& range) { kernels_.push_along(range, way.share); });
@@ -84,17 +82,17 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   work_.each_range([&](const TileRange& range) { kernels_.add_to_totals(range, numbers); });
 }
 
-std::uint32_t SoftSolver::parts_of_step(const core::Scene& scene) const {
-  return core::parts_of_step(settings_, core::largest_mass_ratio(scene));
+std::uint32_t SoftSolver::parts_of_step(float largest_mass_ratio, bool is_calm) const {
+  return core::parts_of_step(settings_, largest_mass_ratio, is_calm);
 }
 
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                          const RigidStep& step) {
-  const bool is_uneven = largest_mass_ratio(patches, step.masses) > settings_.even_masses;
-  const std::uint32_t substeps = core::substeps_of(settings_, is_uneven);
-  const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, is_uneven);
+  const bool is_uneven = core::is_uneven(settings_, largest_mass_ratio(patches, step.masses));
+  const core::SolveNumbers& solve = core::solve_numbers(settings_, is_uneven, step.is_calm);
+  const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, solve);
   work_.begin(states, patches, step, numbers.dt_s, settings_.limits);
-  for (std::uint32_t k = 0; k < substeps; ++k) substep(step, numbers);
+  for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers);
   work_.finish(states, patches);
 }
 

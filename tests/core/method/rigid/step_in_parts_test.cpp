@@ -13,10 +13,11 @@ TEST(StepInParts, MassesOfWhatMovesAreCompared) {
   EXPECT_EQ(largest_mass_ratio(scene), 1.0F);
   for (const float inverse : {0.0F, 2.0F, 0.25F, 1.0F}) scene.bodies.emplace_back().inverse_mass = inverse;
   EXPECT_EQ(largest_mass_ratio(scene), 8.0F);
-  EXPECT_EQ(parts_of_step({}, 64.0F), 1U);
-  EXPECT_EQ(parts_of_step({}, 65.0F), 4U);
+  EXPECT_EQ(parts_of_step({}, 64.0F, false), 1U);
+  EXPECT_EQ(parts_of_step({}, 65.0F, false), 4U);
+  EXPECT_EQ(parts_of_step({}, 65.0F, true), 1U);
   // Its cost is to be known ahead.
-  EXPECT_EQ(parts_of_step(soft_step_settings(), 1000.0F), 1U);
+  EXPECT_EQ(most_parts(soft_step_settings(), 1000.0F), 1U);
 }
 
 // One body that is a meter further, and a quarter turn about y on, in the second part.
