@@ -7,17 +7,17 @@
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/step_in_parts.hpp"
-#include "core/scene/calm_bodies.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
+#include "gpu/rigid/parts_choice.hpp"
 #include "gpu/rigid/rigid_buffers.hpp"
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/rigid/rigid_read_back.hpp"
 #include "gpu/rigid/rigid_scene.hpp"
+#include "gpu/rigid/solve_team_choice.hpp"
 #include "gpu/rigid/sweep_stage.hpp"
 #include "gpu/rigid/told_frame.hpp"
 #include "gpu/runtime/host_side.hpp"
@@ -59,21 +59,16 @@ struct RigidPipeline::Impl {
   std::uint64_t waits = 0;
   std::uint64_t steps_slept = 0;
   std::uint64_t launches = 0;
-  float dt_s = 0.0F;        // of the step
-  float mass_ratio = 1.0F;  // core::largest_mass_ratio
-  bool is_calm = false;     // as the step began
-  std::uint32_t parts = 1;  // of the step
+  float dt_s = 0.0F;  // of the step
+  PartsChoice parts;
   core::StepInParts earlier_parts;
 
   [[nodiscard]] bool has_broad() const;
   [[nodiscard]] Start start() const;
   core::Status load_broad();
   core::Status refit(const RigidCounts& counts);
-  [[nodiscard]] float part_s() const { return dt_s / static_cast<float>(parts); }
   void fill();
-  core::Status choose_parts(float step_s);
   core::Status run_part();
-  std::uint32_t choose_solve_team();
   core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
@@ -89,8 +84,6 @@ namespace {
 constexpr float kRoomForSpeed = 1.25F;
 // Eight overlaps a body, and more when a frame finds more.
 constexpr std::uint64_t kPairsPerBody = 8;
-// Above so many turns of a cluster's threads a larger grid is sooner done, whose barrier takes longer.
-constexpr std::uint64_t kMostTurnsOfCluster = 2;
 
 std::uint32_t as_word(float v) {
   return std::bit_cast<std::uint32_t>(v);
@@ -152,8 +145,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = d.launches = 0;
   d.dt_s = 0.0F;
   d.last = {};
-  d.mass_ratio = core::largest_mass_ratio(scene);
-  d.parts = 1;
+  d.parts = PartsChoice(d.options.solver, scene);
   d.earlier_parts.begin();
   d.told.forget();
   d.times = {};
@@ -213,13 +205,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 
 void RigidPipeline::Impl::fill() {
   buffers.fill(view);
-  view.dt_s = part_s();
+  parts.fill(view, dt_s);
   view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, view.dt_s);
-  for (std::uint32_t kind = 0; kind < 2; ++kind) {
-    const core::SolveNumbers& numbers = core::solve_numbers(view.solver, kind == 1, is_calm);
-    view.substeps[kind] = numbers.substeps;
-    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, view.dt_s, numbers);
-  }
   view.pairs = pairs.data();
   view.pair_capacity = pairs.capacity();
   view.broad_counters = broad_counters.data();
@@ -238,19 +225,6 @@ void RigidPipeline::Impl::fill() {
   pairs_view.outcome = broad_outcome.device(0);
 }
 
-// A block for so many bodies as it has threads: the first color of a heap has about a patch a body, the others have
-// fewer, and more blocks have a slower barrier. A cluster's is the fastest, so its threads may have some patches of a
-// color one after the other. Returns the blocks.
-std::uint32_t RigidPipeline::Impl::choose_solve_team() {
-  const std::uint64_t threads = solve_shape.grid.threads;
-  const std::uint64_t wanted = (view.body_count + threads - 1) / threads;
-  const bool is_cluster = options.may_cluster && solve_shape.cluster_blocks > 1 &&
-                          wanted <= kMostTurnsOfCluster * solve_shape.cluster_blocks;
-  view.solve_team = is_cluster ? SolveTeamKind::kCluster : SolveTeamKind::kGrid;
-  const std::uint64_t most = is_cluster ? solve_shape.cluster_blocks : solve_shape.grid.blocks;
-  return static_cast<std::uint32_t>(std::min(std::bit_ceil(wanted), most));
-}
-
 core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
   if (options.sweeps_fast) return launch_swept_contacts(view, contact_shape, stream);
   if (view.has_long_contacts) return launch_long_contacts(view, contact_shape, stream);
@@ -259,7 +233,8 @@ core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
 
 core::Status RigidPipeline::Impl::launch_all() {
   fill();
-  const std::uint32_t solve_blocks = choose_solve_team();
+  const SolveTeamChoice solve = choose_solve_team(solve_shape, view.body_count, options.may_cluster);
+  view.solve_team = solve.kind;
   BROADSIDE_TRY(launch_place(view, contact_shape, stream));
   // Without cells, which the first frame's boxes give, a box would look for partners in billions of them. The others
   // find that the boxes are too large, and the frame is repeated.
@@ -271,7 +246,7 @@ core::Status RigidPipeline::Impl::launch_all() {
   launches += may_sleep ? 7 : 5;
   if (may_sleep) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
-  BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
+  BROADSIDE_TRY(launch_solve(view, solve.blocks, stream));
   if (may_sleep) BROADSIDE_TRY(launch_fall_asleep(view, sleep_shape, stream));
   return wait_for_stream(stream, "a frame");
 }
@@ -314,16 +289,6 @@ void RigidPipeline::Impl::take_frame() {
   steps_slept += last.asleep_bodies;
 }
 
-// From the states that the step begins with, where the masses ask for it.
-core::Status RigidPipeline::Impl::choose_parts(float step_s) {
-  if (!core::is_uneven(options.solver, mass_ratio)) return core::Done{};
-  std::vector<core::RigidState> states;
-  BROADSIDE_TRY(buffers.before().download(states, bodies.state.size()));
-  is_calm = core::are_calm(bodies, states, scene->gravity_m_s2, step_s);
-  parts = core::parts_of_step(options.solver, mass_ratio, is_calm);
-  return core::Done{};
-}
-
 core::Status RigidPipeline::Impl::run_part() {
   for (bool is_done = false; !is_done;) {
     BROADSIDE_TRY(launch_all());
@@ -338,16 +303,16 @@ core::Status RigidPipeline::Impl::run_part() {
 
 core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
-  const std::uint32_t parts_before = d.parts;
-  BROADSIDE_TRY(d.choose_parts(dt_s));
+  const std::uint32_t parts_before = d.parts.count();
+  BROADSIDE_TRY(d.parts.choose(d.bodies, d.buffers.before(), *d.scene, dt_s));
   // What a contact gives in a part is no longer that of the last one.
-  if (dt_s != d.dt_s || d.parts != parts_before) BROADSIDE_TRY(d.buffers.wake_all());
+  if (dt_s != d.dt_s || d.parts.count() != parts_before) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
   d.times = {};
   d.earlier_parts.begin();
-  for (std::uint32_t part = 1; part <= d.parts; ++part) {
+  for (std::uint32_t part = 1; part <= d.parts.count(); ++part) {
     BROADSIDE_TRY(d.run_part());
-    if (part == d.parts) break;
+    if (part == d.parts.count()) break;
     core::FrameRecord told;
     BROADSIDE_TRY(read_back_rigid(d.left(), told));
     d.earlier_parts.add(std::move(told));
@@ -362,7 +327,7 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame.step = d.steps;
   frame.time_s = static_cast<double>(d.steps) * static_cast<double>(d.dt_s);
   const RigidLeft left = d.left();
-  if (d.parts > 1 && d.steps > 0) {
+  if (d.parts.count() > 1 && d.steps > 0) {
     BROADSIDE_TRY(read_back_rigid(left, frame));
     d.earlier_parts.join(frame, level);
     return core::Done{};
@@ -377,7 +342,7 @@ core::Result<core::DeviceFrame> RigidPipeline::frame_on_device() {
   Impl& d = *impl_;
   if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
   // Points of the parts before the last one are on the host by now.
-  if (core::most_parts(d.options.solver, d.mass_ratio) > 1)
+  if (d.parts.may_be_many())
     return core::Error{"a step of this scene is taken in parts, whose points are put together on the host",
                        "octree-gpu", "read the frame back, or give bodies whose masses are nearer to each other"};
   return d.told.tell(d.left(), d.steps, d.stream);
