@@ -28,7 +28,8 @@ core::Result<const core::EngineRow*> find_engine(std::string_view id) {
     if (row.id == id) return &row;
     ids.push_back(row.id);
   }
-  return core::Error{"unknown engine '" + std::string(id) + "'", "--engine", core::advise_name(id, ids)};
+  return core::Error{"unknown engine '" + std::string(id) + "'", "--engine",
+                     core::advise_name(id, ids, "broadside list engines")};
 }
 
 std::string why_absent(const core::EngineRow& row) {

@@ -3,24 +3,51 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace broadside::core {
 namespace {
 
-// Levenshtein distance, one row at a time.
+// Letters that are missing, too many or wrong, and neighbors that were exchanged, each counted once.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> above = row;
+  std::vector<std::size_t> above_that = row;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    std::swap(above_that, above);
+    std::swap(above, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      diagonal = above;
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], above_that[j - 2] + 1);
     }
   }
   return row[b.size()];
+}
+
+// Up to a third of the longer word may be wrong for it to be taken as a typing error.
+bool is_near(std::string_view typed, std::string_view name) {
+  return edit_distance(typed, name) * 3 <= std::max(typed.size(), name.size());
+}
+
+// "freefall" of "freefall:bunny:50".
+std::string_view head_of(std::string_view name) {
+  return name.substr(0, name.find(':'));
+}
+
+// Of the names whose first part is meant, the nearest; empty where there is none.
+std::string_view nearest_of_kind(std::string_view typed, std::span<const std::string_view> known) {
+  if (typed.find(':') == std::string_view::npos) return {};
+  std::vector<std::string_view> heads;
+  for (const std::string_view name : known) heads.push_back(head_of(name));
+  const std::string_view head = nearest_name(head_of(typed), heads);
+  if (!is_near(head_of(typed), head)) return {};
+  std::vector<std::string_view> of_kind;
+  for (const std::string_view name : known)
+    if (head_of(name) == head) of_kind.push_back(name);
+  return nearest_name(typed, of_kind);
 }
 
 constexpr std::size_t kMostInALine = 16;
@@ -37,12 +64,14 @@ std::string_view nearest_name(std::string_view typed, std::span<const std::strin
   return best;
 }
 
-std::string advise_name(std::string_view typed, std::span<const std::string_view> known) {
+std::string advise_name(std::string_view typed, std::span<const std::string_view> known, std::string_view listed_by) {
   const std::string_view best = nearest_name(typed, known);
-  // Up to a third of the longer word may be wrong for it to be taken as a typing error.
-  if (!best.empty() && edit_distance(typed, best) * 3 <= std::max(typed.size(), best.size()))
-    return "did you mean '" + std::string(best) + "'?";
-  if (known.size() > kMostInALine) return "the nearest is '" + std::string(best) + "'";
+  if (!best.empty() && is_near(typed, best)) return "did you mean '" + std::string(best) + "'?";
+  if (known.size() > kMostInALine && !listed_by.empty()) {
+    const std::string_view like = nearest_of_kind(typed, known);
+    const std::string proposal = like.empty() ? "" : "did you mean one like '" + std::string(like) + "'? ";
+    return proposal + "'" + std::string(listed_by) + "' shows them";
+  }
   std::string text = "one of:";
   for (const std::string_view name : known) text += " " + std::string(name);
   return text;

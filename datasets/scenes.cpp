@@ -83,8 +83,8 @@ Error unknown_scene(const std::string& spec, const std::string& plain) {
   std::vector<std::string_view> known;
   for (const SceneRow& row : table) known.push_back(row.example);
   return {"no such scene", "scene '" + spec + "'",
-          core::advise_name(plain, known) +
-              " (broadside list scenes); or give the path of a file that ends in .toml, .gltf or .glb"};
+          core::advise_name(plain, known, "broadside list scenes") +
+              "; or give the path of a file that ends in .toml, .gltf or .glb"};
 }
 
 Result<Scene> small_scene(const SmallSceneRow& row, const SceneName& name, const SceneOptions& options) {

@@ -1,6 +1,8 @@
 // How much was judged: laws that applied by kind, whether a motion was proven, and why the others did not apply.
 #include <string>
+#include <vector>
 
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -21,8 +23,8 @@ std::string_view column_of(core::LawKind kind) {
 }
 
 std::string motion_html(const TraceView& trace) {
-  if (!trace.is_simulation) return "<span class=\"void\">moved nothing itself</span>";
-  return trace.has_proven_motion() ? "proven" : "<strong class=\"reason\">nothing of its motion was proven</strong>";
+  if (!trace.is_simulation) return absent_value("moved nothing itself");
+  return trace.has_proven_motion() ? "proven" : element("strong.reason", "nothing of its motion was proven");
 }
 
 std::string reasons_html(const TraceView& trace) {
@@ -30,12 +32,17 @@ std::string reasons_html(const TraceView& trace) {
   std::string items;
   for (const auto& [why, laws] : trace.not_applied()) {
     count += laws.size();
-    items += "<li><b>";
-    for (std::size_t k = 0; k < laws.size(); ++k) items += (k == 0 ? "" : ", ") + html(laws[k]);
-    items += "</b>: " + html(why) + "</li>";
+    std::string names;
+    for (std::size_t k = 0; k < laws.size(); ++k) names += (k == 0 ? "" : ", ") + html(laws[k]);
+    items += element("li", element("b", names), ": ", html(why));
   }
   if (count == 0) return "every law applied";
-  return "<details><summary>" + counted(count, "law") + " did not apply</summary><ul>" + items + "</ul></details>";
+  return element("details", element("summary", counted(count, "law"), " did not apply"), element("ul", items));
+}
+
+std::string count_html(const core::LawCount& count) {
+  if (count.laws == 0) return absent_value("none asked for");
+  return counted(count.applied) + " of " + counted(count.laws);
 }
 
 }  // namespace
@@ -45,25 +52,20 @@ std::string coverage_section(const SceneView& scene, PageParts&) {
   for (const TraceView& trace : scene.traces) {
     if (!trace.is_judged()) continue;
     const core::Coverage coverage = trace.coverage();
-    rows += "<tr><th scope=\"row\">" + label_html(trace.stamp, trace.label) + "</th>";
-    for (const core::LawKind kind : core::kLawKinds) {
-      const core::LawCount& count = coverage.of(kind);
-      rows += "<td class=\"figure\" data-name=\"" + std::string(column_of(kind)) + "\">" +
-              (count.laws == 0 ? std::string("<span class=\"void\">none asked for</span>")
-                               : counted(count.applied) + " of " + counted(count.laws)) +
-              "</td>";
-    }
-    rows += "<td data-name=\"motion\">" + motion_html(trace) + "</td><td data-name=\"did not apply\">" +
-            reasons_html(trace) + "</td></tr>";
+    std::string counts;
+    for (const core::LawKind kind : core::kLawKinds)
+      counts += figure_cell(column_of(kind), count_html(coverage.of(kind)));
+    rows += element("tr", row_head(label_html(trace.stamp, trace.label)), counts,
+                    text_cell("motion", motion_html(trace)), text_cell("did not apply", reasons_html(trace)));
   }
   if (rows.empty()) return "";
-  std::string out =
-      "<section><h3>How much was judged</h3><p class=\"hint\">Laws that met something in the trace, of those that were "
-      "asked for.</p><table class=\"coverage\"><thead><tr><th scope=\"col\">engine</th>";
-  for (const core::LawKind kind : core::kLawKinds)
-    out += "<th scope=\"col\" class=\"figure\">" + std::string(column_of(kind)) + "</th>";
-  return out + "<th scope=\"col\">motion</th><th scope=\"col\">did not apply</th></tr></thead><tbody>" + rows +
-         "</tbody></table></section>";
+  std::vector<Column> columns{{"engine"}};
+  for (const core::LawKind kind : core::kLawKinds) columns.push_back({std::string(column_of(kind)), true});
+  columns.push_back({"motion"});
+  columns.push_back({"did not apply"});
+  return element("section", element("h3", "How much was judged"),
+                 element("p.hint", "Laws that met something in the trace, of those that were asked for."),
+                 element("table.coverage", table_head(columns), element("tbody", rows)));
 }
 
 }  // namespace broadside::reports

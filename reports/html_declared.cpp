@@ -1,18 +1,30 @@
 // The declarations of engines on the page.
 #include "reports/declared.hpp"
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 
 namespace broadside::reports {
 namespace {
 
-std::string head_html(const DeclaredColumn& column) {
-  std::string out = "<th scope=\"col\">";
-  for (std::size_t k = 0; k < column.labels.size(); ++k) out += (k == 0 ? "" : ", ") + html(column.labels[k]);
-  return out + "</th>";
+std::string labels_of(const DeclaredColumn& column) {
+  std::string out;
+  for (std::size_t k = 0; k < column.labels.size(); ++k) out += (k == 0 ? "" : ", ") + column.labels[k];
+  return out;
 }
 
 std::string first_label(const DeclaredColumn& column) {
-  return html(column.labels.front()) + (column.labels.size() > 1 ? " and others" : "");
+  return column.labels.front() + (column.labels.size() > 1 ? " and others" : "");
+}
+
+std::string row_html(const DeclaredTable& table, std::size_t k) {
+  std::string cells;
+  for (const DeclaredColumn& column : table.columns) {
+    const std::string& value = column.values[k];
+    cells += text_cell(first_label(column),
+                       value.empty() ? absent_value(html(undeclared_text(table.defaults[k]))) : html(value));
+  }
+  const std::string meaning = table.meanings[k].empty() ? "" : element("small", html(table.meanings[k]));
+  return element("tr", row_head(html(table.keys[k]) + meaning), cells);
 }
 
 }  // namespace
@@ -20,27 +32,16 @@ std::string first_label(const DeclaredColumn& column) {
 std::string declared_html(const SceneView& scene) {
   const DeclaredTable table = declared_table(scene);
   if (table.columns.empty()) return "";
-  std::string out =
-      "<h4>What engines declare of themselves</h4><p class=\"hint\">It decides which laws are held against them; what "
-      "is "
-      "not declared is taken as a correct engine of the plainest kind would have it.</p><table class=\"cells "
-      "declared\"><thead><tr><th scope=\"col\">declared</th>";
-  for (const DeclaredColumn& column : table.columns) out += head_html(column);
-  out += "</tr></thead><tbody>";
-  for (std::size_t k = 0; k < table.keys.size(); ++k) {
-    out += "<tr><th scope=\"row\">" + html(table.keys[k]);
-    if (!table.meanings[k].empty()) out += "<small>" + html(table.meanings[k]) + "</small>";
-    out += "</th>";
-    for (const DeclaredColumn& column : table.columns) {
-      const std::string& value = column.values[k];
-      out += "<td data-name=\"" + first_label(column) + "\">" +
-             (value.empty() ? "<span class=\"void\">" + html(undeclared_text(table.defaults[k])) + "</span>"
-                            : html(value)) +
-             "</td>";
-    }
-    out += "</tr>";
-  }
-  return out + "</tbody></table>";
+  std::vector<Column> columns{{"declared"}};
+  for (const DeclaredColumn& column : table.columns) columns.push_back({labels_of(column)});
+  std::string rows;
+  for (std::size_t k = 0; k < table.keys.size(); ++k) rows += row_html(table, k);
+  return element("h4", "What engines declare of themselves") +
+         element(
+             "p.hint",
+             "It decides which laws are held against them; what is not declared is taken as a correct engine of the "
+             "plainest kind would have it.") +
+         element("table.cells.declared", table_head(columns), element("tbody", rows));
 }
 
 }  // namespace broadside::reports

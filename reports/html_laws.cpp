@@ -1,6 +1,7 @@
 // What each law says: a sentence, a small picture, and how many traces it met something in.
 #include <algorithm>
 
+#include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures.hpp"
 #include "reports/html_sections.hpp"
@@ -46,17 +47,14 @@ std::string_view heading_of(core::LawKind kind) {
 
 std::string law_html(const KnownLaw& law) {
   const core::Verdict& verdict = *law.said;
-  std::string out = "<li>" + law_picture(verdict.validator) + "<div><b>" + html(verdict.validator) + "</b>";
-  if (verdict.ties_motion_to_forces) out += " <span class=\"proves\">proves motion</span>";
-  out += "<p>" + html(verdict.law) + "</p>";
-  if (!verdict.parts.empty()) {
-    out += "<ul>";
-    for (const core::Verdict& part : verdict.parts)
-      out += "<li><b>" + html(part.validator) + "</b> " + html(part.law) + "</li>";
-    out += "</ul>";
-  }
-  return out + "<small>applied to " + counted(law.applied) + " of " + counted(law.asked, "trace") +
-         "</small></div></li>";
+  std::string parts;
+  for (const core::Verdict& part : verdict.parts)
+    parts += element("li", element("b", html(part.validator)), " ", html(part.law));
+  return element("li", law_picture(verdict.validator),
+                 element("div", element("b", html(verdict.validator)),
+                         verdict.ties_motion_to_forces ? " " + element("span.proves", "proves motion") : "",
+                         element("p", html(verdict.law)), parts.empty() ? "" : element("ul", parts),
+                         element("small", "applied to ", counted(law.applied), " of ", counted(law.asked, "trace"))));
 }
 
 }  // namespace
@@ -66,17 +64,18 @@ std::string laws_section(PageParts& page) {
   // Rows of earlier builds do not say what their laws are.
   const auto is_said = [](const KnownLaw& l) { return !l.said->law.empty(); };
   if (std::none_of(laws.begin(), laws.end(), is_said)) return "";
-  std::string out =
-      "<section id=\"laws\"><h2>The laws</h2><p class=\"hint\">A time of an engine that moves bodies counts only where "
-      "a "
-      "law that proves motion passed on a body that moved.</p>";
+  std::string kinds;
   for (const core::LawKind kind : core::kLawKinds) {
     std::string items;
     for (const KnownLaw& law : laws)
       if (is_said(law) && law.said->kind == kind) items += law_html(law);
-    if (!items.empty()) out += "<h3>" + std::string(heading_of(kind)) + "</h3><ul class=\"laws\">" + items + "</ul>";
+    if (!items.empty()) kinds += element("h3", heading_of(kind)) + element("ul.laws", items);
   }
-  return out + "</section>";
+  return element("section", {{"id", "laws"}}, element("h2", "The laws"),
+                 element("p.hint",
+                         "A time of an engine that moves bodies counts only where a law that proves motion passed on a "
+                         "body that moved."),
+                 kinds);
 }
 
 }  // namespace broadside::reports

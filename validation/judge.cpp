@@ -36,7 +36,8 @@ core::Status check_names(const std::vector<std::string>& only) {
   for (const ValidatorRow& row : validators()) known.push_back(row.name);
   for (const std::string& name : only)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      return core::Error{"unknown validator '" + name + "'", "", core::advise_name(name, known)};
+      return core::Error{"unknown validator '" + name + "'", "",
+                         core::advise_name(name, known, "broadside list validators")};
   return core::Done{};
 }
 

@@ -6,7 +6,8 @@
 // SMALLEST_N to LARGEST_N by tens. ORDER: how boxes are put in order, to compare: at-once, bulk pairs without bins;
 // coarse, in two steps however few bins there are; bulk, as bulk pairs from 4096 boxes on; lanes1, lanes4, so
 // many lanes a box, also as bulk pairs from 4096 boxes on; scale1, cells as large as the largest box; x0, x1, x2, cells
-// so often halved along x; apart2, apart4, levels so far apart.
+// so often halved along x; apart2, apart4, levels so far apart; groups, groups0, by groups of boxes or not, also as
+// bulk pairs from 4096 boxes on.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -39,6 +40,10 @@ gpu::PairFinderOptions options_of(const std::string& order) {
   if (order == "at-once") options.least_for_bins = 0xFFFFFFFFU;
   if (order.starts_with("lanes")) options.lanes_per_box = static_cast<std::uint32_t>(std::atoi(order.c_str() + 5));
   if (order == "bulk" || order.starts_with("lanes")) options.least_for_bulk = 4096;
+  if (order.starts_with("groups")) {
+    options.groups = order == "groups" ? 1 : 0;
+    options.least_for_bulk = 4096;
+  }
   if (order == "scale1") options.cell_scale = 1.0F;
   if (order.starts_with("x")) options.x_halvings = static_cast<std::uint32_t>(std::atoi(order.c_str() + 1));
   if (order.starts_with("apart")) options.levels_apart = static_cast<std::uint32_t>(std::atoi(order.c_str() + 5));

@@ -128,7 +128,7 @@ core::Status run_cells_of(const ContestArguments& a, const campaign::Manifest& m
   return taken.value().write(folder, fmt::format("{}; {} cells at a time", machine_line(), a.jobs));
 }
 
-// Cells and what they take, without a folder.
+// Prints the cells and how long they take; makes no folder.
 core::Exit show_plan(const ContestArguments& a) {
   auto campaign = contest::contest_campaign(a.request);
   if (!campaign) return complain(campaign.error());

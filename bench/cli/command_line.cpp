@@ -68,7 +68,7 @@ bool knows_subcommand(const CLI::App& program, const std::string& name) {
 core::Error unknown_subcommand(const CLI::App& program, const std::string& typed) {
   const std::vector<std::string> names = subcommands(program);
   const std::vector<std::string_view> views(names.begin(), names.end());
-  return {"unknown subcommand '" + typed + "'", "command line", core::advise_name(typed, views)};
+  return {"unknown subcommand '" + typed + "'", "command line", core::advise_name(typed, views, "broadside --help")};
 }
 
 // What is wrong with the first argument, where it names nothing: said before CLI11 says that a subcommand is missing.

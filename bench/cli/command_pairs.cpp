@@ -11,6 +11,7 @@
 #include "bench/cli/limit_arguments.hpp"
 #include "bench/process/process_limits.hpp"
 #include "bench/timing/box_race.hpp"
+#include "datasets/box_streams/box_stream.hpp"
 
 namespace broadside::bench {
 namespace {
@@ -77,6 +78,7 @@ core::Exit verdict_of(const std::vector<RaceRow>& rows) {
 
 core::Exit pairs(const PairsArguments& a) {
   if (a.is_in_process) limit_this_process(a.limits.memory_mib);
+  if (core::Status s = datasets::check_boxes_name(a.boxes); !s) return complain(s.error());
   auto cells = a.engines.make();
   if (!cells) return complain(cells.error());
   auto rows = race_boxes(a.boxes, cells.value(), a.frames, a.parts, a.limits, a.is_in_process);

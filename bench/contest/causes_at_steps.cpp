@@ -1,16 +1,14 @@
 // Causes of what is broken at another step than the scene's own, where it holds.
 #include <array>
 
+#include "bench/contest/blamed_law.hpp"
 #include "bench/contest/known_causes.hpp"
 
 namespace broadside::bench::contest {
 namespace {
 
-struct StepRow {
-  std::string_view engine;  // how labels begin; empty = any
-  std::string_view law;
-  std::string_view scene;  // how names begin
-  std::string_view step;   // "1/60"; empty = any but the scene's own
+struct StepRow : BlamedLaw {
+  std::string_view step;  // "1/60"; empty = any but the scene's own
   std::string_view cause;
 };
 
@@ -72,9 +70,7 @@ std::string_view known_cause_at_step(std::string_view engine, std::string_view l
   if (at == std::string_view::npos) return {};
   const std::string_view step = scene.substr(at + 1);
   for (const StepRow& row : kStepRows)
-    if (engine.starts_with(row.engine) && law == row.law && scene.starts_with(row.scene) &&
-        (row.step.empty() || row.step == step))
-      return row.cause;
+    if (row.covers(engine, law, scene) && (row.step.empty() || row.step == step)) return row.cause;
   return {};
 }
 

@@ -1,4 +1,5 @@
-// How much energy a recorded run has, against its start: what nobody's ledger is needed for.
+// How much energy a recorded run has, against its start. It is worked out from the states, so no engine need keep a
+// ledger.
 #pragma once
 
 #include <filesystem>

@@ -2,13 +2,12 @@
 
 #include <array>
 
+#include "bench/contest/blamed_law.hpp"
+
 namespace broadside::bench::contest {
 namespace {
 
-struct Row {
-  std::string_view engine;  // how labels begin; empty = any
-  std::string_view law;     // empty = any
-  std::string_view scene;   // how names begin; empty = any
+struct Row : BlamedLaw {
   std::string_view cause;
 };
 
@@ -311,7 +310,7 @@ constexpr std::array kRows{
 std::string_view known_cause(std::string_view engine, std::string_view law, std::string_view scene) {
   if (const std::string_view cause = known_cause_at_step(engine, law, scene); !cause.empty()) return cause;
   for (const Row& row : kRows)
-    if (engine.starts_with(row.engine) && law == row.law && scene.starts_with(row.scene)) return row.cause;
+    if (row.covers(engine, law, scene)) return row.cause;
   return {};
 }
 

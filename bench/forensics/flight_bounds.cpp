@@ -13,8 +13,8 @@ using validation::BodyState;
 using validation::kSubnormal;
 using validation::length;
 
-// Rounded operations behind h g: in engines of the method, and in one that goes by forces (mass, m g, 1 / m, and two
-// products).
+// How many operations of an engine round when it works out h g: one where it multiplies, five where it goes by forces
+// (the mass, m g, 1 / m, and two products).
 constexpr double kMethodPull = 1.0;
 constexpr double kForcePull = 5.0;
 

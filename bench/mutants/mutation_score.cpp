@@ -77,7 +77,8 @@ class Scorer {
     const auto known = [&](const std::string& name) { return std::find(names.begin(), names.end(), name); };
     if (!options_.only.empty() && known(options_.only) == names.end()) {
       const std::vector<std::string_view> views(names.begin(), names.end());
-      return core::Error{"unknown mutation '" + options_.only + "'", "--only", core::advise_name(options_.only, views)};
+      return core::Error{"unknown mutation '" + options_.only + "'", "--only",
+                         core::advise_name(options_.only, views, "broadside mutants --matrix")};
     }
     total_ = options_.only.empty() ? names.size() + scenes_of_mutants().size() + options_.random_scenes +
                                          sound_rigid_ticks(options_.random_scenes)

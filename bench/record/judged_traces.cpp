@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kJudgedFile = "judged.txt";
 constexpr const char* kRowFiles[] = {"verdicts.json", "energy.json"};
 
-// What the file says; nothing when it is absent, which like a damaged one means that all is judged.
+// The file's text, empty when there is no file. An absent or damaged file means that everything is judged again.
 std::string kept_text(const std::filesystem::path& folder) {
   auto text = core::read_whole_file(folder / kJudgedFile);
   return text ? std::move(text).value() : std::string();

@@ -21,7 +21,7 @@ int degree(const IntegerCubic& p) {
 // 2^(3 bits) p((place + s) / 2^bits) as a polynomial in s.
 IntegerCubic within(const IntegerCubic& p, const mpz_class& place, unsigned bits) {
   IntegerCubic out = p;
-  for (int k = 0; k < 4; ++k) out.of_power[k] <<= bits * (3 - k);
+  for (int k = 0; k < 4; ++k) out.of_power[k] <<= mp_bitcnt_t{bits} * static_cast<unsigned>(3 - k);
   // Horner's scheme, three times: the Taylor shift by place.
   if (place != 0)
     for (int first = 0; first < 3; ++first)
@@ -55,7 +55,8 @@ int first_sign(const std::array<mpz_class, 4>& b) {
 
 int sign_at_fraction(const IntegerCubic& p, const mpz_class& place, unsigned bits) {
   mpz_class value = p.of_power[3];
-  for (int k = 2; k >= 0; --k) value = value * place + (p.of_power[k] << (bits * (3 - k)));
+  for (int k = 2; k >= 0; --k)
+    value = value * place + (p.of_power[k] << (mp_bitcnt_t{bits} * static_cast<unsigned>(3 - k)));
   return sgn(value);
 }
 

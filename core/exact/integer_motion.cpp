@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace broadside::exact {
 namespace {
@@ -57,7 +56,7 @@ core::Result<Fractions> fractions(const RationalFeatures& features) {
         return core::Error{"'" + text.numerator + " / " + text.denominator + "' is no fraction",
                            "point " + std::to_string(k) + ", axis " + "xyz"[axis],
                            "give two integers, the denominator above zero"};
-      out[k][axis] = mpq_class(std::move(*numerator), std::move(*denominator));
+      out[k][axis] = mpq_class(*numerator, *denominator);
       out[k][axis].canonicalize();
     }
   }

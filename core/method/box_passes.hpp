@@ -73,13 +73,13 @@ struct BoxPass {
 };
 
 // Axes on which a box is at least a sixteenth as long as on its longest, a bit each.
-inline constexpr float kThin = 0x1p-4F;
+inline constexpr float kThinBox = 0x1p-4F;
 inline std::uint32_t long_axes(const Box& b) {
   const float x = b.max.x - b.min.x;
   const float y = b.max.y - b.min.y;
   const float z = b.max.z - b.min.z;
   const float xy = x < y ? y : x;
-  const float least = kThin * (xy < z ? z : xy);
+  const float least = kThinBox * (xy < z ? z : xy);
   return (x >= least ? 1U : 0U) | (y >= least ? 2U : 0U) | (z >= least ? 4U : 0U);
 }
 

@@ -178,6 +178,18 @@ bool names_a_file(const std::string& spec) {
   return false;
 }
 
+Error unknown_boxes(const std::string& spec) {
+  std::vector<std::string_view> known;
+  for (const BoxStreamRow& row : box_stream_table()) {
+    if (row.example.starts_with(spec + ":"))
+      return Error{"it has no number", "boxes '" + spec + "'", "give '" + std::string(row.example) + "', for example"};
+    known.push_back(row.example);
+  }
+  return Error{"no such boxes", "boxes '" + spec + "'",
+               core::advise_name(spec, known, "broadside list scenes") +
+                   "; or give a box file that ends in .boxes, .bin or .h5"};
+}
+
 }  // namespace
 
 std::vector<BoxStreamRow> box_stream_table() {
@@ -203,14 +215,14 @@ Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::ui
     stream.what = std::string(set.row.what);
     return stream;
   }
-  std::vector<std::string_view> known;
-  for (const BoxStreamRow& row : box_stream_table()) {
-    if (row.example.starts_with(spec + ":"))
-      return Error{"it has no number", "boxes '" + spec + "'", "give '" + std::string(row.example) + "', for example"};
-    known.push_back(row.example);
-  }
-  return Error{"no such boxes", "boxes '" + spec + "'",
-               core::advise_name(spec, known) + "; or give a box file that ends in .boxes, .bin or .h5"};
+  return unknown_boxes(spec);
+}
+
+core::Status check_boxes_name(const std::string& spec) {
+  if (names_a_file(spec)) return core::Done{};
+  for (const BoxStreamRow& row : box_stream_table())
+    if (spec.starts_with(row.prefix())) return core::Done{};
+  return unknown_boxes(spec);
 }
 
 }  // namespace broadside::datasets

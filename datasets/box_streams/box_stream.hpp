@@ -39,9 +39,12 @@ struct BoxStreamRow {
 std::vector<BoxStreamRow> box_stream_table();
 
 // `spec` is a name of the table, the path of a raw box file (it ends in .boxes or .bin), or of an HDF5 file (.h5,
-// .h5.part): a stream of boxes, or a trace, whose detection boxes are then the stream. Errors: unknown name, with the
-// nearest; N outside 0 to the set's most; a file that cannot be read; and the first box that is NaN, infinite, or has
+// .h5.part): a stream of boxes, or a trace, whose detection boxes are then the stream. Errors: unknown name, with one
+// like it; N outside 0 to the set's most; a file that cannot be read; and the first box that is NaN, infinite, or has
 // min above max, by frame, number and axis.
 core::Result<BoxStream> make_box_stream(const std::string& spec, std::optional<std::uint64_t> seed = {});
+
+// Whether there are boxes of this kind, without making any: to be said before other arguments are looked at.
+core::Status check_boxes_name(const std::string& spec);
 
 }  // namespace broadside::datasets

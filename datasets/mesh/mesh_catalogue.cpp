@@ -144,7 +144,8 @@ std::vector<std::string_view> mesh_names() {
 core::Result<const MeshRow*> find_mesh(std::string_view name) {
   for (const MeshRow& row : kMeshes)
     if (row.name == name) return &row;
-  return core::Error{"no such mesh", "mesh '" + std::string(name) + "'", core::advise_name(name, mesh_names())};
+  return core::Error{"no such mesh", "mesh '" + std::string(name) + "'",
+                     core::advise_name(name, mesh_names(), "broadside list meshes")};
 }
 
 }  // namespace broadside::datasets

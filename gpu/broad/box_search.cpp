@@ -57,6 +57,13 @@ core::Status BoxSearch::reserve(const BoxFacts& facts, const PairFinderOptions& 
   if (!shape.ok()) return shape.error();
   shape_ = shape.value();
   BROADSIDE_TRY(broad_.load(start_, facts, options.hash_cell_m, options.variant, shape_.bins, shape_.sort.blocks));
+  is_grouped_ = wants_groups(facts);
+  if (is_grouped_) {
+    auto grouped = grouped_pairs_launch_shape();
+    if (!grouped.ok()) return grouped.error();
+    grouped_shape_ = grouped.value();
+    BROADSIDE_TRY(groups_.load(facts));
+  }
   view_ = {};
   view_.box_count = count_;
   view_.boxes = boxes_.data();
@@ -97,10 +104,12 @@ core::Status BoxSearch::settle_on_given(std::uint32_t owned, const PairFinderOpt
 }
 
 core::Status BoxSearch::load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new) {
-  const bool is_as_before =
-      facts.count == count_ && options.start(facts) == start_ && lanes_for(facts, options) == lanes_per_box_;
+  if (is_new) has_too_many_group_pairs_ = false;
+  const bool is_as_before = facts.count == count_ && options.start(facts) == start_ &&
+                            lanes_for(facts, options) == lanes_per_box_ && wants_groups(facts) == is_grouped_;
   if (is_new || !is_as_before) BROADSIDE_TRY(reserve(facts, options));
   broad_.refit(facts);
+  if (is_grouped_) groups_.refit(facts);
   settle_ = {};
   return core::Done{};
 }
@@ -137,13 +146,24 @@ core::Status BoxSearch::settle(StreamHandle stream) {
 
 core::Status BoxSearch::launch(StreamHandle stream) {
   fill_view();
-  BROADSIDE_TRY(can_share() ? launch_bulk(view_, shape_, lanes_per_box_, stream) : launch_pairs(view_, shape_, stream));
+  BROADSIDE_TRY(launch_search(stream));
   return settle(stream);
+}
+
+core::Status BoxSearch::launch_search(StreamHandle stream) {
+  if (is_grouped_) return launch_grouped_pairs({view_, groups_.view()}, grouped_shape_, stream);
+  return can_share() ? launch_bulk(view_, shape_, lanes_per_box_, stream) : launch_pairs(view_, shape_, stream);
 }
 
 core::Status BoxSearch::grow() {
   const Counters& demanded = outcome_[0].counters;
   BROADSIDE_TRY(broad_.grow(demanded));
+  if (is_grouped_) {
+    auto is_worthwhile = groups_.grow(demanded.group_pairs);
+    if (!is_worthwhile.ok()) return is_worthwhile.error();
+    has_too_many_group_pairs_ = !is_worthwhile.value();
+    is_grouped_ = is_worthwhile.value();
+  }
   BROADSIDE_TRY(pairs_.reserve(demanded.pairs, "pairs"));
   if (is_settled()) BROADSIDE_TRY(settled_.reserve(demanded.confirmed, "pairs"));
   return core::Done{};

@@ -7,6 +7,7 @@
 
 #include "core/pair.hpp"
 #include "gpu/broad/broad_buffers.hpp"
+#include "gpu/broad/group_buffers.hpp"
 #include "gpu/broad/named_pairs_view.hpp"
 #include "gpu/broad/pair_finder_options.hpp"
 #include "gpu/broad/searched_boxes.hpp"
@@ -46,6 +47,8 @@ class BoxSearch {
   core::Status launch_share(const NamedPairsView& share, StreamHandle stream);
   [[nodiscard]] bool can_share() const { return start_ == Start::kBulk; }
   [[nodiscard]] Start start() const { return start_; }
+  // By groups of neighboring boxes, until they turned out to have too many pairs.
+  [[nodiscard]] bool is_grouped() const { return is_grouped_; }
   [[nodiscard]] std::uint32_t lanes_per_box() const { return lanes_per_box_; }
   [[nodiscard]] std::uint32_t box_count() const { return count_; }
   [[nodiscard]] std::uint32_t multiprocessors() const { return shape_.search.multiprocessors; }
@@ -67,27 +70,37 @@ class BoxSearch {
   core::Status append_pairs(std::vector<core::Pair>& to) const;
 
   [[nodiscard]] const Outcome& outcome() const { return outcome_[0]; }
-  [[nodiscard]] std::uint64_t launches() const { return (shape_.bins.bins != 0 ? 2U : 1U) + (is_settled() ? 1U : 0U); }
+  [[nodiscard]] std::uint64_t launches() const {
+    return (!is_grouped_ && shape_.bins.bins != 0 ? 2U : 1U) + (is_settled() ? 1U : 0U);
+  }
   [[nodiscard]] std::uint64_t bytes() const {
-    return boxes_.bytes() + given_.bytes() + broad_.bytes() + pairs_.bytes() + settled_.bytes();
+    return boxes_.bytes() + given_.bytes() + broad_.bytes() + groups_.bytes() + pairs_.bytes() + settled_.bytes();
   }
 
  private:
   [[nodiscard]] bool is_settled() const { return settle_.given != nullptr; }
+  [[nodiscard]] bool wants_groups(const BoxFacts& facts) const {
+    return facts.fit.is_grouped && can_share() && !has_too_many_group_pairs_;
+  }
   core::Status reserve(const BoxFacts& facts, const PairFinderOptions& options);
   [[nodiscard]] std::uint64_t first_room(const PairFinderOptions& options) const;
   void fill_view();
   core::Status settle(StreamHandle stream);
+  core::Status launch_search(StreamHandle stream);
 
   PairsShape shape_;
   LaunchShape settle_shape_;
+  LaunchShape grouped_shape_;
   PairsView view_;
   SettleView settle_;
   Start start_ = Start::kNone;
   std::uint32_t count_ = 0;
   std::uint32_t lanes_per_box_ = 1;
+  bool is_grouped_ = false;
+  bool has_too_many_group_pairs_ = false;
   Mapped<Outcome, 1> outcome_;
   BroadBuffers broad_;
+  GroupBuffers groups_;
   DeviceBuffer<PackedBox> boxes_;
   DeviceBuffer<PackedBox> given_;
   DeviceBuffer<core::Pair> pairs_;

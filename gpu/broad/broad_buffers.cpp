@@ -15,7 +15,6 @@ namespace {
 constexpr std::uint64_t kBucketsPerFiveBodies = 8;
 constexpr std::uint64_t kLeastBuckets = 1024;
 constexpr std::uint64_t kMostBuckets = 1ULL << 31U;
-constexpr std::uint64_t kMostHashCells = 4096;  // as in stages/broad/hash_stage.cuh
 
 constexpr float kSlack = 1.0F + 0x1p-10F;
 // Inverted it is still a normal number.

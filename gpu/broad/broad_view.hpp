@@ -47,6 +47,7 @@ struct Counters {
   unsigned long long entry_cursor = 0;  // entries given out to buckets
   unsigned long long listed = 0;        // places given out in the lists of bodies
   unsigned long long measured = 0;      // confirmed pairs given out to warps that measure their proximity
+  unsigned long long group_pairs = 0;   // of groups of boxes: grouped_view.hpp
   unsigned long long digest = 0;        // its blocks' shares until now
   std::uint32_t oversized = 0;          // bodies in too many cells of the spatial hash
   std::uint32_t arrived = 0;            // of PartialGridTeam
@@ -82,6 +83,9 @@ struct alignas(16) HashEntry {
   std::int32_t z = 0;
   std::uint32_t body = 0;
 };
+
+// A body that touches more cells is entered in none. As in hash-cpu: 16 cells a side.
+inline constexpr std::uint64_t kMostHashCells = 4096;
 
 struct HashView {
   float cells_per_m = 0.0F;

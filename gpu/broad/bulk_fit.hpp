@@ -10,6 +10,7 @@ struct BulkFit {
   std::uint32_t levels_apart = 2;   // levels that have boxes are so many apart: 2 or 4
   std::uint32_t x_halvings = 0;     // so often are cells halved along x, the axis of their rows: at most 2
   std::uint32_t lanes_per_box = 1;  // 1 or kLanesOfCrowd
+  bool is_grouped = false;          // by groups of neighboring boxes, as long as few of these overlap: grouped_view.hpp
 };
 
 }  // namespace broadside::gpu

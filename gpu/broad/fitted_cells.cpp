@@ -155,6 +155,12 @@ constexpr double kLongRow = 10.0;
 // Of more boxes every warp has several turns, and those of a crowd do not last longer than all others together.
 constexpr std::uint32_t kMostSharedBoxes = 300'000;
 
+// Where a box has so many tests in its cells, groups of neighboring boxes are searched sooner: on one H100 spheres with
+// 40 tests a box take 0.090 instead of 0.099 ms, uniform boxes with 30 take 0.066 instead of 0.055.
+constexpr double kTestsForGroups = 35.0;
+// Groups take some 50 bytes a box more.
+constexpr std::uint32_t kMostGroupedBoxes = 16'000'000;
+
 }  // namespace
 
 BulkFit bulk_fit(std::span<const Box> boxes, const BoxFacts& facts) {
@@ -206,6 +212,7 @@ BulkFit bulk_fit_by_sample(const std::vector<Box>& sample, const BoxFacts& facts
     fit.lanes_per_box = kLanesOfCrowd;
     fit.x_halvings = 1;
   }
+  fit.is_grouped = facts.count <= kMostGroupedBoxes && tests_a_box(best) >= kTestsForGroups;
   return fit;
 }
 

@@ -15,6 +15,8 @@
 // A box looks for partners on its own level and on all coarser ones that have boxes. Where sizes go over many octaves
 // and few boxes are on each level, most of what it looks at are empty rows of cells: then levels are four octaves
 // apart.
+//
+// Where most of what a box looks at is no partner, groups of neighboring boxes are searched instead of cells.
 #pragma once
 
 #include <cstddef>

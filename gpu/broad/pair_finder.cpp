@@ -103,6 +103,9 @@ BulkFit PairFinder::Impl::with_wishes(BulkFit own) const {
   if (options.lanes_per_box != 0) own.lanes_per_box = options.lanes_per_box;
   if (options.levels_apart != 0) own.levels_apart = options.levels_apart;
   if (options.x_halvings != PairFinderOptions::kFitted) own.x_halvings = options.x_halvings;
+  if (options.groups != PairFinderOptions::kFitted) own.is_grouped = options.groups != 0;
+  // What is counted is the work of the other search: which boxes a group has is not the same every time.
+  if (work.is_asked() || options.has_shares) own.is_grouped = false;
   return own;
 }
 
@@ -134,6 +137,7 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
     const bool is_bulk = own.start(boxes.facts()) == Start::kBulk;
     if (is_new && is_bulk) pass_fits[k] = with_wishes(bulk_fit_by_sample(boxes.sample(), boxes.facts()));
     pass_fits[k].cell_scale = 1.0F;  // cells are as large as a pass makes its boxes
+    pass_fits[k].is_grouped = false;
     boxes.fit(pass_fits[k]);
     BROADSIDE_TRY(load_search(k, is_new, own));
   }
@@ -352,6 +356,7 @@ std::string PairFinder::Impl::words_of_search() const {
   if (active == 0 || active > searches.size()) return words;
   if (searches[0]->start() == Start::kTiles) return words + ", every pair of them";
   if (searches[0]->start() != Start::kBulk) return words;
+  if (searches[0]->is_grouped()) return words + "; groups of neighboring boxes";
   char cells[100];
   std::snprintf(cells, sizeof cells, "cells %.3g times as long as the longest, %s%s",
                 static_cast<double>(fit.cell_scale), fit.levels_apart == 4 ? "levels four octaves apart, " : "",

@@ -23,6 +23,7 @@ struct PairFinderOptions {
   std::uint32_t lanes_per_box = 0;                     // likewise
   std::uint32_t levels_apart = 0;                      // likewise
   std::uint32_t x_halvings = kFitted;                  // likewise
+  std::uint32_t groups = kFitted;                      // likewise: 1 where boxes are searched by groups
   static constexpr std::uint32_t kFitted = 0xFFFFFFFFU;
   bool has_shares = false;  // boxes are searched share by share or part by part, so by the search of bulk pairs alone
   std::uint32_t most_bins_at_once = 0;  // of BinLimits

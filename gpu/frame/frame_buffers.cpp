@@ -11,7 +11,7 @@ namespace {
 
 // Room at the start: a packed pile of boxes has some six pairs a body, a body in a corner three faces; what is wrong
 // with it costs one repeated frame.
-constexpr std::uint64_t kPairsPerBody = 4;
+constexpr std::uint64_t kFramePairsPerBody = 4;
 
 std::uint64_t with_slack(std::uint64_t demanded) {
   return demanded + demanded / 4;
@@ -45,7 +45,7 @@ core::Status FrameBuffers::load(const core::Scene& scene) {
   BROADSIDE_TRY(counters_.fill_bytes(0));
   BROADSIDE_TRY(barrier_.reserve(2, "barrier"));
   BROADSIDE_TRY(barrier_.fill_bytes(0));
-  const std::uint64_t pairs = std::max(kLeastPairs, kPairsPerBody * n);
+  const std::uint64_t pairs = std::max(kLeastPairs, kFramePairsPerBody * n);
   BROADSIDE_TRY(pairs_.reserve(pairs, "candidate pairs"));
   BROADSIDE_TRY(face_contacts_.reserve(std::max<std::uint64_t>(kLeastPairs, n), "contacts with faces"));
   return reserve_confirmed(std::max(kLeastPairs, pairs / 2));

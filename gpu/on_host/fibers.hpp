@@ -16,6 +16,7 @@ struct Launch {
   Index block_size;  // threads; whole warps
   std::uint64_t seed = 0;
 };
+inline constexpr Launch kOneWarp{{1}, {32}, 0};
 
 // The running fiber's place in the grid.
 struct Place {

@@ -1,10 +1,10 @@
-// The launches on fibers of the host: two blocks of two warps, so that every kind of barrier has somebody to wait for.
+// The launches of frames and of pairs on fibers of the host.
 #include <algorithm>
-#include <cstdlib>
 
 #include "gpu/broad/named_pairs_view.hpp"
 #include "gpu/broad/shared_boxes.hpp"
 #include "gpu/frame/frame_kernel.hpp"
+#include "gpu/on_host/small_grid.hpp"
 #include "gpu/stages/digest.cuh"
 #include "gpu/stages/grid_frame.cuh"
 #include "gpu/stages/pairs_only/bulk_launch.cuh"
@@ -14,18 +14,12 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 64;
-constexpr std::uint32_t kBlocks = 2;
+using on_host::kBlocks;
+using on_host::kThreads;
 constexpr std::uint32_t kSharedBytes = 1U << 17U;
 
-// A test that sets the seed runs the fibers in another order each round; 0 = one after another.
-std::uint64_t seed() {
-  const char* text = std::getenv("BROADSIDE_ON_HOST_SEED");
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
-}
-
 on_host::Launch launch_of(const LaunchShape& shape) {
-  return {{shape.blocks}, {shape.threads}, seed()};
+  return {{shape.blocks}, {shape.threads}, on_host::order_seed()};
 }
 
 }  // namespace
@@ -98,7 +92,8 @@ core::Status launch_bulk(const PairsView& view, const PairsShape& shape, std::ui
 
 core::Status launch_digest(const DigestView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
   std::vector<unsigned long long> sums(kBlocks);
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_digest(view, &sums[blockIdx.x]); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0,
+               [&](unsigned char*) { run_digest(view, &sums[blockIdx.x]); });
   return core::Done{};
 }
 

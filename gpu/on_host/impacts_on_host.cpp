@@ -4,14 +4,14 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr on_host::Launch kLaunch{{3}, {64}, 7};
+constexpr on_host::Launch kImpactLaunch{{3}, {64}, 7};
 
 }  // namespace
 
 core::Status launch_impacts(const ImpactView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
   using continuous::FeatureKind;
   view.counts->left = 0;
-  const auto run = [&](auto work) { on_host::run(kLaunch, 0, [&](unsigned char*) { work(); }); };
+  const auto run = [&](auto work) { on_host::run(kImpactLaunch, 0, [&](unsigned char*) { work(); }); };
   if (view.kind == FeatureKind::kVertexFace) {
     run([&] { look_at_queries<FeatureKind::kVertexFace>(view); });
     run([&] { search_left<FeatureKind::kVertexFace>(view); });

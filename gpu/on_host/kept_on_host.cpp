@@ -4,28 +4,28 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr on_host::Launch kLaunch{{2}, {64}, 0};
+constexpr on_host::Launch kKeptLaunch{{2}, {64}, 0};
 
 }  // namespace
 
 core::Status launch_fatten(const KeptView& view, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, 0, [&](unsigned char*) { run_fatten(view); });
+  on_host::run(kKeptLaunch, 0, [&](unsigned char*) { run_fatten(view); });
   return core::Done{};
 }
 core::Status launch_place(const KeptView& view, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, 0, [&](unsigned char*) { run_place(view); });
+  on_host::run(kKeptLaunch, 0, [&](unsigned char*) { run_place(view); });
   return core::Done{};
 }
 core::Status launch_renumber(const KeptView& view, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, 0, [&](unsigned char*) { run_renumber(view); });
+  on_host::run(kKeptLaunch, 0, [&](unsigned char*) { run_renumber(view); });
   return core::Done{};
 }
 core::Status launch_within(const KeptView& view, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, 0, [&](unsigned char*) { run_within(view); });
+  on_host::run(kKeptLaunch, 0, [&](unsigned char*) { run_within(view); });
   return core::Done{};
 }
 core::Status launch_test(const KeptView& view, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, 2 * sizeof(PairQueue), [&](unsigned char* shared) { run_test(view, shared); });
+  on_host::run(kKeptLaunch, 2 * sizeof(PairQueue), [&](unsigned char* shared) { run_test(view, shared); });
   return core::Done{};
 }
 

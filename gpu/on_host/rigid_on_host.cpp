@@ -1,6 +1,5 @@
 // The launches of frames of turning bodies on fibers of the host.
-#include <cstdlib>
-
+#include "gpu/on_host/small_grid.hpp"
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/rigid/swept_launch.hpp"
 #include "gpu/stages/rigid/constraint_frame.cuh"
@@ -14,15 +13,10 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 64;
-constexpr std::uint32_t kBlocks = 2;
+using on_host::kBlocks;
+using on_host::kThreads;
 // Of the solver: so few that some colors of a small heap have more patches.
 constexpr std::uint32_t kSolveThreads = 32;
-
-std::uint64_t seed() {
-  const char* text = std::getenv("BROADSIDE_ON_HOST_SEED");
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
-}
 
 }  // namespace
 
@@ -43,37 +37,28 @@ core::Result<SolveShape> solve_launch_shape() {
 }
 
 core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_place(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_place(frame); });
   return core::Done{};
 }
 
 core::Status launch_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts<false>(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_contacts<false>(frame); });
   return core::Done{};
 }
 
 core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts<true>(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_contacts<true>(frame); });
   return core::Done{};
 }
 
 core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_constraints(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_constraints(frame); });
   return core::Done{};
 }
 
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle /*stream*/) {
-  on_host::run({{blocks}, {kSolveThreads}, seed()}, sizeof(ColorTable),
+  on_host::run({{blocks}, {kSolveThreads}, on_host::order_seed()}, sizeof(ColorTable),
                [&](unsigned char* shared) { run_solve(frame, *reinterpret_cast<ColorTable*>(shared)); });
-  return core::Done{};
-}
-
-core::Result<LaunchShape> swept_contact_launch_shape() {
-  return contact_launch_shape();
-}
-
-core::Status launch_swept_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_contacts<true, true>(frame); });
   return core::Done{};
 }
 
@@ -82,12 +67,12 @@ core::Result<LaunchShape> swept_launch_shape() {
 }
 
 core::Status launch_ways(const SweptView& view, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_ways(view); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_ways(view); });
   return core::Done{};
 }
 
 core::Status launch_stop_short(const SweptView& view, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_stop_short(view); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_stop_short(view); });
   return core::Done{};
 }
 
@@ -96,17 +81,17 @@ core::Result<LaunchShape> sleep_launch_shape() {
 }
 
 core::Status launch_wake(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_wake(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_wake(frame); });
   return core::Done{};
 }
 
 core::Status launch_fall_asleep(const RigidFrameView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_fall_asleep(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_fall_asleep(frame); });
   return core::Done{};
 }
 
 core::Status launch_rigid_digest(const RigidDigestView& view, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, seed()}, 0, [&](unsigned char*) { run_rigid_digest(view); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_rigid_digest(view); });
   return core::Done{};
 }
 

@@ -7,19 +7,19 @@ namespace broadside::gpu {
 namespace {
 
 // Other threads than a frame's: counts must not depend on them.
-constexpr on_host::Launch kLaunch{{3}, {64}, 7};
+constexpr on_host::Launch kWorkLaunch{{3}, {64}, 7};
 
 }  // namespace
 
 core::Status launch_broad_work(const BroadWorkView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, sizeof(BulkNotes) * 2, [&](unsigned char* shared) {
+  on_host::run(kWorkLaunch, sizeof(BulkNotes) * 2, [&](unsigned char* shared) {
     count_broad_work(view, reinterpret_cast<BulkNotes*>(shared)[threadIdx.x / 32]);
   });
   return core::Done{};
 }
 
 core::Status launch_level_work(const LevelWorkView& view, std::uint32_t /*multiprocessors*/, StreamHandle /*stream*/) {
-  on_host::run(kLaunch, 0, [&](unsigned char*) { count_level_work(view); });
+  on_host::run(kWorkLaunch, 0, [&](unsigned char*) { count_level_work(view); });
   return core::Done{};
 }
 

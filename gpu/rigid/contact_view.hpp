@@ -81,7 +81,7 @@ struct RigidCounts {
   unsigned long long asleep_patches = 0;
   unsigned long long asleep_bodies = 0;
   std::uint32_t woken = 0;  // 1: the frame begins again, for an island wakes
-  // Of the frame that the host was told of, for the launch behind that.
+  // The frame that was told to the host, for the launch behind it: the counts above are zero again by then.
   std::uint32_t told_is_aborted = 0;
   unsigned long long told_patches = 0;
 };
@@ -99,6 +99,7 @@ struct ContactView {
   core::Levels levels = core::Levels::kC;
   bool has_broad = true;           // else the levels test all pairs of bodies
   bool has_long_contacts = false;  // some shapes are hulls or meshes
+  bool follows_ways = false;       // sweep=fast: patches of bodies that move far are followed on their way
   core::Box domain;
 
   const RigidShapeView* shapes = nullptr;

@@ -1,6 +1,7 @@
-// The kernels of a frame of turning bodies in which all shapes meet: contacts where shapes are hulls or meshes,
-// contacts with sweep=fast, and those that stop fast bodies short. In one unit, since the shapes are slow to compile.
+// The kernel of a frame of turning bodies in which all shapes meet: contacts where shapes are hulls or meshes or where
+// ways are followed, and stopping fast bodies short.
 #include <algorithm>
+#include <cstdint>
 
 #include "gpu/rigid/contact_launch.hpp"
 #include "gpu/rigid/swept_launch.hpp"
@@ -16,24 +17,26 @@ constexpr std::uint32_t kThreads = 256;
 // Two: 128 registers a thread.
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
-    long_contact_kernel(const __grid_constant__ ContactView frame) {
-  run_contacts<true>(frame);
-}
+// What a launch does.
+enum class LongTask : std::uint8_t { kContacts, kStopShort };
 
+struct LongView {
+  SweptView view;  // of contacts, its bodies alone
+  LongTask task = LongTask::kContacts;
+};
+
+// One kernel for both: the compiler makes the code of all shapes anew for every kernel that calls it, a minute each.
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
-    swept_contact_kernel(const __grid_constant__ ContactView frame) {
-  run_contacts<true, true>(frame);
+    long_contact_kernel(const __grid_constant__ LongView launched) {
+  if (launched.task == LongTask::kStopShort)
+    run_stop_short(launched.view);
+  else
+    run_contacts<true>(launched.view.bodies);
 }
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
     ways_kernel(const __grid_constant__ SweptView view) {
   run_ways(view);
-}
-
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
-    stop_short_kernel(const __grid_constant__ SweptView view) {
-  run_stop_short(view);
 }
 
 }  // namespace
@@ -47,25 +50,11 @@ core::Result<LaunchShape> long_contact_launch_shape() {
 }
 
 core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream) {
-  return launch(long_contact_kernel, frame, shape, stream);
-}
-
-core::Result<LaunchShape> swept_contact_launch_shape() {
-  auto shape = contact_launch_shape();  // says whether this GPU can
-  if (!shape.ok()) return shape.error();
-  LaunchShape own{kThreads, 0, 0, 0};
-  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(swept_contact_kernel), own));
-  return own;
-}
-
-core::Status launch_swept_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream) {
-  return launch(swept_contact_kernel, frame, shape, stream);
+  return launch(long_contact_kernel, LongView{{.bodies = frame}, LongTask::kContacts}, shape, stream);
 }
 
 core::Result<LaunchShape> swept_launch_shape() {
-  LaunchShape shape{kThreads, 0, 0, 0};
-  BROADSIDE_TRY(fit(reinterpret_cast<const void*>(stop_short_kernel), shape));
-  return shape;
+  return long_contact_launch_shape();
 }
 
 core::Status launch_ways(const SweptView& view, StreamHandle stream) {
@@ -75,7 +64,7 @@ core::Status launch_ways(const SweptView& view, StreamHandle stream) {
 }
 
 core::Status launch_stop_short(const SweptView& view, const LaunchShape& shape, StreamHandle stream) {
-  return launch(stop_short_kernel, view, shape, stream);
+  return launch(long_contact_kernel, LongView{view, LongTask::kStopShort}, shape, stream);
 }
 
 }  // namespace broadside::gpu

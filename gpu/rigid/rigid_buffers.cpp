@@ -9,7 +9,7 @@ namespace {
 
 // A heap has some seven contacts a body and a color for each of twice the most contacts of one body; a frame that has
 // more is repeated with room for all of them.
-constexpr std::size_t kPairsPerBody = 8;
+constexpr std::size_t kConfirmedPerBody = 8;
 constexpr std::size_t kPatchesPerBody = 6;
 constexpr std::size_t kLeast = 1024;
 constexpr std::size_t kFirstColors = 128;
@@ -130,7 +130,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   BROADSIDE_TRY(stirred_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(old_memory_.reserve_bodies(n));
   BROADSIDE_TRY(memory_.reserve_bodies(n));
-  BROADSIDE_TRY(confirmed_.reserve(std::max(kLeast, kPairsPerBody * n), "pairs"));
+  BROADSIDE_TRY(confirmed_.reserve(std::max(kLeast, kConfirmedPerBody * n), "pairs"));
   BROADSIDE_TRY(reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
   BROADSIDE_TRY(old_memory_.reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
   colors_ = 0;

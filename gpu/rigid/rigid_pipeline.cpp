@@ -168,9 +168,9 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
     return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
   });
-  auto contact_shape = d.options.sweeps_fast      ? swept_contact_launch_shape()
-                       : d.view.has_long_contacts ? long_contact_launch_shape()
-                                                  : contact_launch_shape();
+  d.view.follows_ways = d.options.sweeps_fast;
+  auto contact_shape =
+      d.view.has_long_contacts || d.view.follows_ways ? long_contact_launch_shape() : contact_launch_shape();
   if (!contact_shape.ok()) return contact_shape.error();
   d.contact_shape = contact_shape.value();
   auto constraint_shape = constraint_launch_shape();
@@ -226,8 +226,7 @@ void RigidPipeline::Impl::fill() {
 }
 
 core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
-  if (options.sweeps_fast) return launch_swept_contacts(view, contact_shape, stream);
-  if (view.has_long_contacts) return launch_long_contacts(view, contact_shape, stream);
+  if (view.has_long_contacts || view.follows_ways) return launch_long_contacts(view, contact_shape, stream);
   return launch_contacts(view, contact_shape, stream);
 }
 

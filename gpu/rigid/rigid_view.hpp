@@ -47,11 +47,8 @@ struct alignas(128) PackedSolverBody {
 static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 128,
               "read and written in words of 16 bytes");
 
-// How a body moves as a substep begins.
+// How a body moves as a substep begins, with its gravity and wrenches.
 struct alignas(32) PackedStart {
-  PackedVec3 v;
-  PackedVec3 w;
-  // With gravity and wrenches of the substep.
   PackedVec3 driven_v;
   PackedVec3 driven_angular_momentum;
 };

@@ -18,7 +18,7 @@ using core::Vec3;
 // In a heap of bunnies a search takes 4100, 2500, 2200 and 2000 instructions with cells of 1, 1/2, 1/3 and 1/4 theta
 // (13 300 with two trees); cells are 22, 166, 478 and 1309 thousand.
 constexpr double kCellsPerTheta = 2.0;
-constexpr std::size_t kMostCells = 1U << 19U;
+constexpr std::size_t kMostCellsOfShape = 1U << 19U;
 constexpr std::size_t kMostCellsOfAll = 1U << 26U;
 // Above it more vertices lie in the overlap of two boxes than a descent of two trees looks at.
 constexpr std::size_t kMostVertices = 1U << 13U;
@@ -165,7 +165,7 @@ void append_cells(ShapeCells& cells, const ShapeTrees& trees, const NearNeeds& n
   const TreeHeader& tree = trees.headers.back();
   if (!are_worth_it(tree, needs)) return append_no_cells(cells);
   Grid grid = grid_around(unpack(trees.nodes[tree.node_begin[tree.top]]), needs);
-  if (grid.cells() > kMostCells || !are_quanta_few(grid) || cells.lower.size() + grid.cells() > kMostCellsOfAll)
+  if (grid.cells() > kMostCellsOfShape || !are_quanta_few(grid) || cells.lower.size() + grid.cells() > kMostCellsOfAll)
     return append_no_cells(cells);
   const std::span vertices =
       std::span(trees.vertices).subspan(tree.vertex_begin, std::size_t{tree.node_count[0]} * kLeafVertices);

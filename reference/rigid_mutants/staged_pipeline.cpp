@@ -10,7 +10,7 @@
 namespace broadside::reference {
 namespace {
 
-// octree-cpu's, as its settings are where none but these is given.
+// The options of octree-cpu by default, but for the stages that are given.
 RigidPipelineOptions options_of(const TurningStages& stages) {
   RigidPipelineOptions options;
   options.sleeps = stages.sleeps;

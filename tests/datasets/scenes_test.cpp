@@ -203,7 +203,7 @@ TEST(Scenes, EachBadNameIsOneClearLine) {
   EXPECT_TRUE(has(line("freefall:cube:many"), "whole number"));
   EXPECT_TRUE(has(line("freefall:cube:99999999999"), "whole number"));
   EXPECT_TRUE(has(line(""), "no such scene"));
-  EXPECT_TRUE(has(line("rigid:sphere:bounce"), "the nearest is 'rigid:"));
+  EXPECT_TRUE(has(line("rigid:sphere:bounce"), "did you mean one like 'rigid:"));
   EXPECT_LT(line("rigid:sphere:bounce").size(), 250U) << "more names than a line holds are not listed";
 }
 

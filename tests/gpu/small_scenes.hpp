@@ -104,6 +104,11 @@ inline core::Scene thrown_spheres(std::uint32_t rings, std::uint32_t other_rings
   return thrown({bumpy_sphere(rings, 0.5F), bumpy_sphere(other_rings, 0.6F)}, shape);
 }
 
+// Of few vertices, for the kernels' threads on the host.
+inline core::Scene coarse_spheres(std::uint32_t bodies, float cube_m, std::uint32_t static_every = 0) {
+  return thrown_spheres(4, 3, bodies, cube_m, static_every);
+}
+
 // On the first bodies, one or two each; some bodies stay free.
 inline void add_springs(core::Scene& scene, std::uint32_t count) {
   for (std::uint32_t k = 0; k < count; ++k)

@@ -12,31 +12,27 @@
 #include "core/engine/broad_phase.hpp"
 #include "core/engine/dynamics.hpp"
 #include "core/engine/work_counting.hpp"
+#include "tests/core/engine/counts.hpp"
 #include "tests/gpu/small_scenes.hpp"
 
 namespace broadside::gpu {
 
-using Counts = std::map<std::string, std::uint64_t, std::less<>>;
-
-inline Counts counts_in(const std::vector<core::Counter>& counters) {
-  Counts counts;
-  for (const core::Counter& counter : counters) counts[std::string(counter.name)] = counter.count;
-  return counts;
-}
+using tests::Counts;
+using tests::counts_of;
 
 // Of so many frames. The subject has to offer that.
 inline Counts counts_of(core::Dynamics& subject, const core::Scene& scene, int frames) {
   dynamic_cast<core::CountsWork&>(subject).count_work();
   EXPECT_TRUE(subject.load(scene).ok());
   for (int k = 0; k < frames; ++k) EXPECT_TRUE(subject.step(scene.dt_s).ok());
-  return counts_in(subject.counters());
+  return counts_of(subject);
 }
 
 inline Counts counts_of(core::BroadPhase& subject, const std::vector<core::Box>& boxes) {
   dynamic_cast<core::CountsWork&>(subject).count_work();
   EXPECT_TRUE(subject.load(boxes, std::vector<std::uint8_t>(boxes.size())).ok());
   EXPECT_TRUE(subject.find().ok());
-  return counts_in(subject.counters());
+  return counts_of(subject);
 }
 
 // Work of three frames of 40 thrown spheres, and of 2500 boxes. Each was counted on the host, where what it stands for

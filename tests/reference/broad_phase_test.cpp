@@ -30,7 +30,7 @@ namespace {
 
 using core::PairSet;
 
-struct Subject {
+struct BroadPhaseSubject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings;
@@ -41,12 +41,12 @@ struct Subject {
   std::size_t most_boxes = 100'000;
 };
 
-void PrintTo(const Subject& subject, std::ostream* out) {
+void PrintTo(const BroadPhaseSubject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
-const std::vector<Subject>& subjects() {
-  static const std::vector<Subject> all{
+const std::vector<BroadPhaseSubject>& broad_phase_subjects() {
+  static const std::vector<BroadPhaseSubject> all{
       {"all_pairs", reference::all_pairs_row, {}},
       {"all_pairs_1_thread", reference::all_pairs_row, {{"threads", "1"}}},
       {"octree_cpu", reference::octree_cpu_row, {}},
@@ -85,7 +85,7 @@ const std::vector<Subject>& subjects() {
   return all;
 }
 
-core::Engine make_engine(const Subject& subject) {
+core::Engine broad_phase_engine(const BroadPhaseSubject& subject) {
   const core::EngineRow row = subject.row();
   auto settings = core::Settings::parse(row.id, row.settings, subject.settings);
   EXPECT_TRUE(settings.ok());
@@ -102,7 +102,7 @@ std::vector<std::uint8_t> all_moving(std::size_t n) {
   return std::vector<std::uint8_t>(n, 0);
 }
 
-class BroadPhases : public testing::TestWithParam<Subject> {
+class BroadPhases : public testing::TestWithParam<BroadPhaseSubject> {
  protected:
   void load(const std::vector<Box>& boxes, const std::vector<std::uint8_t>& is_static) {
     const auto status = phase().load(boxes, is_static);
@@ -137,7 +137,7 @@ class BroadPhases : public testing::TestWithParam<Subject> {
 
   core::BroadPhase& phase() { return *engine_.broad_phase; }
 
-  core::Engine engine_ = make_engine(GetParam());
+  core::Engine engine_ = broad_phase_engine(GetParam());
 };
 
 // Load is not timed. Bullet's engines found all pairs in it, and a race of one frame charged them for none.
@@ -345,14 +345,14 @@ TEST_P(BroadPhases, RestThenMoveAgain) {
 
 // Bullet's margin is one global of the library: an engine that changes it must restore it for the next one.
 TEST_P(BroadPhases, TwoEnginesAtOnceDoNotDisturbEachOther) {
-  core::Engine other = make_engine(subjects().front());
-  core::Engine bullet = make_engine({"", reference::bullet_dbvt_row, {{"margin", "0"}}});
+  core::Engine other = broad_phase_engine(broad_phase_subjects().front());
+  core::Engine bullet = broad_phase_engine({"", reference::bullet_dbvt_row, {{"margin", "0"}}});
   const std::vector<Box> boxes{cube(0, 0, 0, 1), cube(0.5F, 0, 0, 1), cube(1.51F, 0, 0, 1)};
   const std::vector<Box> moved{cube(0, 0, 0, 1), cube(0.505F, 0, 0, 1), cube(1.51F, 0, 0, 1)};
   load(boxes, all_moving(3));
   for (core::Engine* e : {&other, &bullet}) ASSERT_TRUE(e->broad_phase->load(boxes, all_moving(3)).ok());
   const std::uint64_t raw_alone = [&] {
-    core::Engine alone = make_engine(GetParam());
+    core::Engine alone = broad_phase_engine(GetParam());
     EXPECT_TRUE(alone.broad_phase->load(boxes, all_moving(3)).ok());
     EXPECT_TRUE(alone.broad_phase->update(moved).ok());
     EXPECT_TRUE(alone.broad_phase->find().ok());
@@ -383,9 +383,9 @@ TEST_P(BroadPhases, BadBoxesAreRefusedByName) {
 }
 
 // Some engines are optional at build time: an absent engine has nothing to test.
-std::vector<Subject> subjects_that_are_built() {
-  auto built = subjects();
-  std::erase_if(built, [](const Subject& s) {
+std::vector<BroadPhaseSubject> subjects_that_are_built() {
+  auto built = broad_phase_subjects();
+  std::erase_if(built, [](const BroadPhaseSubject& s) {
     const auto absent = s.row().absent;
     return absent != nullptr && !absent().empty();
   });

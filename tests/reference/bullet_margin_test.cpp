@@ -11,7 +11,7 @@
 namespace broadside {
 namespace {
 
-core::Box unit_cube(float x) {
+core::Box unit_box_at(float x) {
   return {{x, 0, 0}, {x + 1, 1, 1}};
 }
 
@@ -24,10 +24,10 @@ TEST(BulletDbvt, ReportsItsMarginPairsApart) {
     auto made = row.create(core::Settings::parse(row.id, row.settings, {{"margin", margin}}).value());
     ASSERT_TRUE(made.ok());
     const core::Engine& engine = made.value();
-    ASSERT_TRUE(engine.broad_phase->load(std::vector{unit_cube(0), unit_cube(1.02F)}, moving).ok());
+    ASSERT_TRUE(engine.broad_phase->load(std::vector{unit_box_at(0), unit_box_at(1.02F)}, moving).ok());
     // Boxes enter in the first timed call: only after it can a leaf move.
     ASSERT_TRUE(engine.broad_phase->find().ok());
-    ASSERT_TRUE(engine.broad_phase->update(std::vector{unit_cube(0.005F), unit_cube(1.02F)}).ok());
+    ASSERT_TRUE(engine.broad_phase->update(std::vector{unit_box_at(0.005F), unit_box_at(1.02F)}).ok());
     ASSERT_TRUE(engine.broad_phase->find().ok());
     const auto set = engine.broad_phase->read_back();
     ASSERT_TRUE(set.ok());
@@ -50,9 +50,9 @@ TEST(BulletDbvt, TakesAnyMarginInMeters) {
       auto made = row.create(core::Settings::parse(row.id, row.settings, {{"margin", margin}}).value());
       ASSERT_TRUE(made.ok());
       core::BroadPhase& broad = *made.value().broad_phase;
-      ASSERT_TRUE(broad.load(std::vector{unit_cube(0), unit_cube(1.02F)}, moving).ok());
+      ASSERT_TRUE(broad.load(std::vector{unit_box_at(0), unit_box_at(1.02F)}, moving).ok());
       ASSERT_TRUE(broad.find().ok());
-      ASSERT_TRUE(broad.update(std::vector{unit_cube(0.005F), unit_cube(1.02F)}).ok());
+      ASSERT_TRUE(broad.update(std::vector{unit_box_at(0.005F), unit_box_at(1.02F)}).ok());
       ASSERT_TRUE(broad.find().ok());
       EXPECT_EQ(broad.read_back().value().raw, raw) << row.id << " margin " << margin;
       EXPECT_NEAR(broad.traits().margin_m, raw == 1 ? 0.02 : 0.01, 1e-8);

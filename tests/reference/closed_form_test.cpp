@@ -20,7 +20,7 @@ namespace {
 
 using core::Vec3;
 
-struct Subject {
+struct ClosedFormSubject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings = {};
@@ -32,11 +32,11 @@ struct Subject {
   bool dies_of_overlap = false;  // an assert of its library ends the process
 };
 
-void PrintTo(const Subject& subject, std::ostream* out) {
+void PrintTo(const ClosedFormSubject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
-std::vector<Subject> subjects() {
+std::vector<ClosedFormSubject> closed_form_subjects() {
   return {
       {"exact_shapes", reference::exact_shapes_row},
       // Its iterations stop at 1e-6 m of the squared distance's change; seen: 1e-5 m, and a degree.
@@ -63,13 +63,13 @@ struct Known {
   Vec3 normal;  // from B to A
 };
 
-core::Mesh sphere(double radius_m) {
+core::Mesh mesh_of_sphere(double radius_m) {
   return datasets::sphere_mesh(radius_m, 8).value();
 }
-core::Mesh capsule(double radius_m, double half_length_m) {
+core::Mesh mesh_of_capsule(double radius_m, double half_length_m) {
   return datasets::capsule_mesh(radius_m, half_length_m, 8).value();
 }
-core::Mesh box(double x, double y, double z) {
+core::Mesh mesh_of_box(double x, double y, double z) {
   return datasets::box_mesh({x, y, z}, {1, 1, 1}).value();
 }
 
@@ -80,31 +80,47 @@ std::vector<Known> known_pairs() {
     const auto up = [&](double touching) { return Vec3{0, static_cast<float>(touching + gap), 0}; };
     const std::string word = gap > 0.0 ? " apart" : " overlapping";
     const Vec3 down{0, -1, 0};
-    known.push_back({"spheres" + word, {sphere(0.25), {}}, {sphere(0.5), up(0.75)}, gap, down});
-    known.push_back({"sphere over a face" + word, {box(1, 0.5, 1), {}}, {sphere(0.25), up(0.5)}, gap, down});
-    known.push_back({"capsule over a face" + word, {box(1, 0.5, 2), {}}, {capsule(0.25, 0.25), up(0.5)}, gap, down});
-    known.push_back({"sphere beside a capsule" + word, {capsule(0.25, 0.5), {}}, {sphere(0.25), up(0.5)}, gap, down});
+    known.push_back({"spheres" + word, {mesh_of_sphere(0.25), {}}, {mesh_of_sphere(0.5), up(0.75)}, gap, down});
+    known.push_back(
+        {"sphere over a face" + word, {mesh_of_box(1, 0.5, 1), {}}, {mesh_of_sphere(0.25), up(0.5)}, gap, down});
+    known.push_back({"capsule over a face" + word,
+                     {mesh_of_box(1, 0.5, 2), {}},
+                     {mesh_of_capsule(0.25, 0.25), up(0.5)},
+                     gap,
+                     down});
+    known.push_back({"sphere beside a capsule" + word,
+                     {mesh_of_capsule(0.25, 0.5), {}},
+                     {mesh_of_sphere(0.25), up(0.5)},
+                     gap,
+                     down});
     // Side by side, a quarter of their length shared: the least distance is that of the lines.
-    Known side{"capsules side by side" + word, {capsule(0.25, 0.5), {}}, {capsule(0.125, 0.5), up(0.375)}, gap, down};
+    Known side{"capsules side by side" + word,
+               {mesh_of_capsule(0.25, 0.5), {}},
+               {mesh_of_capsule(0.125, 0.5), up(0.375)},
+               gap,
+               down};
     side.b.position.z = 0.75F;
     known.push_back(side);
   }
   const auto corner = static_cast<float>(0.5 + 0.25 / std::sqrt(3.0));
   const auto diagonal = static_cast<float>(-1.0 / std::sqrt(3.0));
   known.push_back({"sphere off a corner",
-                   {box(1, 1, 1), {}},
-                   {sphere(0.125), {corner, corner, corner}},
+                   {mesh_of_box(1, 1, 1), {}},
+                   {mesh_of_sphere(0.125), {corner, corner, corner}},
                    0.125,
                    {diagonal, diagonal, diagonal}});
-  known.push_back(
-      {"sphere off a capsule's end", {capsule(0.25, 0.5), {}}, {sphere(0.25), {0, 0, 1.25F}}, 0.25, {0, 0, -1}});
+  known.push_back({"sphere off a capsule's end",
+                   {mesh_of_capsule(0.25, 0.5), {}},
+                   {mesh_of_sphere(0.25), {0, 0, 1.25F}},
+                   0.25,
+                   {0, 0, -1}});
   return known;
 }
 
-class ClosedForm : public testing::TestWithParam<Subject> {};
+class ClosedForm : public testing::TestWithParam<ClosedFormSubject> {};
 
 TEST_P(ClosedForm, SpheresBoxesAndCapsules) {
-  const Subject& subject = GetParam();
+  const ClosedFormSubject& subject = GetParam();
   const core::EngineRow row = subject.row();
   core::Engine engine =
       std::move(row.create(core::Settings::parse(row.id, row.settings, subject.settings).value())).value();
@@ -139,7 +155,7 @@ TEST_P(ClosedForm, SpheresBoxesAndCapsules) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, ClosedForm, testing::ValuesIn(subjects()),
+INSTANTIATE_TEST_SUITE_P(Reference, ClosedForm, testing::ValuesIn(closed_form_subjects()),
                          [](const auto& subject) { return subject.param.name; });
 
 }  // namespace

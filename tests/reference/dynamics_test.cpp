@@ -19,7 +19,7 @@ namespace {
 
 using core::Vec3;
 
-struct Subject {
+struct DynamicsSubject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings = {};
@@ -29,12 +29,12 @@ struct Subject {
   std::size_t most_bodies = 100'000;  // beyond that its memory or its time ends
 };
 
-void PrintTo(const Subject& subject, std::ostream* out) {
+void PrintTo(const DynamicsSubject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
-std::vector<Subject> subjects() {
-  std::vector<Subject> all{
+std::vector<DynamicsSubject> dynamics_subjects() {
+  std::vector<DynamicsSubject> all{
       {"octree_cpu", reference::octree_cpu_row, {}, true},
       {"octree_cpu_jacobi", reference::octree_cpu_row, {{"solver", "jacobi"}}, true},
       {"hash_cpu", reference::hash_cpu_row, {}, true},
@@ -50,26 +50,26 @@ std::vector<Subject> subjects() {
   };
   all = tests::with_unlisted(all, "dynamics");
   // Cubes among other bodies are what Simbody has no contact for; rigid_worlds_test has its scenes.
-  std::erase_if(all, [](const Subject& s) {
+  std::erase_if(all, [](const DynamicsSubject& s) {
     const core::EngineRow row = s.row();
     return s.name == "simbody_world" || (row.absent != nullptr && !row.absent().empty());
   });
   return all;
 }
 
-constexpr float kDt = 1.0F / 64.0F;
+constexpr float kStep_s = 1.0F / 64.0F;
 
-core::Scene empty_scene() {
+core::Scene scene_with_gravity() {
   core::Scene scene;
   scene.name = "dynamics";
   scene.meshes = {std::make_shared<const core::Mesh>(datasets::box_mesh({1.0, 1.0, 1.0}, {4, 4, 4}).value())};
   scene.domain = {{-8, -8, -8}, {8, 8, 8}};
   scene.gravity_m_s2 = {0, -8, 0};
-  scene.dt_s = kDt;
+  scene.dt_s = kStep_s;
   return scene;
 }
 
-core::Body& add(core::Scene& scene, Vec3 x, Vec3 v = {}) {
+core::Body& add_body(core::Scene& scene, Vec3 x, Vec3 v = {}) {
   core::Body body;
   body.position = x;
   body.velocity = v;
@@ -77,7 +77,7 @@ core::Body& add(core::Scene& scene, Vec3 x, Vec3 v = {}) {
   return scene.bodies.back();
 }
 
-class DynamicsEngines : public testing::TestWithParam<Subject> {
+class DynamicsEngines : public testing::TestWithParam<DynamicsSubject> {
  protected:
   [[nodiscard]] static core::Engine make() {
     const core::EngineRow row = GetParam().row();
@@ -107,7 +107,7 @@ TEST_P(DynamicsEngines, NamesItselfAndItsLibrary) {
 }
 
 TEST_P(DynamicsEngines, NoBodies) {
-  const core::Scene scene = empty_scene();
+  const core::Scene scene = scene_with_gravity();
   const core::FrameRecord frame = run(scene, 3);
   EXPECT_EQ(frame.step, 3U);
   EXPECT_TRUE(frame.position.empty());
@@ -117,8 +117,8 @@ TEST_P(DynamicsEngines, NoBodies) {
 // Of the integrator v' = v + g dt, x' = x + v' dt: after n steps v = n g dt and x = x0 + n v0 dt + g dt^2 n (n + 1)
 // / 2.
 TEST_P(DynamicsEngines, AFallingBodyFollowsTheDiscreteSolution) {
-  core::Scene scene = empty_scene();
-  add(scene, {1, 7, 0}, {0.5F, 0, -1});
+  core::Scene scene = scene_with_gravity();
+  add_body(scene, {1, 7, 0}, {0.5F, 0, -1});
   const core::FrameRecord frame = run(scene, 32);
   EXPECT_NEAR(frame.velocity[0].y, -8.0 * 32.0 / 64.0, 1e-5);
   const double lowest = 7.0 - 8.0 * 32.0 * 33.0 / 2.0 / 4096.0;
@@ -130,10 +130,10 @@ TEST_P(DynamicsEngines, AFallingBodyFollowsTheDiscreteSolution) {
 }
 
 TEST_P(DynamicsEngines, WhatItSaysToRecordIsThereInItsSize) {
-  core::Scene scene = empty_scene();
-  add(scene, {0, -7.49F, 0});
-  add(scene, {0, -6.5F, 0});
-  add(scene, {4, 0, 0});
+  core::Scene scene = scene_with_gravity();
+  add_body(scene, {0, -7.49F, 0});
+  add_body(scene, {0, -6.5F, 0});
+  add_body(scene, {4, 0, 0});
   const core::FrameRecord frame = run(scene, 8);
   ASSERT_TRUE(shows(core::Group::kBodies));
   if (GetParam().is_method_like) {
@@ -157,11 +157,11 @@ TEST_P(DynamicsEngines, WhatItSaysToRecordIsThereInItsSize) {
 }
 
 TEST_P(DynamicsEngines, TheFloorHoldsAndPushesInward) {
-  core::Scene scene = empty_scene();
-  add(scene, {0, -7.4F, 0});
+  core::Scene scene = scene_with_gravity();
+  add_body(scene, {0, -7.4F, 0});
   const core::FrameRecord frame = run(scene, 128);
   EXPECT_NEAR(frame.position[0].y, -7.5, 0.02);
-  EXPECT_LT(std::abs(frame.velocity[0].y), 8.0 * kDt);
+  EXPECT_LT(std::abs(frame.velocity[0].y), 8.0 * kStep_s);
   bool has_floor = false;
   for (const core::Contact& c : frame.contacts) {
     ASSERT_TRUE(core::is_face(c.b));
@@ -177,9 +177,9 @@ TEST_P(DynamicsEngines, TheFloorHoldsAndPushesInward) {
 }
 
 TEST_P(DynamicsEngines, StaticBodiesStayWhereTheyAre) {
-  core::Scene scene = empty_scene();
-  add(scene, {0, 0, 0}).inverse_mass = 0.0F;
-  add(scene, {0.25F, 1.2F, 0});
+  core::Scene scene = scene_with_gravity();
+  add_body(scene, {0, 0, 0}).inverse_mass = 0.0F;
+  add_body(scene, {0.25F, 1.2F, 0});
   const core::FrameRecord frame = run(scene, 96);
   EXPECT_EQ(frame.position[0], (Vec3{0, 0, 0}));
   EXPECT_EQ(frame.velocity[0], Vec3{});
@@ -187,10 +187,10 @@ TEST_P(DynamicsEngines, StaticBodiesStayWhereTheyAre) {
 }
 
 TEST_P(DynamicsEngines, MomentumOfTwoIsKept) {
-  core::Scene scene = empty_scene();
+  core::Scene scene = scene_with_gravity();
   scene.gravity_m_s2 = {};
-  add(scene, {-1, 0, 0}, {1, 0.25F, 0});
-  add(scene, {1, 0.1F, 0.2F}, {-2, 0, 0}).inverse_mass = 0.5F;
+  add_body(scene, {-1, 0, 0}, {1, 0.25F, 0});
+  add_body(scene, {1, 0.1F, 0.2F}, {-2, 0, 0}).inverse_mass = 0.5F;
   const core::FrameRecord frame = run(scene, 48);
   const Vec3 momentum = frame.velocity[0] + 2.0F * frame.velocity[1];
   EXPECT_NEAR(momentum.x, 1.0 - 4.0, 1e-4);
@@ -200,10 +200,10 @@ TEST_P(DynamicsEngines, MomentumOfTwoIsKept) {
 
 // Cubes of 1 m whose faces just meet, at rest and without gravity: nothing may push them.
 TEST_P(DynamicsEngines, TouchingBodiesAtRestStayAtRest) {
-  core::Scene scene = empty_scene();
+  core::Scene scene = scene_with_gravity();
   scene.gravity_m_s2 = {};
-  add(scene, {-0.5F, 0, 0});
-  add(scene, {0.5F, 0, 0});
+  add_body(scene, {-0.5F, 0, 0});
+  add_body(scene, {0.5F, 0, 0});
   const core::FrameRecord frame = run(scene, 16);
   for (int k = 0; k < 2; ++k) {
     EXPECT_NEAR(frame.position[k].x, k == 0 ? -0.5 : 0.5, 1e-4);
@@ -214,11 +214,11 @@ TEST_P(DynamicsEngines, TouchingBodiesAtRestStayAtRest) {
 // A small cube wholly inside a large one, off its center: whatever an engine does with it, states stay finite, momentum
 // is kept, and the two are reported as a pair.
 TEST_P(DynamicsEngines, AContainedBodyIsAPairAndStaysFinite) {
-  core::Scene scene = empty_scene();
+  core::Scene scene = scene_with_gravity();
   scene.gravity_m_s2 = {};
   scene.meshes.push_back(std::make_shared<const core::Mesh>(datasets::box_mesh({4.0, 4.0, 4.0}, {4, 4, 4}).value()));
-  add(scene, {0.5F, 0.25F, 0});
-  add(scene, {0, 0, 0}).mesh = 1;
+  add_body(scene, {0.5F, 0.25F, 0});
+  add_body(scene, {0, 0, 0}).mesh = 1;
   core::FrameRecord frame = run(scene, 1);
   EXPECT_EQ(frame.pairs, shows_pairs() ? (std::vector<core::Pair>{{0, 1}}) : std::vector<core::Pair>{});
   // An engine that corrects depth through velocities shoots the small one out, and it would meet the domain's faces.
@@ -232,11 +232,11 @@ TEST_P(DynamicsEngines, AContainedBodyIsAPairAndStaysFinite) {
 }
 
 TEST_P(DynamicsEngines, FarBodiesDoNotKnowOfEachOther) {
-  core::Scene scene = empty_scene();
+  core::Scene scene = scene_with_gravity();
   scene.domain = {{-4096, -4096, -4096}, {4096, 4096, 4096}};
-  add(scene, {0, 0, 0}, {0.5F, 0, 0});
+  add_body(scene, {0, 0, 0}, {0.5F, 0, 0});
   const core::FrameRecord alone = run(scene, 24);
-  add(scene, {2000, 2000, -2000}, {0, 0, 1});
+  add_body(scene, {2000, 2000, -2000}, {0, 0, 1});
   const core::FrameRecord two = run(scene, 24);
   EXPECT_EQ(two.position[0], alone.position[0]);
   EXPECT_EQ(two.velocity[0], alone.velocity[0]);
@@ -246,10 +246,10 @@ TEST_P(DynamicsEngines, FarBodiesDoNotKnowOfEachOther) {
 
 // Bodies that were moved or removed between two loads leave nothing behind.
 TEST_P(DynamicsEngines, MovedAndRemovedBodiesLeaveNothingBehind) {
-  core::Scene scene = empty_scene();
+  core::Scene scene = scene_with_gravity();
   scene.gravity_m_s2 = {};
-  add(scene, {0, 0, 0});
-  add(scene, {0.9F, 0, 0});
+  add_body(scene, {0, 0, 0});
+  add_body(scene, {0.9F, 0, 0});
   EXPECT_EQ(run(scene, 1).pairs.size(), shows_pairs() ? 1U : 0U);
   scene.bodies[1].position = {5, 0, 0};
   EXPECT_TRUE(run(scene, 1).pairs.empty());
@@ -265,13 +265,13 @@ TEST_P(DynamicsEngines, HundredThousandBodiesSlow) {
   constexpr int kSide = 47;  // 47^3 = 103,823
   constexpr std::size_t kBodies = 100'000;
   if (GetParam().most_bodies < kBodies) GTEST_SKIP() << "too many for its memory or its time";
-  core::Scene scene = empty_scene();
+  core::Scene scene = scene_with_gravity();
   scene.meshes = {std::make_shared<const core::Mesh>(datasets::box_mesh({1.0, 1.0, 1.0}, {1, 1, 1}).value())};
   scene.domain = {{-128, -128, -128}, {128, 128, 128}};
   for (int k = 0; scene.bodies.size() < kBodies; ++k)
-    add(scene,
-        {2.0F * static_cast<float>(k % kSide - kSide / 2), 2.0F * static_cast<float>(k / kSide % kSide - kSide / 2),
-         2.0F * static_cast<float>(k / kSide / kSide - kSide / 2)});
+    add_body(scene, {2.0F * static_cast<float>(k % kSide - kSide / 2),
+                     2.0F * static_cast<float>(k / kSide % kSide - kSide / 2),
+                     2.0F * static_cast<float>(k / kSide / kSide - kSide / 2)});
   const core::FrameRecord frame = run(scene, 3);
   ASSERT_EQ(frame.position.size(), kBodies);
   EXPECT_TRUE(frame.pairs.empty());
@@ -285,19 +285,20 @@ TEST_P(DynamicsEngines, HundredThousandBodiesSlow) {
 }
 
 TEST_P(DynamicsEngines, LoadStartsAfreshAndTheSameSceneGivesTheSameDigests) {
-  core::Scene scene = empty_scene();
-  for (int k = 0; k < 8; ++k) add(scene, {0.3F * static_cast<float>(k % 2), -7.4F + 1.05F * static_cast<float>(k), 0});
+  core::Scene scene = scene_with_gravity();
+  for (int k = 0; k < 8; ++k)
+    add_body(scene, {0.3F * static_cast<float>(k % 2), -7.4F + 1.05F * static_cast<float>(k), 0});
   const std::uint64_t first = run(scene, 40).digest;
   EXPECT_EQ(run(scene, 40).digest, first) << "loaded again";
   const core::Engine other = make();
   ASSERT_TRUE(other.dynamics->load(scene).ok());
-  for (int k = 0; k < 40; ++k) ASSERT_TRUE(other.dynamics->step(kDt).ok());
+  for (int k = 0; k < 40; ++k) ASSERT_TRUE(other.dynamics->step(kStep_s).ok());
   core::FrameRecord frame;
   ASSERT_TRUE(other.dynamics->read_back(frame, core::RecordLevel::kDigest).ok());
   EXPECT_EQ(frame.digest, first) << "another engine, digest alone";
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, DynamicsEngines, testing::ValuesIn(subjects()),
+INSTANTIATE_TEST_SUITE_P(Reference, DynamicsEngines, testing::ValuesIn(dynamics_subjects()),
                          [](const auto& subject) { return subject.param.name; });
 
 }  // namespace

@@ -15,17 +15,17 @@
 namespace broadside::tests {
 namespace {
 
-struct Subject {
+struct EveryFloatSubject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings;
 };
 
-void PrintTo(const Subject& subject, std::ostream* out) {
+void PrintTo(const EveryFloatSubject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
-class EveryFloat : public testing::TestWithParam<Subject> {
+class EveryFloat : public testing::TestWithParam<EveryFloatSubject> {
  protected:
   void SetUp() override {
     const core::EngineRow row = GetParam().row();
@@ -69,10 +69,10 @@ TEST_P(EveryFloat, GivesThemOfMoreBoxesThanABucketHoldsSlow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ours, EveryFloat,
-                         testing::Values(Subject{"all_pairs", reference::all_pairs_row, {}},
-                                         Subject{"hash_cpu", reference::hash_cpu_row, {}},
-                                         Subject{"octree_cpu", reference::octree_cpu_row, {}},
-                                         Subject{
+                         testing::Values(EveryFloatSubject{"all_pairs", reference::all_pairs_row, {}},
+                                         EveryFloatSubject{"hash_cpu", reference::hash_cpu_row, {}},
+                                         EveryFloatSubject{"octree_cpu", reference::octree_cpu_row, {}},
+                                         EveryFloatSubject{
                                              "octree_cpu_published", reference::octree_cpu_row, {{"broad", "octree"}}}),
                          [](const auto& subject) { return subject.param.name; });
 

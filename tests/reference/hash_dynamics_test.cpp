@@ -14,7 +14,7 @@
 namespace broadside {
 namespace {
 
-core::Engine make_engine(const core::EngineRow& row, const std::map<std::string, std::string>& given) {
+core::Engine engine_of_row(const core::EngineRow& row, const std::map<std::string, std::string>& given) {
   auto settings = core::Settings::parse(row.id, row.settings, given);
   EXPECT_TRUE(settings.ok());
   auto engine = row.create(settings.value());
@@ -48,9 +48,9 @@ TEST(HashCpu, EveryFrameIsThePipelinesOwn) {
   const core::Scene scene = tower();
   ASSERT_TRUE(core::check_scene(scene).ok());
   std::vector<core::Engine> engines;
-  engines.push_back(make_engine(reference::octree_cpu_row(), {}));
-  engines.push_back(make_engine(reference::hash_cpu_row(), {}));
-  engines.push_back(make_engine(reference::hash_cpu_row(), {{"cell_mm", "90"}, {"threads", "1"}}));
+  engines.push_back(engine_of_row(reference::octree_cpu_row(), {}));
+  engines.push_back(engine_of_row(reference::hash_cpu_row(), {}));
+  engines.push_back(engine_of_row(reference::hash_cpu_row(), {{"cell_mm", "90"}, {"threads", "1"}}));
   for (core::Engine& engine : engines) ASSERT_TRUE(engine.dynamics->load(scene).ok());
   std::size_t contacts = 0;
   for (std::uint32_t frame = 1; frame <= scene.frames; ++frame) {

@@ -96,7 +96,7 @@ TEST_P(NarrowPhaseCases, HundredThousandPairsSlow) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, NarrowPhaseCases, testing::ValuesIn(subjects()),
+INSTANTIATE_TEST_SUITE_P(Reference, NarrowPhaseCases, testing::ValuesIn(narrow_phase_subjects()),
                          [](const auto& subject) { return subject.param.name; });
 
 }  // namespace

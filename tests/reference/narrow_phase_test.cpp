@@ -181,12 +181,12 @@ TEST_P(NarrowPhases, SameAnswersAgainAndOnAnyNumberOfThreads) {
     return engine.read_back().value();
   };
   const std::vector<Separation> first = answers(phase());
-  Subject two_threads = GetParam();
+  NarrowPhaseSubject two_threads = GetParam();
   const core::EngineRow row = two_threads.row();
   const bool has_threads = std::any_of(row.settings.begin(), row.settings.end(),
                                        [](const core::SettingRow& setting) { return setting.key == "threads"; });
   if (has_threads) two_threads.settings["threads"] = "2";
-  const core::Engine other = make_engine(two_threads);
+  const core::Engine other = narrow_phase_engine(two_threads);
   for (core::NarrowPhase* engine : {&phase(), other.narrow_phase.get()}) {
     const std::vector<Separation> again = answers(*engine);
     ASSERT_EQ(again.size(), first.size());
@@ -216,7 +216,7 @@ TEST_P(NarrowPhases, NoPairsAndBadPairs) {
   EXPECT_FALSE(phase().measure({}, std::vector<Pose>(1)).ok()) << "fewer poses than bodies";
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, NarrowPhases, testing::ValuesIn(subjects()),
+INSTANTIATE_TEST_SUITE_P(Reference, NarrowPhases, testing::ValuesIn(narrow_phase_subjects()),
                          [](const auto& subject) { return subject.param.name; });
 
 }  // namespace

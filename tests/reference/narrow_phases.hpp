@@ -22,7 +22,7 @@ using core::Pose;
 using core::Separation;
 using core::Vec3;
 
-struct Subject {
+struct NarrowPhaseSubject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings = {};
@@ -37,13 +37,13 @@ struct Subject {
   bool is_boxes = false;        // takes bodies for their axis-aligned boxes
 };
 
-inline void PrintTo(const Subject& subject, std::ostream* out) {
+inline void PrintTo(const NarrowPhaseSubject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
 // Float vertices and poses: a coordinate of about 4 m is off by up to 2^-22 = 2.4e-7 m after rounding, and a distance
 // is made of two of them in each of three axes; 1e-6 covers it. Double inside adds nothing.
-inline std::vector<Subject> listed_subjects() {
+inline std::vector<NarrowPhaseSubject> listed_narrow_phase_subjects() {
   return {
       {"exact_mesh", reference::exact_mesh_row},
       {"exact_mesh_brute", reference::exact_mesh_row, {{"method", "surface-brute"}}},
@@ -67,11 +67,11 @@ inline std::vector<Subject> listed_subjects() {
   };
 }
 
-inline std::vector<Subject> subjects() {
-  return tests::with_unlisted(listed_subjects(), "narrow");
+inline std::vector<NarrowPhaseSubject> narrow_phase_subjects() {
+  return tests::with_unlisted(listed_narrow_phase_subjects(), "narrow");
 }
 
-inline core::Engine make_engine(const Subject& subject) {
+inline core::Engine narrow_phase_engine(const NarrowPhaseSubject& subject) {
   const core::EngineRow row = subject.row();
   auto settings = core::Settings::parse(row.id, row.settings, subject.settings);
   EXPECT_TRUE(settings.ok());
@@ -154,7 +154,7 @@ inline core::Scene scene_of(std::vector<core::Mesh> meshes) {
   return scene;
 }
 
-class NarrowPhases : public testing::TestWithParam<Subject> {
+class NarrowPhases : public testing::TestWithParam<NarrowPhaseSubject> {
  protected:
   Separation measure(std::vector<core::Mesh> meshes, const std::vector<Pose>& poses) {
     const core::Scene scene = scene_of(std::move(meshes));
@@ -188,7 +188,7 @@ class NarrowPhases : public testing::TestWithParam<Subject> {
 
   [[nodiscard]] double tolerance() const { return GetParam().tolerance; }
   core::NarrowPhase& phase() { return *engine_.narrow_phase; }
-  core::Engine engine_ = make_engine(GetParam());
+  core::Engine engine_ = narrow_phase_engine(GetParam());
 };
 
 }  // namespace broadside

@@ -21,7 +21,7 @@ namespace {
 using core::FrameRecord;
 using core::WideVec3;
 
-struct Subject {
+struct RigidWorldSubject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings = {};
@@ -30,13 +30,13 @@ struct Subject {
   bool keeps_restitution = true;
 };
 
-void PrintTo(const Subject& subject, std::ostream* out) {
+void PrintTo(const RigidWorldSubject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
 // Those that this build has.
-std::vector<Subject> subjects() {
-  std::vector<Subject> all{
+std::vector<RigidWorldSubject> rigid_world_subjects() {
+  std::vector<RigidWorldSubject> all{
       {"bullet", reference::bullet_world_row, {}, 1e-4, false},
       {"ode_quick", reference::ode_world_row},
       {"ode_dantzig", reference::ode_world_row, {{"solver", "dantzig"}}},
@@ -48,11 +48,11 @@ std::vector<Subject> subjects() {
       {"dart_own", reference::dart_world_row, {{"detector", "dart"}}},
       {"simbody", reference::simbody_world_row},
   };
-  std::erase_if(all, [](const Subject& s) { return !s.row().absent().empty(); });
+  std::erase_if(all, [](const RigidWorldSubject& s) { return !s.row().absent().empty(); });
   return all;
 }
 
-std::shared_ptr<const core::Mesh> box(double x, double y, double z, core::Vec3 shift = {}) {
+std::shared_ptr<const core::Mesh> shifted_box(double x, double y, double z, core::Vec3 shift = {}) {
   core::Mesh mesh = datasets::box_mesh({x, y, z}, {1, 1, 1}).value();
   for (core::Vec3& v : mesh.vertices) v = v + shift;
   return std::make_shared<const core::Mesh>(std::move(mesh));
@@ -66,7 +66,7 @@ std::shared_ptr<const core::Mesh> octahedron() {
   return std::make_shared<const core::Mesh>(std::move(mesh));
 }
 
-core::Scene world(std::shared_ptr<const core::Mesh> mesh, float dt_s) {
+core::Scene one_body_scene(std::shared_ptr<const core::Mesh> mesh, float dt_s) {
   core::Scene scene;
   scene.name = "test";
   scene.meshes = {std::move(mesh)};
@@ -104,7 +104,7 @@ WideVec3 in_body_axes(const core::Quat& f, const FrameRecord& frame, WideVec3 v)
   return {v.x + 2 * (q.w * t.x + s.x), v.y + 2 * (q.w * t.y + s.y), v.z + 2 * (q.w * t.z + s.z)};
 }
 
-class RigidWorlds : public testing::TestWithParam<Subject> {
+class RigidWorlds : public testing::TestWithParam<RigidWorldSubject> {
  protected:
   [[nodiscard]] static core::Engine make() {
     const core::EngineRow row = GetParam().row();
@@ -138,7 +138,7 @@ class RigidWorlds : public testing::TestWithParam<Subject> {
 
 // After n steps v = n g h exactly; x lies between the sums of explicit and of semi-implicit Euler steps.
 TEST_P(RigidWorlds, FreeFallGainsGravity) {
-  core::Scene scene = world(box(1, 1, 1), 1.0F / 64.0F);
+  core::Scene scene = one_body_scene(shifted_box(1, 1, 1), 1.0F / 64.0F);
   scene.bodies[0].position = {1, 50, 2};
   scene.bodies[0].velocity = {0.5F, 0, -1};
   const auto frames = run(scene, 32);
@@ -158,7 +158,7 @@ TEST_P(RigidWorlds, FreeFallGainsGravity) {
 // which do not turn from where they were: the spin is about the torques' own axis.
 TEST_P(RigidWorlds, AWrenchPushesAndTurns) {
   core::Mesh ball = datasets::sphere_mesh(0.5, 8).value();
-  core::Scene scene = world(std::make_shared<const core::Mesh>(std::move(ball)), 1.0F / 64.0F);
+  core::Scene scene = one_body_scene(std::make_shared<const core::Mesh>(std::move(ball)), 1.0F / 64.0F);
   scene.bodies[0].position = {0, 50, 0};
   scene.bodies[0].inverse_mass = 0.5F;
   scene.wrenches = {{0, core::WrenchAxes::kWorld, {0, 6, 0}, {0, 0.125F, 0}},
@@ -199,7 +199,7 @@ WideVec3 exact_spin(double seconds) {
 
 TEST_P(RigidWorlds, AFreeBrickTurnsAsEulersEquationsSay) {
   const auto error_with = [&](int steps_a_second) {
-    core::Scene scene = world(box(0.1, 0.4, 0.9), 1.0F / static_cast<float>(steps_a_second));
+    core::Scene scene = one_body_scene(shifted_box(0.1, 0.4, 0.9), 1.0F / static_cast<float>(steps_a_second));
     scene.gravity_m_s2 = {};
     scene.bodies[0].position = {0, 50, 0};
     scene.bodies[0].inverse_mass = 0.1F;
@@ -221,7 +221,7 @@ TEST_P(RigidWorlds, AFreeBrickTurnsAsEulersEquationsSay) {
 }
 
 TEST_P(RigidWorlds, TheFloorCarriesTheWeightOfARestingBox) {
-  core::Scene scene = world(box(1, 0.5, 0.75), 1.0F / 128.0F);
+  core::Scene scene = one_body_scene(shifted_box(1, 0.5, 0.75), 1.0F / 128.0F);
   scene.bodies[0].position = {0, 0.25F, 0};
   scene.bodies[0].inverse_mass = 0.5F;
   const auto frames = run(scene, 512);
@@ -251,7 +251,7 @@ TEST_P(RigidWorlds, TheFloorCarriesTheWeightOfARestingBox) {
 // m dv = m g h + sum J, body by body and step by step, with the signs of either order of the two bodies.
 TEST_P(RigidWorlds, ImpulsesAreWhatBodiesWereGiven) {
   for (const bool lower_first : {true, false}) {
-    core::Scene scene = world(box(1, 1, 1), 1.0F / 128.0F);
+    core::Scene scene = one_body_scene(shifted_box(1, 1, 1), 1.0F / 128.0F);
     scene.bodies.resize(2, scene.bodies[0]);
     scene.bodies[lower_first ? 0 : 1].position = {0, 0.52F, 0};
     scene.bodies[lower_first ? 1 : 0].position = {0.25F, 1.6F, 0.125F};
@@ -292,7 +292,8 @@ TEST_P(RigidWorlds, ImpulsesAreWhatBodiesWereGiven) {
 
 // A ball that falls by 1/2 m at 1 m/s^2 meets the floor at 1 m/s: v' = -e v.
 TEST_P(RigidWorlds, ABallBouncesAsTheSceneSaysOrTheCardDoes) {
-  core::Scene scene = world(std::make_shared<const core::Mesh>(datasets::sphere_mesh(0.25, 8).value()), 1.0F / 512.0F);
+  core::Scene scene =
+      one_body_scene(std::make_shared<const core::Mesh>(datasets::sphere_mesh(0.25, 8).value()), 1.0F / 512.0F);
   scene.gravity_m_s2 = {0, -1, 0};
   scene.bodies[0].position = {0, 0.75F, 0};
   scene.bodies[0].material = scene.face_material = {0.0F, 0.0F, 0.5F};
@@ -313,10 +314,10 @@ TEST_P(RigidWorlds, ABallBouncesAsTheSceneSaysOrTheCardDoes) {
 
 // The center of mass of a body that spins freely stays, though the mesh's origin is elsewhere and circles.
 TEST_P(RigidWorlds, ABodySpinsAboutItsCenterOfMass) {
-  core::Scene scene = world(box(0.5, 0.25, 1, {0.75F, 0.125F, 0}), 1.0F / 256.0F);
+  core::Scene scene = one_body_scene(shifted_box(0.5, 0.25, 1, {0.75F, 0.125F, 0}), 1.0F / 256.0F);
   if (GetParam().name.starts_with("dart") || GetParam().name == "simbody") {
     // Their shapes lie about the origin; the scene gives the center instead.
-    scene.meshes = {box(0.5, 0.25, 1)};
+    scene.meshes = {shifted_box(0.5, 0.25, 1)};
     scene.mass_properties = {{{0.125, 0, 0}, {0.1, 0.2, 0.15, 0, 0, 0}}};
   }
   scene.gravity_m_s2 = {};
@@ -341,7 +342,7 @@ TEST_P(RigidWorlds, ABodySpinsAboutItsCenterOfMass) {
 }
 
 TEST_P(RigidWorlds, BodiesThatTranslateKeepTheirOrientation) {
-  core::Scene scene = world(box(1, 1, 1), 1.0F / 128.0F);
+  core::Scene scene = one_body_scene(shifted_box(1, 1, 1), 1.0F / 128.0F);
   scene.motion = core::Motion::kTranslate;
   scene.bodies[0].position = {0, 0.75F, 0};
   scene.bodies[0].velocity = {2, 0, 0};
@@ -355,7 +356,7 @@ TEST_P(RigidWorlds, BodiesThatTranslateKeepTheirOrientation) {
 }
 
 TEST_P(RigidWorlds, AConvexBodyLiesOnItsFaceOrIsUnsupported) {
-  core::Scene scene = world(octahedron(), 1.0F / 128.0F);
+  core::Scene scene = one_body_scene(octahedron(), 1.0F / 128.0F);
   // On a face: turned by the angle between (1, 1, 1) and (0, -1, 0) about (1, 0, -1).
   const double half = 0.5 * std::acos(-1.0 / std::sqrt(3.0));
   const auto s = static_cast<float>(std::sin(half) / std::sqrt(2.0));
@@ -369,7 +370,7 @@ TEST_P(RigidWorlds, AConvexBodyLiesOnItsFaceOrIsUnsupported) {
 }
 
 TEST_P(RigidWorlds, SameSceneSameBits) {
-  core::Scene scene = world(box(1, 0.5, 0.75), 1.0F / 64.0F);
+  core::Scene scene = one_body_scene(shifted_box(1, 0.5, 0.75), 1.0F / 64.0F);
   if (GetParam().name != "simbody") scene.bodies.resize(6, scene.bodies[0]);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     scene.bodies[i].position = {0.3F * static_cast<float>(i), 1.0F + static_cast<float>(i), 0.2F};
@@ -381,7 +382,7 @@ TEST_P(RigidWorlds, SameSceneSameBits) {
   for (std::size_t k = 0; k < first.size(); ++k) ASSERT_EQ(first[k].digest, second[k].digest) << "step " << k + 1;
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, RigidWorlds, testing::ValuesIn(subjects()),
+INSTANTIATE_TEST_SUITE_P(Reference, RigidWorlds, testing::ValuesIn(rigid_world_subjects()),
                          [](const auto& subject) { return subject.param.name; });
 
 }  // namespace

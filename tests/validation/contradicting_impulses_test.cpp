@@ -28,7 +28,7 @@ std::pair<Contact*, Contact*> two_that(Recording& r, Fits fits) {
   return {&frame.contacts[0], &frame.contacts[1]};
 }
 
-Vec3 turned(Vec3 t, Vec3 n, float angle) {
+Vec3 turned_about(Vec3 t, Vec3 n, float angle) {
   const Vec3 side{n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
   return std::cos(angle) * t + std::sin(angle) * side;
 }
@@ -158,7 +158,7 @@ constexpr Corruption kImpulses[] = {
     {"a tangent turned by a thousandth", "two-body:oblique", "friction-energy",
      [](Recording& r) {
        Contact& c = contact_that(r, is_sliding);
-       c.tangent = turned(c.tangent, c.normal, 1e-3F);
+       c.tangent = turned_about(c.tangent, c.normal, 1e-3F);
      }},
     {"a tangent that leans to the normal", "two-body:oblique", "friction-energy",
      [](Recording& r) {
@@ -182,7 +182,7 @@ constexpr Corruption kImpulses[] = {
     {"sliding that friction turned", "two-body:oblique", "friction-energy",
      [](Recording& r) {
        Contact& c = contact_that(r, is_sliding);
-       const Vec3 side = turned(c.tangent, c.normal, 1.5707963F);
+       const Vec3 side = turned_about(c.tangent, c.normal, 1.5707963F);
        c.post_a.v = c.post_a.v + 1e-4F * side;
        c.post_b.v = c.post_b.v - 1e-4F * side;
      }},

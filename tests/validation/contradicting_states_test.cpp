@@ -9,10 +9,6 @@
 namespace broadside::tests {
 namespace {
 
-FrameRecord& middle(Recording& r) {
-  return r.frames[r.frames.size() / 2];
-}
-
 // Statistics of what is recorded now, as a forger would write them.
 void count_again(Recording& r) {
   core::PenetrationCounter counter(r.header.scene.parameters.delta_m);

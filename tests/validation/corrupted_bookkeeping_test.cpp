@@ -11,10 +11,6 @@ namespace {
 constexpr const char* kScene = "two-body:oblique";
 constexpr auto kKept = Digests::kKept;
 
-FrameRecord& middle(Recording& r) {
-  return r.frames[r.frames.size() / 2];
-}
-
 constexpr Corruption kDigests[] = {
     {"all zeros", kScene, "frame-digest",
      [](Recording& r) {

@@ -141,7 +141,7 @@ TEST(Corruptions, OfTheGeometryOfContacts) {
   expect_rejected(kGeometry);
 }
 
-constexpr Corruption kShares[] = {
+constexpr Corruption kChangedShares[] = {
     {"pushed a thousandth too far", "two-body:unequal", "contraction",
      [](Recording& r) {
        Contact& c = contact_that(r, bench::is_deep);
@@ -178,7 +178,7 @@ constexpr Corruption kShares[] = {
 };
 
 TEST(Corruptions, OfThePositionsThatContactsLeave) {
-  expect_rejected(kShares);
+  expect_rejected(kChangedShares);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ void drag(const Recording& r, Contact& c, float impulse_n_s) {
   c.post_b.v = c.post_b.v - (impulse_n_s * r.header.scene.bodies[c.b].inverse_mass) * c.tangent;
 }
 
-bool is_sliding(const Contact& c) {
+bool is_sliding_hard(const Contact& c) {
   return c.tangent_impulse_n_s < -1e-4F;
 }
 bool is_straight(const Contact& c) {
@@ -115,40 +115,40 @@ constexpr Corruption kFriction[] = {
      }},
     {"a tangent the other way", "two-body:oblique", "friction-energy",
      [](Recording& r) {
-       Contact& c = contact_that(r, is_sliding);
+       Contact& c = contact_that(r, is_sliding_hard);
        c.tangent = -1.0F * c.tangent;
      }},
     {"tangent and impulse turned round", "two-body:oblique", "friction-energy",
      [](Recording& r) {
-       Contact& c = contact_that(r, is_sliding);
+       Contact& c = contact_that(r, is_sliding_hard);
        c.tangent = -1.0F * c.tangent;
        c.tangent_impulse_n_s = -c.tangent_impulse_n_s;
      }},
     {"a tangent that is not unit", "two-body:oblique", "friction-energy",
      [](Recording& r) {
-       Contact& c = contact_that(r, is_sliding);
+       Contact& c = contact_that(r, is_sliding_hard);
        c.tangent = 0.999F * c.tangent;
      }},
     {"no tangent where something slides", "two-body:oblique", "friction-energy",
-     [](Recording& r) { contact_that(r, is_sliding).tangent = {}; }},
+     [](Recording& r) { contact_that(r, is_sliding_hard).tangent = {}; }},
     {"friction a hundredth too strong", "two-body:oblique", "friction-energy",
      [](Recording& r) {
-       Contact& c = contact_that(r, is_sliding);
+       Contact& c = contact_that(r, is_sliding_hard);
        drag(r, c, 0.01F * c.tangent_impulse_n_s);
      }},
     {"friction a hundredth too weak", "two-body:oblique", "friction-energy",
      [](Recording& r) {
-       Contact& c = contact_that(r, is_sliding);
+       Contact& c = contact_that(r, is_sliding_hard);
        drag(r, c, -0.01F * c.tangent_impulse_n_s);
      }},
     {"no friction", "two-body:glancing", "friction-energy",
      [](Recording& r) {
-       Contact& c = contact_that(r, is_sliding);
+       Contact& c = contact_that(r, is_sliding_hard);
        drag(r, c, -c.tangent_impulse_n_s);
      }},
     {"friction that speeds up", "two-body:slide", "friction-energy",
      [](Recording& r) {
-       Contact& c = contact_that(r, is_sliding);
+       Contact& c = contact_that(r, is_sliding_hard);
        drag(r, c, -2.0F * c.tangent_impulse_n_s);
      }},
     {"kinetic friction of the scene doubled", "two-body:oblique", "friction-energy",
@@ -160,7 +160,7 @@ constexpr Corruption kFriction[] = {
        for (core::Body& b : r.header.scene.bodies) b.material.mu_static = 0.0F;
      }},
     {"an impulse that did not act", "two-body:oblique", "friction-energy",
-     [](Recording& r) { contact_that(r, is_sliding).tangent_impulse_n_s *= 1.00001F; }},
+     [](Recording& r) { contact_that(r, is_sliding_hard).tangent_impulse_n_s *= 1.00001F; }},
 };
 
 TEST(Corruptions, OfFriction) {

@@ -6,10 +6,10 @@
 namespace broadside::tests {
 namespace {
 
-constexpr const char* kTall = "tower:cube:5";
+constexpr const char* kTallTower = "tower:cube:5";
 
 // A frame in the middle of the recording, so that no rule about the first or the last frames finds it.
-FrameRecord& middle(Recording& r) {
+FrameRecord& behind_middle(Recording& r) {
   return r.frames[r.frames.size() / 2 + 1];
 }
 
@@ -22,11 +22,11 @@ void lose_first_confirmed(FrameRecord& frame) {
   lose_confirmed(frame, 0);
 }
 
-constexpr Corruption kCandidates[] = {
-    {"a pair lost", kTall, "candidate-set", [](Recording& r) { middle(r).pairs.pop_back(); }},
-    {"a pair lost, and the counts with it", kTall, "candidate-set",
+constexpr Corruption kLostCandidates[] = {
+    {"a pair lost", kTallTower, "candidate-set", [](Recording& r) { behind_middle(r).pairs.pop_back(); }},
+    {"a pair lost, and the counts with it", kTallTower, "candidate-set",
      [](Recording& r) {
-       FrameRecord& frame = middle(r);
+       FrameRecord& frame = behind_middle(r);
        frame.pairs.pop_back();
        frame.pairs_demanded = frame.pairs_raw = frame.pairs.size();
      }},
@@ -45,40 +45,42 @@ constexpr Corruption kCandidates[] = {
          }
        r.is_spoilable = false;
      }},
-    {"a pair twice", kTall, "candidate-set", [](Recording& r) { middle(r).pairs.push_back(middle(r).pairs.back()); }},
-    {"pairs in another order", kTall, "candidate-set",
-     [](Recording& r) { std::swap(middle(r).pairs.front(), middle(r).pairs.back()); }},
+    {"a pair twice", kTallTower, "candidate-set",
+     [](Recording& r) { behind_middle(r).pairs.push_back(behind_middle(r).pairs.back()); }},
+    {"pairs in another order", kTallTower, "candidate-set",
+     [](Recording& r) { std::swap(behind_middle(r).pairs.front(), behind_middle(r).pairs.back()); }},
     {"a pair of two static bodies", "pile", "candidate-set",
      [](Recording& r) {
        auto& pairs = r.frames[0].pairs;
        pairs.push_back({5, 11});
        std::sort(pairs.begin(), pairs.end());
      }},
-    {"more demanded than stored", kTall, "capacity", [](Recording& r) { ++middle(r).pairs_demanded; }},
-    {"fewer demanded than stored", kTall, "capacity", [](Recording& r) { --middle(r).pairs_demanded; }},
-    {"fewer raw pairs than were left of them", kTall, "capacity", [](Recording& r) { --middle(r).pairs_raw; }},
-    {"no raw pairs", kTall, "capacity", [](Recording& r) { middle(r).pairs_raw = 0; }},
+    {"more demanded than stored", kTallTower, "capacity", [](Recording& r) { ++behind_middle(r).pairs_demanded; }},
+    {"fewer demanded than stored", kTallTower, "capacity", [](Recording& r) { --behind_middle(r).pairs_demanded; }},
+    {"fewer raw pairs than were left of them", kTallTower, "capacity",
+     [](Recording& r) { --behind_middle(r).pairs_raw; }},
+    {"no raw pairs", kTallTower, "capacity", [](Recording& r) { behind_middle(r).pairs_raw = 0; }},
 };
 
 TEST(Corruptions, OfCandidatePairs) {
-  expect_rejected(kCandidates);
+  expect_rejected(kLostCandidates);
 }
 
-constexpr Corruption kConfirmed[] = {
-    {"a confirmed pair lost in a middle frame", kTall, "level-agreement",
-     [](Recording& r) { lose_first_confirmed(middle(r)); }},
-    {"a confirmed pair lost in the frame after", kTall, "level-agreement",
-     [](Recording& r) { lose_first_confirmed(r.frames[middle(r).step]); }},
-    {"a confirmed pair lost in the last frame", kTall, "level-agreement",
+constexpr Corruption kLostConfirmed[] = {
+    {"a confirmed pair lost in a middle frame", kTallTower, "level-agreement",
+     [](Recording& r) { lose_first_confirmed(behind_middle(r)); }},
+    {"a confirmed pair lost in the frame after", kTallTower, "level-agreement",
+     [](Recording& r) { lose_first_confirmed(r.frames[behind_middle(r).step]); }},
+    {"a confirmed pair lost in the last frame", kTallTower, "level-agreement",
      [](Recording& r) { lose_first_confirmed(r.frames.back()); }},
     {"a confirmed pair lost in one frame of six hundred", "two-body:resting[frames=600]", "level-agreement",
      [](Recording& r) { lose_first_confirmed(r.frames[301]); }},
     {"a confirmed pair lost in the frame before it", "two-body:resting[frames=600]", "level-agreement",
      [](Recording& r) { lose_first_confirmed(r.frames[300]); }},
-    {"no confirmed pairs", kTall, "level-agreement",
+    {"no confirmed pairs", kTallTower, "level-agreement",
      [](Recording& r) {
-       middle(r).confirmed.clear();
-       middle(r).proximity.clear();
+       behind_middle(r).confirmed.clear();
+       behind_middle(r).proximity.clear();
      }},
     {"a pair confirmed whose last-level boxes are apart", "balls", "level-agreement",
      [](Recording& r) {
@@ -92,10 +94,10 @@ constexpr Corruption kConfirmed[] = {
            }
        r.is_spoilable = false;
      }},
-    {"a pair confirmed twice", kTall, "level-agreement",
+    {"a pair confirmed twice", kTallTower, "level-agreement",
      [](Recording& r) {
-       middle(r).confirmed.push_back(middle(r).confirmed.back());
-       middle(r).proximity.push_back(middle(r).proximity.back());
+       behind_middle(r).confirmed.push_back(behind_middle(r).confirmed.back());
+       behind_middle(r).proximity.push_back(behind_middle(r).proximity.back());
      }},
     {"a pair that is no candidate confirmed", "mixed", "level-agreement",
      [](Recording& r) {
@@ -105,7 +107,7 @@ constexpr Corruption kConfirmed[] = {
 };
 
 TEST(Corruptions, OfConfirmedPairs) {
-  expect_rejected(kConfirmed);
+  expect_rejected(kLostConfirmed);
 }
 
 constexpr Corruption kProximity[] = {
@@ -131,13 +133,13 @@ TEST(Corruptions, OfVertexProximity) {
   expect_rejected(kProximity);
 }
 
-constexpr const char* kOctree = "errata:E2 broad=octree";
+constexpr const char* kSpoiledOctree = "errata:E2 broad=octree";
 
-constexpr Corruption kOctrees[] = {
-    {"a node too few", kOctree, "octree-invariants", [](Recording& r) { r.frames[0].octree_nodes.pop_back(); }},
-    {"a cell a little too large", kOctree, "octree-invariants",
+constexpr Corruption kSpoiledOctrees[] = {
+    {"a node too few", kSpoiledOctree, "octree-invariants", [](Recording& r) { r.frames[0].octree_nodes.pop_back(); }},
+    {"a cell a little too large", kSpoiledOctree, "octree-invariants",
      [](Recording& r) { r.frames[0].octree_nodes[3].box.max.x += 1e-3F; }},
-    {"a body one level too high", kOctree, "octree-invariants",
+    {"a body one level too high", kSpoiledOctree, "octree-invariants",
      [](Recording& r) {
        for (std::uint32_t& node : r.frames[0].octree_node_of_body)
          if (node != 0) {
@@ -146,13 +148,13 @@ constexpr Corruption kOctrees[] = {
          }
        r.is_spoilable = false;
      }},
-    {"a body in another cell", kOctree, "octree-invariants",
+    {"a body in another cell", kSpoiledOctree, "octree-invariants",
      [](Recording& r) { r.frames[0].octree_node_of_body[0] = 72 - r.frames[0].octree_node_of_body[0]; }},
-    {"a node with another parent", kOctree, "octree-invariants",
+    {"a node with another parent", kSpoiledOctree, "octree-invariants",
      [](Recording& r) { r.frames[0].octree_nodes[20].parent = 8; }},
-    {"a vertex in another leaf", kOctree, "octree-invariants",
+    {"a vertex in another leaf", kSpoiledOctree, "octree-invariants",
      [](Recording& r) { r.frames[0].leaf_of_vertex[0] = 63 - r.frames[0].leaf_of_vertex[0]; }},
-    {"a loose box of a leaf", kOctree, "octree-invariants",
+    {"a loose box of a leaf", kSpoiledOctree, "octree-invariants",
      [](Recording& r) {
        for (std::size_t k = 9; k < 73; ++k)
          if (!core::is_empty(r.frames[0].body_octree_boxes[k])) {
@@ -164,7 +166,7 @@ constexpr Corruption kOctrees[] = {
 };
 
 TEST(Corruptions, OfOctrees) {
-  expect_rejected(kOctrees);
+  expect_rejected(kSpoiledOctrees);
 }
 
 }  // namespace

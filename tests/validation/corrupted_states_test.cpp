@@ -10,10 +10,6 @@ namespace {
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 constexpr core::Quat kQuarterTurn{0.70710678F, 0.0F, 0.0F, 0.70710678F};
 
-FrameRecord& middle(Recording& r) {
-  return r.frames[r.frames.size() / 2];
-}
-
 std::uint32_t static_body(Recording& r) {
   for (std::uint32_t i = 0; i < r.header.scene.body_count(); ++i)
     if (!(r.header.scene.bodies[i].inverse_mass > 0.0F)) return i;

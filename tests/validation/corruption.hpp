@@ -49,6 +49,10 @@ inline void cut_after(Recording& r, std::uint64_t step) {
   std::erase_if(r.frames, [step](const FrameRecord& f) { return f.step > step; });
 }
 
+inline FrameRecord& middle(Recording& r) {
+  return r.frames[r.frames.size() / 2];
+}
+
 // The first frame with a contact that fits; the recording notes it when there is none.
 template <typename Fits>
 FrameRecord& frame_with(Recording& r, Fits fits) {

@@ -9,7 +9,7 @@
 namespace broadside::tests {
 namespace {
 
-constexpr double kU = 0x1p-24;
+constexpr double kRoundoff = 0x1p-24;
 
 // A recording whose judged value is off by this much.
 struct Verge {
@@ -29,7 +29,7 @@ void expect_verges(const std::vector<Verge>& verges) {
   }
 }
 
-float single(double x) {
+float rounded(double x) {
   return static_cast<float>(x);
 }
 
@@ -58,8 +58,8 @@ Contact along_x(double pre_a, double post_a, double pre_b, double post_b) {
   c.b = 1;
   c.normal = {1, 0, 0};
   c.depth_m = 0.5F;
-  c.pre_a.x.x = single(pre_a), c.post_a.x.x = single(post_a);
-  c.pre_b.x.x = single(pre_b), c.post_b.x.x = single(post_b);
+  c.pre_a.x.x = rounded(pre_a), c.post_a.x.x = rounded(post_a);
+  c.pre_b.x.x = rounded(pre_b), c.post_b.x.x = rounded(post_b);
   return c;
 }
 
@@ -67,8 +67,8 @@ Contact along_x(double pre_a, double post_a, double pre_b, double post_b) {
 Contact bounce(double before, double after) {
   Contact c = along_x(1, 1, 0, 0);
   c.depth_m = 0.0F;
-  c.pre_a.v.x = single(before), c.post_a.v.x = single(after);
-  c.normal_impulse_n_s = single(after - before);
+  c.pre_a.v.x = rounded(before), c.post_a.v.x = rounded(after);
+  c.normal_impulse_n_s = rounded(after - before);
   return c;
 }
 
@@ -82,18 +82,18 @@ Recording bounced(double before, double after, float v_threshold, float impulse_
 TEST(Limits, OfWhatAContactDoesToPositionsAndMomentum) {
   expect_verges({
       // Both bodies move by half a meter to near 0, where additions hardly round: 3 u of each displacement.
-      {"displacement", "center-of-mass", 3 * kU,
+      {"displacement", "center-of-mass", 3 * kRoundoff,
        [](double off) { return with_contact(along_x(-0.5, off, 0.5, 0), 1.0F); }},
       // Both gain 1 m/s and end near 0: 3 u of each.
-      {"momentum", "center-of-mass", 6 * kU,
+      {"momentum", "center-of-mass", 6 * kRoundoff,
        [](double off) {
          Contact c = along_x(1, 1, 0, 0);
-         c.pre_a.v.x = -1.0F, c.post_a.v.x = single(off);
+         c.pre_a.v.x = -1.0F, c.post_a.v.x = rounded(off);
          c.pre_b.v.x = 1.0F;
          return with_contact(c, 1.0F);
        }},
       // 7 u of a correction by half a meter that ends near 0.
-      {"correction", "contraction", 3.5 * kU,
+      {"correction", "contraction", 3.5 * kRoundoff,
        [](double off) { return with_contact(along_x(-0.5, off, 0.25, 0.25), 0.0F); }},
   });
 }
@@ -103,28 +103,28 @@ TEST(Limits, OfNormalImpulses) {
   const double floored = 0.5 - 0.4F;  // J_min - |v_n|, of 1 kg
   expect_verges({
       // (1 + e)(4 + 4) u of 1 m/s, 2 u of the speed after, 3 u of the change.
-      {"a bounce", "restitution", ((1 + e) * 8 + 2 * e + 3 * (1 + e)) * kU,
+      {"a bounce", "restitution", ((1 + e) * 8 + 2 * e + 3 * (1 + e)) * kRoundoff,
        [e](double off) { return bounced(-1, e + off, 0.3F, 0.01F); }},
-      {"a bounce too low", "restitution", ((1 + e) * 8 + 2 * e + 3 * (1 + e)) * kU,
+      {"a bounce too low", "restitution", ((1 + e) * 8 + 2 * e + 3 * (1 + e)) * kRoundoff,
        [e](double off) { return bounced(-1, e - off, 0.3F, 0.01F); }},
       // No bounce from 1/4 m/s: 8 u of that, and 3 u of the change.
-      {"a stop", "restitution", 11 * 0.25 * kU, [](double off) { return bounced(-0.25, off, 0.3F, 0.01F); }},
+      {"a stop", "restitution", 11 * 0.25 * kRoundoff, [](double off) { return bounced(-0.25, off, 0.3F, 0.01F); }},
       // J_min = 1/2 N s: 1 u of what it changes, 2 u of the speed after, 3 u of the change.
-      {"the floor", "restitution", (0.5 + 2 * floored + 3 * 0.5) * kU,
+      {"the floor", "restitution", (0.5 + 2 * floored + 3 * 0.5) * kRoundoff,
        [floored](double off) { return bounced(-0.4F, floored + off, 10.0F, 0.5F); }},
-      {"below the floor", "restitution", (0.5 + 2 * floored + 3 * 0.5) * kU,
+      {"below the floor", "restitution", (0.5 + 2 * floored + 3 * 0.5) * kRoundoff,
        [floored](double off) { return bounced(-0.4F, floored - off, 10.0F, 0.5F); }},
       // A floor beyond the neutral impulse, 2 m/s: 2 times 8 u of 1 m/s, u of 2, 2 u of 1, 3 u of 2.
-      {"the neutral impulse", "restitution", (16 + 2 + 2 + 6) * kU,
+      {"the neutral impulse", "restitution", (16 + 2 + 2 + 6) * kRoundoff,
        [](double off) { return bounced(-1, 1 - off, 10.0F, 100.0F); }},
       // v_n' = 1: 2 times 8 u, 2 u of the speed after, 3 u of the change.
-      {"a gain of energy", "normal-energy", (16 + 2 + 6) * kU,
+      {"a gain of energy", "normal-energy", (16 + 2 + 6) * kRoundoff,
        [](double off) { return bounced(-1, 1 + off, 0.3F, 0.01F); }},
       // From 1 m/s to rest: 3 u of the change, and 4 u of the impulse itself.
-      {"the recorded impulse", "normal-energy", 7 * kU,
+      {"the recorded impulse", "normal-energy", 7 * kRoundoff,
        [](double off) {
          Contact c = bounce(-1, 0);
-         c.normal_impulse_n_s = single(1 + off);
+         c.normal_impulse_n_s = rounded(1 + off);
          return with_contact(c, 0.0F);
        }},
   });
@@ -133,29 +133,29 @@ TEST(Limits, OfNormalImpulses) {
 // A slides at this speed over a static B, which it meets at 1 m/s and leaves at 0.3; friction takes the given impulse.
 Recording slid(double speed, double impulse_n_s, Vec3 tangent = {0, 1, 0}) {
   Contact c = bounce(-1, 0.3F);
-  c.pre_a.v.y = single(speed);
-  c.post_a.v.y = single(speed - impulse_n_s);
+  c.pre_a.v.y = rounded(speed);
+  c.post_a.v.y = rounded(speed - impulse_n_s);
   c.tangent = tangent;
-  c.tangent_impulse_n_s = single(-impulse_n_s);
+  c.tangent_impulse_n_s = rounded(-impulse_n_s);
   return with_contact(c, 0.0F);
 }
 
 TEST(Limits, OfFriction) {
-  const double j_n = single(1 + double{0.3F});
+  const double j_n = rounded(1 + double{0.3F});
   expect_verges({
       // |v_t| = 1/8: 2 u of it and 6 u of the approach, and 5 u of the impulse.
-      {"what stops", "friction-energy", (2 * 0.125 + 6 + 5 * 0.125) * kU,
+      {"what stops", "friction-energy", (2 * 0.125 + 6 + 5 * 0.125) * kRoundoff,
        [](double off) { return slid(0.125, 0.125 + off); }},
-      {"less than what stops", "friction-energy", (2 * 0.125 + 6 + 5 * 0.125) * kU,
+      {"less than what stops", "friction-energy", (2 * 0.125 + 6 + 5 * 0.125) * kRoundoff,
        [](double off) { return slid(0.125, 0.125 - off); }},
       // 3 u of mu_k J_n = 0.65 N s, where floats are u apart: one of them is inside and two are not. The speed of 4 m/s
       // rounds more than that, and is judged with more.
-      {"what brakes", "friction-energy", 3 * 0.5 * j_n * kU,
-       [j_n](double off) { return slid(4, 0.5 * j_n + kU * std::floor(off / kU)); }},
+      {"what brakes", "friction-energy", 3 * 0.5 * j_n * kRoundoff,
+       [j_n](double off) { return slid(4, 0.5 * j_n + kRoundoff * std::floor(off / kRoundoff)); }},
       // Sliding at 1 m/s: (2 + 6) u over |v_t| and 4 u. Without friction nothing follows from the tangent.
-      {"the tangent", "friction-energy", 12 * kU,
+      {"the tangent", "friction-energy", 12 * kRoundoff,
        [](double off) {
-         Recording r = slid(1, 0, {0, 1, single(off)});
+         Recording r = slid(1, 0, {0, 1, rounded(off)});
          for (core::Body& b : r.header.scene.bodies) b.material.mu_static = b.material.mu_kinetic = 0.0F;
          return r;
        }},
@@ -184,7 +184,7 @@ Recording one_body(Vec3 start, Vec3 velocity, Vec3 gravity, const Kinematics& se
 
 // Within the domain's +x face at 1/2 m, but for `off`, and without a contact.
 Recording at_a_face(double off) {
-  Recording r = one_body({single(off), 0, 0}, {}, {}, {{single(off), 0, 0}, {}});
+  Recording r = one_body({rounded(off), 0, 0}, {}, {}, {{rounded(off), 0, 0}, {}});
   r.header.scene.domain.max.x = 0.5F;
   r.header.stamp.settings = "solver=colored";
   r.header.groups |= core::bit(core::Group::kBodies) | core::bit(core::Group::kContacts);
@@ -199,31 +199,31 @@ Recording at_a_face(double off) {
 TEST(Limits, OfStates) {
   expect_verges({
       // The cube's side at 1/2 m moved by `off`, which the box does not show.
-      {"a box", "state-sanity", 0.5 * kU,
+      {"a box", "state-sanity", 0.5 * kRoundoff,
        [](double off) {
-         Recording r = one_body({single(off), 0, 0}, {}, {}, {{single(off), 0, 0}, {}});
+         Recording r = one_body({rounded(off), 0, 0}, {}, {}, {{rounded(off), 0, 0}, {}});
          r.frames[0].boxes = {{{-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}}};
          return r;
        }},
       // Gravity takes 1 m/s away and leaves nearly nothing: u of 1 m/s.
-      {"P(2)", "state-sanity", kU,
+      {"P(2)", "state-sanity", kRoundoff,
        [](double off) {
-         return one_body({}, {1, 0, 0}, {-64, 0, 0}, {{single(off / 64), 0, 0}, {single(off), 0, 0}});
+         return one_body({}, {1, 0, 0}, {-64, 0, 0}, {{rounded(off / 64), 0, 0}, {rounded(off), 0, 0}});
        }},
       // The same for a step of 1 m.
-      {"P(3)", "state-sanity", kU,
+      {"P(3)", "state-sanity", kRoundoff,
        [](double off) {
-         return one_body({-1, 0, 0}, {64, 0, 0}, {}, {{single(off), 0, 0}, {64, 0, 0}});
+         return one_body({-1, 0, 0}, {64, 0, 0}, {}, {{rounded(off), 0, 0}, {64, 0, 0}});
        }},
       // 5 roundings of a component, doubled by the square.
-      {"a quaternion's square", "state-sanity", 10 * kU,
+      {"a quaternion's square", "state-sanity", 10 * kRoundoff,
        [](double off) {
          Recording r = at_a_face(0);
          r.header.groups = core::bit(core::Group::kBodies);
-         r.frames[0].orientation[0] = {1, single(std::sqrt(off)), 0, 0};
+         r.frames[0].orientation[0] = {1, rounded(std::sqrt(off)), 0, 0};
          return r;
        }},
-      {"beyond a face", "state-sanity", 0.5 * kU, at_a_face},
+      {"beyond a face", "state-sanity", 0.5 * kRoundoff, at_a_face},
   });
 }
 
@@ -241,8 +241,8 @@ Recording stopped_by_a_sum(double off_x, double off_v) {
   frame.detected_velocity = {c.pre_a.v, c.pre_b.v};
   const Box local = core::bounds(*r.header.scene.meshes[0]);
   for (const Vec3 x : frame.detected_position) frame.boxes.push_back(core::translated(local, x));
-  frame.position = {{single(off_x), 0, 0}, c.post_b.x};
-  frame.velocity = {{single(off_v), 0, 0}, c.post_b.v};
+  frame.position = {{rounded(off_x), 0, 0}, c.post_b.x};
+  frame.velocity = {{rounded(off_v), 0, 0}, c.post_b.v};
   frame.orientation.resize(2);
   frame.angular_velocity.resize(2);
   return r;
@@ -251,16 +251,16 @@ Recording stopped_by_a_sum(double off_x, double off_v) {
 TEST(Limits, OfChangesThatAreAddedUp) {
   expect_verges({
       // One change of 1 m, one of 1 m/s, to near 0: the subtraction and the sum, 2 u.
-      {"a position", "state-sanity", 2 * kU, [](double off) { return stopped_by_a_sum(off, 0.0); }},
-      {"a velocity", "state-sanity", 2 * kU, [](double off) { return stopped_by_a_sum(0.0, off); }},
+      {"a position", "state-sanity", 2 * kRoundoff, [](double off) { return stopped_by_a_sum(off, 0.0); }},
+      {"a velocity", "state-sanity", 2 * kRoundoff, [](double off) { return stopped_by_a_sum(0.0, off); }},
   });
 }
 
 // A pair of confirmed cubes 1/8 m apart, whose boxes say that they are within 1 m of the origin.
 TEST(Limits, OfNearestVertices) {
-  const double reach = std::sqrt(3.0) * (1 + 1) * kU;
+  const double reach = std::sqrt(3.0) * (1 + 1) * kRoundoff;
   expect_verges({
-      {"the distance of the witnesses", "proximity-bound", reach + 3 * 0.125 * kU,
+      {"the distance of the witnesses", "proximity-bound", reach + 3 * 0.125 * kRoundoff,
        [](double off) {
          Recording r;
          r.header.scene = mixed_scene();
@@ -280,7 +280,7 @@ TEST(Limits, OfNearestVertices) {
          // All vertices of the two sides are as near: the lowest of A stands for them.
          const auto a = std::find_if(vertices.begin(), vertices.end(), [](Vec3 v) { return v.x == 0.5F; });
          const double d = 0.125 - off;
-         frame.proximity = {{single(d * d), index_of(*a), index_of({-0.5F, a->y, a->z})}};
+         frame.proximity = {{rounded(d * d), index_of(*a), index_of({-0.5F, a->y, a->z})}};
          return r;
        }},
   });
@@ -301,13 +301,13 @@ core::Outcome geometry(Vec3 b, Vec3 normal, float depth_m, Vec3 a = {}) {
 
 TEST(Limits, OfTheDepthAndTheAxisOfAContact) {
   // Overlap of 1 - x on the x axis, with x a few 2^-26 below 1/2: the depth may be off by u / 2.
-  const auto x_at = [](double off) { return single(0.5 - off); };
-  EXPECT_EQ(geometry({x_at(0.25 * kU), 0.25F, 0}, {-1, 0, 0}, 0.5F), core::Outcome::kPass);
-  EXPECT_EQ(geometry({x_at(0.5 * kU), 0.25F, 0}, {-1, 0, 0}, 0.5F), core::Outcome::kPass);
-  EXPECT_EQ(geometry({x_at(1.0 * kU), 0.25F, 0}, {-1, 0, 0}, 0.5F), core::Outcome::kFail);
+  const auto x_at = [](double off) { return rounded(0.5 - off); };
+  EXPECT_EQ(geometry({x_at(0.25 * kRoundoff), 0.25F, 0}, {-1, 0, 0}, 0.5F), core::Outcome::kPass);
+  EXPECT_EQ(geometry({x_at(0.5 * kRoundoff), 0.25F, 0}, {-1, 0, 0}, 0.5F), core::Outcome::kPass);
+  EXPECT_EQ(geometry({x_at(1.0 * kRoundoff), 0.25F, 0}, {-1, 0, 0}, 0.5F), core::Outcome::kFail);
   // Least overlap of 3/4 on y: x may be more by 1.5 u.
-  EXPECT_EQ(geometry({0.25F, single(0.25 + 1.0 * kU), 0}, {-1, 0, 0}, 0.75F), core::Outcome::kPass);
-  EXPECT_EQ(geometry({0.25F, single(0.25 + 2.0 * kU), 0}, {-1, 0, 0}, 0.75F), core::Outcome::kFail);
+  EXPECT_EQ(geometry({0.25F, rounded(0.25 + 1.0 * kRoundoff), 0}, {-1, 0, 0}, 0.75F), core::Outcome::kPass);
+  EXPECT_EQ(geometry({0.25F, rounded(0.25 + 2.0 * kRoundoff), 0}, {-1, 0, 0}, 0.75F), core::Outcome::kFail);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ struct Candidates {
     if (area.count < kRoom) area.points[area.count++] = p;
   }
   // A point of one body's surface and its distance from the other body.
-  BROADSIDE_HD void add(Vec3 p, const PlacedShape& other, bool is_on_a, std::uint32_t name) {
+  BROADSIDE_HD_CALLED void add(Vec3 p, const PlacedShape& other, bool is_on_a, std::uint32_t name) {
     const PointDistance from = point_to_solid(other, p, rounding_m);
     const float facing = dot(from.normal, normal);
     if (!((is_on_a ? facing : -facing) >= kSameNormal)) return;
@@ -66,8 +66,8 @@ struct Candidates {
          is_on_a ? feature_key(name, from.name) : feature_key(from.name, name)});
   }
   // Where the point that is meant is one of several equally deep ones, not every one is over the other body.
-  BROADSIDE_HD void add_if_on_both(Vec3 middle, float gap_m, std::uint32_t key, const PlacedShape& a,
-                                   const PlacedShape& b) {
+  BROADSIDE_HD_CALLED void add_if_on_both(Vec3 middle, float gap_m, std::uint32_t key, const PlacedShape& a,
+                                          const PlacedShape& b) {
     const Vec3 half = (0.5F * gap_m) * normal;
     if (fabsf(point_to_solid(a, middle + half, rounding_m).gap_m) > 4.0F * rounding_m) return;
     if (fabsf(point_to_solid(b, middle - half, rounding_m).gap_m) > 4.0F * rounding_m) return;
@@ -81,7 +81,7 @@ BROADSIDE_HD bool is_round(const PlacedShape& p) {
 }
 
 // Ends of a line of one body beside the line of the other, however deep the bodies are in each other.
-BROADSIDE_HD void add_beside(Candidates& out, const Vec3 ends[2], const Vec3 others[2], bool is_a) {
+BROADSIDE_HD_CALLED void add_beside(Candidates& out, const Vec3 ends[2], const Vec3 others[2], bool is_a) {
   for (int end = 0; end < 2; ++end) {
     const float share = share_nearest(ends[end], others[0], others[1]);
     const Vec3 beside = others[0] + share * (others[1] - others[0]);
@@ -99,8 +99,8 @@ BROADSIDE_HD void add_beside(Candidates& out, const Vec3 ends[2], const Vec3 oth
 
 // A line over the round end of a cylinder (0 = lower, 1 = upper), seen along the normal: cut by the rim, in closed
 // form.
-BROADSIDE_HD bool add_line_over_end(Candidates& out, const Vec3 ends[2], const PlacedShape& cylinder, int end,
-                                    bool line_is_a) {
+BROADSIDE_HD_CALLED bool add_line_over_end(Candidates& out, const Vec3 ends[2], const PlacedShape& cylinder, int end,
+                                           bool line_is_a) {
   const Vec3 n = line_is_a ? out.normal : -out.normal;  // out of the cylinder
   const Vec3 plane = end == 0 ? -cylinder.axes[cylinder.shape->axis] : cylinder.axes[cylinder.shape->axis];
   const float facing = dot(plane, n);
@@ -139,8 +139,8 @@ BROADSIDE_HD bool add_line_over_end(Candidates& out, const Vec3 ends[2], const P
 
 // The line on which a lying capsule or cylinder touches: clipped by the other's face, or its ends.
 template <typename Polytope>
-BROADSIDE_HD void add_line(Candidates& out, const PlacedShape& round, const PlacedShape& other,
-                           const Polytope& polytope, bool is_a) {
+BROADSIDE_HD_CALLED void add_line(Candidates& out, const PlacedShape& round, const PlacedShape& other,
+                                  const Polytope& polytope, bool is_a) {
   const Vec3 towards = is_a ? -out.normal : out.normal;
   Vec3 ends[2];
   if (!capsule_detail::line_end(round, 0, towards, ends[0]) || !capsule_detail::line_end(round, 1, towards, ends[1]))
@@ -163,7 +163,7 @@ BROADSIDE_HD void add_line(Candidates& out, const PlacedShape& round, const Plac
 }
 
 // The deepest point of a cylinder along a direction.
-BROADSIDE_HD Vec3 lowest_point(const PlacedShape& c, Vec3 towards) {
+BROADSIDE_HD_CALLED Vec3 lowest_point(const PlacedShape& c, Vec3 towards) {
   const Vec3 along = c.axes[c.shape->axis];
   const float on_axis = dot(towards, along);
   const Vec3 across = towards - on_axis * along;
@@ -174,7 +174,7 @@ BROADSIDE_HD Vec3 lowest_point(const PlacedShape& c, Vec3 towards) {
 
 // The edge of the other body that is deepest in a lying cylinder, as long as it is beside it: its ends.
 template <typename Polytope>
-BROADSIDE_HD void add_edge_inside(Candidates& out, const PlacedShape& cylinder, const Polytope& polytope) {
+BROADSIDE_HD_CALLED void add_edge_inside(Candidates& out, const PlacedShape& cylinder, const Polytope& polytope) {
   const Vec3 n = out.normal;
   const Vec3 axis = cylinder.axes[cylinder.shape->axis];
   const float upright = dot(n, axis);
@@ -213,8 +213,17 @@ BROADSIDE_HD void add_edge_inside(Candidates& out, const PlacedShape& cylinder, 
   }
 }
 
+// What an end of the cylinder and a face have in common.
+template <typename Polytope>
+BROADSIDE_HD_CALLED void add_end_on_face(Candidates& out, const CylinderPolytope& cylinder, const Polytope& polytope) {
+  const float upright = dot(out.normal, cylinder.along);
+  const int face = polytope.support_face(out.normal);
+  if (fabsf(upright) >= kSameNormal && is_flat(polytope, face))
+    common_area(cylinder, upright > 0.0F ? 0 : 1, polytope, face, out.normal, true, out.rounding_m, out.area);
+}
+
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD EdgeCrossing crossing_of(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis) {
+BROADSIDE_HD_CALLED EdgeCrossing crossing_of(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis) {
   int a0 = 0;
   int a1 = 0;
   int b0 = 0;
@@ -254,11 +263,8 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
   points.normal = n;
   const CylinderPolytope even = cylinder_polytope(cylinder, 0, n);
   const Polytope even_other = polytope_of(other, kind, 0, n);
-  // Ends on faces.
   const float upright = dot(n, even.along);
-  const int other_face = even_other.support_face(n);
-  if (fabsf(upright) >= kSameNormal && is_flat(even_other, other_face))
-    common_area(even, upright > 0.0F ? 0 : 1, even_other, other_face, n, true, rounding_m, points.area);
+  add_end_on_face(points, even, even_other);
   add_line(points, cylinder, other, even_other, true);
   if (is_round(other)) add_line(points, other, cylinder, even, false);
   // The deepest point of either body over the other.

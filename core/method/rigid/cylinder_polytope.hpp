@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/attributes.hpp"
+#include "core/kept_loop.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cross.hpp"
@@ -113,6 +114,7 @@ struct CylinderPolytope {
     if (fabsf(on_axis) >= 0.70710678F) return on_axis > 0.0F ? 1 : 0;
     int best = 2;
     float most = -2.0F;
+    BROADSIDE_KEPT_LOOP
     for (int k = 2; k < face_count(); ++k) {
       const float facing = dot(face_normal(k), direction);
       if (!(facing > most)) continue;
@@ -125,7 +127,7 @@ struct CylinderPolytope {
 
 // pass 0: even, in the directions of the body's axes. Later passes: about `towards`, the direction from the axis to
 // where the cylinder touches; where that has no part across the axis, even again.
-BROADSIDE_HD CylinderPolytope cylinder_polytope(const PlacedShape& p, int pass, Vec3 towards) {
+BROADSIDE_HD_CALLED CylinderPolytope cylinder_polytope(const PlacedShape& p, int pass, Vec3 towards) {
   const int axis = p.shape->axis;
   CylinderPolytope out;
   out.center = p.center;
@@ -142,6 +144,7 @@ BROADSIDE_HD CylinderPolytope cylinder_polytope(const PlacedShape& p, int pass, 
       pass = 0;
   }
   const Vec3 w = cross(out.along, u);
+  BROADSIDE_KEPT_LOOP
   for (int k = 0; k < kRimCorners; ++k) {
     const Vec3 angle = rim_detail::rim_angle(pass, k);
     out.rim[k] = angle.x * u + angle.y * w;

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/attributes.hpp"
+#include "core/kept_loop.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_points.hpp"
 #include "core/method/rigid/cross.hpp"
@@ -34,6 +35,7 @@ struct ClippedFace {
 template <typename Polytope, int kRoom>
 BROADSIDE_HD void load_face(const Polytope& p, int face, ClippedFace<kRoom>& out) {
   out.count = p.face_corner_count(face);
+  BROADSIDE_KEPT_LOOP
   for (int k = 0; k < out.count; ++k) {
     const int corner = p.face_corner(face, k);
     const int next = p.face_corner(face, k + 1 == out.count ? 0 : k + 1);
@@ -49,6 +51,7 @@ BROADSIDE_HD void clip(ClippedFace<kRoom>& face, Vec3 start, Vec3 out, std::uint
   const float slack = rounding_m * length(out);
   ClippedFace<kRoom> kept;
   const bool is_segment = face.count == 2;
+  BROADSIDE_KEPT_LOOP
   for (int k = 0; k < face.count; ++k) {
     const ClippedCorner& here = face.corners[k];
     const float height = dot(out, here.point - start);
@@ -98,6 +101,7 @@ BROADSIDE_HD void common_area(const Reference& reference, int reference_face, co
   load_face(incident, incident_face, face);
   Vec3 start = reference.corner(reference.face_corner(reference_face, 0));
   const Vec3 on_plane = start;
+  BROADSIDE_KEPT_LOOP
   for (int k = 0; k < sides && face.count > 0; ++k) {
     const int corner = reference.face_corner(reference_face, k);
     const int next = reference.face_corner(reference_face, k + 1 == sides ? 0 : k + 1);
@@ -107,6 +111,7 @@ BROADSIDE_HD void common_area(const Reference& reference, int reference_face, co
     start = end;
   }
   const std::uint32_t plane_name = face_name(static_cast<std::uint32_t>(reference_face));
+  BROADSIDE_KEPT_LOOP
   for (int k = 0; k < face.count; ++k) {
     const Vec3 p = face.corners[k].point;
     const float gap = dot(plane, p - on_plane) / facing;

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/attributes.hpp"
+#include "core/kept_loop.hpp"
 
 namespace broadside::core {
 
@@ -43,6 +44,7 @@ struct OneLane {
   template <typename Value>
   BROADSIDE_HD static FirstLeast first_least(int count, const Value& value) {
     FirstLeast least;
+    BROADSIDE_KEPT_LOOP
     for (int k = 0; k < count; ++k) {
       const float own = value(k);
       if (own < least.value) least = {k, own};
@@ -55,6 +57,7 @@ struct OneLane {
   BROADSIDE_HD static int first_best(int count, const Rate& rate) {
     int best = -1;
     Rated of_best;
+    BROADSIDE_KEPT_LOOP
     for (int k = 0; k < count; ++k) {
       const Rated own = rate(k);
       if (!own.counts || (best >= 0 && !is_better(own.value, own.key, of_best.value, of_best.key))) continue;
@@ -71,6 +74,7 @@ struct OneLane {
   template <typename Has>
   BROADSIDE_HD static int count_of(int count, const Has& has) {
     int with = 0;
+    BROADSIDE_KEPT_LOOP
     for (int k = 0; k < count; ++k)
       if (has(k)) ++with;
     return with;
@@ -79,6 +83,7 @@ struct OneLane {
   // visit(k) for those that have it; what is visited does not change which.
   template <typename Has, typename Visit>
   BROADSIDE_HD static void each_with(int count, const Has& has, const Visit& visit) {
+    BROADSIDE_KEPT_LOOP
     for (int k = 0; k < count; ++k)
       if (has(k)) visit(k);
   }
@@ -129,6 +134,7 @@ struct OneLane {
     // visit(item) for those that have it, where a visit may change which.
     template <typename Has, typename Visit>
     BROADSIDE_HD void each_in_turn(const Has& has, const Visit& visit) const {
+      BROADSIDE_KEPT_LOOP
       for (int k = 0; k < count; ++k)
         if (has(items[k])) visit(items[k]);
     }

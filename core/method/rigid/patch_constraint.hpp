@@ -40,8 +40,8 @@ struct PatchPointOf {
   Number normal_total = 0.0F;
   Number tangent_total_1 = 0.0F;
   Number tangent_total_2 = 0.0F;
-  Number stopping_impulse = 0.0F;  // normal, of the substep, before a bounce, N s
-  Number approach_m_s = 0.0F;      // at the start of the substep, positive where the bodies come nearer
+  Number most_impulse = 0.0F;      // normal, of the substep, up to which a bounce may push, N s
+  Number approach_m_s = 0.0F;      // at the start of the step, positive where the bodies come nearer
   TruthOf<Number> slides = false;  // in this substep, from when static friction did not hold it
 };
 using PatchPoint = PatchPointOf<float>;

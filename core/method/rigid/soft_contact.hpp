@@ -2,11 +2,12 @@
 // and Macklin et al., Small Steps in Physics Simulation (2019).
 //
 // A substep: velocities get gravity and the impulses of the substep before; sweeps hold the bodies at the slop, softly;
-// bodies move; one sweep takes back the velocity that only pushed them apart; what came fast bounces.
+// bodies move; one sweep takes back the velocity that only pushed them apart. At the end of the step, what came fast at
+// its start and was met bounces.
 //
-// Departures: friction is Coulomb's cone, solved as a vector after the normal impulses that bound it. A bounce happens
-// in its substep and not at the end of the step. Arms and gaps are those of the start, followed to first order. A
-// resting gap is a slop below 0, where the law is linear: at 0 it is not, and a stack never comes to rest on that kink.
+// Departures: friction is Coulomb's cone, solved as a vector after the normal impulses that bound it. Arms and gaps are
+// those of the start, followed to first order. A resting gap is a slop below 0, where the law is linear: at 0 it is
+// not, and a stack never comes to rest on that kink.
 #pragma once
 
 #include <cmath>
@@ -61,10 +62,26 @@ BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, fl
   return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
 }
 
-// Before anything else of a substep: how fast the points come.
+// Whether the point came fast enough to bounce.
 template <typename Number>
-BROADSIDE_HD void note_approach(PatchOf<Number>& c, const PatchMotionOf<Number>& m) {
-  each_point(c, [&](int k) { c.points[k].approach_m_s = -dot(c.normal, relative_velocity(m, c.points[k])); });
+BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const SoftStep& step) {
+  const TruthOf<Number> gives_back = c.surface.restitution > 0.0F;
+  const TruthOf<Number> is_fast = p.approach_m_s > step.bounce_from_m_s;
+  return gives_back & is_fast;
+}
+
+// Before anything else of a step: how fast the points come. Returns whether one comes fast enough to bounce. A patch of
+// which none does has no restitution in this step, so that nobody has to look at its points again to know.
+BROADSIDE_HD bool note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const SoftStep& step) {
+  const PatchMotion m = motion_of(a, b);
+  bool is_fast = false;
+  each_point(c, [&](int k) {
+    PatchPoint& p = c.points[k];
+    p.approach_m_s = -dot(c.normal, relative_velocity(m, p));
+    is_fast = is_fast || came_fast(c, p, step);
+  });
+  if (!is_fast) c.surface.restitution = 0.0F;
+  return is_fast;
 }
 
 // The largest speed of a point relative to the other body, m/s.
@@ -78,7 +95,7 @@ BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const PatchMotionOf<
   return square_root(squared);
 }
 
-// Also before: nothing slides yet.
+// Before anything else of a substep: nothing slides yet.
 template <typename Number>
 BROADSIDE_HD void forget_slips(PatchOf<Number>& c) {
   each_point(c, [&](int k) { c.points[k].slides = false; });
@@ -222,18 +239,10 @@ BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
   return pick(size > largest, size, largest);
 }
 
-// Whether the point came fast enough to bounce.
-template <typename Number>
-BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const SoftStep& step) {
-  const TruthOf<Number> gives_back = c.surface.restitution > 0.0F;
-  const TruthOf<Number> is_fast = p.approach_m_s > step.bounce_from_m_s;
-  return gives_back & is_fast;
-}
-
-// Whether it did, and was met in this substep.
+// Whether the point came fast, and was met in this step.
 template <typename Number>
 BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const SoftStep& step) {
-  const TruthOf<Number> is_met = p.normal_impulse > 0.0F;
+  const TruthOf<Number> is_met = p.normal_total + p.normal_impulse > 0.0F;
   const TruthOf<Number> is_fast = came_fast(c, p, step);
   return is_fast & is_met;
 }
@@ -301,13 +310,18 @@ inline constexpr int kSweepsOfBounce = 8;
 
 // Sweeps over all patches, at most: of three balls that meet at once two pairs share one, and what the second pair does
 // changes the first. One that changes no speed by more than this share of the fastest is the last. A heap that lands
-// would take hundreds; fewer than these leave the bricks of a wall deep in each other.
-inline constexpr int kMostBounceSweeps = 32;
+// would take hundreds; but the sweeps of all substeps since have stopped most of what came fast, and with more of them
+// no more laws hold (SOLVERS.md).
+inline constexpr int kMostBounceSweeps = 8;
 inline constexpr float kBounceDone = 0x1p-10F;
 
-// Before a bounce: the impulse that stopped each point.
-BROADSIDE_HD void note_stopping(PatchConstraint& c) {
-  each_point(c, [&](int k) { c.points[k].stopping_impulse = c.points[k].normal_impulse; });
+// Before a bounce, of each point: the impulse up to which it may push, which is what it gives in this substep and the
+// restituted share of what stopped it in the step.
+BROADSIDE_HD void note_most_impulses(PatchConstraint& c) {
+  each_point(c, [&](int k) {
+    PatchPoint& p = c.points[k];
+    p.most_impulse = p.normal_impulse + c.surface.restitution * (p.normal_total + p.normal_impulse);
+  });
 }
 
 // Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
@@ -322,7 +336,7 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   float room = 0.0F;
   each_point(c, [&](int k) {
     const PatchPoint& p = c.points[k];
-    if (bounces(c, p, step)) room += (1.0F + c.surface.restitution) * p.stopping_impulse - p.normal_impulse;
+    if (bounces(c, p, step)) room += p.most_impulse - p.normal_impulse;
   });
   const auto visit = [&](int k) {
     PatchPoint& p = c.points[k];
@@ -349,7 +363,24 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   return size > largest ? size : largest;
 }
 
-// Ends a substep.
+// Ends a substep. What is met first, and came fast, will leave: the next substep does not begin with the impulse of the
+// impact, nor does the next step with that of what bounced.
+template <typename Number>
+BROADSIDE_HD void drop_impacts(PatchOf<Number>& c, const SoftStep& step, bool is_last) {
+  each_point(c, [&](int k) {
+    PatchPointOf<Number>& p = c.points[k];
+    TruthOf<Number> leaves = bounces(c, p, step);
+    if (!is_last) leaves = leaves & !(p.normal_total > 0.0F);
+    p.normal_total = pick(leaves, p.normal_total + p.normal_impulse, p.normal_total);
+    p.tangent_total_1 = pick(leaves, p.tangent_total_1 + p.tangent_impulse_1, p.tangent_total_1);
+    p.tangent_total_2 = pick(leaves, p.tangent_total_2 + p.tangent_impulse_2, p.tangent_total_2);
+    p.normal_impulse = pick(leaves, 0.0F, p.normal_impulse);
+    p.tangent_impulse_1 = pick(leaves, 0.0F, p.tangent_impulse_1);
+    p.tangent_impulse_2 = pick(leaves, 0.0F, p.tangent_impulse_2);
+  });
+}
+
+// Behind that.
 template <typename Number>
 BROADSIDE_HD void add_to_totals(PatchOf<Number>& c) {
   each_point(c, [&](int k) {
@@ -357,18 +388,6 @@ BROADSIDE_HD void add_to_totals(PatchOf<Number>& c) {
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;
     p.tangent_total_2 = p.tangent_total_2 + p.tangent_impulse_2;
-  });
-}
-
-// Behind that. What bounced leaves: the next substep does not begin with the impulse of the impact.
-template <typename Number>
-BROADSIDE_HD void drop_impacts(PatchOf<Number>& c, const SoftStep& step) {
-  each_point(c, [&](int k) {
-    PatchPointOf<Number>& p = c.points[k];
-    const TruthOf<Number> leaves = bounces(c, p, step);
-    p.normal_impulse = pick(leaves, 0.0F, p.normal_impulse);
-    p.tangent_impulse_1 = pick(leaves, 0.0F, p.tangent_impulse_1);
-    p.tangent_impulse_2 = pick(leaves, 0.0F, p.tangent_impulse_2);
   });
 }
 

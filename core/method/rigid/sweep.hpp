@@ -143,8 +143,8 @@ BROADSIDE_HD bool moves_far(float way_a_m, float way_b_m, float thinner_m) {
 // Whether a patch of two bodies that move far leads to no contact in the step. The planes of patches far away mislead;
 // what a push makes of such a way, the sweep after the response sees. fall_m: of both.
 template <typename Lanes = OneLane>
-BROADSIDE_HD bool misses_patch(const Manifold& found, const ContactShape& a, const SweptWay& way_a,
-                               const ContactShape& b, const SweptWay& way_b, float fall_m, float thinner_m) {
+BROADSIDE_HD_CALLED bool misses_patch(const Manifold& found, const ContactShape& a, const SweptWay& way_a,
+                                      const ContactShape& b, const SweptWay& way_b, float fall_m, float thinner_m) {
   return least_gap_m(found) > fall_m + thinner_m && misses<Lanes>(a, way_a, b, way_b, thinner_m);
 }
 

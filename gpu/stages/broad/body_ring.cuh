@@ -23,7 +23,7 @@ class BodyRing {
     bool exists = false;
   };
 
-  // `shares`: by ring_shares() of them.
+  // `shares` divides by ring_shares(bodies).
   __device__ BodyRing(std::uint32_t bodies, std::uint32_t share, const Divisor& shares)
       : bodies_(bodies), half_(bodies / 2), share_(share), shares_(shares) {}
 

@@ -11,9 +11,6 @@
 
 namespace broadside::gpu {
 
-// As in hash-cpu: 16 cells a side.
-constexpr std::uint64_t kMostHashCells = 4096;
-
 struct HashRange {
   CellCorner low;
   std::uint32_t width_x = 0;

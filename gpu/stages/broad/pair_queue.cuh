@@ -30,14 +30,27 @@ class WarpQueue {
     __syncwarp();
     unsigned long long base = 0;
     if (lane() == 0 && count_ > 0) base = atomicAdd(demanded_, static_cast<unsigned long long>(count_));
-    base = __shfl_sync(kFullWarp, base, 0);
+    write(__shfl_sync(kFullWarp, base, 0));
+  }
+
+  // By all warps of a block, once each: one atomic for all of them, since all warps of a grid are done at about the
+  // same time. `pairs` is zero before; it and `base` are the block's, in shared memory.
+  __device__ void flush_block(std::uint32_t& pairs, unsigned long long& base) {
+    const std::uint32_t before = room_for_warp(count_, &pairs);
+    __syncthreads();
+    if (threadIdx.x == 0) base = pairs != 0 ? atomicAdd(demanded_, static_cast<unsigned long long>(pairs)) : 0;
+    __syncthreads();
+    write(base + before);
+  }
+
+ private:
+  __device__ void write(unsigned long long base) {
     for (std::uint32_t k = lane(); k < count_; k += 32)
       if (base + k < out_.capacity) out_.items[base + k] = room_.pairs[k];
     __syncwarp();
     count_ = 0;
   }
 
- private:
   PairQueue& room_;
   AppendView<core::Pair> out_;
   unsigned long long* demanded_;

@@ -1,4 +1,4 @@
-// The sweeps of a substep in which contacts bounce: core/method/rigid/soft_contact.hpp.
+// What contacts that bounce do beside the sweeps of all: core/method/rigid/soft_contact.hpp.
 #pragma once
 
 #include "gpu/stages/rigid/sweeps.cuh"
@@ -26,7 +26,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
         if (f.stirred[loaded.c.a] < sweep && f.stirred[loaded.c.b] < sweep) return;
         LoadedPatch p = load_patch(f, slot);
-        load_approach(slot, p.c);
+        load_impact(slot, p.c);
         set_goals_after_motion(f, slot, soft, p);
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
@@ -40,7 +40,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
-// What came fast leaves. is_first: what stopped each point is noted. Brings the largest change of a point's speed.
+// What came fast leaves. is_first: how far each point may push is noted. Brings the largest change of a point's speed.
 __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f,
                                                const core::SoftStep& soft, bool is_first, float done,
                                                const TeamSums& sums) {
@@ -52,7 +52,7 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         load_bodies(slot, loaded.c);
         load_directions(slot, loaded.c);
         load_impulses(slot, loaded.c);
-        load_approach(slot, loaded.c);
+        load_impact(slot, loaded.c);
         return loaded;
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
@@ -61,10 +61,10 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         load_arms(slot, load_directions(slot, c), c);
         load_masses(slot, c);
         if (is_first) {
-          core::note_stopping(c);
-          store_stopping(slot, c);
+          core::note_most_impulses(c);
+          store_most_impulses(slot, c);
         } else {
-          load_stopping(slot, c);
+          load_most_impulses(slot, c);
         }
         core::SolverBody a = load_place(f.bodies[c.a]);
         core::SolverBody b = load_place(f.bodies[c.b]);
@@ -75,19 +75,18 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
-// The end of such a substep.
-__device__ __forceinline__ void end_bounces(const SolveTeam& team, const RigidFrameView& f,
-                                            const core::SoftStep& soft) {
+// The end of such a substep: core::drop_impacts. What is left is added to the totals where all other impulses are.
+__device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f,
+                                                 const core::SoftStep& soft, bool is_last) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;
-    load_bodies(slot, c);
     load_directions(slot, c);
+    if (!(c.surface.restitution > 0.0F)) return;
+    load_bodies(slot, c);
     load_impulses(slot, c);
-    load_approach(slot, c);
-    load_totals(slot, c);
-    core::add_to_totals(c);
+    load_impact(slot, c);
+    core::drop_impacts(c, soft, is_last);
     store_totals(slot, c);
-    core::drop_impacts(c, soft);
     store_impulses(slot, c);
   });
 }

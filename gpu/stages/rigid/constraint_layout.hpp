@@ -20,7 +20,7 @@ enum ConstraintWord : std::uint32_t {
   kImpulses = kMasses + core::kManifoldPoints,  // [points] normal, tangents 1 and 2, of the substep; w: slide mass
   // By point: x y z w.
   kApproaches = kImpulses + core::kManifoldPoints,
-  kStoppings,
+  kMostImpulses,
   kTotals,                // [3] as impulses
   kBefore = kTotals + 3,  // [3] of core::PatchWay
   kWays = kBefore + 3,    // [3] of core::PatchWay

@@ -65,7 +65,7 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     c.b = b;
     core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
     recall(f, soft, patch, c);
-    bounces = bounces || surface.restitution > 0.0F;
+    bounces = core::note_approach(c, body_a, body_b, soft) || bounces;
     store_constraint(TileSlot(f.constraints, place), c, across);
   }
   __syncwarp();
@@ -78,10 +78,10 @@ __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
     f.after[i] = core::state_after(load_body(f.bodies[i]), f.before[i]);
 }
 
-// Impulses of the step for those who read it, those of the last substep for the next step. owes_totals: they are not in
-// the totals yet.
+// Impulses of the step for those who read it, those of the last substep, which are not in the totals yet, for the next
+// step.
 template <typename Team>
-__device__ void finish_patches(const Team& team, const RigidFrameView& f, bool owes_totals) {
+__device__ void finish_patches(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
   const float per_s = 1.0F / soft.dt_s;
   for (std::uint64_t place = team.spread_rank(); place < f.counts->places; place += team.size()) {
@@ -93,7 +93,7 @@ __device__ void finish_patches(const Team& team, const RigidFrameView& f, bool o
     load_directions(slot, c);
     load_impulses(slot, c);
     load_totals(slot, c);
-    if (owes_totals) core::add_to_totals(c);
+    core::add_to_totals(c);
     const std::uint64_t first = std::uint64_t{kFourPoints} * patch;
     // Points that the patch does not have get zeros: the host copies all four.
 #pragma unroll

@@ -137,17 +137,17 @@ __device__ __forceinline__ void store_approach(const TileSlot& slot, const core:
   slot.store_each(kApproaches, all);
 }
 
-__device__ __forceinline__ void load_stopping(const TileSlot& slot, core::PatchConstraint& c) {
+__device__ __forceinline__ void load_most_impulses(const TileSlot& slot, core::PatchConstraint& c) {
   float all[kFourPoints];
-  slot.load_each(kStoppings, all);
+  slot.load_each(kMostImpulses, all);
 #pragma unroll
-  for (std::uint32_t k = 0; k < kFourPoints; ++k) c.points[k].stopping_impulse = all[k];
+  for (std::uint32_t k = 0; k < kFourPoints; ++k) c.points[k].most_impulse = all[k];
 }
 
-__device__ __forceinline__ void store_stopping(const TileSlot& slot, const core::PatchConstraint& c) {
+__device__ __forceinline__ void store_most_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
   float all[kFourPoints] = {};
-  core::each_point(c, [&](int k) { all[k] = c.points[k].stopping_impulse; });
-  slot.store_each(kStoppings, all);
+  core::each_point(c, [&](int k) { all[k] = c.points[k].most_impulse; });
+  slot.store_each(kMostImpulses, all);
 }
 
 __device__ __forceinline__ void load_totals(const TileSlot& slot, core::PatchConstraint& c) {
@@ -171,6 +171,14 @@ __device__ __forceinline__ void store_totals(const TileSlot& slot, const core::P
   });
 #pragma unroll
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, all[i]);
+}
+
+// What tells whether a point bounces, of a patch that may: none else has restitution in this step. After
+// load_directions.
+__device__ __forceinline__ void load_impact(const TileSlot& slot, core::PatchConstraint& c) {
+  if (!(c.surface.restitution > 0.0F)) return;
+  load_approach(slot, c);
+  load_totals(slot, c);
 }
 
 // Three numbers of each point: `word` is kBefore, kWays or kPushed.
@@ -225,8 +233,8 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
     slot.at(kMasses + k) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12}, p.stick_mass_22};
     slot.at(kImpulses + k) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2}, p.slide_mass};
   }
+  store_approach(slot, c);
   const float none[kFourPoints] = {};
-  slot.store_each(kApproaches, none);
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, none);
 }
 

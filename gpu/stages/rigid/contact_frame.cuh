@@ -10,9 +10,8 @@
 
 namespace broadside::gpu {
 
-// kMayBeLong: shapes may be hulls or meshes (f.has_long_contacts). kSweeps: sweep=fast, any
-// shapes.
-template <bool kMayBeLong, bool kSweeps = false>
+// kMayBeLong: shapes may be hulls or meshes (f.has_long_contacts), or ways are followed (f.follows_ways).
+template <bool kMayBeLong>
 __device__ void run_contacts(const ContactView& f) {
   const GridTeam grid(f.barrier);
   mark(f, grid.rank() == 0, core::Stage::kBroad);
@@ -22,7 +21,7 @@ __device__ void run_contacts(const ContactView& f) {
   mark(f, grid.rank() == 0, core::Stage::kConfirm);
   if (f.counts->confirmed > f.confirmed.capacity) return;
   if constexpr (kMayBeLong)
-    make_long_patches<kSweeps>(grid, f);
+    make_long_patches(grid, f);
   else
     make_short_patches(grid, f);
 }

@@ -33,14 +33,14 @@ __device__ inline core::ContactPath path_of(const ContactView& f, std::uint32_t 
   return {pose_of(f, body), f.free_end[body]};
 }
 
-// Whether a patch leads to no contact in this step. kSweeps: sweep=fast.
-template <typename Lanes, bool kSweeps>
+// Whether a patch leads to no contact in this step.
+template <typename Lanes>
 __device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found) {
   const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
   const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
   const core::ContactPath path_a = path_of(f, pair.i);
   const core::ContactPath path_b = path_of(f, pair.j);
-  if constexpr (kSweeps) {
+  if (Lanes::kKnowsLongShapes && f.follows_ways) {
     const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
     const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
     const float thin_m = thinner_m(f, pair);
@@ -55,7 +55,7 @@ __device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Ma
 }
 
 // Returns how many patches the pair has.
-template <typename Lanes, bool kSweeps>
+template <typename Lanes>
 __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found) {
   if (is_idle(f, pair.i) && is_idle(f, pair.j)) return 0;
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
@@ -66,7 +66,7 @@ __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifol
   const int count = core::make_manifolds<Lanes>(a, path_a.start, b, path_b.start, reach_m, found);
   int kept = 0;
   for (int k = 0; k < count; ++k)
-    if (!is_passing<Lanes, kSweeps>(f, pair, found[k])) found[kept++] = found[k];
+    if (!is_passing<Lanes>(f, pair, found[k])) found[kept++] = found[k];
   const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
   return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept);
 }
@@ -101,7 +101,7 @@ __device__ void make_short_patches(const Team& team, const ContactView& f) {
     const bool is_pair = is_item && k < confirmed;
     if (__any_sync(kFullWarp, is_pair)) {
       const core::Pair pair = is_pair ? f.confirmed.items[k] : core::Pair{};
-      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes, false>(f, pair, found) : 0);
+      add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes>(f, pair, found) : 0);
     }
     const bool is_body = is_item && !is_pair;
     if (!__any_sync(kFullWarp, is_body)) return;
@@ -132,20 +132,20 @@ __device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body)
 
 // The same of any shapes, a warp a pair: the loops over corners, edges, faces and triangles are shared by its lanes,
 // and its code is fetched once for all. Before, each lane looks whether an item of its own has any patches.
-template <bool kSweeps, typename Team>
+template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
   const std::uint64_t confirmed = f.counts->confirmed;
   each_item_by_warps(team, confirmed + f.body_count, true, [&](std::uint64_t k, bool is_item) {
     const bool is_pair = k < confirmed;
     const core::Pair own = is_item && is_pair ? f.confirmed.items[k] : core::Pair{};
-    const bool may_have = is_item && (is_pair ? kSweeps || may_touch(f, own)
+    const bool may_have = is_item && (is_pair ? f.follows_ways || may_touch(f, own)
                                               : may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed)));
     for (unsigned with = __ballot_sync(kFullWarp, may_have); with != 0; with &= with - 1) {
       const auto of = static_cast<unsigned>(__ffs(static_cast<int>(with)) - 1);
       core::Manifold found[core::kPatchesOfPair];
       if (__shfl_sync(kFullWarp, is_pair ? 1 : 0, of) != 0) {
         const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
-        const int count = touch_bodies<WarpLanes, kSweeps>(f, pair, found);
+        const int count = touch_bodies<WarpLanes>(f, pair, found);
         add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
         continue;
       }

@@ -40,10 +40,11 @@ __device__ __forceinline__ void stir_what_bounces(const SolveTeam& team, const R
   float fastest = 0.0F;
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;
-    load_bodies(slot, c);
     load_directions(slot, c);
+    if (!(c.surface.restitution > 0.0F)) return;
+    load_bodies(slot, c);
     load_impulses(slot, c);
-    load_approach(slot, c);
+    load_impact(slot, c);
     const float own = core::fastest_bounce(c, soft);
     if (!(own > 0.0F)) return;
     fastest = fmaxf(fastest, own);

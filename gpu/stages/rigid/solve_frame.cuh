@@ -15,9 +15,9 @@ __device__ __forceinline__ void run_solve(const RigidFrameView& f, ColorTable& t
   const bool is_first = team.rank() == 0;
   const bool is_aborted = lacks_room(f);
   if (!is_aborted) {
-    const bool owes_totals = run_substeps(team, f);
+    run_substeps(team, f);
     finish_bodies(team, f);
-    finish_patches(team, f, owes_totals);
+    finish_patches(team, f);
   }
   team.sync();
   if (!is_first) return;

@@ -22,7 +22,7 @@ struct Solve {
   bool has_way = false;  // several sweeps along conjugate directions
   TeamSums sums;
   std::uint32_t sweep = 0;   // of all sweeps of bounces in this step
-  bool owes_totals = false;  // the impulses of the last substep are to be added to the totals
+  bool owes_totals = false;  // the impulses of the substep before are to be added to the totals
   SolveCounts done;
 };
 
@@ -110,16 +110,17 @@ __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFra
   }
 }
 
-// The same as StepConstraints::relax_pushed and bounce of the twin. Begins behind a barrier and ends with one.
+// The same as StepConstraints::relax_pushed and bounce of the twin. is_last: of the substeps. Begins behind a barrier
+// and ends with one.
 __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
-                                            bool is_pushed, float fastest_push) {
+                                            bool is_pushed, float fastest_push, bool is_last) {
   for (Stirred of = is_pushed ? Stirred::kPushed : Stirred::kBouncing;; of = Stirred::kBouncing) {
     float fastest = 0.0F;
     float done = 0.0F;
     if (of == Stirred::kPushed) {
       done = core::done_m_s(solve.soft, core::kRelaxDone, fastest_push);
     } else {
-      if (!solve.may_bounce) return;
+      if (!solve.may_bounce || !is_last) return;
       fastest = largest_of_turn(team, solve);
       if (!(fastest > 0.0F)) return;
       done = core::kBounceDone * fastest;
@@ -132,23 +133,19 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
       break;
     }
     if (!solve.may_bounce) return;
+    if (!is_last) break;
     solve.sweep += 2;
     stir_what_bounces(team, f, solve.soft, solve.sweep, solve.sums);
     team.sync();
   }
-  end_bounces(team, f, solve.soft);
+  drop_all_impacts(team, f, solve.soft, is_last);
   team.sync();
-  solve.owes_totals = false;
 }
 
-// What contacts ask of a body later: how it moves before the substep drives it, and after.
-__device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_t i, const core::SolverBody& before,
-                                           const core::SolverBody& driven, const Solve& solve) {
+// What contacts ask of a body later: how it moves once the substep has driven it.
+__device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_t i, const core::SolverBody& driven,
+                                           const Solve& solve) {
   PackedStart& start = f.starts[i];
-  if (solve.may_bounce) {
-    start.v = {before.v, 0.0F};
-    start.w = {core::angular_velocity(before), 0.0F};
-  }
   if (!solve.has_way && !core::takes_back_pushes(solve.soft)) return;
   start.driven_v = {driven.v, 0.0F};
   start.driven_angular_momentum = {driven.angular_momentum, 0.0F};
@@ -170,12 +167,12 @@ __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFra
   return fastest_push;
 }
 
-__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
+                                            bool is_last) {
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
-    const core::SolverBody before = body;
     core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
-    note_start(f, i, before, body, solve);
+    note_start(f, i, body, solve);
     give_kept_impulses(f, i, body);
     store_velocity(f.bodies[i], body);
   });
@@ -193,22 +190,21 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     store_body(f.bodies[i], body);
   });
   team.sync();
-  relax_all(team, f, solve.soft, solve.may_bounce, !is_pushed, solve.sweep, solve.sums);
+  const ThenBounce then = is_last ? ThenBounce::kStir : ThenBounce::kDrop;
+  relax_all(team, f, solve.soft, solve.may_bounce && !is_pushed ? then : ThenBounce::kNothing, solve.sweep, solve.sums);
   team.sync();
   solve.owes_totals = true;
-  end_substep(team, f, solve, is_pushed, fastest_push);
+  end_substep(team, f, solve, is_pushed, fastest_push, is_last);
 }
 
-// Returns whether the impulses of the last substep are still to be added to the totals.
-__device__ __forceinline__ bool run_substeps(const SolveTeam& team, const RigidFrameView& f) {
+__device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
   Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.even.sweeps > 1, TeamSums(f.counts), 0, false, {}};
-  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve);
+  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve, k + 1 == f.substeps[kind]);
   if (team.rank() == 0) {
     f.counts->done = solve.done;
     f.counts->done.waits = team.waits();
   }
-  return solve.owes_totals;
 }
 
 }  // namespace broadside::gpu

@@ -144,30 +144,34 @@ __device__ __forceinline__ void set_goals_after_motion(const RigidFrameView& f, 
   if (sets_masses) store_masses(slot, p.c);
 }
 
-__device__ __forceinline__ core::PatchMotion start_motion(const PackedStart& a, const PackedStart& b) {
-  return {a.v.v, a.w.v, {}, b.v.v, b.w.v, {}};
-}
+// What is done with patches that may bounce right after they have relaxed, while they are at hand.
+enum class ThenBounce : std::uint8_t {
+  kNothing,  // they go on relaxing, or there are none
+  kDrop,     // core::drop_impacts
+  kStir,     // what bounces stirs its bodies, and its fastest approach is brought
+};
 
-// Each contact once, after the bodies moved. may_bounce: approaches are noted. is_last: of the relaxation; what bounces
-// then stirs its bodies for `sweep`, and the fastest approach of what bounces is brought.
+// Each contact once, after the bodies moved. sweep: for which bodies are stirred.
 __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
-                                          bool may_bounce, bool is_last, std::uint32_t sweep, const TeamSums& sums) {
+                                          ThenBounce then, std::uint32_t sweep, const TeamSums& sums) {
   float fastest = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
       [&](const TileSlot& slot) {
         LoadedPatch loaded = load_patch(f, slot);
-        if (may_bounce) {
-          core::note_approach(loaded.c, start_motion(f.starts[loaded.c.a], f.starts[loaded.c.b]));
-          store_approach(slot, loaded.c);
-        }
+        load_impact(slot, loaded.c);
         set_goals_after_motion(f, slot, soft, loaded);
         return loaded;
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedPatch& p) {
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::relax_patch(p.c, p.goals, p.a, p.b); });
+        const bool may_bounce = then != ThenBounce::kNothing && p.c.surface.restitution > 0.0F;
+        if (may_bounce && then == ThenBounce::kDrop) {
+          core::drop_impacts(p.c, soft, false);
+          store_totals(slot, p.c);
+        }
         store_impulses(slot, p.c);
-        if (!may_bounce || !is_last) return;
+        if (!may_bounce || then != ThenBounce::kStir) return;
         const float own = core::fastest_bounce(p.c, soft);
         if (!(own > 0.0F)) return;
         fastest = fmaxf(fastest, own);
@@ -175,7 +179,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         stir(f, p.c.b, sweep);
       });
   __syncwarp();
-  if (may_bounce && is_last) sums.bring_largest(TeamSums::kFirst, fastest);
+  if (then == ThenBounce::kStir) sums.bring_largest(TeamSums::kFirst, fastest);
 }
 
 }  // namespace broadside::gpu

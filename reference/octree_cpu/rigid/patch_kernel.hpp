@@ -117,7 +117,7 @@ void each_number(Patches& many, Patch& one, const Visit& visit) {
     visit(p.normal_total, q.normal_total);
     visit(p.tangent_total_1, q.tangent_total_1);
     visit(p.tangent_total_2, q.tangent_total_2);
-    visit(p.stopping_impulse, q.stopping_impulse);
+    visit(p.most_impulse, q.most_impulse);
     visit(p.approach_m_s, q.approach_m_s);
     visit(p.slides, q.slides);
   }
@@ -162,24 +162,6 @@ void each_tile_moving(const TileRange& range, const Work& work) {
     work(t, a, b, k);
     a.store(range.bodies, t.a);
     b.store(range.bodies, t.b);
-  }
-}
-
-template <typename Lanes>
-void note_approach(const TileRange& range) {
-  each_tile<Lanes>(range, [](Tile<Lanes>& t, const auto& a, const auto& b, std::size_t) {
-    core::note_approach(t.patch, core::motion_of(a, b));
-  });
-}
-
-template <typename Lanes>
-void note_fast(const TileRange& range, const core::SoftStep& step, std::uint8_t* came_fast) {
-  for (std::size_t k = range.first; k < range.last; ++k) {
-    const core::PatchOf<Lanes>& patch = Tile<Lanes>::at(range.tiles, k).patch;
-    core::TruthOf<Lanes> is_fast = false;
-    core::each_point(patch, [&](int n) { is_fast = is_fast | core::came_fast(patch, patch.points[n], step); });
-    const unsigned lanes = lanes_of(is_fast);
-    for (std::uint32_t lane = 0; lane < kTileLanes; ++lane) came_fast[k * kTileLanes + lane] = lanes >> lane & 1U;
   }
 }
 
@@ -229,11 +211,11 @@ void relax(const TileRange& range, const core::SoftStep& step) {
 }
 
 template <typename Lanes>
-void add_to_totals(const TileRange& range, const core::SoftStep& step) {
+void end_substep(const TileRange& range, const core::SoftStep& step, bool is_last) {
   for (std::size_t k = range.first; k < range.last; ++k) {
     core::PatchOf<Lanes>& patch = Tile<Lanes>::at(range.tiles, k).patch;
+    core::drop_impacts(patch, step, is_last);
     core::add_to_totals(patch);
-    core::drop_impacts(patch, step);
   }
 }
 
@@ -244,14 +226,12 @@ constexpr PatchKernels kernels_of(const char* name) {
           clear<Lanes>,
           put<Lanes>,
           get<Lanes>,
-          note_approach<Lanes>,
-          note_fast<Lanes>,
           begin_sweeps<Lanes>,
           warm_start<Lanes>,
           sweep<Lanes>,
           push_along<Lanes>,
           relax<Lanes>,
-          add_to_totals<Lanes>};
+          end_substep<Lanes>};
 }
 
 }  // namespace broadside::reference::tiles

@@ -42,16 +42,13 @@ struct PatchKernels {
   core::PatchConstraint (*get)(const std::byte* tiles, std::size_t tile, std::uint32_t lane);
 
   // The stages of soft_contact.hpp.
-  void (*note_approach)(const TileRange& range);
-  // By place: whether a point of a patch that gives speed back came fast enough for it.
-  void (*note_fast)(const TileRange& range, const core::SoftStep& step, std::uint8_t* came_fast);
   // Notes gaps; by tile the fastest point's speed, and by place core::fastest_push.
   void (*begin_sweeps)(const TileRange& range, const core::SoftStep& step, float* speeds, float* pushes);
   void (*warm_start)(const TileRange& range);
   void (*sweep)(const TileRange& range, const core::SoftStep& step, const SweepWay& way);
   void (*push_along)(const TileRange& range, float share);
   void (*relax)(const TileRange& range, const core::SoftStep& step);
-  void (*add_to_totals)(const TileRange& range, const core::SoftStep& step);
+  void (*end_substep)(const TileRange& range, const core::SoftStep& step, bool is_last);
 };
 
 // Those that this machine has; the first is the fastest.

@@ -57,8 +57,8 @@ std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const co
 }
 
 void StepConstraints::begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> given,
-                            const RigidStep& step, float substep_s, const core::PatchLimits& limits) {
-  substep_s_ = substep_s;
+                            const RigidStep& step, const core::SoftStep& numbers, const core::PatchLimits& limits) {
+  substep_s_ = numbers.dt_s;
   bodies_.resize(states.size() + 1);
   bodies_.back() = {};
   const auto is_asleep = [&](std::size_t i) { return !step.asleep.empty() && step.asleep[i] != 0; };
@@ -74,7 +74,7 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
   touched_.resize(tiles_.places());
   place_begin_.clear();
   for (const std::uint32_t tile : tiles_.color_begin()) place_begin_.push_back(tile * kTileLanes);
-  std::atomic<bool> bouncing = false;
+  came_fast_.assign(tiles_.places(), 0);
   in_parallel(0, tiles_.count(), [&](std::size_t tile) {
     tiles_.clear_tile(tile);
     for (std::size_t place = tile * kTileLanes; place < (tile + 1) * kTileLanes; ++place) {
@@ -91,12 +91,12 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
       c.b = b;
       core::set_limits(c, bodies_[c.a], bodies_[c.b], limits, step.dt_s);
       recall(patch, c);
+      came_fast_[place] = core::note_approach(c, bodies_[c.a], bodies_[c.b], numbers) ? 1 : 0;
       tiles_.put(place, c);
       touched_[place] = {c.a, c.b};
-      if (surface.restitution > 0.0F) bouncing.store(true, std::memory_order_relaxed);
     }
   });
-  may_bounce_ = bouncing;
+  list_fast();
 }
 
 void StepConstraints::finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches) {
@@ -201,9 +201,7 @@ std::uint32_t StepConstraints::relax_pushed(const core::SoftStep& numbers) {
   return core::kMostRelaxSweeps;
 }
 
-void StepConstraints::find_fast(const core::SoftStep& numbers) {
-  came_fast_.resize(tiles_.places());
-  each_range([&](const TileRange& range) { tiles_.kernels().note_fast(range, numbers, came_fast_.data()); });
+void StepConstraints::list_fast() {
   fast_.clear();
   fast_begin_.assign(1, 0);
   const auto begin = tiles_.color_begin();
@@ -224,8 +222,6 @@ float StepConstraints::stir_what_bounces(const core::SoftStep& numbers) {
 }
 
 void StepConstraints::bounce(const core::SoftStep& numbers) {
-  if (!may_bounce_) return;
-  find_fast(numbers);
   if (fast_.empty()) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
   const float fastest = stir_what_bounces(numbers);
@@ -242,7 +238,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     of_places_.assign(fast_.size(), 0.0F);
     visit_by_color(fast_begin_, [&](std::size_t n) {
       of_places_[n] = change(fast_[n], [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-        if (k == 0) core::note_stopping(c);
+        if (k == 0) core::note_most_impulses(c);
         return core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers, done) : 0.0F;
       });
     });

@@ -24,7 +24,7 @@ class StepConstraints {
   explicit StepConstraints(const PatchKernels& kernels) : tiles_(kernels) {}
 
   void begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
-             const RigidStep& step, float substep_s, const core::PatchLimits& limits);
+             const RigidStep& step, const core::SoftStep& numbers, const core::PatchLimits& limits);
   // Writes the states, and keeps the impulses of the last substep and of the step.
   void finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches);
   void forget() { memory_.forget(); }
@@ -32,8 +32,6 @@ class StepConstraints {
   [[nodiscard]] std::span<core::SolverBody> bodies() { return bodies_; }
   [[nodiscard]] const PatchTiles& tiles() const { return tiles_; }
   [[nodiscard]] std::span<const PatchImpulses> impulses() const { return impulses_; }
-  // Whether a patch has restitution.
-  [[nodiscard]] bool may_bounce() const { return may_bounce_; }
 
   // work(index) for every body but the one that stands for the faces.
   template <typename Work>
@@ -65,8 +63,9 @@ class StepConstraints {
   // Sweeps of bounces since it was made.
   [[nodiscard]] std::uint64_t bounce_sweeps() const { return bounce_sweeps_; }
 
-  // Points that came fast leave with their share of that speed: sweeps until one changes no speed by more than
-  // 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by more than that.
+  // In the last substep. Points that came fast leave with their share of that speed: sweeps until one changes no speed
+  // by more than 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by
+  // more than that.
   void bounce(const core::SoftStep& numbers);
 
  private:
@@ -88,7 +87,7 @@ class StepConstraints {
   // for the next one. Returns the largest change of a point's speed.
   float relax_stirred(const core::SoftStep& numbers, float done_m_s);
   // Places of patches with a point that came fast enough to bounce.
-  void find_fast(const core::SoftStep& numbers);
+  void list_fast();
   // The fastest approach of what bounces, whose bodies are stirred.
   float stir_what_bounces(const core::SoftStep& numbers);
   void stir(std::size_t place, std::uint32_t sweep);
@@ -137,7 +136,6 @@ class StepConstraints {
   std::uint32_t sweep_ = 0;             // of all sweeps of bounces in this step
   std::uint64_t bounce_sweeps_ = 0;
   float substep_s_ = 0.0F;
-  bool may_bounce_ = false;
 };
 
 }  // namespace broadside::reference

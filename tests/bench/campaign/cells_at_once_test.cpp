@@ -11,10 +11,10 @@
 namespace broadside::tests {
 namespace {
 
-using Digests = std::map<std::string, std::map<std::uint64_t, std::uint64_t>>;
+using CellDigests = std::map<std::string, std::map<std::uint64_t, std::uint64_t>>;
 
-Digests digests_in(const std::filesystem::path& folder) {
-  Digests all;
+CellDigests cell_digests_in(const std::filesystem::path& folder) {
+  CellDigests all;
   const auto rows = core::read_rows(folder);
   EXPECT_TRUE(rows.ok());
   if (!rows) return all;
@@ -34,10 +34,10 @@ TEST(CellsAtOnce, GiveTheDigestsOfOneByOne) {
   const Ended one = contest(folder / "one", "1");
   const Ended three = contest(folder / "three", "3");
   EXPECT_EQ(one.exit_code, three.exit_code) << three.out << three.err;
-  const Digests expected = digests_in(folder / "one");
+  const CellDigests expected = cell_digests_in(folder / "one");
   ASSERT_EQ(expected.size(), 4U);
   for (const auto& [cell, digests] : expected) EXPECT_FALSE(digests.empty()) << cell;
-  EXPECT_EQ(digests_in(folder / "three"), expected);
+  EXPECT_EQ(cell_digests_in(folder / "three"), expected);
   EXPECT_NE(three.err.find("4 of 4"), std::string::npos) << three.err;
   EXPECT_NE(read_text(folder / "three/contest.html").find("--jobs 3"), std::string::npos);
 }
@@ -50,12 +50,12 @@ TEST(CellsAtOnce, APageOfFinishedCellsNeedsNoNewPlan) {
   std::string manifest = read_text(out / "manifest.json");
   const std::string old_build = core::read_rows(out).value().cells.front().stamp.broadside_build;
   ASSERT_NE(manifest.find(old_build), std::string::npos);
-  const auto before = digests_in(out);
+  const auto before = cell_digests_in(out);
   const Ended page = run_program(
       {"contest", "--engines", "plain-rigid", "--scenes", "rigid:spin-up", "--only-report", "--out", out.string()});
   EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
   EXPECT_EQ(read_text(out / "manifest.json"), manifest);
-  EXPECT_EQ(digests_in(out), before);
+  EXPECT_EQ(cell_digests_in(out), before);
 }
 
 }  // namespace

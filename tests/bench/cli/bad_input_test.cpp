@@ -28,7 +28,13 @@ TEST_P(BadArguments, GetOneClearLineAndExitCode2) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadArguments,
     testing::Values(
-        BadCase{"NoSubcommand", {}, "broadside demo"}, BadCase{"UnknownSubcommand", {"rnu"}, "rnu"},
+        BadCase{"NoSubcommand", {}, "broadside demo"}, BadCase{"UnknownSubcommand", {"rnu"}, "did you mean 'run'?"},
+        BadCase{"LikeNoSubcommand", {"nonsense"}, "'nonsense'; 'broadside --help' shows them"},
+        BadCase{"LikeNoEngine",
+                {"run", "errata:E3", "--engine", "nonsense"},
+                "'nonsense'; 'broadside list engines' shows them"},
+        BadCase{"NoSuchBoxesAndNoEngine", {"pairs", "nope"}, "no such boxes"},
+        BadCase{"BoxesAndNoEngine", {"pairs", "boxes:uniform:10"}, "no engine was named"},
         BadCase{"UnknownOption", {"--vresion"}, "unknown option '--vresion'; see broadside --help"},
         BadCase{"MissingArgument", {"run"}, "run: SCENE is required; see broadside run --help"},
         BadCase{"DemoOfNoScene", {"demo", "--scene", "frefall:cube:5", "--out", "no-such-demo"}, "freefall"},

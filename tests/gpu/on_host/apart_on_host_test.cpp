@@ -9,6 +9,8 @@
 
 #include "datasets/box_streams/box_sets.hpp"
 #include "gpu/broad/pair_finder.hpp"
+#include "tests/core/engine/counts.hpp"
+#include "tests/gpu/on_host/found_pairs.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
@@ -23,19 +25,6 @@ PairFinderOptions apart_from(std::uint32_t boxes, std::uint32_t least_for_bins =
   options.least_for_bins = least_for_bins;
   options.least_for_apart = boxes;
   return options;
-}
-
-std::vector<Pair> pairs_of(PairFinder& finder) {
-  EXPECT_TRUE(finder.find().ok());
-  auto found = finder.read_back();
-  EXPECT_TRUE(found.ok());
-  return std::move(found.value().pairs);
-}
-
-std::map<std::string_view, std::uint64_t> counts_of(const PairFinder& finder) {
-  std::map<std::string_view, std::uint64_t> counts;
-  for (const core::Counter& counter : finder.counters()) counts[counter.name] = counter.count;
-  return counts;
 }
 
 bool is_apart(const PairFinder& finder) {
@@ -122,7 +111,7 @@ TEST(ApartOnHost, TheStaticTableIsKeptWhileItsBoxesRest) {
     ASSERT_TRUE(finder.update(c.boxes).ok());
   }
   EXPECT_EQ(pairs_of(finder), tests::every_pair(c));
-  auto counts = counts_of(finder);
+  auto counts = tests::counts_of(finder);
   EXPECT_EQ(counts["broad: static tables built"], 2U) << "one box of it moved in the third update";
   EXPECT_EQ(counts["broad: static boxes kept"], 3U * 150U);
   // Both builds, and the moving boxes of each update.

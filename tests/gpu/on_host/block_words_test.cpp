@@ -13,8 +13,6 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr on_host::Launch kWarp{{1}, {32}, 0};
-
 TEST(BlockEntry, KeepsWhatItIsGiven) {
   std::vector<std::uint32_t> shapes(BlockEntry::kMostBodies);
   for (std::uint32_t body = 0; body < shapes.size(); ++body) shapes[body] = 3 * body;
@@ -95,7 +93,8 @@ TEST(WarpNearest, IsTheFirstOfAllLanes) {
       if (below(8) != 0) p = {0.25F * static_cast<float>(below(kinds)), below(kinds), below(3)};
       if (core::is_nearer(p, nearest)) nearest = p;
     }
-    on_host::run(kWarp, 0, [&](unsigned char*) { EXPECT_EQ(warp_nearest(lanes[threadIdx.x]), nearest) << round; });
+    on_host::run(on_host::kOneWarp, 0,
+                 [&](unsigned char*) { EXPECT_EQ(warp_nearest(lanes[threadIdx.x]), nearest) << round; });
   }
 }
 

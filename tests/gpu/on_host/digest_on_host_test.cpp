@@ -10,21 +10,17 @@
 
 #include "core/engine/engine.hpp"
 #include "gpu/frame/pipeline.hpp"
-#include "reference/engines.hpp"
+#include "tests/gpu/octree_cpu_twin.hpp"
 #include "tests/gpu/small_scenes.hpp"
 
 namespace broadside::gpu {
 namespace {
 
-using Given = std::map<std::string, std::string>;
 using Digests = std::vector<std::uint64_t>;
 
 // Of the initial state, then after every `every` steps.
 Digests digests_of_twin(const core::Scene& scene, const Given& given, int frames, int every) {
-  const core::EngineRow row = reference::octree_cpu_row();
-  auto settings = core::Settings::parse(row.id, row.settings, given);
-  EXPECT_TRUE(settings.ok());
-  const std::unique_ptr<core::Dynamics> twin = std::move(row.create(settings.value()).value().dynamics);
+  const std::unique_ptr<core::Dynamics> twin = twin_of(given);
   EXPECT_TRUE(twin->load(scene).ok());
   Digests digests;
   for (int k = 0; k <= frames; ++k) {
@@ -62,14 +58,6 @@ Digests digests_of_copies(const core::Scene& scene, Pipeline& subject, int frame
   return digests;
 }
 
-core::Scene spheres(std::uint32_t bodies, float cube_m) {
-  SceneShape shape;
-  shape.bodies = bodies;
-  shape.cube_m = cube_m;
-  shape.static_every = 7;
-  return thrown({bumpy_sphere(4, 0.5F), bumpy_sphere(3, 0.6F)}, shape);
-}
-
 // The host's grid has two blocks of 64 threads: 40 bodies are resolved by one block, 80 by a thread each, 150 by
 // the thread that comes to a contact last.
 TEST(DigestOnHost, OfEveryKindOfFrame) {
@@ -96,7 +84,7 @@ TEST(DigestOnHost, OfEveryKindOfFrame) {
   many.has_vertex_stage = false;
   cases.push_back({"many, flat, no vertices", 150, many, {{"levels", "flat"}, {"vertex_stage", "off"}}});
   for (const Case& c : cases) {
-    const core::Scene scene = spheres(c.bodies, c.bodies > 64 ? 2.8F : 2.2F);
+    const core::Scene scene = coarse_spheres(c.bodies, c.bodies > 64 ? 2.8F : 2.2F, 7);
     for (const int every : {1, 2}) {
       SCOPED_TRACE(std::string(c.name) + ", " + std::to_string(c.bodies) + ", every " + std::to_string(every));
       const Digests expected = digests_of_twin(scene, c.given, 4, every);

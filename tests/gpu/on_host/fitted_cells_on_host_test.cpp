@@ -126,6 +126,18 @@ TEST(FittedCellsOnHost, FourLanesWhereRowsOfCellsAreLong) {
   EXPECT_EQ(bulk_fit(sizes, mixed.all()).lanes_per_box, 1U);
 }
 
+// By groups where a box has far more others in its cells than partners.
+TEST(FittedCellsOnHost, GroupsWhereCellsAreFull) {
+  const auto is_grouped = [](const std::vector<Box>& boxes) {
+    FactsOfBoxes facts;
+    for (const Box& box : boxes) facts.add(box);
+    return bulk_fit(boxes, facts.all()).is_grouped;
+  };
+  EXPECT_TRUE(is_grouped(datasets::mixed_boxes(100'000, 1)));
+  EXPECT_FALSE(is_grouped(datasets::uniform_boxes(100'000, 1)));
+  EXPECT_FALSE(is_grouped(datasets::heap_boxes(100'000, 1)));
+}
+
 TEST(FittedCellsOnHost, AreFoundOutOfAMillionBoxesToo) {
   constexpr std::uint32_t kMany = 1'100'000;
   FactsOfBoxes facts;

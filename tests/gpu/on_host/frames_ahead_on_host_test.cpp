@@ -17,31 +17,27 @@
 namespace broadside::gpu {
 namespace {
 
-core::Scene spheres(std::uint32_t bodies, float cube_m, std::uint32_t static_every = 0) {
-  return thrown_spheres(4, 3, bodies, cube_m, static_every);
-}
-
 const auto kGoOn = [] { return true; };
 
 TEST(FramesAheadOnHost, AreTheFramesOneByOne) {
   for (const std::uint64_t steps : {0U, 1U, 2U, 3U, 12U}) {
     SCOPED_TRACE(steps);
-    expect_same_steps(spheres(40, 2.5F), {}, steps);
+    expect_same_steps(coarse_spheres(40, 2.5F), {}, steps);
   }
   for (const std::uint32_t bodies : {0U, 1U}) {
     SCOPED_TRACE(bodies);
-    expect_same_steps(spheres(bodies, 2.5F), {}, 4);
+    expect_same_steps(coarse_spheres(bodies, 2.5F), {}, 4);
   }
 }
 
 TEST(FramesAheadOnHost, SpringsAndStaticBodies) {
-  core::Scene scene = spheres(40, 2.5F, 5);
+  core::Scene scene = coarse_spheres(40, 2.5F, 5);
   add_springs(scene, 30);
   expect_same_steps(scene, {}, 7);
 }
 
 TEST(FramesAheadOnHost, EveryStartAndSolver) {
-  expect_same_steps_of_every_start(spheres(30, 2.2F), 4);
+  expect_same_steps_of_every_start(coarse_spheres(30, 2.2F), 4);
 }
 
 TEST(FramesAheadOnHost, MoreBodiesThanThreads) {
@@ -72,7 +68,7 @@ TEST(FramesAheadOnHost, BuffersGrowInTheMiddle) {
 
 // A step more may have been under way; from there on it goes on, one by one or not, and says which step it is.
 TEST(FramesAheadOnHost, EndWhereTheyAreToldTo) {
-  const core::Scene scene = spheres(40, 2.5F);
+  const core::Scene scene = coarse_spheres(40, 2.5F);
   for (const std::uint64_t told : {1U, 3U, 9U, 10U}) {
     SCOPED_TRACE(told);
     Pipeline subject(PipelineOptions{});
@@ -114,7 +110,7 @@ TEST(FramesAheadOnHost, EndBeforeAnAbortedFrame) {
 }
 
 TEST(FramesAheadOnHost, BesideThoseOfAnotherPipeline) {
-  const core::Scene first = spheres(40, 2.5F);
+  const core::Scene first = coarse_spheres(40, 2.5F);
   const core::Scene second = flying_together(110, 3.0F);
   Pipeline a(PipelineOptions{});
   Pipeline b(boxes_alone());
@@ -132,7 +128,7 @@ TEST(FramesAheadOnHost, BesideThoseOfAnotherPipeline) {
 
 // A frame's digest that nobody took yet is not that of a later one; and one asked for in the rhythm of before is new.
 TEST(FramesAheadOnHost, DigestsAskedForAround) {
-  const core::Scene scene = spheres(40, 2.5F);
+  const core::Scene scene = coarse_spheres(40, 2.5F);
   Pipeline subject(PipelineOptions{});
   Pipeline one_by_one(PipelineOptions{});
   ASSERT_TRUE(subject.load(scene).ok());
@@ -156,7 +152,7 @@ TEST(FramesAheadOnHost, DigestsAskedForAround) {
 }
 
 TEST(FramesAheadOnHost, WorkIsCountedWhereItIsAskedFor) {
-  const core::Scene scene = spheres(40, 2.5F);
+  const core::Scene scene = coarse_spheres(40, 2.5F);
   std::map<std::string_view, std::uint64_t> counts[2];
   for (const bool is_ahead : {false, true}) {
     PipelineOptions options;

@@ -11,6 +11,7 @@
 
 #include "datasets/box_streams/box_sets.hpp"
 #include "gpu/broad/kept_finder.hpp"
+#include "tests/core/engine/counts.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
@@ -56,13 +57,7 @@ std::vector<Pair> pairs_of(KeptFinder& finder) {
   return std::move(set.value().pairs);
 }
 
-std::map<std::string_view, std::uint64_t> counts_of(const KeptFinder& finder) {
-  std::map<std::string_view, std::uint64_t> counts;
-  for (const core::Counter& counter : finder.counters()) counts[counter.name] = counter.count;
-  return counts;
-}
-
-core::DeviceBoxes lying(const std::vector<Box>& boxes) {
+core::DeviceBoxes kept_on_device(const std::vector<Box>& boxes) {
   return {reinterpret_cast<const float*>(boxes.data()), boxes.size()};
 }
 
@@ -71,15 +66,16 @@ TEST(KeptOnHost, FramesOfSmallMotionAreNotSearched) {
     tests::BoxCase c = uniform_case(350);
     KeptFinder finder({});
     ASSERT_TRUE(
-        (is_on_device ? finder.load_on_device(lying(c.boxes), c.is_static) : finder.load(c.boxes, c.is_static)).ok());
+        (is_on_device ? finder.load_on_device(kept_on_device(c.boxes), c.is_static) : finder.load(c.boxes, c.is_static))
+            .ok());
     EXPECT_EQ(pairs_of(finder), tests::every_pair(c));
     for (int frame = 0; frame < 6; ++frame) {
       move_a_little(c, frame);
-      ASSERT_TRUE((is_on_device ? finder.update_on_device(lying(c.boxes)) : finder.update(c.boxes)).ok());
+      ASSERT_TRUE((is_on_device ? finder.update_on_device(kept_on_device(c.boxes)) : finder.update(c.boxes)).ok());
       EXPECT_EQ(pairs_of(finder), tests::every_pair(c)) << "frame " << frame;
     }
     // A box is fattened by a sixteenth of its mean side, at least 0.03, and moves 0.03 at most.
-    auto counts = counts_of(finder);
+    auto counts = tests::counts_of(finder);
     EXPECT_EQ(counts["broad: frames searched"], 1U);
     EXPECT_EQ(counts["broad: frames of kept pairs"], 6U);
     EXPECT_GT(counts["broad: candidates tested"], 7 * tests::every_pair(c).size());
@@ -99,7 +95,7 @@ TEST(KeptOnHost, IsExactWhereEverythingJumps) {
     ASSERT_TRUE(finder.update(c.boxes).ok());
     EXPECT_EQ(pairs_of(finder), tests::every_pair(c)) << "frame " << frame;
   }
-  auto counts = counts_of(finder);
+  auto counts = tests::counts_of(finder);
   EXPECT_EQ(counts["broad: frames searched"] + counts["broad: frames of kept pairs"], 25U);
   EXPECT_GT(counts["broad: frames of kept pairs"], 3U);
 }
@@ -117,7 +113,7 @@ TEST(KeptOnHost, OneBoxThatLeavesMakesASearch) {
       c.boxes[57] = core::translated(c.boxes[57], step);
       ASSERT_TRUE(finder.update(c.boxes).ok());
       EXPECT_EQ(pairs_of(finder), tests::every_pair(c));
-      EXPECT_EQ(counts_of(finder)["broad: frames searched"], 2U);
+      EXPECT_EQ(tests::counts_of(finder)["broad: frames searched"], 2U);
     }
   }
 }
@@ -148,7 +144,7 @@ TEST(KeptOnHost, FewBoxesAndWhatIsNoBox) {
   std::vector<Box> bad = c.boxes;
   std::swap(bad[31].min.y, bad[31].max.y);
   EXPECT_NE(finder.update(bad).error().line().find("box 31"), std::string::npos);
-  EXPECT_NE(finder.update_on_device(lying(bad)).error().line().find("box 31"), std::string::npos);
+  EXPECT_NE(finder.update_on_device(kept_on_device(bad)).error().line().find("box 31"), std::string::npos);
   bad.pop_back();
   EXPECT_NE(finder.update(bad).error().line().find("59 boxes after a load of 60"), std::string::npos);
   ASSERT_TRUE(finder.update(c.boxes).ok());

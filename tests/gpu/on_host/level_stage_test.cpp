@@ -16,7 +16,6 @@ namespace broadside::gpu {
 namespace {
 
 // One warp.
-constexpr on_host::Launch kWarp{{1}, {32}, 0};
 
 TEST(FloatDivisor, GivesWholeQuotients) {
   for (std::uint32_t by = 1; by <= 512; ++by) {
@@ -34,7 +33,7 @@ TEST(BodyRing, MeetsEveryPairOnce) {
   for (std::uint32_t bodies : {0U, 1U, 2U, 3U, 4U, 7U, 8U, 31U, 64U, 65U, 511U, 512U}) {
     for (std::uint32_t share : {1U, 3U, 4U, 7U, 32U}) {
       std::map<core::Pair, int> met;
-      on_host::run(kWarp, 0, [&](unsigned char*) {
+      on_host::run(on_host::kOneWarp, 0, [&](unsigned char*) {
         const BodyRing<FloatDivisor> ring(bodies, share, FloatDivisor(ring_shares(bodies, share)));
         for (std::uint32_t item = 0; item < ring.items(); ++item) {
           const auto own = ring.pair_of(item);
@@ -89,7 +88,7 @@ template <unsigned kAtOnce>
 bool descends_in_warp(const std::vector<PackedBox>& boxes, const PlacedShape& a, const PlacedShape& b) {
   bool all = true;
   bool any = false;
-  on_host::run(kWarp, 0, [&](unsigned char*) {
+  on_host::run(on_host::kOneWarp, 0, [&](unsigned char*) {
     Uncounted work;
     const bool own = descends<kAtOnce>(OctreesInMemory{boxes.data()}, a, b, work);
     all = all && own;

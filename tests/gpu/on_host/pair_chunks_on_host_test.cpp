@@ -12,6 +12,7 @@
 #include "datasets/box_streams/thin_boxes.hpp"
 #include "gpu/broad/pair_finder.hpp"
 #include "gpu/stages/broad/pair_queue.cuh"
+#include "tests/gpu/on_host/found_pairs.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
@@ -19,25 +20,6 @@ namespace {
 
 using core::Box;
 using core::Pair;
-
-struct Chunks {
-  std::vector<Pair> pairs;
-  std::size_t count = 0;
-  std::uint64_t largest = 0;
-};
-
-Chunks handed_on(PairFinder& finder) {
-  Chunks chunks;
-  const core::Status status = finder.hand_on([&](const core::DevicePairs& chunk) -> core::Status {
-    chunks.pairs.insert(chunks.pairs.end(), chunk.data, chunk.data + chunk.count);
-    ++chunks.count;
-    chunks.largest = std::max(chunks.largest, chunk.count);
-    return core::Done{};
-  });
-  EXPECT_TRUE(status.ok());
-  std::sort(chunks.pairs.begin(), chunks.pairs.end());
-  return chunks;
-}
 
 PairFinderOptions at_once(std::uint64_t pairs, std::uint32_t least_for_bins = 1U << 30) {
   PairFinderOptions options;
@@ -139,7 +121,7 @@ TEST(PairChunksOnHost, PlacesOfPairsGoBeyond32Bits) {
   constexpr unsigned long long kBefore = (1ULL << 32U) - 40;
   unsigned long long demanded = kBefore;
   // 32 lanes, 40 pairs each: some below 2^32, some above, the last ones beyond the capacity.
-  on_host::run({{1}, {32}, 0}, sizeof(PairQueue), [&](unsigned char* shared) {
+  on_host::run(on_host::kOneWarp, sizeof(PairQueue), [&](unsigned char* shared) {
     WarpQueue queue(*reinterpret_cast<PairQueue*>(shared), {pairs, kCapacity}, &demanded);
     for (std::uint32_t k = 0; k < 40; ++k) queue.push(true, {k * 32 + threadIdx.x, 5000});
     queue.flush();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -36,6 +37,12 @@ PairFinderOptions by_four_lanes() {
   return options;
 }
 
+PairFinderOptions by_groups() {
+  PairFinderOptions options = starting_at(Broad::kTree, 50, 50, kNever);
+  options.groups = 1;
+  return options;
+}
+
 void expect_exact(const std::vector<Box>& boxes) {
   std::vector<std::uint8_t> is_static(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) is_static[i] = i % 7 == 0 ? 1 : 0;
@@ -49,6 +56,7 @@ void expect_exact(const std::vector<Box>& boxes) {
       {"bins", starting_at(Broad::kTree, 50, 50, 50)},
       {"coarse bins", by_coarse_bins()},
       {"four lanes a box", by_four_lanes()},
+      {"groups", by_groups()},
       {"octree", starting_at(Broad::kOctree, 50, 50, 50)},
       {"hash", starting_at(Broad::kHash, 50, 50, 50)},
   };
@@ -74,6 +82,68 @@ std::vector<Box> boxes_of(std::uint32_t count, auto make) {
     boxes.push_back({center - half, center + half});
   }
   return boxes;
+}
+
+// Through a cube, along all directions: groups of neighbors reach everywhere.
+std::vector<Box> long_boxes(std::uint32_t count) {
+  std::vector<Box> boxes;
+  Dice dice(11);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const core::Vec3 center = dice.cube(100.0F);
+    core::Vec3 half{0.05F, 0.05F, 0.05F};
+    half[static_cast<int>(i % 3)] = 40.0F;
+    boxes.push_back({center - half, center + half});
+  }
+  return boxes;
+}
+
+struct GroupedSearch {
+  std::vector<Pair> pairs;
+  std::string path;
+};
+GroupedSearch search_by_groups(const std::vector<Box>& boxes) {
+  PairFinderOptions options = by_groups();
+  options.least_for_passes = kNever;
+  PairFinder subject(options);
+  EXPECT_TRUE(subject.load(boxes, std::vector<std::uint8_t>(boxes.size())).ok());
+  EXPECT_TRUE(subject.find().ok());
+  auto found = subject.read_back();
+  EXPECT_TRUE(found.ok());
+  return {found.value().pairs, subject.path()};
+}
+
+std::vector<Pair> all_pairs_of(const std::vector<Box>& boxes) {
+  std::vector<Pair> expected;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+      if (core::overlaps(boxes[i], boxes[j])) expected.push_back({i, j});
+  return expected;
+}
+
+// 50 pairs of groups a group: more than there is room for at first.
+TEST(PairsOnHost, GroupsGetRoomForTheirPairs) {
+  const std::vector<Box> boxes = long_boxes(3200);
+  const GroupedSearch found = search_by_groups(boxes);
+  EXPECT_TRUE(found.pairs == all_pairs_of(boxes)) << found.pairs.size();
+  EXPECT_NE(found.path.find("groups"), std::string::npos) << found.path;
+}
+
+// 94 of them: the other search takes over.
+TEST(PairsOnHost, GroupsWithTooManyPairsAreGivenUp) {
+  const std::vector<Box> boxes = long_boxes(6000);
+  const GroupedSearch found = search_by_groups(boxes);
+  EXPECT_TRUE(found.pairs == all_pairs_of(boxes)) << found.pairs.size();
+  EXPECT_EQ(found.path.find("groups"), std::string::npos) << found.path;
+}
+
+// How much work groups are depends on the order of threads within a cell: where somebody counts, the other search runs.
+TEST(PairsOnHost, NoGroupsWhereWorkIsCounted) {
+  PairFinder subject(by_groups());
+  const std::vector<Box> boxes = long_boxes(300);
+  subject.count_work();
+  ASSERT_TRUE(subject.load(boxes, std::vector<std::uint8_t>(boxes.size())).ok());
+  ASSERT_TRUE(subject.find().ok());
+  EXPECT_EQ(subject.path().find("groups"), std::string::npos) << subject.path();
 }
 
 TEST(PairsOnHost, CountsLaunchesAndBytes) {

@@ -11,6 +11,7 @@
 #include "datasets/box_streams/thin_boxes.hpp"
 #include "datasets/box_streams/uneven_boxes.hpp"
 #include "gpu/broad/pair_finder.hpp"
+#include "tests/gpu/on_host/found_pairs.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
@@ -19,7 +20,7 @@ namespace {
 using core::Box;
 using core::Pair;
 
-constexpr std::uint32_t kNever = 1U << 30;
+constexpr std::uint32_t kBeyondAll = 1U << 30;
 
 PairFinderOptions passes_from(std::uint32_t boxes, std::uint32_t bulk, std::uint32_t bins) {
   PairFinderOptions options;
@@ -28,14 +29,6 @@ PairFinderOptions passes_from(std::uint32_t boxes, std::uint32_t bulk, std::uint
   options.least_for_bins = bins;
   options.least_for_passes = boxes;
   return options;
-}
-
-tests::BoxCase case_of(std::vector<Box> boxes) {
-  tests::BoxCase c;
-  c.is_static.resize(boxes.size());
-  for (std::size_t k = 0; k < boxes.size(); k += 7) c.is_static[k] = 1;
-  c.boxes = std::move(boxes);
-  return c;
 }
 
 std::vector<Pair> pairs_of(PairFinder& finder, const tests::BoxCase& c) {
@@ -52,7 +45,7 @@ TEST(PassesOnHost, EveryFamilyInEachSearch) {
     SCOPED_TRACE(family.name);
     const tests::BoxCase c = tests::make_case(family, 130, 11);
     for (const auto& options :
-         {passes_from(50, kNever, kNever), passes_from(50, 50, kNever), passes_from(50, 50, 50)}) {
+         {passes_from(50, kBeyondAll, kBeyondAll), passes_from(50, 50, kBeyondAll), passes_from(50, 50, 50)}) {
       PairFinder finder(options);
       EXPECT_EQ(pairs_of(finder, c), tests::every_pair(c));
       with_passes += finder.plan().is_plain() ? 0 : 1;
@@ -63,7 +56,7 @@ TEST(PassesOnHost, EveryFamilyInEachSearch) {
 
 // One finder for all: another number of passes, fewer boxes, and none in what was left of the memory.
 TEST(PassesOnHost, ThinAndUnevenBoxesInTheMemoryOfOthers) {
-  PairFinder finder(passes_from(50, 200, kNever));
+  PairFinder finder(passes_from(50, 200, kBeyondAll));
   for (const std::uint32_t count : {900U, 200U}) {
     for (const auto make :
          {datasets::needle_boxes, datasets::exponent_boxes, datasets::sliver_boxes, datasets::uniform_boxes}) {
@@ -79,7 +72,7 @@ TEST(PassesOnHost, ThinAndUnevenBoxesInTheMemoryOfOthers) {
 
 // update() with boxes that need passes where those of load() did not, and back.
 TEST(PassesOnHost, UpdatesFromOnePlanToAnother) {
-  PairFinder finder(passes_from(50, kNever, kNever));
+  PairFinder finder(passes_from(50, kBeyondAll, kBeyondAll));
   const tests::BoxCase even = case_of(datasets::uniform_boxes(400, 1));
   const tests::BoxCase thin = case_of(datasets::needle_boxes(400, 1));
   ASSERT_TRUE(finder.load(even.boxes, even.is_static).ok());
@@ -97,14 +90,14 @@ TEST(PassesOnHost, GrowsWhereAPassFindsMoreThanExpected) {
   std::vector<Box> boxes = datasets::needle_boxes(600, 3);
   for (std::size_t k = 0; k < 200; ++k) boxes[3 * k] = boxes[0];
   const tests::BoxCase c = case_of(boxes);
-  PairFinder finder(passes_from(50, kNever, kNever));
+  PairFinder finder(passes_from(50, kBeyondAll, kBeyondAll));
   EXPECT_EQ(pairs_of(finder, c), tests::every_pair(c));
 }
 
 // Each pass leaves its pairs in an array of its own; who asks for all gets one.
 TEST(PassesOnHost, PairsOfAllPassesLieTogetherOnTheDevice) {
   const tests::BoxCase c = case_of(datasets::needle_boxes(500, 2));
-  PairFinder finder(passes_from(50, kNever, kNever));
+  PairFinder finder(passes_from(50, kBeyondAll, kBeyondAll));
   const std::vector<Pair> expected = pairs_of(finder, c);
   ASSERT_GT(finder.plan().passes.size(), 1U);
   auto lying = finder.pairs_on_device();
@@ -115,7 +108,7 @@ TEST(PassesOnHost, PairsOfAllPassesLieTogetherOnTheDevice) {
 }
 
 std::uint64_t tests_of(const std::vector<Box>& boxes, bool has_passes) {
-  PairFinder finder(passes_from(has_passes ? 50 : kNever, kNever, kNever));
+  PairFinder finder(passes_from(has_passes ? 50 : kBeyondAll, kBeyondAll, kBeyondAll));
   finder.count_work();
   pairs_of(finder, case_of(boxes));
   EXPECT_EQ(finder.plan().is_plain(), !has_passes);

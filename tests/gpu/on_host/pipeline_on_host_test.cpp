@@ -11,40 +11,28 @@
 
 #include "core/engine/engine.hpp"
 #include "gpu/frame/pipeline.hpp"
-#include "reference/engines.hpp"
+#include "tests/core/engine/counts.hpp"
+#include "tests/gpu/octree_cpu_twin.hpp"
 #include "tests/gpu/small_scenes.hpp"
 #include "tests/gpu/twin_comparison.hpp"
 
 namespace broadside::gpu {
 namespace {
 
-using Given = std::map<std::string, std::string>;
-
-std::unique_ptr<core::Dynamics> twin_of(const Given& given) {
-  const core::EngineRow row = reference::octree_cpu_row();
-  auto settings = core::Settings::parse(row.id, row.settings, given);
-  EXPECT_TRUE(settings.ok());
-  return std::move(row.create(settings.value()).value().dynamics);
-}
-
 std::uint64_t compare(const core::Scene& scene, const PipelineOptions& options, const Given& given, int frames) {
   Pipeline subject(options);
   return compare_pipelines(scene, subject, *twin_of(given), frames, 3);
 }
 
-core::Scene spheres(std::uint32_t bodies, float cube_m, std::uint32_t static_every = 0) {
-  return thrown_spheres(4, 3, bodies, cube_m, static_every);
-}
-
 TEST(PipelineOnHost, EveryStart) {
   PipelineOptions options;
-  EXPECT_GT(compare(spheres(40, 2.5F), options, {{"broad", "brute"}}, 12), 0U);
+  EXPECT_GT(compare(coarse_spheres(40, 2.5F), options, {{"broad", "brute"}}, 12), 0U);
   options.broad = Broad::kHash;
-  EXPECT_GT(compare(spheres(40, 2.5F), options, {{"broad", "brute"}}, 12), 0U);
+  EXPECT_GT(compare(coarse_spheres(40, 2.5F), options, {{"broad", "brute"}}, 12), 0U);
   options.hash_cell_m = 0.03F;  // too many cells a body
-  EXPECT_GT(compare(spheres(20, 2.0F), options, {{"broad", "brute"}}, 3), 0U);
+  EXPECT_GT(compare(coarse_spheres(20, 2.0F), options, {{"broad", "brute"}}, 3), 0U);
   options.broad = Broad::kOctree;
-  EXPECT_GT(compare(spheres(40, 2.5F), options, {{"broad", "octree"}}, 12), 0U);
+  EXPECT_GT(compare(coarse_spheres(40, 2.5F), options, {{"broad", "octree"}}, 12), 0U);
 }
 
 TEST(PipelineOnHost, EveryLevelFromItsPublishedStart) {
@@ -53,7 +41,8 @@ TEST(PipelineOnHost, EveryLevelFromItsPublishedStart) {
     PipelineOptions options;
     options.broad = Broad::kBrute;
     options.levels = row.levels;
-    EXPECT_GT(compare(spheres(30, 2.2F), options, {{"broad", "brute"}, {"levels", std::string(row.name)}}, 4), 0U);
+    EXPECT_GT(compare(coarse_spheres(30, 2.2F), options, {{"broad", "brute"}, {"levels", std::string(row.name)}}, 4),
+              0U);
   }
 }
 
@@ -62,15 +51,15 @@ TEST(PipelineOnHost, EveryPrintedForm) {
     SCOPED_TRACE(name);
     PipelineOptions options;
     options.variant = *core::variant_named(name);
-    EXPECT_GT(compare(spheres(40, 2.5F, 4), options, {{"variant", name}}, 10), 0U);
+    EXPECT_GT(compare(coarse_spheres(40, 2.5F, 4), options, {{"variant", name}}, 10), 0U);
   }
 }
 
 TEST(PipelineOnHost, StaticBodiesAndTheJacobiSolver) {
   PipelineOptions options;
-  EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {}, 12), 0U);
+  EXPECT_GT(compare(coarse_spheres(40, 2.5F, 3), options, {}, 12), 0U);
   options.solver = Solver::kJacobi;
-  EXPECT_GT(compare(spheres(40, 2.5F, 3), options, {{"solver", "jacobi"}}, 12), 0U);
+  EXPECT_GT(compare(coarse_spheres(40, 2.5F, 3), options, {{"solver", "jacobi"}}, 12), 0U);
 }
 
 // Nearest vertices are looked up in cells, or found by descending two trees: with cells for both shapes, for one, for
@@ -95,7 +84,7 @@ TEST(PipelineOnHost, NearestVerticesByCellsAndByTrees) {
 
 // Springs act on some bodies, several on one; a step that is too long for one of them is refused, as by the twin.
 TEST(PipelineOnHost, Springs) {
-  core::Scene scene = spheres(40, 2.5F);
+  core::Scene scene = coarse_spheres(40, 2.5F);
   add_springs(scene, 30);
   EXPECT_GT(compare(scene, {}, {}, 12), 0U);
   core::Scene without = scene;
@@ -122,7 +111,7 @@ TEST(PipelineOnHost, Springs) {
 TEST(PipelineOnHost, FewBodiesOfEveryNumber) {
   for (const std::uint32_t bodies : {1U, 2U, 3U, 33U, 64U, 128U, 129U}) {
     SCOPED_TRACE(bodies);
-    const core::Scene scene = spheres(bodies, 0.55F * std::cbrt(static_cast<float>(bodies)), 7);
+    const core::Scene scene = coarse_spheres(bodies, 0.55F * std::cbrt(static_cast<float>(bodies)), 7);
     for (const std::string name : {"flat", "C"}) {
       PipelineOptions options;
       options.levels = *core::levels_named(name);
@@ -134,7 +123,7 @@ TEST(PipelineOnHost, FewBodiesOfEveryNumber) {
 // Levels that are gone down while pairs are measured, and where they are found: the first frame knows of none before
 // it.
 TEST(PipelineOnHost, EveryLevelOfFewBodies) {
-  const core::Scene scene = spheres(40, 1.6F, 5);
+  const core::Scene scene = coarse_spheres(40, 1.6F, 5);
   for (const bool has_vertex_stage : {true, false}) {
     for (const std::string name : {"level1", "A", "B"}) {
       SCOPED_TRACE(name + (has_vertex_stage ? "" : " without vertices"));
@@ -185,7 +174,7 @@ TEST(PipelineOnHost, LevelsOfAPairThatIsMeasuredMeanwhile) {
 // A frame that is copied while the next one is computed is the frame that it was; two may be under way, a third may
 // not.
 TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {
-  const core::Scene scene = spheres(40, 2.5F);
+  const core::Scene scene = coarse_spheres(40, 2.5F);
   Pipeline subject(PipelineOptions{});
   const std::unique_ptr<core::Dynamics> twin = twin_of({});
   ASSERT_TRUE(subject.load(scene).ok());
@@ -212,7 +201,7 @@ TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {
 // Digests come with the frames when they are asked for in a rhythm, and are made when somebody asks out of it, or
 // twice, or before the first step: they are the same.
 TEST(PipelineOnHost, DigestsInAnyRhythm) {
-  const core::Scene scene = spheres(40, 2.5F);
+  const core::Scene scene = coarse_spheres(40, 2.5F);
   Pipeline subject(PipelineOptions{});
   const std::unique_ptr<core::Dynamics> twin = twin_of({});
   ASSERT_TRUE(subject.load(scene).ok());
@@ -281,30 +270,23 @@ TEST(PipelineOnHost, BuffersOfMeasuredPairsGrow) {
   }
 }
 
-using Counts = std::map<std::string_view, std::uint64_t>;
-Counts counts_of(const core::Dynamics& dynamics) {
-  Counts counts;
-  for (const core::Counter& counter : dynamics.counters()) counts[counter.name] = counter.count;
-  return counts;
-}
-
 // One launch a frame and none for a copy of it; as many pairs as octree-cpu tests; memory that any machine would take.
 TEST(PipelineOnHost, CountsLaunchesPairsAndBytes) {
-  const core::Scene scene = spheres(40, 2.5F, 4);
+  const core::Scene scene = coarse_spheres(40, 2.5F, 4);
   for (const char* broad : {"tree", "brute"}) {
     SCOPED_TRACE(broad);
     PipelineOptions options;
     options.levels = core::Levels::kA;
     options.broad = std::string_view(broad) == "tree" ? Broad::kTree : Broad::kBrute;
     const std::unique_ptr<core::Dynamics> twin = twin_of({{"broad", broad}, {"levels", "A"}});
-    Counts before;
+    tests::Counts before;
     for (const char* seed : {"1", "2"}) {
       Pipeline subject(options);
       ASSERT_EQ(setenv("BROADSIDE_ON_HOST_SEED", seed, 1), 0);
       EXPECT_GT(compare_pipelines(scene, subject, *twin, 5, 2), 0U);
-      const Counts counts = counts_of(subject);
+      const tests::Counts counts = tests::counts_of(subject);
       EXPECT_EQ(counts.at("launches"), 5U + subject.repeated_frames());
-      EXPECT_EQ(counts.at("level stage: pairs tested"), counts_of(*twin).at("level stage: pairs tested"));
+      EXPECT_EQ(counts.at("level stage: pairs tested"), tests::counts_of(*twin).at("level stage: pairs tested"));
       EXPECT_GT(counts.at("device bytes"), 40U * sizeof(core::Body));
       EXPECT_TRUE(before.empty() || counts == before) << "the order of threads is no part of it";
       before = counts;
@@ -317,7 +299,7 @@ TEST(PipelineOnHost, CountsLaunchesPairsAndBytes) {
 TEST(PipelineOnHost, AnyOrderOfThreads) {
   for (const char* seed : {"1", "2", "3"}) {
     ASSERT_EQ(setenv("BROADSIDE_ON_HOST_SEED", seed, 1), 0);
-    EXPECT_GT(compare(spheres(40, 2.2F), {}, {}, 4), 0U);
+    EXPECT_GT(compare(coarse_spheres(40, 2.2F), {}, {}, 4), 0U);
   }
   unsetenv("BROADSIDE_ON_HOST_SEED");
 }

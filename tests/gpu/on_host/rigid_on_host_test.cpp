@@ -16,20 +16,12 @@
 #include "core/method/rigid/step_in_parts.hpp"
 #include "datasets/scenes.hpp"
 #include "gpu/rigid/rigid_pipeline.hpp"
-#include "reference/engines.hpp"
+#include "tests/core/engine/counts.hpp"
+#include "tests/gpu/octree_cpu_twin.hpp"
 #include "tests/gpu/twin_comparison.hpp"
 
 namespace broadside::gpu {
 namespace {
-
-using Given = std::map<std::string, std::string>;
-
-std::unique_ptr<core::Dynamics> twin_of(const Given& given) {
-  const core::EngineRow row = reference::octree_cpu_row();
-  auto settings = core::Settings::parse(row.id, row.settings, given);
-  EXPECT_TRUE(settings.ok());
-  return std::move(row.create(settings.value()).value().dynamics);
-}
 
 core::Scene scene_of(const std::string& name) {
   auto scene = datasets::make_scene(name, {});
@@ -133,12 +125,6 @@ TEST(RigidOnHost, BouncesAndWrenches) {
   compare("rigid:flight:pushed", 10);
 }
 
-std::map<std::string, std::uint64_t> counts_of(const core::Dynamics& dynamics) {
-  std::map<std::string, std::uint64_t> counts;
-  for (const core::Counter& counter : dynamics.counters()) counts[std::string(counter.name)] = counter.count;
-  return counts;
-}
-
 // Two piles sleep, and one wakes when the last body comes down on it: digests are equal in every frame, with what
 // contacts of those that sleep go on giving in them.
 TEST(RigidOnHost, PilesSleepAndWake) {
@@ -157,8 +143,8 @@ TEST(RigidOnHost, PilesSleepAndWake) {
   RigidPipeline subject(options);
   const auto twin = twin_of({{"sleep", "on"}});
   EXPECT_GT(compare_pipelines(scene, subject, *twin, 110, 10), 0U);
-  auto of_gpu = counts_of(subject);
-  auto of_twin = counts_of(*twin);
+  auto of_gpu = tests::counts_of(subject);
+  auto of_twin = tests::counts_of(*twin);
   EXPECT_GT(of_gpu["sleep: bodies asleep"], 100U);
   EXPECT_EQ(of_gpu["sleep: bodies asleep"], of_twin["sleep: bodies asleep"]);
   core::FrameRecord last;
@@ -182,8 +168,8 @@ TEST(RigidOnHost, FastBodiesStopShort) {
     RigidPipeline subject(options);
     const auto twin = twin_of({{"sweep", "fast"}});
     compare_pipelines(scene, subject, *twin, 12, 3);
-    auto of_gpu = counts_of(subject);
-    auto of_twin = counts_of(*twin);
+    auto of_gpu = tests::counts_of(subject);
+    auto of_twin = tests::counts_of(*twin);
     EXPECT_EQ(of_gpu["sweep: bodies stopped short"], of_twin["sweep: bodies stopped short"]);
     stopped += of_gpu["sweep: bodies stopped short"];
   }
@@ -197,8 +183,8 @@ TEST(RigidOnHost, SweepsAreCountedAlike) {
   const auto twin = twin_of({});
   ASSERT_TRUE(subject.load(scene).ok() && twin->load(scene).ok());
   for (int k = 0; k < 35; ++k) ASSERT_TRUE(subject.step(scene.dt_s).ok() && twin->step(scene.dt_s).ok());
-  auto of_gpu = counts_of(subject);
-  auto of_twin = counts_of(*twin);
+  auto of_gpu = tests::counts_of(subject);
+  auto of_twin = tests::counts_of(*twin);
   EXPECT_GT(of_gpu["solver: sweeps of bounces"], 0U);
   for (const char* name : {"solver: sweeps", "solver: sweeps of bounces"})
     EXPECT_EQ(of_gpu[name], of_twin[name]) << name;

@@ -12,6 +12,7 @@
 #include "datasets/box_streams/thin_boxes.hpp"
 #include "gpu/broad/dealt_boxes.hpp"
 #include "gpu/broad/spread_finder.hpp"
+#include "tests/gpu/on_host/found_pairs.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
@@ -19,14 +20,6 @@ namespace {
 
 using core::Box;
 using core::Pair;
-
-std::vector<Pair> pairs_of(SpreadFinder& finder) {
-  EXPECT_TRUE(finder.find().ok());
-  auto found = finder.read_back();
-  EXPECT_TRUE(found.ok());
-  EXPECT_EQ(finder.pair_count(), found.value().pairs.size());
-  return std::move(found.value().pairs);
-}
 
 // Longer than 2^125 m, as some boxes of "any bits" are.
 bool has_endless_box(const tests::BoxCase& c) {

@@ -11,6 +11,7 @@
 #include "datasets/box_streams/thin_boxes.hpp"
 #include "datasets/box_streams/uneven_boxes.hpp"
 #include "gpu/broad/spread_finder.hpp"
+#include "tests/gpu/on_host/found_pairs.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::gpu {
@@ -25,56 +26,20 @@ SpreadOptions spread_over(std::uint32_t parts, std::uint64_t pairs_at_once = 0) 
   return {parts, parts == 2 ? 1U : 3U, pairs_at_once, 50};
 }
 
-tests::BoxCase spread_case(std::vector<Box> boxes) {
-  tests::BoxCase c;
-  c.is_static.resize(boxes.size());
-  for (std::size_t k = 0; k < boxes.size(); k += 7) c.is_static[k] = 1;
-  c.boxes = std::move(boxes);
-  return c;
-}
-
-std::vector<Pair> spread_pairs_of(SpreadFinder& finder) {
-  const core::Status status = finder.find();
-  EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().line());
-  auto found = finder.read_back();
-  EXPECT_TRUE(found.ok());
-  EXPECT_EQ(finder.pair_count(), found.value().pairs.size());
-  return std::move(found.value().pairs);
-}
-
-struct SpreadChunks {
-  std::vector<Pair> pairs;
-  std::size_t count = 0;
-  std::uint64_t largest = 0;
-};
-
-SpreadChunks spread_chunks(SpreadFinder& finder) {
-  SpreadChunks chunks;
-  const core::Status status = finder.hand_on([&](const core::DevicePairs& chunk) -> core::Status {
-    chunks.pairs.insert(chunks.pairs.end(), chunk.data, chunk.data + chunk.count);
-    ++chunks.count;
-    chunks.largest = std::max(chunks.largest, chunk.count);
-    return core::Done{};
-  });
-  EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().line());
-  std::sort(chunks.pairs.begin(), chunks.pairs.end());
-  return chunks;
-}
-
 TEST(SpreadPassesOnHost, ThinAndUnevenBoxesInAnyNumberOfParts) {
   for (const auto make : {datasets::needle_boxes, datasets::exponent_boxes, datasets::sliver_boxes}) {
-    const tests::BoxCase c = spread_case(make(700, 5));
+    const tests::BoxCase c = case_of(make(700, 5));
     const std::vector<Pair> expected = tests::every_pair(c);
     for (const std::uint32_t parts : kParts) {
       SpreadFinder finder(spread_over(parts));
       ASSERT_TRUE(finder.load(c.boxes, c.is_static).ok());
       EXPECT_FALSE(finder.plan().is_plain());
       EXPECT_NE(finder.path().find("passes"), std::string::npos) << finder.path();
-      EXPECT_EQ(spread_pairs_of(finder), expected) << parts << " parts";
+      EXPECT_EQ(pairs_of(finder), expected) << parts << " parts";
       auto digest = finder.digest();
       ASSERT_TRUE(digest.ok());
       EXPECT_EQ(digest.value(), core::pair_digest(expected)) << parts << " parts";
-      EXPECT_EQ(spread_chunks(finder).pairs, expected) << parts << " parts";
+      EXPECT_EQ(handed_on(finder).pairs, expected) << parts << " parts";
     }
   }
 }
@@ -87,23 +52,23 @@ TEST(SpreadPassesOnHost, OfEveryFamilyInASmallRoom) {
     SpreadFinder finder(spread_over(3, 120));
     if (!finder.load(c.boxes, c.is_static).ok() || !finder.find().ok()) continue;  // boxes longer than 2^125 m
     ++families;
-    EXPECT_EQ(spread_pairs_of(finder), tests::every_pair(c));
+    EXPECT_EQ(pairs_of(finder), tests::every_pair(c));
   }
   EXPECT_GE(families, 10);
 }
 
 TEST(SpreadPassesOnHost, ChunksAreNoLargerThanAsked) {
   for (const auto make : {datasets::uniform_boxes, datasets::sliver_boxes}) {
-    const tests::BoxCase c = spread_case(make(900, 4));
+    const tests::BoxCase c = case_of(make(900, 4));
     const std::vector<Pair> expected = tests::every_pair(c);
     for (const std::uint32_t parts : kParts) {
       SpreadFinder finder(spread_over(parts, 200));
       ASSERT_TRUE(finder.load(c.boxes, c.is_static).ok());
-      const SpreadChunks found = spread_chunks(finder);
+      const Chunks found = handed_on(finder);
       EXPECT_EQ(found.pairs, expected) << parts << " parts";
       EXPECT_LE(found.largest, 200U);
       EXPECT_GE(found.count, expected.size() / 200);
-      EXPECT_EQ(spread_pairs_of(finder), expected) << parts << " parts";
+      EXPECT_EQ(pairs_of(finder), expected) << parts << " parts";
       EXPECT_FALSE(finder.digest().ok());
     }
   }
@@ -111,15 +76,15 @@ TEST(SpreadPassesOnHost, ChunksAreNoLargerThanAsked) {
 
 // From thin boxes to even ones and back: other searches in the memory of those before.
 TEST(SpreadPassesOnHost, UpdatesFromOnePlanToAnother) {
-  const tests::BoxCase even = spread_case(datasets::uniform_boxes(500, 1));
-  const tests::BoxCase thin = spread_case(datasets::needle_boxes(500, 1));
+  const tests::BoxCase even = case_of(datasets::uniform_boxes(500, 1));
+  const tests::BoxCase thin = case_of(datasets::needle_boxes(500, 1));
   SpreadFinder finder(spread_over(3));
   ASSERT_TRUE(finder.load(even.boxes, even.is_static).ok());
   for (const tests::BoxCase* c : {&thin, &even, &thin}) {
     ASSERT_TRUE(finder.update(c->boxes).ok());
     EXPECT_EQ(finder.plan().is_plain(), c == &even);
-    EXPECT_EQ(spread_pairs_of(finder), tests::every_pair(*c));
-    EXPECT_EQ(spread_chunks(finder).pairs, tests::every_pair(*c)) << "after a search that stores its pairs";
+    EXPECT_EQ(pairs_of(finder), tests::every_pair(*c));
+    EXPECT_EQ(handed_on(finder).pairs, tests::every_pair(*c)) << "after a search that stores its pairs";
   }
 }
 

@@ -7,22 +7,19 @@
 #include <random>
 #include <vector>
 
-#include "core/exact/convex_hull.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
-#include "core/scene/triangle_tree.hpp"
 #include "tests/core/method/rigid/manifold_cases.hpp"
+#include "tests/core/method/rigid/mesh_cases.hpp"
 
 namespace broadside::gpu {
 namespace {
 
 using core::OneLane;
 
-constexpr on_host::Launch kWarp{{1}, {32}, 0};
-
 // work() by all lanes of a warp.
 template <typename Work>
 void by_warp(const Work& work) {
-  on_host::run(kWarp, 0, [&](unsigned char*) { work(); });
+  on_host::run(on_host::kOneWarp, 0, [&](unsigned char*) { work(); });
 }
 
 constexpr int kCounts[] = {0, 1, 5, 31, 32, 33, 64, 100};
@@ -142,32 +139,6 @@ TEST(WarpLanes, WalkTreesInTheSameOrder) {
   }
 }
 
-// Owns what the shape's view points to.
-struct MeshShape {
-  core::Mesh mesh;
-  core::TriangleTables tables;
-  core::ContactShape shape;
-
-  explicit MeshShape(core::Mesh given) : mesh(std::move(given)), tables(core::triangle_tables(mesh)) {
-    shape.kind = core::ContactKind::kMesh;
-    shape.mesh = {mesh.vertices.data(),
-                  tables.triangles.data(),
-                  tables.normals.data(),
-                  tables.least_facing.data(),
-                  tables.nodes.data(),
-                  static_cast<std::uint32_t>(mesh.vertices.size()),
-                  static_cast<std::uint32_t>(tables.normals.size()),
-                  static_cast<std::uint32_t>(tables.nodes.size())};
-    for (const core::Vec3 v : mesh.vertices) shape.size_m = std::max(shape.size_m, core::length(v));
-  }
-};
-
-core::Mesh hull_of_sphere(core::Draw& draw, int points) {
-  std::vector<core::Vec3> all;
-  for (int k = 0; k < points; ++k) all.push_back(0.7F * core::normalized(draw.in_cube(1.0F)));
-  return *exact::convex_hull(all);
-}
-
 // Returns how many points there were.
 int compare(const core::ContactShape& a, const core::ContactPose& at_a, const core::ContactShape& b,
             const core::ContactPose& at_b, float reach_m) {
@@ -190,11 +161,11 @@ int compare(const core::ContactShape& a, const core::ContactPose& at_a, const co
 
 TEST(WarpLanes, FindTheContactsOfHullsAndMeshes) {
   core::Draw draw(5);
-  const core::Subject round = core::hull(hull_of_sphere(draw, 150));  // has many edges: other paths
-  const core::Subject few = core::hull(hull_of_sphere(draw, 20));
+  const core::Subject round = core::hull(core::random_hull(draw, 150));  // has many edges: other paths
+  const core::Subject few = core::hull(core::random_hull(draw, 20));
   const core::Subject box = core::box({0.5F, 0.4F, 0.3F});
   const core::Subject capsule = core::capsule(0.2F, 0.5F, 1);
-  const MeshShape mesh(hull_of_sphere(draw, 60));
+  const core::MeshBody mesh(core::random_hull(draw, 60));
   const core::ContactShape shapes[] = {round.shape,   few.shape,  box.shape,
                                        capsule.shape, mesh.shape, core::domain_face_shape(2)};
   int points = 0;

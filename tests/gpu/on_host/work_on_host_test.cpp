@@ -125,7 +125,7 @@ TEST(WorkOnHost, IsNotCountedWhereNobodyAsked) {
   Pipeline subject(PipelineOptions{});
   ASSERT_TRUE(subject.load(scene).ok());
   ASSERT_TRUE(subject.step(scene.dt_s).ok());
-  EXPECT_EQ(counts_in(subject.counters()).count("level stage: box tests"), 0U);
+  EXPECT_EQ(counts_of(subject).count("level stage: box tests"), 0U);
 }
 
 // It starts anew with each load.

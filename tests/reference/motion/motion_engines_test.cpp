@@ -14,13 +14,13 @@
 namespace broadside::reference {
 namespace {
 
-core::Result<core::MotionEngine> make(std::string_view id, const std::map<std::string, std::string>& given) {
+core::Result<core::MotionEngine> motion_engine(std::string_view id, const std::map<std::string, std::string>& given) {
   for (const core::MotionEngineRow& row : motion_engine_rows())
     if (row.id == id) return row.create(core::Settings::parse(row.id, row.settings, given).value());
   return core::Error{"no such engine"};
 }
 
-struct Subject {
+struct MotionSubject {
   std::string id;
   std::map<std::string, std::string> settings;
   double time_off = 1e-6;  // what its own tolerance or its float state allows, of the step
@@ -33,12 +33,12 @@ TEST(MotionEngines, AVertexAndTwoEdgesThatMeetHalfWay) {
   const continuous::MovingFeatures edges{continuous::FeatureKind::kEdgeEdge,
                                          {{0, 0, 0}, {1, 0, 0}, {0.5, -1, 1}, {0.5, 1, 1}},
                                          {{0, 0, 0}, {1, 0, 0}, {0.5, -1, -1}, {0.5, 1, -1}}};
-  for (const Subject& subject : std::vector<Subject>{{"exact-motion", {}, 0.0},
-                                                     {"feature-impact", {}, 1e-12},
-                                                     {"fcl-features", {}},
-                                                     {"fcl-features", {{"root", "cubic"}}},
-                                                     {"fcl-features", {{"filter", "plane"}}}}) {
-    auto engine = make(subject.id, subject.settings);
+  for (const MotionSubject& subject : std::vector<MotionSubject>{{"exact-motion", {}, 0.0},
+                                                                 {"feature-impact", {}, 1e-12},
+                                                                 {"fcl-features", {}},
+                                                                 {"fcl-features", {{"root", "cubic"}}},
+                                                                 {"fcl-features", {{"filter", "plane"}}}}) {
+    auto engine = motion_engine(subject.id, subject.settings);
     ASSERT_TRUE(engine.ok());
     for (const auto& features : {vertex, edges}) {
       const auto found = engine.value().features->first_touch(features);
@@ -54,17 +54,17 @@ TEST(MotionEngines, ABoxThatFallsOnABox) {
       std::make_shared<const core::Mesh>(datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value())};
   const core::MovingBody falls{0, {{{0.25F, 3, 0.125F}, {}}, {0, -4, 0}, {}}};
   const core::MovingBody stands{0, {}};
-  for (const Subject& subject :
-       std::vector<Subject>{{"exact-motion", {}},
-                            {"fcl-motion", {}, 1e-4},  // its toc_err
-                            {"fcl-motion", {{"gjk", "indep"}}, 1e-4},
-                            {"fcl-motion", {{"motion", "translation"}}, 1e-4},
-                            {"fcl-motion", {{"samples", "2001"}, {"solver", "naive"}}, 1e-3},  // two samples
-                            {"fcl-motion", {{"motion", "spline"}, {"samples", "2001"}, {"solver", "naive"}}, 1e-3},
-                            {"fcl-motion", {{"samples", "2001"}, {"shape", "mesh"}, {"solver", "naive"}}, 1e-3},
-                            {"bullet-cast", {}, 1e-4},  // float, and its own tolerance of 1e-4 m
-                            {"bullet-cast", {{"method", "subsimplex"}}, 1e-3}}) {
-    auto engine = make(subject.id, subject.settings);
+  for (const MotionSubject& subject : std::vector<MotionSubject>{
+           {"exact-motion", {}},
+           {"fcl-motion", {}, 1e-4},  // its toc_err
+           {"fcl-motion", {{"gjk", "indep"}}, 1e-4},
+           {"fcl-motion", {{"motion", "translation"}}, 1e-4},
+           {"fcl-motion", {{"samples", "2001"}, {"solver", "naive"}}, 1e-3},  // two samples
+           {"fcl-motion", {{"motion", "spline"}, {"samples", "2001"}, {"solver", "naive"}}, 1e-3},
+           {"fcl-motion", {{"samples", "2001"}, {"shape", "mesh"}, {"solver", "naive"}}, 1e-3},
+           {"bullet-cast", {}, 1e-4},  // float, and its own tolerance of 1e-4 m
+           {"bullet-cast", {{"method", "subsimplex"}}, 1e-3}}) {
+    auto engine = motion_engine(subject.id, subject.settings);
     ASSERT_TRUE(engine.ok()) << engine.error().line();
     ASSERT_TRUE(engine.value().bodies->load(meshes).ok()) << subject.id;
     const auto found = engine.value().bodies->first_touch(falls, stands);
@@ -80,7 +80,7 @@ TEST(MotionEngines, FclsMeshesPassThroughEachOther) {
       std::make_shared<const core::Mesh>(datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value())};
   for (const std::map<std::string, std::string>& settings : std::vector<std::map<std::string, std::string>>{
            {{"shape", "mesh"}}, {{"motion", "translation"}, {"shape", "mesh"}, {"solver", "polynomial"}}}) {
-    auto engine = make("fcl-motion", settings);
+    auto engine = motion_engine("fcl-motion", settings);
     ASSERT_TRUE(engine.value().bodies->load(meshes).ok());
     const auto found = engine.value().bodies->first_touch({0, {{{0.25F, 3, 0.125F}, {}}, {0, -4, 0}, {}}}, {0, {}});
     ASSERT_TRUE(found.ok());
@@ -93,7 +93,7 @@ TEST(MotionEngines, WhichPathsTheyFollow) {
   const exact::RigidMotion spins{{}, {}, {0, 1, 0}};
   const exact::RigidMotion tumbles{{}, {1, 0, 0}, {0, 1, 0}};
   const auto follows = [&](const char* id, const std::map<std::string, std::string>& settings) {
-    const auto engine = make(id, settings);
+    const auto engine = motion_engine(id, settings);
     const core::BodyMotionQuery& bodies = *engine.value().bodies;
     return std::vector<bool>{bodies.follows(straight), bodies.follows(spins), bodies.follows(tumbles)};
   };
@@ -106,8 +106,8 @@ TEST(MotionEngines, WhichPathsTheyFollow) {
 }
 
 TEST(MotionEngines, SettingsThatDoNotFitAreRefused) {
-  EXPECT_FALSE(make("fcl-motion", {{"solver", "polynomial"}}).ok());
-  EXPECT_FALSE(make("fcl-motion", {{"solver", "naive"}, {"samples", "1"}}).ok());
+  EXPECT_FALSE(motion_engine("fcl-motion", {{"solver", "polynomial"}}).ok());
+  EXPECT_FALSE(motion_engine("fcl-motion", {{"solver", "naive"}, {"samples", "1"}}).ok());
 }
 
 }  // namespace

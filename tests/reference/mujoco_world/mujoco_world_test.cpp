@@ -12,7 +12,7 @@
 namespace broadside {
 namespace {
 
-core::Engine make() {
+core::Engine mujoco_world_engine() {
   const core::EngineRow row = reference::mujoco_world_row();
   auto engine = row.create(core::Settings::parse(row.id, row.settings, {}).value());
   EXPECT_TRUE(engine.ok());
@@ -40,7 +40,7 @@ core::Scene stack() {
 // Four cubes that rest on each other, tilted by some 1e-7, where MuJoCo 2.2.2 finds a corner a third of a meter deep.
 TEST(MujocoWorld, ContactsDeeperThanTheBoxesOverlapAreCounted) {
   if (!reference::mujoco_world_row().absent().empty()) GTEST_SKIP() << "built without MuJoCo";
-  const core::Engine engine = make();
+  const core::Engine engine = mujoco_world_engine();
   core::Scene scene = stack();
   ASSERT_TRUE(engine.dynamics->load(scene).ok());
   for (int k = 0; k < 600; ++k) {
@@ -61,7 +61,7 @@ TEST(MujocoWorld, ContactsDeeperThanTheBoxesOverlapAreCounted) {
 // MuJoCo raises friction to 1e-5; a scene without friction has none.
 TEST(MujocoWorld, SurfacesWithoutFrictionDoNotBrake) {
   if (!reference::mujoco_world_row().absent().empty()) GTEST_SKIP() << "built without MuJoCo";
-  const core::Engine engine = make();
+  const core::Engine engine = mujoco_world_engine();
   core::Scene scene = stack();
   scene.bodies.resize(1);
   scene.bodies[0].material = scene.face_material = {0.0F, 0.0F, 0.0F};
@@ -79,7 +79,7 @@ TEST(MujocoWorld, SurfacesWithoutFrictionDoNotBrake) {
 // As shipped the library would start the scene again, and go on as if nothing had been.
 TEST(MujocoWorld, AStateThatIsTooFastEndsTheStepWithItsWarning) {
   if (!reference::mujoco_world_row().absent().empty()) GTEST_SKIP() << "built without MuJoCo";
-  const core::Engine engine = make();
+  const core::Engine engine = mujoco_world_engine();
   core::Scene scene = stack();
   scene.bodies[0].velocity = {1e12F, 0, 0};
   ASSERT_TRUE(engine.dynamics->load(scene).ok());

@@ -15,10 +15,10 @@
 namespace broadside {
 namespace {
 
-const std::string kFolder = BROADSIDE_PLUGIN_DIR;
+const std::string kPluginFolder = BROADSIDE_PLUGIN_DIR;
 
-core::Result<core::Engine> make(const std::string& name, std::map<std::string, std::string> given = {}) {
-  const std::string file = kFolder + "/" + name;
+core::Result<core::Engine> plugin_engine(const std::string& name, std::map<std::string, std::string> given = {}) {
+  const std::string file = kPluginFolder + "/" + name;
   const auto description = reference::describe_plugin(file);
   if (!description) return description.error();
   static std::vector<std::string> kept;
@@ -33,7 +33,7 @@ core::Result<core::Engine> make(const std::string& name, std::map<std::string, s
   return reference::create_plugin_engine(file, settings.value(), core::make_host_space());
 }
 
-core::Result<core::PairSet> pairs_of(core::Engine& engine, const std::vector<core::Box>& boxes) {
+core::Result<core::PairSet> pairs_of_plugin(core::Engine& engine, const std::vector<core::Box>& boxes) {
   const std::vector<std::uint8_t> is_static(boxes.size(), 0);
   if (core::Status s = engine.broad_phase->load(boxes, is_static); !s) return s.error();
   if (core::Status s = engine.broad_phase->update(boxes); !s) return s.error();
@@ -44,7 +44,7 @@ core::Result<core::PairSet> pairs_of(core::Engine& engine, const std::vector<cor
 std::vector<core::Pair> all_pairs(const std::vector<core::Box>& boxes) {
   const core::EngineRow row = reference::all_pairs_row();
   auto engine = row.create(core::Settings::parse(row.id, row.settings, {}).value());
-  return pairs_of(engine.value(), boxes).value().pairs;
+  return pairs_of_plugin(engine.value(), boxes).value().pairs;
 }
 
 // Enough pairs that the first buffer for them is too small.
@@ -53,17 +53,17 @@ const std::vector<core::Box>& boxes() {
   return made;
 }
 
-std::string outcome(int fault) {
-  auto engine = make("libwrong_engine.so", {{"fault", std::to_string(fault)}});
+std::string pairs_outcome(int fault) {
+  auto engine = plugin_engine("libwrong_engine.so", {{"fault", std::to_string(fault)}});
   if (!engine) return engine.error().line();
-  const auto pairs = pairs_of(engine.value(), boxes());
+  const auto pairs = pairs_of_plugin(engine.value(), boxes());
   if (!pairs) return pairs.error().line();
   if (pairs.value().demanded != pairs.value().pairs.size()) return "demanded more than stored";
   return pairs.value().pairs == all_pairs(boxes()) ? "sound" : "other pairs";
 }
 
 TEST(PluginEngine, DescribesItself) {
-  const auto description = reference::describe_plugin(kFolder + "/libwrong_engine.so");
+  const auto description = reference::describe_plugin(kPluginFolder + "/libwrong_engine.so");
   ASSERT_TRUE(description.ok()) << description.error().line();
   EXPECT_EQ(description.value().id, "wrong-engine");
   EXPECT_EQ(description.value().capabilities, "broad");
@@ -73,18 +73,18 @@ TEST(PluginEngine, DescribesItself) {
 }
 
 TEST(PluginEngine, TheExampleInCIsExact) {
-  auto engine = make("libsweep.so");
+  auto engine = plugin_engine("libsweep.so");
   ASSERT_TRUE(engine.ok()) << engine.error().line();
   for (const std::uint32_t n : {0U, 1U, 2U, 77U, 2000U}) {
     const std::vector<core::Box> some = datasets::mixed_boxes(n, 9);
-    const auto pairs = pairs_of(engine.value(), some);
+    const auto pairs = pairs_of_plugin(engine.value(), some);
     ASSERT_TRUE(pairs.ok()) << pairs.error().line();
     EXPECT_EQ(pairs.value().pairs, all_pairs(some)) << n;
   }
 }
 
 TEST(PluginEngine, TwoStaticBoxesAreNoPair) {
-  auto engine = make("libsweep.so");
+  auto engine = plugin_engine("libsweep.so");
   ASSERT_TRUE(engine.ok());
   const std::vector<core::Box> same(3, core::Box{{0, 0, 0}, {1, 1, 1}});
   ASSERT_TRUE(engine.value().broad_phase->load(same, std::vector<std::uint8_t>{1, 0, 1}).ok());
@@ -94,24 +94,25 @@ TEST(PluginEngine, TwoStaticBoxesAreNoPair) {
 }
 
 TEST(PluginEngine, AWrongAnswerIsPassedOnOrNamed) {
-  EXPECT_EQ(outcome(0), "sound");
-  EXPECT_EQ(outcome(3).substr(0, 37), "wrong-engine: read_pairs: pair number") << outcome(3);
-  EXPECT_NE(outcome(4).find("a pair has i < j < 2000"), std::string::npos) << outcome(4);
-  EXPECT_NE(outcome(5).find("a pair has i < j < 2000"), std::string::npos) << outcome(5);
-  EXPECT_NE(outcome(6).find("did not write number"), std::string::npos) << outcome(6);
-  EXPECT_EQ(outcome(9), "other pairs");
-  EXPECT_EQ(outcome(10), "other pairs");
-  EXPECT_NE(outcome(11).find("demands room for 4611686018427387904 pairs"), std::string::npos) << outcome(11);
-  EXPECT_EQ(outcome(12), "wrong-engine: find_pairs: the moon is full");
-  EXPECT_NE(outcome(13).find("failed without a word"), std::string::npos) << outcome(13);
-  EXPECT_EQ(outcome(14), "demanded more than stored");
+  EXPECT_EQ(pairs_outcome(0), "sound");
+  EXPECT_EQ(pairs_outcome(3).substr(0, 37), "wrong-engine: read_pairs: pair number") << pairs_outcome(3);
+  EXPECT_NE(pairs_outcome(4).find("a pair has i < j < 2000"), std::string::npos) << pairs_outcome(4);
+  EXPECT_NE(pairs_outcome(5).find("a pair has i < j < 2000"), std::string::npos) << pairs_outcome(5);
+  EXPECT_NE(pairs_outcome(6).find("did not write number"), std::string::npos) << pairs_outcome(6);
+  EXPECT_EQ(pairs_outcome(9), "other pairs");
+  EXPECT_EQ(pairs_outcome(10), "other pairs");
+  EXPECT_NE(pairs_outcome(11).find("demands room for 4611686018427387904 pairs"), std::string::npos)
+      << pairs_outcome(11);
+  EXPECT_EQ(pairs_outcome(12), "wrong-engine: find_pairs: the moon is full");
+  EXPECT_NE(pairs_outcome(13).find("failed without a word"), std::string::npos) << pairs_outcome(13);
+  EXPECT_EQ(pairs_outcome(14), "demanded more than stored");
 }
 
 TEST(PluginEngineDeathTest, ForbiddenWritesEndTheProcess) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
-  EXPECT_DEATH(outcome(1), "");
-  EXPECT_DEATH(outcome(7), "");
-  EXPECT_DEATH(outcome(8), "");
+  EXPECT_DEATH(pairs_outcome(1), "");
+  EXPECT_DEATH(pairs_outcome(7), "");
+  EXPECT_DEATH(pairs_outcome(8), "");
 }
 
 TEST(PluginEngine, WhatIsNoEngineIsRefused) {
@@ -119,10 +120,11 @@ TEST(PluginEngine, WhatIsNoEngineIsRefused) {
     const auto description = reference::describe_plugin(file);
     return description.ok() ? std::string("accepted") : description.error().line();
   };
-  EXPECT_NE(refused(kFolder + "/no_such.so").find("cannot load it"), std::string::npos);
-  EXPECT_NE(refused(kFolder + "/libempty_plugin.so").find("exports no broadside_engine_v1"), std::string::npos);
-  EXPECT_NE(refused(kFolder + "/liblater_plugin.so").find("version 2 of the engine interface"), std::string::npos);
-  EXPECT_NE(refused(kFolder + "/libhalf_plugin.so").find("half a broad phase"), std::string::npos);
+  EXPECT_NE(refused(kPluginFolder + "/no_such.so").find("cannot load it"), std::string::npos);
+  EXPECT_NE(refused(kPluginFolder + "/libempty_plugin.so").find("exports no broadside_engine_v1"), std::string::npos);
+  EXPECT_NE(refused(kPluginFolder + "/liblater_plugin.so").find("version 2 of the engine interface"),
+            std::string::npos);
+  EXPECT_NE(refused(kPluginFolder + "/libhalf_plugin.so").find("half a broad phase"), std::string::npos);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace broadside {
 namespace {
 
-const std::string kFolder = BROADSIDE_PLUGIN_DIR;
+const std::string kWorldFolder = BROADSIDE_PLUGIN_DIR;
 
 core::Scene scene(const std::string& spec) {
   auto made = datasets::make_scene(spec, {});
@@ -27,11 +27,12 @@ core::Result<core::Engine> wrong_world(int fault, int sweeps = 3) {
                                core::SettingRow{"sweeps", "3", {}, "what it declares"}};
   auto settings = core::Settings::parse("wrong-world", rows,
                                         {{"fault", std::to_string(fault)}, {"sweeps", std::to_string(sweeps)}});
-  return reference::create_plugin_engine(kFolder + "/libwrong_world.so", settings.value(), core::make_host_space());
+  return reference::create_plugin_engine(kWorldFolder + "/libwrong_world.so", settings.value(),
+                                         core::make_host_space());
 }
 
 // One step of free cubes; what went wrong, or "sound".
-std::string outcome(int fault) {
+std::string world_outcome(int fault) {
   static const core::Scene cubes = scene("freefall:cube:3");
   auto engine = wrong_world(fault);
   if (!engine) return engine.error().line();
@@ -45,7 +46,7 @@ std::string outcome(int fault) {
 
 TEST(PluginWorld, EachLieIsOneClearLine) {
   const auto says = [](int fault, const std::string& words) {
-    const std::string line = outcome(fault);
+    const std::string line = world_outcome(fault);
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_NE(line.find(words), std::string::npos) << fault << ": " << line;
   };
@@ -66,7 +67,7 @@ TEST(PluginWorld, EachLieIsOneClearLine) {
 
 TEST(PluginWorldDeathTest, AWriteBehindTheStatesEndsTheProcess) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
-  EXPECT_DEATH(outcome(12), "");
+  EXPECT_DEATH(world_outcome(12), "");
 }
 
 TEST(PluginWorld, StatesArriveInFloat64) {
@@ -100,7 +101,7 @@ TEST(PluginWorld, ASettingMayBeDeclared) {
 
 TEST(PluginWorld, TablesOfOtherHeadersAreRefusedOrRead) {
   const auto described = [](const std::string& name) {
-    const auto description = reference::describe_plugin(kFolder + "/libworld_" + name + ".so");
+    const auto description = reference::describe_plugin(kWorldFolder + "/libworld_" + name + ".so");
     return description.ok() ? "accepted: " + description.value().capabilities : description.error().line();
   };
   EXPECT_EQ(described("larger"), "accepted: dynamics") << "functions that a later header appends are not looked at";
@@ -120,8 +121,8 @@ TEST(PluginWorld, TablesOfOtherHeadersAreRefusedOrRead) {
 // A library of version 1 declares nothing: the laws of METHOD are held against it, as before there were declarations.
 TEST(PluginWorld, ALibraryOfVersion1WorksAsBefore) {
   auto settings = core::Settings::parse("falling", {}, {});
-  auto engine =
-      reference::create_plugin_engine(kFolder + "/libfalling_engine.so", settings.value(), core::make_host_space());
+  auto engine = reference::create_plugin_engine(kWorldFolder + "/libfalling_engine.so", settings.value(),
+                                                core::make_host_space());
   ASSERT_TRUE(engine.ok()) << engine.error().line();
   EXPECT_EQ(engine.value().declaration, core::method_declaration());
   core::Dynamics& dynamics = *engine.value().dynamics;
@@ -142,7 +143,7 @@ TEST(PluginWorld, ALibraryOfVersion1WorksAsBefore) {
 }
 
 TEST(PluginWorld, WhereALibraryHasBothVersionsTheSecondIsUsed) {
-  const auto both = reference::describe_plugin(kFolder + "/libfalling_both.so");
+  const auto both = reference::describe_plugin(kWorldFolder + "/libfalling_both.so");
   ASSERT_FALSE(both.ok());
   EXPECT_NE(both.error().line().find("broadside_engine_v2 returned null"), std::string::npos) << both.error().line();
 }

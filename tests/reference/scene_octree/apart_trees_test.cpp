@@ -13,6 +13,7 @@
 #include "datasets/box_streams/box_sets.hpp"
 #include "datasets/box_streams/thin_boxes.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
+#include "tests/core/engine/counts.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::tests {
@@ -41,12 +42,6 @@ TEST(ApartTrees, FindsExactlyTheOverlappingPairs) {
         const std::string wrong = disagreement(c, [&](const BoxCase& given) { return pairs_of(trees, given); });
         ASSERT_EQ(wrong, "") << family.name << ", " << count << ", " << static_of_eight << " of 8 static";
       }
-}
-
-std::map<std::string_view, std::uint64_t> counts_of(const core::BroadPhase& broad) {
-  std::map<std::string_view, std::uint64_t> counts;
-  for (const core::Counter& counter : broad.counters()) counts[counter.name] = counter.count;
-  return counts;
 }
 
 // Ten frames in which a tenth of 6,000 boxes moves, then a static box that does: seen, and exact.

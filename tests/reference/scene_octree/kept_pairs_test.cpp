@@ -15,6 +15,7 @@
 #include "datasets/box_streams/sheet_boxes.hpp"
 #include "datasets/box_streams/thin_boxes.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
+#include "tests/core/engine/counts.hpp"
 #include "tests/reference/scene_octree/box_family.hpp"
 
 namespace broadside::tests {
@@ -22,12 +23,6 @@ namespace {
 
 using core::Box;
 using core::Pair;
-
-std::map<std::string_view, std::uint64_t> counts_of(const core::BroadPhase& broad) {
-  std::map<std::string_view, std::uint64_t> counts;
-  for (const core::Counter& counter : broad.counters()) counts[counter.name] = counter.count;
-  return counts;
-}
 
 // Runs a stream and holds every frame against trying all.
 void expect_every_frame(core::BroadPhase& broad, datasets::BoxStream& stream, std::uint32_t frames) {

@@ -42,9 +42,9 @@ inline float deepest(const Manifold* m, int count) {
   return least;
 }
 
-inline Mesh random_hull(Draw& draw) {
+inline Mesh random_hull(Draw& draw, int point_count = 20) {
   std::vector<Vec3> points;
-  for (int k = 0; k < 20; ++k) points.push_back(0.7F * normalized(draw.in_cube(1.0F)));
+  for (int k = 0; k < point_count; ++k) points.push_back(0.7F * normalized(draw.in_cube(1.0F)));
   return *exact::convex_hull(points);
 }
 

@@ -19,7 +19,7 @@ std::vector<core::RigidMass> moved(std::size_t count) {
   return masses;
 }
 
-core::ContactPatch patch(std::uint32_t a, std::uint32_t b) {
+core::ContactPatch patch_between(std::uint32_t a, std::uint32_t b) {
   core::ContactPatch p;
   p.a = a;
   p.b = b;
@@ -49,8 +49,8 @@ TEST(PatchColoring, RandomPatchesShareNoMovedBody) {
   for (int k = 0; k < 900; ++k) {
     const auto a = static_cast<std::uint32_t>(random() % 200);
     const auto b = static_cast<std::uint32_t>(random() % 200);
-    if (a < b) patches.push_back(patch(a, b));
-    if (k % 9 == 0) patches.push_back(patch(a, core::kFirstFace + 2));
+    if (a < b) patches.push_back(patch_between(a, b));
+    if (k % 9 == 0) patches.push_back(patch_between(a, core::kFirstFace + 2));
   }
   PatchColoring coloring;
   coloring.color(patches, masses);
@@ -62,8 +62,8 @@ TEST(PatchColoring, RandomPatchesShareNoMovedBody) {
 TEST(PatchColoring, BodyOfManyPatchesHasThemInColorsOfTheirOwn) {
   const auto masses = moved(301);
   std::vector<core::ContactPatch> patches;
-  for (std::uint32_t k = 1; k < 301; ++k) patches.push_back(patch(0, k));
-  for (std::uint32_t k = 1; k < 300; ++k) patches.push_back(patch(k, k + 1));
+  for (std::uint32_t k = 1; k < 301; ++k) patches.push_back(patch_between(0, k));
+  for (std::uint32_t k = 1; k < 300; ++k) patches.push_back(patch_between(k, k + 1));
   PatchColoring coloring;
   coloring.color(patches, masses);
   expect_proper(coloring, patches, masses);
@@ -73,7 +73,7 @@ TEST(PatchColoring, BodyOfManyPatchesHasThemInColorsOfTheirOwn) {
 TEST(PatchColoring, PatchesOfOnePairFollowEachOther) {
   const auto masses = moved(2);
   PatchColoring coloring;
-  const std::vector<core::ContactPatch> patches{patch(0, 1), patch(0, 1), patch(0, 1)};
+  const std::vector<core::ContactPatch> patches{patch_between(0, 1), patch_between(0, 1), patch_between(0, 1)};
   coloring.color(patches, masses);
   EXPECT_EQ(coloring.color_count(), 3U);
   EXPECT_TRUE(std::is_sorted(coloring.order().begin(), coloring.order().end()));
