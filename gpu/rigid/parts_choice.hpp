@@ -36,11 +36,14 @@ class PartsChoice {
   // Of each part. The view has gravity and solver.
   void fill(RigidFrameView& view, float step_s) const {
     view.dt_s = step_s / static_cast<float>(count_);
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-      const core::SolveNumbers& numbers = core::solve_numbers(view.solver, kind == 1, is_calm_);
-      view.substeps[kind] = numbers.substeps;
-      view.soft[kind] = core::soft_step_of(view.solver, view.gravity_m_s2, view.dt_s, numbers);
+    for (const core::SolveKind kind : core::kSolveKinds) {
+      const auto k = static_cast<std::size_t>(kind);
+      const core::SolveNumbers& numbers = core::solve_numbers(view.solver, kind, is_calm_);
+      view.substeps[k] = numbers.substeps;
+      view.soft[k] = core::soft_step_of(view.solver, view.gravity_m_s2, view.dt_s, numbers);
     }
+    // A step in several parts is not calm, whatever its later parts begin with.
+    view.calm_m_s = count_ > 1 ? -1.0F : core::calm_speed_m_s(view.gravity_m_s2, step_s);
   }
 
  private:

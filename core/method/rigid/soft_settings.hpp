@@ -50,6 +50,10 @@ struct SoftSettings {
   UnevenStep lively{4, {4, 1000, 1e-4F, 0x1p-5F, 200.0F}};
   // The same where nothing moves fast (core/scene/calm_bodies.hpp). What is solved less well sways.
   UnevenStep calm{1, {4, 500, 0x1p-8F, 0x1p-5F, 200.0F}};
+  // A step in which nothing moves fast and so few patches touch: what stands by little is small, an arch of 25 stones
+  // has 26 joints, and contacts that yield less, solved farther, cost it little.
+  SolveNumbers few{4, 100, 0x1p-10F, 0x1p-5F, 20.0F};
+  std::uint32_t few_patches = 128;
   float damping = 1.0F;
   PatchLimits limits{0x1p-16F, 0.0F};
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
@@ -60,7 +64,7 @@ struct SoftSettings {
 // until little changes made a step of 1,000 resting cubes fifteen times as long.
 inline SoftSettings soft_step_settings() {
   SoftSettings settings;
-  settings.even = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F};
+  settings.even = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F};
   settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F}};
   return settings;
 }
@@ -68,7 +72,7 @@ inline SoftSettings soft_step_settings() {
 // So many substeps of a step in place of the solver's own; where masses are far apart as many times more as those have.
 inline SoftSettings with_substeps(SoftSettings settings, std::uint32_t substeps) {
   const std::uint32_t own = settings.even.substeps;
-  for (SolveNumbers* numbers : {&settings.even, &settings.lively.numbers, &settings.calm.numbers})
+  for (SolveNumbers* numbers : {&settings.even, &settings.few, &settings.lively.numbers, &settings.calm.numbers})
     numbers->substeps = numbers->substeps * substeps / own;
   return settings;
 }
@@ -77,7 +81,7 @@ inline SoftSettings with_substeps(SoftSettings settings, std::uint32_t substeps)
 // than the 1 % by which it stands.
 inline SoftSettings stiff_settings() {
   SoftSettings settings;
-  settings.even = {8, 100, 1e-5F, 0x1p-10F, 20.0F};
+  settings.even = settings.few = {8, 100, 1e-5F, 0x1p-10F, 20.0F};
   return settings;
 }
 
@@ -91,9 +95,20 @@ constexpr const UnevenStep& uneven_step(const SoftSettings& settings, bool is_ca
   return is_calm ? settings.calm : settings.lively;
 }
 
-// Of a step, or of its part. is_uneven: bodies touch whose masses are far apart.
-constexpr const SolveNumbers& solve_numbers(const SoftSettings& settings, bool is_uneven, bool is_calm) {
-  return is_uneven ? uneven_step(settings, is_calm).numbers : settings.even;
+// What a step, or its part, is solved with.
+enum class SolveKind : std::uint8_t { kEven, kUneven, kFew };
+inline constexpr SolveKind kSolveKinds[] = {SolveKind::kEven, SolveKind::kUneven, SolveKind::kFew};
+
+// touching_ratio: the largest ratio of masses of two bodies that touch.
+BROADSIDE_HD constexpr SolveKind solve_kind(const SoftSettings& settings, float touching_ratio, std::uint64_t patches,
+                                            bool is_calm) {
+  if (touching_ratio > settings.even_masses) return SolveKind::kUneven;
+  return is_calm && patches <= settings.few_patches ? SolveKind::kFew : SolveKind::kEven;
+}
+
+constexpr const SolveNumbers& solve_numbers(const SoftSettings& settings, SolveKind kind, bool is_calm) {
+  if (kind == SolveKind::kUneven) return uneven_step(settings, is_calm).numbers;
+  return kind == SolveKind::kFew ? settings.few : settings.even;
 }
 
 constexpr bool is_uneven(const SoftSettings& settings, float largest_mass_ratio) {
@@ -124,12 +139,14 @@ inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_
     if (may_bounce) applications += kMostBounceSweeps + kMostBounceSweeps * (kSweepsOfBounce + 1);
     return MostOfStep{parts * numbers.substeps, applications};
   };
-  MostOfStep most = most_of(1, settings.even);
+  const auto larger = [](const MostOfStep& a, const MostOfStep& b) {
+    return MostOfStep{std::max(a.substeps, b.substeps), std::max(a.applications, b.applications)};
+  };
+  const MostOfStep most = larger(most_of(1, settings.even), most_of(1, settings.few));
   if (!is_uneven(settings, largest_mass_ratio)) return most;
-  for (const UnevenStep& step : {settings.lively, settings.calm})
-    for (const MostOfStep of : {most_of(step.parts, step.numbers), most_of(step.parts, settings.even)})
-      most = {std::max(most.substeps, of.substeps), std::max(most.applications, of.applications)};
-  return most;
+  const MostOfStep of_lively =
+      larger(most_of(settings.lively.parts, settings.lively.numbers), most_of(settings.lively.parts, settings.even));
+  return larger(larger(most, of_lively), most_of(settings.calm.parts, settings.calm.numbers));
 }
 
 // dt_s: of the step, or of its part.

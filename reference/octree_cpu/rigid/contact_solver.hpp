@@ -50,9 +50,6 @@ class ContactSolver {
   virtual void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                        const RigidStep& step) = 0;
 
-  // Masses no further apart than this are solved alike.
-  [[nodiscard]] virtual float even_masses() const = 0;
-
   // In how many equal parts, each with its own call of advance, it wants a step of a scene whose masses are so many
   // times apart. is_calm: as the step begins.
   [[nodiscard]] virtual std::uint32_t parts_of_step(float largest_mass_ratio, bool is_calm) const = 0;

@@ -68,7 +68,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 
 core::Status RigidPipeline::step(float dt_s) {
   const std::uint32_t parts_before = parts_;
-  is_calm_ = mass_ratio_ > solver_->even_masses() && core::are_calm(bodies_, bodies_.state, scene_->gravity_m_s2, dt_s);
+  is_calm_ = core::are_calm(bodies_, bodies_.state, scene_->gravity_m_s2, dt_s);
   parts_ = solver_->parts_of_step(mass_ratio_, is_calm_);
   // What a contact gives in a part is no longer that of the last one.
   if (dt_s != dt_s_ || parts_ != parts_before) sleepers_.wake_all();

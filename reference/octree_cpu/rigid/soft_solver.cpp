@@ -87,8 +87,9 @@ std::uint32_t SoftSolver::parts_of_step(float largest_mass_ratio, bool is_calm) 
 
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                          const RigidStep& step) {
-  const bool is_uneven = core::is_uneven(settings_, largest_mass_ratio(patches, step.masses));
-  const core::SolveNumbers& solve = core::solve_numbers(settings_, is_uneven, step.is_calm);
+  const core::SolveKind kind =
+      core::solve_kind(settings_, largest_mass_ratio(patches, step.masses), patches.size(), step.is_calm);
+  const core::SolveNumbers& solve = core::solve_numbers(settings_, kind, step.is_calm);
   const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, solve);
   work_.begin(states, patches, step, numbers, settings_.limits);
   for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers, k + 1 == solve.substeps);

@@ -19,7 +19,6 @@ class SoftSolver final : public ContactSolver {
 
   void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                const RigidStep& step) override;
-  [[nodiscard]] float even_masses() const override { return settings_.even_masses; }
   [[nodiscard]] std::uint32_t parts_of_step(float largest_mass_ratio, bool is_calm) const override;
   [[nodiscard]] std::span<const PatchImpulses> impulses() const override { return work_.impulses(); }
   void forget() override { work_.forget(); }
