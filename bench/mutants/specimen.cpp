@@ -71,9 +71,10 @@ core::Result<Specimen> record_rigid_specimen(const core::Scene& scene, core::Dyn
 
 core::Result<Specimen> record_turning_specimen(const core::Scene& scene, core::Dynamics& dynamics) {
   const auto* pipeline = dynamic_cast<const reference::RigidPipeline*>(&dynamics);
-  auto specimen = record(
-      scene, dynamics,
-      {"octree-cpu", "", pipeline != nullptr ? pipeline->declaration_for(scene) : reference::rigid_declaration({})});
+  auto specimen =
+      record(scene, dynamics,
+             {"octree-cpu", "",
+              pipeline != nullptr ? pipeline->declaration_for(scene) : reference::rigid_declaration({}, scene)});
   if (specimen) specimen.value().header.notes["digest"] = core::kDigestWithPoints;
   return specimen;
 }

@@ -59,8 +59,9 @@ std::span<const DeclarationKey> declaration_keys() {
       {"detection_at",
        kWord,
        "end",
-       {"start", "end", "midway"},
-       "the pose that boxes and gaps belong to: start or end of the step, or one between that is recorded"},
+       {"start", "end", "midway", "within"},
+       "the pose that boxes and gaps belong to: start or end of the step, or one between that is recorded; within: the "
+       "start, and points found again within the step are told where their surfaces were at its start"},
       {"contacts",
        kWord,
        "none",

@@ -70,8 +70,9 @@ struct RigidCounts {
   std::uint32_t largest_side = 0;
   std::uint32_t largest_coordinate = 0;
   std::uint32_t colors = 0;
-  std::uint32_t bounces = 0;     // 1: a patch has restitution
-  std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
+  std::uint32_t bounces = 0;      // 1: a patch has restitution
+  std::uint32_t fastest_m_s = 0;  // a point of a body as the step begins, as a word
+  std::uint32_t mass_ratio = 0;   // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
   // What all threads bring together, in turns (team_sums.cuh).
   std::uint32_t largest[4][4] = {};

@@ -9,12 +9,15 @@
 #include <utility>
 
 #include "core/method/rigid/sleep.hpp"
+#include "core/method/rigid/step_in_parts.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
+#include "gpu/rigid/parts_choice.hpp"
 #include "gpu/rigid/rigid_buffers.hpp"
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/rigid/rigid_read_back.hpp"
 #include "gpu/rigid/rigid_scene.hpp"
+#include "gpu/rigid/solve_team_choice.hpp"
 #include "gpu/rigid/sweep_stage.hpp"
 #include "gpu/rigid/told_frame.hpp"
 #include "gpu/runtime/host_side.hpp"
@@ -56,19 +59,21 @@ struct RigidPipeline::Impl {
   std::uint64_t waits = 0;
   std::uint64_t steps_slept = 0;
   std::uint64_t launches = 0;
-  float dt_s = 0.0F;
+  float dt_s = 0.0F;  // of the step
+  PartsChoice parts;
+  core::StepInParts earlier_parts;
 
   [[nodiscard]] bool has_broad() const;
   [[nodiscard]] Start start() const;
   core::Status load_broad();
   core::Status refit(const RigidCounts& counts);
   void fill();
-  std::uint32_t choose_solve_team();
+  core::Status run_part();
   core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
   // The frame is kept, so what it came to is what the next one starts from.
-  [[nodiscard]] RigidLeft left() const { return {bodies, buffers, pairs, steps == 0 ? 0 : last_pairs, last}; }
+  [[nodiscard]] RigidLeft left() const { return {bodies, buffers, pairs, last_pairs, last}; }
   void take_frame();
 };
 
@@ -79,8 +84,6 @@ namespace {
 constexpr float kRoomForSpeed = 1.25F;
 // Eight overlaps a body, and more when a frame finds more.
 constexpr std::uint64_t kPairsPerBody = 8;
-// Above so many turns of a cluster's threads a larger grid is sooner done, whose barrier takes longer.
-constexpr std::uint64_t kMostTurnsOfCluster = 2;
 
 std::uint32_t as_word(float v) {
   return std::bit_cast<std::uint32_t>(v);
@@ -142,6 +145,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = d.launches = 0;
   d.dt_s = 0.0F;
   d.last = {};
+  d.parts = PartsChoice(d.options.solver, scene);
+  d.earlier_parts.begin();
   d.told.forget();
   d.times = {};
   d.view = {};
@@ -200,12 +205,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 
 void RigidPipeline::Impl::fill() {
   buffers.fill(view);
-  view.dt_s = dt_s;
-  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, dt_s);
-  for (std::uint32_t kind = 0; kind < 2; ++kind) {
-    view.substeps[kind] = core::substeps_of(view.solver, kind == 1);
-    view.soft[kind] = core::soft_step_of(view.solver, scene->gravity_m_s2, dt_s, view.substeps[kind]);
-  }
+  parts.fill(view, dt_s);
+  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, view.dt_s);
   view.pairs = pairs.data();
   view.pair_capacity = pairs.capacity();
   view.broad_counters = broad_counters.data();
@@ -224,19 +225,6 @@ void RigidPipeline::Impl::fill() {
   pairs_view.outcome = broad_outcome.device(0);
 }
 
-// A block for so many bodies as it has threads: the first color of a heap has about a patch a body, the others have
-// fewer, and more blocks have a slower barrier. A cluster's is the fastest, so its threads may have some patches of a
-// color one after the other. Returns the blocks.
-std::uint32_t RigidPipeline::Impl::choose_solve_team() {
-  const std::uint64_t threads = solve_shape.grid.threads;
-  const std::uint64_t wanted = (view.body_count + threads - 1) / threads;
-  const bool is_cluster = options.may_cluster && solve_shape.cluster_blocks > 1 &&
-                          wanted <= kMostTurnsOfCluster * solve_shape.cluster_blocks;
-  view.solve_team = is_cluster ? SolveTeamKind::kCluster : SolveTeamKind::kGrid;
-  const std::uint64_t most = is_cluster ? solve_shape.cluster_blocks : solve_shape.grid.blocks;
-  return static_cast<std::uint32_t>(std::min(std::bit_ceil(wanted), most));
-}
-
 core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
   if (view.has_long_contacts || view.follows_ways) return launch_long_contacts(view, contact_shape, stream);
   return launch_contacts(view, contact_shape, stream);
@@ -244,7 +232,8 @@ core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
 
 core::Status RigidPipeline::Impl::launch_all() {
   fill();
-  const std::uint32_t solve_blocks = choose_solve_team();
+  const SolveTeamChoice solve = choose_solve_team(solve_shape, view.body_count, options.may_cluster);
+  view.solve_team = solve.kind;
   BROADSIDE_TRY(launch_place(view, contact_shape, stream));
   // Without cells, which the first frame's boxes give, a box would look for partners in billions of them. The others
   // find that the boxes are too large, and the frame is repeated.
@@ -256,7 +245,7 @@ core::Status RigidPipeline::Impl::launch_all() {
   launches += may_sleep ? 7 : 5;
   if (may_sleep) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
   BROADSIDE_TRY(launch_constraints(view, constraint_shape, stream));
-  BROADSIDE_TRY(launch_solve(view, solve_blocks, stream));
+  BROADSIDE_TRY(launch_solve(view, solve.blocks, stream));
   if (may_sleep) BROADSIDE_TRY(launch_fall_asleep(view, sleep_shape, stream));
   return wait_for_stream(stream, "a frame");
 }
@@ -285,7 +274,7 @@ void RigidPipeline::Impl::take_frame() {
   for (std::size_t k = 0; k < core::kStageCount; ++k) {
     // The broad phase ends where the kernel behind it begins; boxes and pairs are timed together.
     const unsigned long long end_ns = k == 0 ? begin_ns : outcome[0].stage_end_ns[k];
-    times[k] = {core::kStageNames[k], static_cast<double>(end_ns - begin_ns) * 1e-9};
+    times[k] = {core::kStageNames[k], times[k].seconds + static_cast<double>(end_ns - begin_ns) * 1e-9};
     begin_ns = end_ns;
   }
   buffers.advance(last);
@@ -297,22 +286,37 @@ void RigidPipeline::Impl::take_frame() {
   bounce_sweeps += last.done.bounce_sweeps;
   waits += last.done.waits;
   steps_slept += last.asleep_bodies;
-  ++steps;
+}
+
+core::Status RigidPipeline::Impl::run_part() {
+  for (bool is_done = false; !is_done;) {
+    BROADSIDE_TRY(launch_all());
+    const auto kept = is_kept();
+    if (!kept.ok()) return kept.error();
+    is_done = kept.value();
+  }
+  if (options.sweeps_fast) BROADSIDE_TRY(sweep.stop_short(view, view.after, stream));
+  take_frame();
+  return core::Done{};
 }
 
 core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
-  // What a contact gives in a step is no longer that of the last one.
-  if (dt_s != d.dt_s) BROADSIDE_TRY(d.buffers.wake_all());
+  const std::uint32_t parts_before = d.parts.count();
+  BROADSIDE_TRY(d.parts.choose(d.bodies, d.buffers.before(), *d.scene, dt_s));
+  // What a contact gives in a part is no longer that of the last one.
+  if (dt_s != d.dt_s || d.parts.count() != parts_before) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
-  for (bool is_done = false; !is_done;) {
-    BROADSIDE_TRY(d.launch_all());
-    const auto kept = d.is_kept();
-    if (!kept.ok()) return kept.error();
-    is_done = kept.value();
+  d.times = {};
+  d.earlier_parts.begin();
+  for (std::uint32_t part = 1; part <= d.parts.count(); ++part) {
+    BROADSIDE_TRY(d.run_part());
+    if (part == d.parts.count()) break;
+    core::FrameRecord told;
+    BROADSIDE_TRY(read_back_rigid(d.left(), told));
+    d.earlier_parts.add(std::move(told));
   }
-  if (d.options.sweeps_fast) BROADSIDE_TRY(d.sweep.stop_short(d.view, d.view.after, d.stream));
-  d.take_frame();
+  ++d.steps;
   return core::Done{};
 }
 
@@ -322,6 +326,11 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame.step = d.steps;
   frame.time_s = static_cast<double>(d.steps) * static_cast<double>(d.dt_s);
   const RigidLeft left = d.left();
+  if (d.parts.count() > 1 && d.steps > 0) {
+    BROADSIDE_TRY(read_back_rigid(left, frame));
+    d.earlier_parts.join(frame, level);
+    return core::Done{};
+  }
   auto digest = rigid_digest_of(left, d.contact_shape, d.stream);
   if (!digest.ok()) return digest.error();
   frame.digest = digest.value();
@@ -331,6 +340,10 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
 core::Result<core::DeviceFrame> RigidPipeline::frame_on_device() {
   Impl& d = *impl_;
   if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
+  // Points of the parts before the last one are on the host by now.
+  if (d.parts.may_be_many())
+    return core::Error{"a step of this scene is taken in parts, whose points are put together on the host",
+                       "octree-gpu", "read the frame back, or give bodies whose masses are nearer to each other"};
   return d.told.tell(d.left(), d.steps, d.stream);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 
 #include "core/material.hpp"
 #include "core/math/quat.hpp"
@@ -62,9 +63,10 @@ struct RigidFrameView : ContactView {
   core::Vec3 gravity_m_s2;
   core::Material face_material;
   core::SoftSettings solver;
-  // Of even masses, and of masses further apart than even_masses: their substeps.
-  core::SoftStep soft[2];
-  std::uint32_t substeps[2] = {};
+  // By core::SolveKind: of a substep, and how many there are.
+  core::SoftStep soft[std::size(core::kSolveKinds)];
+  std::uint32_t substeps[std::size(core::kSolveKinds)] = {};
+  float calm_m_s = 0.0F;  // a step is calm in which nothing is faster; below 0: none is
 
   const core::RigidWrench* wrench = nullptr;  // null: none
 

@@ -75,7 +75,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   turning.make_solver = [soft, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
     return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
   };
-  turning.declaration = core::rigid_declaration(soft);
+  turning.declare = [soft](const core::Scene& scene) { return core::rigid_declaration(soft, scene); };
   turning.sleeps = settings.text("sleep") == "on";
   turning.sweeps_fast = settings.text("sweep") == "fast";
   turning.threads = threads;

@@ -55,6 +55,7 @@ core::Status Pipeline::step(float dt_s) {
 }
 
 core::Status Pipeline::run_stages(float dt_s) {
+  times_ = {};
   StageClock clock(times_);
   integrate(dt_s);
   clock.lap(core::Stage::kIntegrate);

@@ -1,4 +1,4 @@
-// Times the stages of a frame, one after another.
+// Times the stages of a frame, one after another. Adds to what is there.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ class StageClock {
   // Ends a stage: what passed since the end of the one before is its time.
   void lap(core::Stage stage) {
     const auto now = Clock::now();
-    times_[static_cast<std::size_t>(stage)] = {core::name_of(stage),
-                                               std::chrono::duration<double>(now - last_).count()};
+    core::StageTime& time = times_[static_cast<std::size_t>(stage)];
+    time = {core::name_of(stage), time.seconds + std::chrono::duration<double>(now - last_).count()};
     last_ = now;
   }
 

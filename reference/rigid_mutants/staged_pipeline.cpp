@@ -17,7 +17,7 @@ RigidPipelineOptions options_of(const TurningStages& stages) {
   options.sweeps_fast = stages.sweeps_fast;
   options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };
   options.make_solver = [](const core::Scene&) { return make_contact_solver({}); };
-  options.declaration = rigid_declaration({});
+  options.declare = [](const core::Scene& scene) { return rigid_declaration({}, scene); };
   return options;
 }
 

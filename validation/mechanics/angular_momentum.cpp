@@ -3,6 +3,7 @@
 
 #include "validation/mechanics/motion.hpp"
 #include "validation/mechanics/sleeping.hpp"
+#include "validation/mechanics/ways_within.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -14,6 +15,7 @@ class AngularMomentum final : public Validator {
  public:
   explicit AngularMomentum(const Subject& subject)
       : detects_at_start_(subject.header.declaration.text("detection_at") == "start"),
+        detects_within_(subject.header.declaration.text("detection_at") == "within"),
         accumulations_(subject.header.declaration.number("iterations") * subject.header.declaration.number("substeps")),
         sleep_speed_m_s_(subject.header.declaration.number("sleep_speed_m_s")) {}
 
@@ -25,6 +27,7 @@ class AngularMomentum final : public Validator {
     slack_.assign(n, 0.0);
     scale_.assign(n, 0.0);
     points_.assign(n, 0.0);
+    if (detects_within_) ways_.read(m, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
       const Vec3d j(p.impulse);
       give(m, p, p.a, 1.0, j);
@@ -40,12 +43,13 @@ class AngularMomentum final : public Validator {
   // The point is at the pose of detection; by the end of the step it and the center have moved.
   void give(const Motion& m, const core::ContactPoint& p, std::uint32_t body, double sign, Vec3d j) {
     const BodyStep& b = m.bodies[body];
-    const Vec3d at = detects_at_start_ ? b.before.x : b.after.x;
+    const Vec3d at = detects_at_start_ || detects_within_ ? b.before.x : b.after.x;
     const Vec3d arm = Vec3d(p.point) - at;
     const double size = length(j);
     moment_[body] = moment_[body] + sign * cross(arm, j);
-    const double moved =
-        detects_at_start_ ? 0.0 : length(b.after.x - b.before.x) + m.h * length(b.after.w) * length(arm);
+    const double moved = detects_within_     ? ways_.way_m(body, length(arm))
+                         : detects_at_start_ ? 0.0
+                                             : length(b.after.x - b.before.x) + m.h * length(b.after.w) * length(arm);
     // The point lies between the two surfaces, which are |gap| apart along the normal: only what acts across has a
     // moment that depends on where.
     const Vec3d n(p.normal);
@@ -82,6 +86,8 @@ class AngularMomentum final : public Validator {
       "h |w x L| before and after, |J_t| times the gap, |J| times how far point and center move, twice the declared "
       "speed of sleep of a body that stands still, and rounding";
   bool detects_at_start_;
+  bool detects_within_;
+  WaysWithin ways_;
   double accumulations_;
   double sleep_speed_m_s_;
   std::vector<Vec3d> moment_;

@@ -8,6 +8,7 @@
 #include "validation/mechanics/detection_pose.hpp"
 #include "validation/mechanics/motion.hpp"
 #include "validation/mechanics/oriented_box.hpp"
+#include "validation/mechanics/ways_within.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -18,7 +19,10 @@ namespace {
 class ContactTruth final : public Validator {
  public:
   explicit ContactTruth(const Subject& subject)
-      : header_(subject.header), shapes_(header_.scene), margin_(header_.declaration.number("contact_margin_m")) {}
+      : header_(subject.header),
+        shapes_(header_.scene),
+        margin_(header_.declaration.number("contact_margin_m")),
+        detects_within_(header_.declaration.text("detection_at") == "within") {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
@@ -26,6 +30,7 @@ class ContactTruth final : public Validator {
     frame_ = &evidence.frame;
     place_bodies(m);
     sort_points();
+    if (detects_within_) ways_.read(m, frame_->points);
     for (const core::Pair pair : m.near)
       if (is_known(m, pair.i) && is_known(m, pair.j)) judge_pair(m, pair);
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i)
@@ -77,15 +82,17 @@ class ContactTruth final : public Validator {
     return poses_[i].has_value() && shapes_.knows(m.facts[i].mesh);
   }
 
-  // Within this a contact may be seen or not: slop, margin, what the two come closer in a step, and float32.
+  // Within this a contact may be seen or not: slop, margin, what the two come closer in a step, and float32. Where it
+  // was found within the step its normal is that of then.
   [[nodiscard]] double band(const Motion& m, std::uint32_t a, std::uint32_t b) const {
-    const auto speed = [&](std::uint32_t i) {
+    const auto way_m = [&](std::uint32_t i) {
       if (core::is_face(i)) return 0.0;
+      if (detects_within_) return ways_.way_m(i, m.facts[i].reach_m);
       const BodyState& s = m.bodies[i].before;
-      return length(s.v) + length(s.w) * m.facts[i].reach_m;
+      return m.h * (length(s.v) + length(s.w) * m.facts[i].reach_m);
     };
     const double size = m.facts[a].reach_m + length(m.bodies[a].after.x);
-    return header_.scene.parameters.delta_m + margin_ + m.h * (speed(a) + speed(b) + m.h * m.strongest_pull) +
+    return header_.scene.parameters.delta_m + margin_ + way_m(a) + way_m(b) + m.h * m.h * m.strongest_pull +
            rounding(16) * size;
   }
 
@@ -255,6 +262,8 @@ class ContactTruth final : public Validator {
   const core::TraceHeader& header_;
   ExactShapes shapes_;
   double margin_;
+  bool detects_within_;
+  WaysWithin ways_;
   const core::FrameRecord* frame_ = nullptr;
   std::vector<std::optional<DetectionPose>> poses_;
   std::vector<OrientedBox> boxes_;  // at these poses

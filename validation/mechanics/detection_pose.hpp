@@ -17,7 +17,8 @@ struct DetectionPose {
 // midway was declared and not recorded.
 inline std::optional<DetectionPose> detection_pose(const core::TraceHeader& header, const core::FrameRecord& frame,
                                                    const Motion& m, std::size_t body) {
-  const bool is_start = header.declaration.text("detection_at") == "start";
+  const auto at = header.declaration.text("detection_at");
+  const bool is_start = at == "start" || at == "within";
   const BodyState& state = is_start ? m.bodies[body].before : m.bodies[body].after;
   DetectionPose pose{state.origin, state.q};
   const bool has_position = frame.detected_position.size() == m.bodies.size();

@@ -6,6 +6,7 @@
 
 #include "validation/mechanics/point_speed.hpp"
 #include "validation/mechanics/scene_friction.hpp"
+#include "validation/mechanics/ways_within.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -23,11 +24,13 @@ class FrictionCone final : public Validator {
   explicit FrictionCone(const Subject& subject)
       : scene_(subject.header.scene),
         model_(subject.header.declaration.text("friction")),
-        has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
+        has_substeps_(subject.header.declaration.number("substeps") > 1.0),
+        detects_within_(subject.header.declaration.text("detection_at") == "within") {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
     sum_impulses(*evidence.motion, evidence.frame.points);
+    if (detects_within_) ways_.read(*evidence.motion, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) judge(*evidence.motion, p);
   }
 
@@ -77,12 +80,18 @@ class FrictionCone final : public Validator {
     return sum;
   }
 
+  // And how far the slip may be off because the point was found within the step.
+  [[nodiscard]] double change_by_way(const Motion& m, std::uint32_t body, const core::ContactPoint& p) const {
+    if (!detects_within_ || core::is_face(body)) return 0.0;
+    return ways_.speed_m_s(body, length(Vec3d(p.point) - m.bodies[body].before.x));
+  }
+
   // How far the slip at the end may be from that at the moment at which friction acted: what gravity, the other
   // impulses and turning changed, and where in the gap the point is.
   [[nodiscard]] double open_slip(const Motion& m, const core::ContactPoint& p) const {
     double open = 2.0 * m.h * m.strongest_pull;
     for (const std::uint32_t body : {p.a, p.b})
-      open += change_by_turning(m, body, Vec3d(p.point)) + change_by_others(m, body, p);
+      open += change_by_turning(m, body, Vec3d(p.point)) + change_by_others(m, body, p) + change_by_way(m, body, p);
     return open + std::abs(static_cast<double>(p.gap_m)) * spin(m, p);
   }
 
@@ -157,6 +166,8 @@ class FrictionCone final : public Validator {
   const core::Scene& scene_;
   std::string_view model_;
   bool has_substeps_;
+  bool detects_within_;
+  WaysWithin ways_;
   std::vector<Pushed> pushed_;
   Tally tally_{"friction-cone", "impulses of points", "Coulomb's cone of the scene's friction"};
 };

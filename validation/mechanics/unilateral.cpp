@@ -6,6 +6,7 @@
 
 #include "validation/mechanics/point_speed.hpp"
 #include "validation/mechanics/scene_friction.hpp"
+#include "validation/mechanics/ways_within.hpp"
 #include "validation/rounding.hpp"
 #include "validation/subject_facts.hpp"
 #include "validation/validator.hpp"
@@ -18,7 +19,8 @@ class Unilateral final : public Validator {
   explicit Unilateral(const Subject& subject)
       : scene_(subject.header.scene),
         margin_m_(subject.header.declaration.number("contact_margin_m")),
-        has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
+        has_substeps_(subject.header.declaration.number("substeps") > 1.0),
+        detects_within_(subject.header.declaration.text("detection_at") == "within") {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
@@ -26,6 +28,7 @@ class Unilateral final : public Validator {
     given_.clear();
     for (const core::ContactPoint& p : evidence.frame.points) given_[{p.a, p.b}].add(m, p);
     if (has_substeps_) list_points(evidence.frame.points);
+    if (detects_within_) ways_.read(m, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
       if (p.impulse == core::Vec3{}) continue;
       const Vec3d at(p.point);
@@ -45,7 +48,9 @@ class Unilateral final : public Validator {
       // slowed its bodies, and after others had driven them on.
       if (has_substeps_) approach = std::max(approach, came + driven_by_others(m, evidence.frame.points, p));
       // Gravity may bring them together within the step.
-      const double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
+      double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
+      // A point that was found within the step is told where its surfaces were at the start.
+      if (detects_within_) reach = std::max(reach, way_m(m, p, p.a) + way_m(m, p, p.b));
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
       tally_.check(p.gap_m, {limit, "m", kOrigin}, Where::pair(m.step, p.a, p.b, "points.gap"), [&] {
         return "an impulse over a gap of " + number_text(p.gap_m) + " m that closes at " + number_text(approach) +
@@ -118,12 +123,18 @@ class Unilateral final : public Validator {
     return sum;
   }
 
+  [[nodiscard]] double way_m(const Motion& m, const core::ContactPoint& p, std::uint32_t body) const {
+    return core::is_face(body) ? 0.0 : ways_.way_m(body, length(Vec3d(p.point) - m.bodies[body].before.x));
+  }
+
   static constexpr std::string_view kOrigin =
       "the declared margin, h times the approach speed with gravity, wrenches and turning, and rounding; with substeps "
       "also what other impulses of the step drive";
   const core::Scene& scene_;
   double margin_m_;
   bool has_substeps_;
+  bool detects_within_;
+  WaysWithin ways_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> points_of_;   // by body
   std::map<std::pair<std::uint32_t, std::uint32_t>, Given> given_;  // by the bodies of the points
   Tally tally_{"unilateral", "points with an impulse", kOrigin};

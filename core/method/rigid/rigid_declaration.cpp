@@ -1,20 +1,37 @@
 #include "core/method/rigid/rigid_declaration.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <map>
 #include <string>
 
+#include "core/method/rigid/step_in_parts.hpp"
+
 namespace broadside::core {
-Declaration rigid_declaration(const SoftSettings& solver, std::string_view twin_of) {
+
+namespace {
+
+bool may_bounce(const Scene& scene) {
+  return scene.face_material.restitution > 0.0F ||
+         std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& b) { return b.material.restitution > 0.0F; });
+}
+
+}  // namespace
+
+Declaration rigid_declaration(const SoftSettings& solver, const Scene& scene, std::string_view twin_of) {
+  const float ratio = largest_mass_ratio(scene);
+  const MostOfStep most = most_of_step(solver, ratio, may_bounce(scene));
+  const bool is_in_parts = most_parts(solver, ratio) > 1;
   std::map<std::string, std::string> given{
       {"motion", "rigid"},
-      {"detection_at", "start"},
+      {"detection_at", is_in_parts ? "within" : "start"},
       {"contacts", "totals"},
       {"integrator", "semi-implicit Euler; Runge-Kutta 4 for orientation, angular momentum constant"},
       {"order", "1"},
-      {"substeps", std::to_string(most_of_step(solver).substeps)},
-      {"iterations", std::to_string(most_of_step(solver).applications)},
+      {"substeps", std::to_string(most.substeps)},
+      {"iterations", std::to_string(most.applications)},
       {"friction", "cone"},
       {"contact_model", "rigid"},
       {"correction", "position"},

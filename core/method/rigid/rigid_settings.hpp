@@ -19,8 +19,7 @@ inline SoftSettings soft_settings_of(const Settings& settings) {
                       : contact == "stiff"   ? stiff_settings()
                                              : SoftSettings{};
   const unsigned long substeps = std::min(settings.number("substeps"), kMostSubsteps);
-  if (substeps > 0) soft.substeps = static_cast<std::uint32_t>(substeps);
-  return soft;
+  return substeps > 0 ? with_substeps(soft, static_cast<std::uint32_t>(substeps)) : soft;
 }
 
 // "thresholds=fixed": the scene's, in place of those that scale with bodies, gravity and step.

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
@@ -34,6 +35,10 @@ struct SoftStep {
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
   float kept_push_m_s = 0.0F;    // what pushes bodies apart faster is taken back (pushed_apart.hpp)
   float gravity_m_s2 = 0.0F;
+  // The last sweep is one that changes no point's speed by more than this share of the fastest, and at most the so
+  // many-th.
+  float done_share = 0.0F;
+  std::uint32_t most_sweeps = 1;
 };
 
 // A spring and damper under each contact, taken implicitly: frequency and damping in units of the substep, omega h and

@@ -1,6 +1,7 @@
 // What the soft solver may be set to, and the numbers of a step that follow.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/pushed_apart.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 
 namespace broadside::core {
@@ -18,20 +20,40 @@ struct PatchLimits {
   float fixed_slop_m = 0.0F;  // in its place, where it is given
 };
 
+// What contacts are solved with in a step, or a part of one.
+struct SolveNumbers {
+  std::uint32_t substeps = 1;
+  // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
+  std::uint32_t sweeps = 1;
+  // A sweep is the last one that changes no point's speed by more than this share of the fastest, or by more than this
+  // share of what gravity gives in a substep.
+  float done = 0.0F;
+  float done_of_gravity = 0.0F;
+  float omega_dt = 0.0F;  // soft_step of soft_contact.hpp
+};
+
+// A step of a scene whose masses are further apart than SoftSettings::even_masses.
+struct UnevenStep {
+  std::uint32_t parts = 1;  // equal ones, each of which detects anew
+  SolveNumbers numbers;     // of a part in which such bodies touch
+};
+
 // core/method/rigid/SOLVERS.md has the measurements that the defaults were chosen by.
 struct SoftSettings {
-  // Of a step; kUnevenFactor times as many where bodies that touch have masses further apart than even_masses: what a
-  // contact yields grows with the mass on it, and falls with the square of the substep.
-  std::uint32_t substeps = 4;
+  // A sweep that changes points by no more than a share of gravity is the last one, because where all rests, the
+  // fastest is no faster than that, and one point of a thousand kept everybody sweeping.
+  SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F};
   float even_masses = 64.0F;
-  // Of a substep, at most. One sweep is Catto's soft step; more go along conjugate directions.
-  std::uint32_t sweeps = 12;
-  // A sweep is the last one that changes no point's speed by more than this share of the fastest, or by more than this
-  // share of what gravity gives in a substep: where all rests, the fastest is no faster than that, and one point of a
-  // thousand kept everybody sweeping.
-  float done = 0x1p-10F;
-  float done_of_gravity = 0x1p-5F;
-  float omega_dt = 6.0F;
+  // A contact of a light body bears what a heavy one needs to stop: as stiff as the light one alone allows, 8 kg at
+  // 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts, because light
+  // bodies that are struck turn by half a radian within a step, and meet in points that its start does not show.
+  UnevenStep lively{4, {4, 1000, 1e-4F, 0x1p-5F, 200.0F}};
+  // The same where nothing moves fast (core/scene/calm_bodies.hpp). What is solved less well sways.
+  UnevenStep calm{1, {4, 500, 0x1p-8F, 0x1p-5F, 200.0F}};
+  // A step in which nothing moves fast and so few patches touch: what stands by little is small, an arch of 25 stones
+  // has 26 joints, and contacts that yield less, solved farther, cost it little.
+  SolveNumbers few{4, 100, 0x1p-10F, 0x1p-5F, 20.0F};
+  std::uint32_t few_patches = 128;
   float damping = 1.0F;
   PatchLimits limits{0x1p-16F, 0.0F};
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
@@ -42,9 +64,16 @@ struct SoftSettings {
 // until little changes made a step of 1,000 resting cubes fifteen times as long.
 inline SoftSettings soft_step_settings() {
   SoftSettings settings;
-  settings.substeps = 8;
-  settings.sweeps = 1;
-  settings.omega_dt = 1.2F;
+  settings.even = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F};
+  settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F}};
+  return settings;
+}
+
+// So many substeps of a step in place of the solver's own; where masses are far apart as many times more as those have.
+inline SoftSettings with_substeps(SoftSettings settings, std::uint32_t substeps) {
+  const std::uint32_t own = settings.even.substeps;
+  for (SolveNumbers* numbers : {&settings.even, &settings.few, &settings.lively.numbers, &settings.calm.numbers})
+    numbers->substeps = numbers->substeps * substeps / own;
   return settings;
 }
 
@@ -52,11 +81,7 @@ inline SoftSettings soft_step_settings() {
 // than the 1 % by which it stands.
 inline SoftSettings stiff_settings() {
   SoftSettings settings;
-  settings.substeps = 8;
-  settings.sweeps = 100;
-  settings.done = 1e-5F;
-  settings.done_of_gravity = 0x1p-10F;
-  settings.omega_dt = 20.0F;
+  settings.even = settings.few = {8, 100, 1e-5F, 0x1p-10F, 20.0F};
   return settings;
 }
 
@@ -66,30 +91,79 @@ struct MostOfStep {
   std::uint32_t applications = 0;
 };
 
-// A small cube under one a thousand times as heavy was pushed into the floor by half its side with twice as many.
-inline constexpr std::uint32_t kUnevenFactor = 4;
-
-BROADSIDE_HD constexpr std::uint32_t substeps_of(const SoftSettings& settings, bool is_uneven) {
-  return is_uneven ? kUnevenFactor * settings.substeps : settings.substeps;
+constexpr const UnevenStep& uneven_step(const SoftSettings& settings, bool is_calm) {
+  return is_calm ? settings.calm : settings.lively;
 }
 
-inline MostOfStep most_of_step(const SoftSettings& settings) {
-  // The start from the last impulse, sweeps with a step along the direction between two, relaxation and rebound.
-  return {substeps_of(settings, true), 1 + (2 * settings.sweeps - 1) + 1 + 1};
+// What a step, or its part, is solved with.
+enum class SolveKind : std::uint8_t { kEven, kUneven, kFew };
+inline constexpr SolveKind kSolveKinds[] = {SolveKind::kEven, SolveKind::kUneven, SolveKind::kFew};
+
+// touching_ratio: the largest ratio of masses of two bodies that touch.
+BROADSIDE_HD constexpr SolveKind solve_kind(const SoftSettings& settings, float touching_ratio, std::uint64_t patches,
+                                            bool is_calm) {
+  if (touching_ratio > settings.even_masses) return SolveKind::kUneven;
+  return is_calm && patches <= settings.few_patches ? SolveKind::kFew : SolveKind::kEven;
 }
 
-inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, std::uint32_t substeps) {
+constexpr const SolveNumbers& solve_numbers(const SoftSettings& settings, SolveKind kind, bool is_calm) {
+  if (kind == SolveKind::kUneven) return uneven_step(settings, is_calm).numbers;
+  return kind == SolveKind::kFew ? settings.few : settings.even;
+}
+
+constexpr bool is_uneven(const SoftSettings& settings, float largest_mass_ratio) {
+  return largest_mass_ratio > settings.even_masses;
+}
+
+// A solver whose cost is known ahead keeps what pushes.
+constexpr bool takes_back_pushes(const SoftSettings& settings) {
+  return settings.even.sweeps > 1;
+}
+
+// In how many parts a step is taken of bodies whose masses are so many times apart.
+constexpr std::uint32_t parts_of_step(const SoftSettings& settings, float largest_mass_ratio, bool is_calm) {
+  return is_uneven(settings, largest_mass_ratio) ? uneven_step(settings, is_calm).parts : 1;
+}
+constexpr std::uint32_t most_parts(const SoftSettings& settings, float largest_mass_ratio) {
+  return std::max(parts_of_step(settings, largest_mass_ratio, false),
+                  parts_of_step(settings, largest_mass_ratio, true));
+}
+
+inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_ratio, bool may_bounce) {
+  const auto most_of = [&](std::uint32_t parts, const SolveNumbers& numbers) {
+    // The start from the last impulse, sweeps with a step along the direction between two, and relaxation.
+    std::uint32_t applications = 1 + (2 * numbers.sweeps - 1) + 1;
+    // What pushes apart is taken back: a start without it, and what changes by that relaxes.
+    if (takes_back_pushes(settings)) applications += 1 + kMostRelaxSweeps;
+    // Before a bounce all relaxes; a sweep of it visits a patch's points several times, and its friction.
+    if (may_bounce) applications += kMostBounceSweeps + kMostBounceSweeps * (kSweepsOfBounce + 1);
+    return MostOfStep{parts * numbers.substeps, applications};
+  };
+  const auto larger = [](const MostOfStep& a, const MostOfStep& b) {
+    return MostOfStep{std::max(a.substeps, b.substeps), std::max(a.applications, b.applications)};
+  };
+  const MostOfStep most = larger(most_of(1, settings.even), most_of(1, settings.few));
+  if (!is_uneven(settings, largest_mass_ratio)) return most;
+  const MostOfStep of_lively =
+      larger(most_of(settings.lively.parts, settings.lively.numbers), most_of(settings.lively.parts, settings.even));
+  return larger(larger(most, of_lively), most_of(settings.calm.parts, settings.calm.numbers));
+}
+
+// dt_s: of the step, or of its part.
+inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, const SolveNumbers& numbers) {
   constexpr float kSettleShare = 0.05F;
   // A push that stays as speed leaves a sixteenth of what explicit and implicit Euler differ by in a step.
   constexpr float kKeptPushShare = 0.25F;
   const float gravity = length(gravity_m_s2);
-  SoftStep step = soft_step(dt_s / static_cast<float>(substeps), settings.omega_dt, settings.damping);
+  SoftStep step = soft_step(dt_s / static_cast<float>(numbers.substeps), numbers.omega_dt, settings.damping);
+  step.most_sweeps = numbers.sweeps;
+  step.done_share = numbers.done;
   step.gravity_m_s2 = gravity;
-  step.least_done_m_s = settings.done_of_gravity * gravity * step.dt_s;
+  step.least_done_m_s = numbers.done_of_gravity * gravity * step.dt_s;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
-  const bool takes_back_pushes = settings.sweeps > 1;
-  step.kept_push_m_s = takes_back_pushes ? kKeptPushShare * gravity * dt_s : std::numeric_limits<float>::max();
+  step.kept_push_m_s =
+      takes_back_pushes(settings) ? kKeptPushShare * gravity * dt_s : std::numeric_limits<float>::max();
   return step;
 }
 

@@ -42,9 +42,11 @@ __device__ inline void recall(const RigidFrameView& f, const core::SoftStep& sof
   }
 }
 
-// The step's numbers: more substeps where masses that touch are far apart.
+// What the step is solved with.
 __device__ inline int step_kind(const RigidFrameView& f) {
-  return __uint_as_float(f.counts->mass_ratio) > f.solver.even_masses ? 1 : 0;
+  const bool is_calm = __uint_as_float(f.counts->fastest_m_s) <= f.calm_m_s;
+  const float ratio = __uint_as_float(f.counts->mass_ratio);
+  return static_cast<int>(core::solve_kind(f.solver, ratio, f.counts->patches, is_calm));
 }
 
 template <typename Team>

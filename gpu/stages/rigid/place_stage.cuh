@@ -4,6 +4,7 @@
 
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/sleep.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/grid/team.cuh"
@@ -32,6 +33,7 @@ __device__ inline void run_place(const RigidFrameView& f) {
   }
   std::uint32_t side = 0;
   std::uint32_t coordinate = 0;
+  std::uint32_t fastest = 0;
   for (std::uint64_t k = grid.rank(); k < f.body_count; k += grid.size()) {
     const auto i = static_cast<std::uint32_t>(k);
     const core::RigidState s = f.before[i];
@@ -55,6 +57,8 @@ __device__ inline void run_place(const RigidFrameView& f) {
     if (f.asleep != nullptr) f.sleep.restless[i] = 0;
     f.stirred[i] = 0;
     f.shape_boxes[i] = shape_box;
+    if (mass.inverse_mass > 0.0F)
+      fastest = max(fastest, as_ordered(core::fastest_of_body_m_s(s, mass, shape.balls.outer_m)));
     f.boxes[i] = pack(box, i, mass.inverse_mass > 0.0F ? 0U : 1U);
     for (int axis = 0; axis < 3; ++axis) {
       side = max(side, as_ordered(box.max[axis] - box.min[axis]));
@@ -64,9 +68,11 @@ __device__ inline void run_place(const RigidFrameView& f) {
   __syncwarp();
   side = warp_max(side);
   coordinate = warp_max(coordinate);
+  fastest = warp_max(fastest);
   if (lane() != 0) return;
   if (side != 0) atomicMax(&f.counts->largest_side, side);
   if (coordinate != 0) atomicMax(&f.counts->largest_coordinate, coordinate);
+  if (fastest != 0) atomicMax(&f.counts->fastest_m_s, fastest);
 }
 
 }  // namespace broadside::gpu

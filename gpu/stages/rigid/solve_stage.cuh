@@ -60,12 +60,13 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
     ++solve.done.sweeps;
     team.sync();
     if (k == 1) {
-      done = core::done_m_s(solve.soft, f.solver.done, solve.sums.largest(TeamSums::kThird));
+      const float fastest = solve.sums.largest(TeamSums::kThird);
+      done = core::done_m_s(solve.soft, solve.soft.done_share, fastest);
       fastest_push = solve.sums.largest(TeamSums::kFourth);
     }
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);
-    if (k >= f.solver.sweeps || largest_speed <= done) return fastest_push;
+    if (k >= solve.soft.most_sweeps || largest_speed <= done) return fastest_push;
     const float change = sum_of_changes(team, f, solve, largest_change);
     if (!(last_change > 0.0F)) first_change = change;
     share = core::share_of_direction(first_change, last_change, change);
@@ -198,7 +199,7 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
 
 __device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
-  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.sweeps > 1, TeamSums(f.counts), 0, false, {}};
+  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.even.sweeps > 1, TeamSums(f.counts), 0, false, {}};
   for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve, k + 1 == f.substeps[kind]);
   if (team.rank() == 0) {
     f.counts->done = solve.done;

@@ -10,7 +10,7 @@ std::string_view solver_name(SolverKind kind) {
 
 core::SoftSettings soft_settings(const ContactSolverOptions& options) {
   core::SoftSettings soft = options.kind == SolverKind::kSoftStep ? core::soft_step_settings() : core::SoftSettings{};
-  if (options.substeps > 0) soft.substeps = options.substeps;
+  if (options.substeps > 0) soft = core::with_substeps(soft, options.substeps);
   soft.limits.fixed_slop_m = options.fixed_slop_m;
   soft.fixed_bounce_from_m_s = options.fixed_bounce_from_m_s;
   return soft;

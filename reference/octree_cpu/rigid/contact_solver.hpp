@@ -13,6 +13,7 @@
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "core/method/rigid/soft_settings.hpp"
+#include "core/scene/scene.hpp"
 
 namespace broadside::reference {
 
@@ -27,6 +28,7 @@ struct RigidStep {
   // By body, or none: 1 = asleep. Its patches are those of the step before, and give what they gave; nobody else has
   // one with it.
   std::span<const std::uint8_t> asleep;
+  bool is_calm = false;  // as the step began: core::are_calm
 };
 
 // Of one patch, by point: N s on A, of the whole step.
@@ -47,6 +49,10 @@ class ContactSolver {
   // threads. Called inside the oneTBB arena that it may use.
   virtual void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                        const RigidStep& step) = 0;
+
+  // In how many equal parts, each with its own call of advance, it wants a step of a scene whose masses are so many
+  // times apart. is_calm: as the step begins.
+  [[nodiscard]] virtual std::uint32_t parts_of_step(float largest_mass_ratio, bool is_calm) const = 0;
 
   // Of the last step, by patch.
   [[nodiscard]] virtual std::span<const PatchImpulses> impulses() const = 0;

@@ -1,15 +1,17 @@
 #include "reference/octree_cpu/rigid/rigid_declaration.hpp"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "core/method/rigid/rigid_declaration.hpp"
+#include "core/method/rigid/step_in_parts.hpp"
 #include "reference/vendor_build.hpp"
 
 namespace broadside::reference {
 
-core::Declaration rigid_declaration(const ContactSolverOptions& solver) {
-  return core::rigid_declaration(soft_settings(solver));
+core::Declaration rigid_declaration(const ContactSolverOptions& solver, const core::Scene& scene) {
+  return core::rigid_declaration(soft_settings(solver), scene);
 }
 
 core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, bool sleeps,
@@ -22,17 +24,21 @@ core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSetti
   card.push_back({"broad-phase margin", "how far bodies may come in the step", ""});
   card.push_back({"friction rule", "geometric mean", ""});
   card.push_back({"restitution rule", "the larger", ""});
-  const bool is_swept = solver.sweeps > 1;
+  const float ratio = core::largest_mass_ratio(scene);
+  const std::uint32_t parts = core::most_parts(solver, ratio);
+  const std::string substeps = std::to_string(core::most_of_step(solver, ratio, true).substeps) + " substeps";
+  const bool is_swept = solver.even.sweeps > 1;
   card.push_back({"contact solver",
                   std::string("substeps with soft constraints and relaxation") +
                       (is_swept ? ", along conjugate directions" : ", color by color"),
                   "one application a contact"});
   card.push_back(
       {"solver iterations",
-       is_swept
-           ? "until little changes, in at most " + std::to_string(core::most_of_step(solver).substeps) + " substeps"
-           : "one sweep in each of at most " + std::to_string(core::most_of_step(solver).substeps) + " substeps",
+       is_swept ? "until little changes, in at most " + substeps : "one sweep in each of at most " + substeps,
        "one pass"});
+  card.push_back({"detection in a step",
+                  parts > 1 ? "up to " + std::to_string(parts) + " times: masses are far apart" : std::string("once"),
+                  parts > 1 ? "once" : ""});
   card.push_back({"rotation", "bodies turn, with the gyroscopic torque", ""});
   card.push_back({"warm starting", "by the features that meet", ""});
   card.push_back({"sleeping", sleeps ? "on: islands that stand still" : "off", sleeps ? "off" : ""});

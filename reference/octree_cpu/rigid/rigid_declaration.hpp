@@ -10,7 +10,7 @@
 
 namespace broadside::reference {
 
-core::Declaration rigid_declaration(const ContactSolverOptions& solver);
+core::Declaration rigid_declaration(const ContactSolverOptions& solver, const core::Scene& scene);
 
 // Of a scene whose bodies turn; empty where they translate, which is what METHOD describes.
 core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, bool sleeps,

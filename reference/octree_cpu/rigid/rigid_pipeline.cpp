@@ -16,6 +16,7 @@
 #include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/told_point.hpp"
 #include "core/method/rigid/turned_box.hpp"
+#include "core/scene/calm_bodies.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
 #include "reference/octree_cpu/stage_clock.hpp"
@@ -34,8 +35,8 @@ RigidPipeline::RigidPipeline(RigidPipelineOptions options)
 RigidPipeline::~RigidPipeline() = default;
 
 core::Declaration RigidPipeline::declaration_for(const core::Scene& scene) const {
-  if (!options_.sleeps) return options_.declaration;
-  return core::with_sleep(options_.declaration, core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s));
+  if (!options_.sleeps) return options_.declare(scene);
+  return core::with_sleep(options_.declare(scene), core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s));
 }
 
 core::Status RigidPipeline::load(const core::Scene& scene) {
@@ -45,6 +46,9 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   scene_ = &scene;
   bodies_ = std::move(bodies).value();
   solver_ = options_.make_solver(scene);
+  mass_ratio_ = core::largest_mass_ratio(scene);
+  parts_ = 1;
+  earlier_parts_.begin();
   sleepers_.load(bodies_);
   last_patches_.clear();
   dt_s_ = 0.0F;
@@ -63,15 +67,30 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 }
 
 core::Status RigidPipeline::step(float dt_s) {
-  core::Status status = core::Done{};
-  threads_->arena.execute([&] { status = run_stages(dt_s); });
-  return status;
+  const std::uint32_t parts_before = parts_;
+  is_calm_ = core::are_calm(bodies_, bodies_.state, scene_->gravity_m_s2, dt_s);
+  parts_ = solver_->parts_of_step(mass_ratio_, is_calm_);
+  // What a contact gives in a part is no longer that of the last one.
+  if (dt_s != dt_s_ || parts_ != parts_before) sleepers_.wake_all();
+  const float part_s = dt_s / static_cast<float>(parts_);
+  times_ = {};
+  earlier_parts_.begin();
+  for (std::uint32_t part = 1; part <= parts_; ++part) {
+    core::Status status = core::Done{};
+    threads_->arena.execute([&] { status = run_stages(part_s); });
+    if (!status) return status;
+    if (part == parts_) break;
+    core::FrameRecord frame;
+    read_back_part(frame, core::RecordLevel::kFull);
+    earlier_parts_.add(std::move(frame));
+  }
+  ++steps_;
+  dt_s_ = dt_s;
+  return core::Done{};
 }
 
 core::Status RigidPipeline::run_stages(float dt_s) {
   StageClock clock(times_);
-  // What a contact gives in a step is no longer that of the last one.
-  if (dt_s != dt_s_) sleepers_.wake_all();
   place(dt_s);
   clock.lap(core::Stage::kIntegrate);
   if (core::Status s = find_candidates(); !s) return s;
@@ -89,8 +108,6 @@ core::Status RigidPipeline::run_stages(float dt_s) {
     if (core::Status s = stop_short(); !s) return s;
   tell_points();
   clock.lap(core::Stage::kResponse);
-  ++steps_;
-  dt_s_ = dt_s;
   return core::Done{};
 }
 
@@ -169,8 +186,8 @@ void RigidPipeline::keep_sleeping_patches() {
 }
 
 void RigidPipeline::respond(float dt_s) {
-  const RigidStep step{bodies_.mass, bodies_.material,  bodies_.wrench, scene_->face_material, scene_->gravity_m_s2,
-                       dt_s,         sleepers_.asleep()};
+  const RigidStep step{bodies_.mass, bodies_.material,   bodies_.wrench, scene_->face_material, scene_->gravity_m_s2,
+                       dt_s,         sleepers_.asleep(), is_calm_};
   solver_->advance(bodies_.state, patches_, step);
 }
 
@@ -231,11 +248,19 @@ std::uint64_t RigidPipeline::digest() const {
 }
 
 core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
-  frame = {};
+  const bool is_in_parts = parts_ > 1 && steps_ > 0;
+  read_back_part(frame, is_in_parts ? core::RecordLevel::kFull : level);
   frame.step = steps_;
   frame.time_s = static_cast<double>(steps_) * static_cast<double>(dt_s_);
+  if (is_in_parts) earlier_parts_.join(frame, level);
+  if (level == core::RecordLevel::kFull) record(frame);
+  return core::Done{};
+}
+
+void RigidPipeline::read_back_part(core::FrameRecord& frame, core::RecordLevel level) {
+  frame = {};
   frame.digest = digest();
-  if (level != core::RecordLevel::kFull) return core::Done{};
+  if (level != core::RecordLevel::kFull) return;
 
   for (std::uint32_t i = 0; i < bodies_.count(); ++i) {
     const core::RigidState& s = bodies_.state[i];
@@ -254,8 +279,6 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame.pairs_raw = candidates_.raw;
   frame.confirmed = confirmed_;
   frame.points = points_;
-  record(frame);
-  return core::Done{};
 }
 
 }  // namespace broadside::reference

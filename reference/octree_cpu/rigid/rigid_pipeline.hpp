@@ -15,6 +15,7 @@
 #include "core/engine/dynamics.hpp"
 #include "core/engine/stage.hpp"
 #include "core/method/levels.hpp"
+#include "core/method/rigid/step_in_parts.hpp"
 #include "core/pair.hpp"
 #include "core/scene/rigid_bodies.hpp"
 #include "reference/octree_cpu/rigid/contact_solver.hpp"
@@ -30,15 +31,15 @@ struct RigidPipelineOptions {
   std::function<std::unique_ptr<core::BroadPhase>(const core::Scene&)> make_broad_phase;
   core::Levels levels = core::Levels::kC;
   std::function<std::unique_ptr<ContactSolver>(const core::Scene&)> make_solver;
-  core::Declaration declaration;  // of these stages with this solver
-  bool sweeps_fast = false;       // bodies that move farther than they are thick stop before they pass through others
-  bool sleeps = false;            // islands that stand still stop being solved
-  int threads = 0;                // 0 = all
+  std::function<core::Declaration(const core::Scene&)> declare;  // of these stages with this solver
+  bool sweeps_fast = false;  // bodies that move farther than they are thick stop before they pass through others
+  bool sleeps = false;       // islands that stand still stop being solved
+  int threads = 0;           // 0 = all
 };
 
-// A step detects at its start, as far ahead as bodies can come within it, and moves bodies last. Bit-identical for any
-// number of threads: every parallel loop writes to slots of its own, and what depends on an order is done in a fixed
-// one.
+// A step detects at its start, as far ahead as bodies can come within it, and moves bodies last; where masses are far
+// apart it does so part by part. Bit-identical for any number of threads: every parallel loop writes to slots of its
+// own, and what depends on an order is done in a fixed one.
 class RigidPipeline : public core::Dynamics {
  public:
   explicit RigidPipeline(RigidPipelineOptions options);
@@ -84,7 +85,9 @@ class RigidPipeline : public core::Dynamics {
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
  private:
+  // A step, or a part of one.
   core::Status run_stages(float dt_s);
+  void read_back_part(core::FrameRecord& frame, core::RecordLevel level);
   [[nodiscard]] std::uint64_t digest() const;
   void keep_sleeping_patches();
 
@@ -97,8 +100,12 @@ class RigidPipeline : public core::Dynamics {
   std::unique_ptr<ContactSolver> solver_;
   std::array<core::StageTime, core::kStageCount> times_{};
   std::vector<core::ContactPatch> last_patches_;  // of the step before, where bodies sleep
-  float dt_s_ = 0.0F;
+  float dt_s_ = 0.0F;                             // of the step
   std::uint64_t steps_ = 0;
+  float mass_ratio_ = 1.0F;  // core::largest_mass_ratio
+  bool is_calm_ = false;     // as the step began
+  std::uint32_t parts_ = 1;  // of the step
+  core::StepInParts earlier_parts_;
 };
 
 }  // namespace broadside::reference

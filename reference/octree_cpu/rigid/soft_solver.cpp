@@ -46,14 +46,14 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   work_.each_range(
       [&](const TileRange& range) { kernels_.begin_sweeps(range, numbers, speeds_.data(), pushes_.data()); });
   work_.note_pushed(pushes_, numbers);
-  const float done = core::done_m_s(numbers, settings_.done, largest_speed());
+  const float done = core::done_m_s(numbers, numbers.done_share, largest_speed());
   work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
-  SweepWay way{settings_.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
+  SweepWay way{settings_.even.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
   for (std::uint32_t k = 1;; ++k) {
     work_.each_range_by_color([&](const TileRange& range) { kernels_.sweep(range, numbers, way); });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
-    if (k >= settings_.sweeps || largest_speed() <= done) return;
+    if (k >= numbers.most_sweeps || largest_speed() <= done) return;
     way.is_first = false;
     way.share = next_share();
     work_.each_range_by_color([&](const TileRange& range) { kernels_.push_along(range, way.share); });
@@ -81,13 +81,18 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, b
   work_.each_range([&](const TileRange& range) { kernels_.end_substep(range, numbers, is_last); });
 }
 
+std::uint32_t SoftSolver::parts_of_step(float largest_mass_ratio, bool is_calm) const {
+  return core::parts_of_step(settings_, largest_mass_ratio, is_calm);
+}
+
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                          const RigidStep& step) {
-  const bool is_uneven = largest_mass_ratio(patches, step.masses) > settings_.even_masses;
-  const std::uint32_t substeps = core::substeps_of(settings_, is_uneven);
-  const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, substeps);
+  const core::SolveKind kind =
+      core::solve_kind(settings_, largest_mass_ratio(patches, step.masses), patches.size(), step.is_calm);
+  const core::SolveNumbers& solve = core::solve_numbers(settings_, kind, step.is_calm);
+  const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, solve);
   work_.begin(states, patches, step, numbers, settings_.limits);
-  for (std::uint32_t k = 0; k < substeps; ++k) substep(step, numbers, k + 1 == substeps);
+  for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers, k + 1 == solve.substeps);
   work_.finish(states, patches);
 }
 

@@ -2,6 +2,7 @@
 // bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "core/engine/engine.hpp"
 #include "core/exact/convex_hull.hpp"
+#include "core/method/rigid/step_in_parts.hpp"
 #include "datasets/scenes.hpp"
 #include "gpu/rigid/rigid_pipeline.hpp"
 #include "tests/core/engine/counts.hpp"
@@ -79,6 +81,19 @@ TEST(RigidOnHost, AHeapSolvedByAGrid) {
   RigidPipelineOptions options;
   options.may_cluster = false;
   EXPECT_GT(compare("freefall:cube:20[rigid=1]", 40, options), 0U);
+}
+
+// Masses that are far apart: a step is taken in parts, and its points are put together. The heavy one comes down askew.
+TEST(RigidOnHost, AStepInParts) {
+  core::Scene scene = scene_of("rigid:stack:1000-on-1");
+  EXPECT_GT(core::most_parts({}, core::largest_mass_ratio(scene)), 1U);
+  core::Body& heavy = *std::ranges::min_element(
+      scene.bodies, {}, [](const core::Body& b) { return b.inverse_mass > 0.0F ? b.inverse_mass : 1e9F; });
+  heavy.velocity = {1.0F, -3.0F, 0.5F};
+  heavy.angular_velocity = {1.0F, 2.0F, 3.0F};
+  EXPECT_GT(compare(scene, 4, {}, {}), 0U);
+  // At rest a step is taken at once.
+  EXPECT_GT(compare("rigid:stack:1000-on-1", 3), 0U);
 }
 
 // One sweep a substep is another path through the kernel than conjugate directions.

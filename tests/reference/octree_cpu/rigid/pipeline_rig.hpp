@@ -28,7 +28,7 @@ struct PipelineRig {
     scene.domain = {{-50, 0, -50}, {50, 100, 50}};
     options.make_broad_phase = [](const core::Scene&) { return reference::make_tree_broad_phase(); };
     options.make_solver = [](const core::Scene&) { return reference::make_contact_solver({}); };
-    options.declaration = reference::rigid_declaration({});
+    options.declare = [](const core::Scene& of) { return reference::rigid_declaration({}, of); };
   }
 
   std::uint32_t box(double x, double y, double z) {

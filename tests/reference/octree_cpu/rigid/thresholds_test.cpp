@@ -93,5 +93,25 @@ TEST(Thresholds, FixedOnesDoNotServeAThousandToOne) {
   EXPECT_GT(deepest_of_mixture(true), kBar);
 }
 
+// A cube of 8 kg that falls at 9 m/s on one of 16 g, which lies askew on another of 8 kg: how deep the small one ends
+// in either, in its sides.
+double deepest_under_a_heavy_one(const core::SoftSettings& settings) {
+  PipelineRig rig;
+  rig.options.make_solver = [settings](const core::Scene&) { return reference::make_soft_solver(settings); };
+  const std::uint32_t large = rig.box(2, 2, 2);
+  rig.add(large, {0, 1, 0}, 8.0F);
+  rig.add(rig.box(0.25, 0.25, 0.25), {0.3F, 2.2F, 0.1F}, 0x1p-6F, {}, {5, -13, 27});
+  rig.add(large, {0, 3.5F, 0}, 8.0F, {0, -9, 0});
+  return deepest_share(rig, {2.0F, 0.25F, 2.0F}, 40);
+}
+
+// Neither its contacts' stiffness nor what the start of a step shows was enough.
+TEST(Thresholds, ALightBodyIsNotCrushedByAHeavyOneThatFalls) {
+  core::SoftSettings once;
+  once.lively = once.calm = {1, once.even};
+  EXPECT_GT(deepest_under_a_heavy_one(once), 0.05);
+  EXPECT_LT(deepest_under_a_heavy_one({}), 0.02);
+}
+
 }  // namespace
 }  // namespace broadside::tests

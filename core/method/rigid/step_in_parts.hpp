@@ -1,0 +1,32 @@
+// A step that is taken in several equal parts, each of which detects anew, as one frame of a trace: RIGID 8.4.
+//
+// Where masses are far apart (UnevenStep), light bodies that are struck move and turn within a step to where no
+// contact of its start is. The frame tells bodies as the last part left them, what detection saw at the start of the
+// step, and the points of all parts: of one contact that lasts, one in each part, with what it gave there.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/method/rigid/soft_settings.hpp"
+#include "core/scene/scene.hpp"
+#include "core/trace/frame.hpp"
+
+namespace broadside::core {
+
+// Of bodies that move, the heaviest over the lightest; at least 1.
+float largest_mass_ratio(const Scene& scene);
+
+class StepInParts {
+ public:
+  void begin() { earlier_.clear(); }
+  // In order, all but the last one: what was read back in full behind it.
+  void add(FrameRecord part) { earlier_.push_back(std::move(part)); }
+  // last: as read back in full. It becomes the frame of the step at this level, with the digest of that.
+  void join(FrameRecord& last, RecordLevel level) const;
+
+ private:
+  std::vector<FrameRecord> earlier_;
+};
+
+}  // namespace broadside::core

@@ -1,0 +1,75 @@
+// A step that is taken in parts, as one frame.
+#include "core/method/rigid/step_in_parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/contact.hpp"
+
+namespace broadside::core {
+namespace {
+
+TEST(StepInParts, MassesOfWhatMovesAreCompared) {
+  Scene scene;
+  EXPECT_EQ(largest_mass_ratio(scene), 1.0F);
+  for (const float inverse : {0.0F, 2.0F, 0.25F, 1.0F}) scene.bodies.emplace_back().inverse_mass = inverse;
+  EXPECT_EQ(largest_mass_ratio(scene), 8.0F);
+  EXPECT_EQ(parts_of_step({}, 64.0F, false), 1U);
+  EXPECT_EQ(parts_of_step({}, 65.0F, false), 4U);
+  EXPECT_EQ(parts_of_step({}, 65.0F, true), 1U);
+  // Its cost is to be known ahead.
+  EXPECT_EQ(most_parts(soft_step_settings(), 1000.0F), 1U);
+}
+
+// One body that is a meter further, and a quarter turn about y on, in the second part.
+FrameRecord part_of(bool is_first) {
+  FrameRecord frame;
+  frame.digest = is_first ? 1 : 2;
+  frame.detected_position = {is_first ? Vec3{0, 1, 0} : Vec3{1, 1, 0}};
+  frame.detected_velocity = {Vec3{}};
+  frame.detected_orientation = {is_first ? Quat{1, 0, 0, 0} : Quat{0.70710678F, 0, 0.70710678F, 0}};
+  frame.boxes = {Box{{is_first ? 0.0F : 1.0F, 0, 0}, {2, 2, 2}}};
+  frame.position = {Vec3{2, 1, 0}};
+  frame.orientation = frame.detected_orientation;
+  frame.velocity = frame.angular_velocity = {Vec3{1, 0, 0}};
+  return frame;
+}
+
+ContactPoint point_on_floor(Vec3 point, float gap_m, float push_n_s) {
+  return {0, kFirstFace + 2, point, {0, 1, 0}, gap_m, {0, push_n_s, 0}, 7};
+}
+
+TEST(StepInParts, PointsOfPartsAreToldWhereTheirSurfacesWereAtTheStart) {
+  FrameRecord first = part_of(true);
+  first.points = {point_on_floor({0.5F, 0.01F, 0}, 0.02F, 1.0F)};
+  FrameRecord last = part_of(false);
+  // A corner that was at x = 0.5 from the center has come to z = -0.5.
+  last.points = {point_on_floor({1, -0.01F, -0.5F}, -0.02F, 2.0F)};
+  StepInParts step;
+  step.begin();
+  step.add(first);
+  step.join(last, RecordLevel::kFull);
+  ASSERT_EQ(last.points.size(), 2U);
+  EXPECT_EQ(last.points[0].impulse.y, 1.0F);
+  EXPECT_EQ(last.points[1].impulse.y, 2.0F);
+  EXPECT_NEAR(last.points[1].point.x, 0.5F, 1e-6F);
+  EXPECT_NEAR(last.points[1].point.z, 0.0F, 1e-6F);
+  // The floor's height is 0; as deep as the points that were found at the start, and no deeper than one that was not.
+  EXPECT_EQ(last.points[1].gap_m, 0.0F);
+  EXPECT_EQ(last.boxes[0].min.x, 0.0F);
+  EXPECT_EQ(last.position[0].x, 2.0F);
+  EXPECT_NE(last.digest, 2U);
+}
+
+TEST(StepInParts, ADigestIsThatOfTheWholeStep) {
+  FrameRecord full = part_of(false);
+  FrameRecord told = part_of(false);
+  StepInParts step;
+  step.add(part_of(true));
+  step.join(full, RecordLevel::kFull);
+  step.join(told, RecordLevel::kDigest);
+  EXPECT_EQ(told.digest, full.digest);
+  EXPECT_TRUE(told.position.empty());
+}
+
+}  // namespace
+}  // namespace broadside::core

@@ -1,0 +1,46 @@
+// Bodies that are slow as a step begins.
+#include "core/scene/calm_bodies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace broadside::core {
+namespace {
+
+constexpr Vec3 kDown{0, -10, 0};
+constexpr float kStep_s = 0.01F;  // gravity gives 0.2 m/s in two steps
+
+// One body that reaches half a meter, and turns as fast as its angular momentum is large; beside one that never moves.
+bool is_calm_at(Vec3 v, Vec3 angular_momentum, Vec3 gravity_m_s2 = kDown) {
+  RigidBodies bodies;
+  bodies.mass.resize(2);
+  bodies.mass[0].inverse_mass = 1.0F;
+  bodies.mass[0].inverse_inertia = {1, 1, 1, 0, 0, 0};
+  bodies.shapes.resize(1);
+  bodies.shapes[0].balls = {0.5F, 0.25F};
+  bodies.shape = {0, 0};
+  std::vector<RigidState> states(2);
+  states[0].v = v;
+  states[0].angular_momentum = angular_momentum;
+  states[1].v = {100, 0, 0};
+  return are_calm(bodies, states, gravity_m_s2, kStep_s);
+}
+
+TEST(CalmBodies, ThoseWhoseFastestPointGravityMakesAsFastInTwoSteps) {
+  EXPECT_TRUE(is_calm_at({}, {}));
+  EXPECT_TRUE(is_calm_at({0.19F, 0, 0}, {}));
+  EXPECT_FALSE(is_calm_at({0.21F, 0, 0}, {}));
+  EXPECT_TRUE(is_calm_at({}, {0, 0.38F, 0}));
+  EXPECT_FALSE(is_calm_at({}, {0, 0.42F, 0}));
+  EXPECT_FALSE(is_calm_at({0.11F, 0, 0}, {0, 0, 0.2F}));
+}
+
+// Without gravity nothing says how slow is slow, but what stands still is.
+TEST(CalmBodies, WithoutGravityThoseThatStandStill) {
+  EXPECT_TRUE(is_calm_at({}, {}, {}));
+  EXPECT_FALSE(is_calm_at({0.001F, 0, 0}, {}, {}));
+}
+
+}  // namespace
+}  // namespace broadside::core

@@ -1,0 +1,66 @@
+// How far bodies can have gone within a step: for laws about points that were found within it, and are told at its
+// start (detection_at = within).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/contact_point.hpp"
+#include "validation/mechanics/motion.hpp"
+
+namespace broadside::validation {
+
+// A body is at no moment of the step faster than it began, and what gravity and the magnitudes of all impulses on it
+// add to that; nor is its angular momentum larger than at first and with all their moments, which turns it the fastest
+// about the axis of its least moment of inertia.
+class WaysWithin {
+ public:
+  void read(const Motion& m, std::span<const core::ContactPoint> points) {
+    ways_.assign(m.bodies.size(), {});
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      const BodyState& s = m.bodies[i].before;
+      const bool is_moved = m.facts[i].is_dynamic;
+      ways_[i].speed = length(s.v) + (is_moved ? m.h * m.strongest_pull : 0.0);
+      ways_[i].spin = is_turned(m, i) ? length(s.angular_momentum) / m.facts[i].least_moment : length(s.w);
+    }
+    for (const core::ContactPoint& p : points) {
+      add(m, p, p.a);
+      add(m, p, p.b);
+    }
+    h_ = m.h;
+  }
+
+  // No point of the body at most this far from its center of mass moves farther, m; 0 for faces.
+  [[nodiscard]] double way_m(std::uint32_t body, double arm_m) const {
+    return core::is_face(body) ? 0.0 : h_ * (ways_[body].speed + ways_[body].spin * arm_m);
+  }
+
+  // Of such a point: by how much its speed about the center may differ, m/s, because its arm is not that which is told.
+  [[nodiscard]] double speed_m_s(std::uint32_t body, double arm_m) const {
+    return core::is_face(body) ? 0.0 : ways_[body].spin * way_m(body, arm_m);
+  }
+
+ private:
+  struct Way {
+    double speed = 0.0;  // m/s
+    double spin = 0.0;   // rad/s
+  };
+
+  static bool is_turned(const Motion& m, std::size_t body) {
+    return m.facts[body].is_dynamic && m.facts[body].has_inertia && m.turns;
+  }
+
+  void add(const Motion& m, const core::ContactPoint& p, std::uint32_t body) {
+    if (core::is_face(body) || !m.facts[body].is_dynamic) return;
+    const Vec3d j(p.impulse);
+    ways_[body].speed += length(j) / m.facts[body].mass_kg;
+    if (is_turned(m, body))
+      ways_[body].spin += length(cross(Vec3d(p.point) - m.bodies[body].before.x, j)) / m.facts[body].least_moment;
+  }
+
+  std::vector<Way> ways_;
+  double h_ = 0.0;
+};
+
+}  // namespace broadside::validation
