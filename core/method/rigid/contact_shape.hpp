@@ -67,6 +67,7 @@ struct MeshView {
   std::uint32_t vertex_count = 0;
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;
+  bool is_closed = false;  // and has an inside: neither open nor crossing itself
 };
 
 struct ContactShape {

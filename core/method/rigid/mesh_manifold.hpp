@@ -3,6 +3,8 @@
 // A tree over the triangles finds those that are near; each of them is a sheet of two faces and is treated as any
 // polytope. What is kept of a pair of triangles are contacts in front of both: the normal lies between a triangle's
 // own and those beyond its convex edges, so that the inner edges of a smooth surface make no contacts of their own.
+// Sheets tell nothing of closed meshes that are deeper in each other than their triangles are large: there, vertices
+// inside the other mesh are points, with the shortest way out.
 // Points are merged into patches by normal, the deepest first.
 #pragma once
 
@@ -16,6 +18,7 @@
 #include "core/method/rigid/cylinder_manifold.hpp"
 #include "core/method/rigid/lanes.hpp"
 #include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/mesh_inside.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
 #include "core/method/rigid/polytopes.hpp"
@@ -285,6 +288,66 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
+// A vertex of one mesh that is inside the other one, and how it comes out: triangles are sheets, so two of them that
+// are behind each other touch nowhere. is_a: the vertex is A's.
+BROADSIDE_HD bool vertex_inside(const PlacedShape& of_vertex, std::uint32_t vertex, const PlacedShape& solid, bool is_a,
+                                float rounding_m, Manifold& out) {
+  const Vec3 x = of_vertex.center + turned(of_vertex.axes, of_vertex.shape->mesh.vertices[vertex]);
+  const Vec3 local = turned_back(solid.axes, x - solid.center);
+  if (!is_inside(solid.shape->mesh, local)) return false;
+  const NearestOfMesh nearest = nearest_of_mesh(solid.shape->mesh, local, solid.shape->size_m);
+  const float depth = sqrtf(nearest.squared_m2);
+  // Nearer to the surface than rounding, sheets tell it.
+  if (!(nearest.squared_m2 < 3.0e38F) || !(depth > 4.0F * rounding_m)) return false;
+  const Vec3 way_out = turned(solid.axes, (1.0F / depth) * (nearest.point - local));
+  out.normal = is_a ? way_out : -way_out;
+  out.count = 1;
+  const std::uint32_t corner = corner_name(vertex);
+  const std::uint32_t face = face_name(nearest.triangle);
+  out.points[0] = {x + (0.5F * depth) * way_out, -depth, is_a ? feature_key(corner, face) : feature_key(face, corner)};
+  return true;
+}
+
+// Those of all vertices, where one is deeper than what sheets tell.
+template <typename Lanes>
+BROADSIDE_HD_CALLED void add_vertices_inside(const PlacedShape& a, const PlacedShape& b, float rounding_m,
+                                             Touches& out) {
+  if (!a.shape->mesh.is_closed || !b.shape->mesh.is_closed) return;
+  const TriangleNode& root_a = a.shape->mesh.nodes[0];
+  const TriangleNode& root_b = b.shape->mesh.nodes[0];
+  if (are_apart(a, 0.5F * (root_a.min + root_a.max), 0.5F * (root_a.max - root_a.min), b,
+                0.5F * (root_b.min + root_b.max), 0.5F * (root_b.max - root_b.min), 0.0F))
+    return;
+  const auto of_a = static_cast<int>(a.shape->mesh.vertex_count);
+  const int all = of_a + static_cast<int>(b.shape->mesh.vertex_count);
+  const auto make = [&](int k, Manifold& made) {
+    return k < of_a ? vertex_inside(a, static_cast<std::uint32_t>(k), b, true, rounding_m, made)
+                    : vertex_inside(b, static_cast<std::uint32_t>(k - of_a), a, false, rounding_m, made);
+  };
+  float deepest = 0.0F;
+  for (int k = 0; k < out.count; ++k) deepest = fminf(deepest, out.all[k].point.gap_m);
+  typename Lanes::template Handful<Manifold> some;
+  bool is_deeper = false;
+  for (int pass = 0; pass < 2 && (pass == 0 || is_deeper); ++pass)
+    for (int k = 0; k < all;) {
+      k = some.fill(k, all, make);
+      some.each_in_turn([](const Manifold&) { return true; },
+                        [&](const Manifold& m) {
+                          if (pass == 0)
+                            is_deeper |= m.points[0].gap_m < deepest - 8.0F * rounding_m;
+                          else
+                            take_all<Lanes>(m, rounding_m, out);
+                        });
+    }
+}
+
+template <typename Lanes>
+BROADSIDE_HD void meshes_touch(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                               Touches& out) {
+  mesh_against<Lanes>(a, b, rounding_m, reach_m, out);
+  add_vertices_inside<Lanes>(a, b, rounding_m, out);
+}
+
 // The deepest point that is left begins a patch, and takes along what shares its normal.
 template <typename Lanes>
 BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
@@ -318,7 +381,7 @@ BROADSIDE_HD_CALLED int mesh_manifolds(const PlacedShape& a, const PlacedShape& 
                                        Manifold* out) {
   mesh_detail::Touches touches;
   if (a.shape->kind == ContactKind::kMesh)
-    mesh_detail::mesh_against<Lanes>(a, b, rounding_m, reach_m, touches);
+    mesh_detail::meshes_touch<Lanes>(a, b, rounding_m, reach_m, touches);
   else
     mesh_detail::convex_against<Lanes>(a, b, rounding_m, reach_m, touches);
   return mesh_detail::patches_of<Lanes>(touches, reach_m, out);

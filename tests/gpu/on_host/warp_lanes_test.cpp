@@ -158,6 +158,7 @@ struct MeshShape {
                   static_cast<std::uint32_t>(mesh.vertices.size()),
                   static_cast<std::uint32_t>(tables.normals.size()),
                   static_cast<std::uint32_t>(tables.nodes.size())};
+    shape.mesh.is_closed = true;
     for (const core::Vec3 v : mesh.vertices) shape.size_m = std::max(shape.size_m, core::length(v));
   }
 };
