@@ -350,7 +350,7 @@ BROADSIDE_HD void meshes_touch(const PlacedShape& a, const PlacedShape& b, float
 
 // The deepest point that is left begins a patch, and takes along what shares its normal.
 template <typename Lanes>
-BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
+BROADSIDE_HD int patches_of(Touches& touches, float rounding_m, float reach_m, Manifold* out) {
   int patches = 0;
   bool is_taken[kMeshPoints] = {};
   while (patches < kPatchesOfPair) {
@@ -368,7 +368,7 @@ BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
     }
     keep_four_by<Lanes>(
         patch, touches.count, reach_m, 0.0F, [&](int k) { return touches.all[k].point; },
-        [&](int k) { return is_of_patch[k]; });
+        [&](int k) { return is_of_patch[k]; }, 4.0F * rounding_m);
   }
   return patches;
 }
@@ -384,7 +384,7 @@ BROADSIDE_HD_CALLED int mesh_manifolds(const PlacedShape& a, const PlacedShape& 
     mesh_detail::meshes_touch<Lanes>(a, b, rounding_m, reach_m, touches);
   else
     mesh_detail::convex_against<Lanes>(a, b, rounding_m, reach_m, touches);
-  return mesh_detail::patches_of<Lanes>(touches, reach_m, out);
+  return mesh_detail::patches_of<Lanes>(touches, rounding_m, reach_m, out);
 }
 
 // Corners of the mesh over a plane: one patch.

@@ -174,7 +174,7 @@ TEST(Meshes, FarTrianglesArePassedOverWithoutATrace) {
         mesh_detail::take_all<OneLane>(m, rounding_m, touches);
       }
     Manifold all[kPatchesOfPair];
-    const int patches = mesh_detail::patches_of<OneLane>(touches, kReach, all);
+    const int patches = mesh_detail::patches_of<OneLane>(touches, rounding_m, kReach, all);
     Manifold found[kPatchesOfPair];
     ASSERT_EQ(make_manifolds(a.shape, a.pose, b.shape, b.pose, kReach, found), patches) << "trial " << trial;
     for (int k = 0; k < patches; ++k) {
