@@ -87,10 +87,10 @@ BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::ui
   return out;
 }
 
-// The least cosine between a triangle's normal and a direction in which its surface looks. Rounding of normals counts
-// as looking.
-BROADSIDE_HD float least_looking(const PlacedShape& mesh, std::uint32_t t) {
-  return fmaxf(mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal), 0.0F);
+// The least cosine between a triangle's normal and a direction in which its surface looks, of MeshView::least_facing.
+// Rounding of normals counts as looking.
+BROADSIDE_HD float least_looking(float least_facing) {
+  return fmaxf(least_facing - (1.0F - kSameNormal), 0.0F);
 }
 
 // Does a triangle's surface look that way?
@@ -104,6 +104,14 @@ BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, V
 BROADSIDE_HD bool may_look_at_each_other(float least_a, Vec3 normal_a, float least_b, Vec3 normal_b) {
   const float aside = sqrtf((1.0F - least_a * least_a) * (1.0F - least_b * least_b));
   return -dot(normal_a, normal_b) >= least_a * least_b - aside - 0x1p-14F;
+}
+
+// The same of any two triangles of two nodes.
+BROADSIDE_HD bool may_look_at_each_other(const PlacedShape& a, const TriangleNode& of_a, const PlacedShape& b,
+                                         const TriangleNode& of_b) {
+  if (of_a.least_looking < 0.0F || of_b.least_looking < 0.0F) return true;
+  return may_look_at_each_other(of_a.least_looking, turned(a.axes, of_a.looking), of_b.least_looking,
+                                turned(b.axes, of_b.looking));
 }
 
 // Boxes of two nodes, one in the axes of the other body: apart along an axis of either by more than reach_m? Not all
@@ -248,7 +256,9 @@ BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, 
   const TrianglePolytope of_a = triangle_polytope(a, i);
   const TrianglePolytope of_b = triangle_polytope(b, j);
   m.count = 0;
-  if (!may_look_at_each_other(least_looking(a, i), of_a.normal, least_looking(b, j), of_b.normal)) return;
+  if (!may_look_at_each_other(least_looking(a.shape->mesh.least_facing[i]), of_a.normal,
+                              least_looking(b.shape->mesh.least_facing[j]), of_b.normal))
+    return;
   const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, seen_m);
   if (axis.gap_m > seen_m) return;
   polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
@@ -270,6 +280,7 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const float seen_m = out.seen_m(reach_m, rounding_m);
     if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, seen_m))
       return 0;
+    if (!may_look_at_each_other(a, node_a, b, node_b)) return 0;
     if (node_a.count > 0 && node_b.count > 0) return Lanes::kLeaf;
     const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
     for (std::uint32_t k = 0; k < 2; ++k)

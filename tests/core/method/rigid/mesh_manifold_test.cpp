@@ -190,6 +190,29 @@ TEST(Meshes, FarTrianglesArePassedOverWithoutATrace) {
   EXPECT_GT(full, 0) << "no trial had more points than are kept";
 }
 
+// Nodes that are passed over for where they look have no triangles that look at each other; and some are.
+TEST(Meshes, NodesLookWhereverATriangleDoes) {
+  Draw draw(6);
+  MeshBody a(datasets::lumpy_mesh(320, 1).value());
+  MeshBody b(datasets::lumpy_mesh(320, 2).value());
+  int passed_over = 0;
+  for (int trial = 0; trial < 4; ++trial) {
+    const PlacedShape at_a = placed_shape(a.shape, {{}, draw.turn()}, {});
+    const PlacedShape at_b = placed_shape(b.shape, {{}, draw.turn()}, {});
+    for (const TriangleNode& of_a : a.tables.nodes)
+      for (const TriangleNode& of_b : b.tables.nodes) {
+        if (of_a.count == 0 || of_b.count == 0 || mesh_detail::may_look_at_each_other(at_a, of_a, at_b, of_b)) continue;
+        ++passed_over;
+        for (std::uint32_t i = of_a.first; i < of_a.first + of_a.count; ++i)
+          for (std::uint32_t j = of_b.first; j < of_b.first + of_b.count; ++j)
+            EXPECT_FALSE(mesh_detail::may_look_at_each_other(
+                mesh_detail::least_looking(a.tables.least_facing[i]), turned(at_a.axes, a.tables.normals[i]),
+                mesh_detail::least_looking(b.tables.least_facing[j]), turned(at_b.axes, b.tables.normals[j])));
+      }
+  }
+  EXPECT_GT(passed_over, 1000);
+}
+
 // By the distance to every triangle and the solid angle that all of them fill.
 TEST(MeshInside, IsWhereTheSurfaceSurrounds) {
   Draw draw(8);
