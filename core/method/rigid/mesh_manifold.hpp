@@ -267,9 +267,10 @@ BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, 
   for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(key_in_mesh(m.points[k].feature, i), j);
 }
 
+// Of triangles that are no farther apart than ahead_m, or than the points that are kept, once there is no more place.
 template <typename Lanes>
 BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
-                                      Touches& out) {
+                                      float ahead_m, Touches& out) {
   const TriangleNode* nodes_a = a.shape->mesh.nodes;
   const TriangleNode* nodes_b = b.shape->mesh.nodes;
   const auto open = [&](NodePair pair, NodePair(&below)[2]) {
@@ -277,7 +278,7 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const TriangleNode& node_b = nodes_b[pair.b];
     const Vec3 half_a = 0.5F * (node_a.max - node_a.min);
     const Vec3 half_b = 0.5F * (node_b.max - node_b.min);
-    const float seen_m = out.seen_m(reach_m, rounding_m);
+    const float seen_m = out.seen_m(ahead_m, rounding_m);
     if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, seen_m))
       return 0;
     if (!may_look_at_each_other(a, node_a, b, node_b)) return 0;
@@ -293,7 +294,7 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const std::uint32_t of_b = nodes_b[pair.b].count;
     Manifold m;
     triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m,
-                    out.seen_m(reach_m, rounding_m), m);
+                    out.seen_m(ahead_m, rounding_m), m);
     return m;
   };
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
@@ -352,11 +353,20 @@ BROADSIDE_HD_CALLED void add_vertices_inside(const PlacedShape& a, const PlacedS
     }
 }
 
+// What overlaps first, then from near to far: what has no place any more beside the points that are kept is not looked
+// at. The points are the same whatever the order.
 template <typename Lanes>
 BROADSIDE_HD void meshes_touch(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                Touches& out) {
-  mesh_against<Lanes>(a, b, rounding_m, reach_m, out);
+  constexpr float kFirst = 0x1p-5F;  // of the reach
+  constexpr float kFarther = 4.0F;
+  float ahead_m = fminf(8.0F * rounding_m, reach_m);
+  mesh_against<Lanes>(a, b, rounding_m, reach_m, ahead_m, out);
   add_vertices_inside<Lanes>(a, b, rounding_m, out);
+  while (out.seen_m(reach_m, rounding_m) > ahead_m) {
+    ahead_m = fminf(reach_m, fmaxf(kFarther * ahead_m, kFirst * reach_m));
+    mesh_against<Lanes>(a, b, rounding_m, reach_m, ahead_m, out);
+  }
 }
 
 // The deepest point that is left begins a patch, and takes along what shares its normal.
