@@ -90,10 +90,10 @@ class Builder {
     if (solid && solid.value().solid == Solid::kHull)
       if (const auto hull = exact::convex_hull(mesh.vertices)) return add_hull(index, *hull);
     if (const auto known = meshes_.find(index); known != meshes_.end()) return known->second.shape;
-    return add_mesh(index, mesh);
+    return add_mesh(index, mesh, solid && solid.value().solid == Solid::kMesh);
   }
 
-  Result<ContactShape> add_mesh(std::uint32_t index, const Mesh& mesh) {
+  Result<ContactShape> add_mesh(std::uint32_t index, const Mesh& mesh, bool is_closed) {
     const TriangleTables tables = triangle_tables(mesh);
     if (tables.normals.empty())
       return Error{"no triangle of the mesh has an area", "mesh " + mesh.name, "give a mesh with a surface"};
@@ -104,6 +104,7 @@ class Builder {
     append(out_.mesh_least_facing, tables.least_facing);
     append(out_.mesh_nodes, tables.nodes);
     place.shape.kind = ContactKind::kMesh;
+    place.shape.mesh.is_closed = is_closed;
     place.shape.size_m = farthest_m(mesh.vertices);
     place.shape.mesh.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
     place.shape.mesh.triangle_count = static_cast<std::uint32_t>(tables.normals.size());

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "core/exact/triangle_distance.hpp"
+#include "core/method/rigid/mesh_manifold.hpp"
 
 namespace broadside::core {
 namespace {
@@ -39,6 +41,7 @@ class Tree {
           {static_cast<float>(n.x / size), static_cast<float>(n.y / size), static_cast<float>(n.z / size)});
     }
     look_beyond();
+    cone_below(0);
     return std::move(out_);
   }
 
@@ -91,6 +94,31 @@ class Tree {
       }
       out_.least_facing.push_back(least);
     }
+  }
+
+  // Sets the cones of the node and of all below it; returns its first triangle and the one behind its last.
+  std::pair<std::size_t, std::size_t> cone_below(std::size_t at) {
+    TriangleNode& node = out_.nodes[at];
+    const std::size_t first = node.first;
+    const auto [begin, end] = node.count > 0 ? std::pair{first, first + node.count}
+                                             : std::pair{cone_below(first).first, cone_below(first + 1).second};
+    // Covers what roundings of normals, of this and of the test do.
+    constexpr double kSlack = 1e-5;
+    Point sum;
+    for (std::size_t t = begin; t < end; ++t) sum = sum + exact::to_point(out_.normals[t]);
+    const double size = std::sqrt(dot(sum, sum));
+    if (!(size > 0.0)) return {begin, end};
+    const Point middle = (1.0 / size) * sum;
+    double widest = 0.0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const double aside = std::acos(std::clamp(dot(middle, exact::to_point(out_.normals[t])), -1.0, 1.0));
+      const double looks = std::acos(static_cast<double>(mesh_detail::least_looking(out_.least_facing[t])));
+      widest = std::max(widest, aside + looks + kSlack);
+    }
+    if (!(widest < 0.5 * std::numbers::pi)) return {begin, end};
+    node.looking = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};
+    node.least_looking = static_cast<float>(std::cos(widest));
+    return {begin, end};
   }
 
   const Mesh& mesh_;

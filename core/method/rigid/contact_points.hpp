@@ -6,6 +6,7 @@
 
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
+#include "core/method/rigid/corner_layer.hpp"
 #include "core/method/rigid/cross.hpp"
 #include "core/method/rigid/lanes.hpp"
 #include "core/method/rigid/manifold.hpp"
@@ -39,9 +40,15 @@ BROADSIDE_HD constexpr std::uint32_t feature_key(std::uint32_t of_a, std::uint32
 // tilt: how far round bodies may turn within a step, rad; 0 = all candidates count alike. One that only a larger turn
 // about the deepest point brings down counts for less in the same measure. Before, the four of a bunny on the floor
 // were far apart and high up, and between them it rolled into the floor by 7 cm.
+//
+// apart_m: candidates of many small faces may be many points of one line. Where this is not 0 the third and fourth are
+// those farthest from the segment and from the triangle of those before, and nothing is that is no farther than this.
+// Areas prefer points a little beside a line to its far end: a cylinder that lay on a floor of triangles had its
+// deepest point, which rounding chose, one end, and two more between them. It stood on half its line.
 class FourKept {
  public:
-  BROADSIDE_HD FourKept(Vec3 normal, float reach_m, float tilt) : n_(normal), reach_m_(reach_m), tilt_(tilt) {}
+  BROADSIDE_HD FourKept(Vec3 normal, float reach_m, float tilt, float apart_m = 0.0F)
+      : n_(normal), reach_m_(reach_m), tilt_(tilt), apart_m_(apart_m) {}
 
   // What it is worth in the round that comes next.
   [[nodiscard]] BROADSIDE_HD Rated rate(const ManifoldPoint& candidate) const {
@@ -61,6 +68,7 @@ class FourKept {
       value = dot(across, across);
     } else if (count_ == 2) {
       value = fabsf(dot(n_, cross(kept_[1].point - kept_[0].point, from_first)));
+      if (apart_m_ > 0.0F) value = beyond(squared_to_side(candidate.point, 0, 1));
     } else {
       const float twice = dot(n_, cross(kept_[1].point - kept_[0].point, kept_[2].point - kept_[0].point));
       const float turn = twice < 0.0F ? -1.0F : 1.0F;
@@ -69,6 +77,9 @@ class FourKept {
         const Vec3 end = kept_[side == 2 ? 0 : side + 1].point;
         value = fmaxf(value, -turn * dot(n_, cross(end - start, candidate.point - start)));
       }
+      if (apart_m_ > 0.0F && value > 0.0F)
+        value = beyond(fminf(squared_to_side(candidate.point, 0, 1),
+                             fminf(squared_to_side(candidate.point, 1, 2), squared_to_side(candidate.point, 2, 0))));
     }
     if (count_ > 0 && tilt_ > 0.0F) {
       const float rise = candidate.gap_m - kept_[0].gap_m;
@@ -92,9 +103,22 @@ class FourKept {
   }
 
  private:
+  // Across the normal, from the segment between two that are kept.
+  [[nodiscard]] BROADSIDE_HD float squared_to_side(Vec3 x, int from, int to) const {
+    const auto across = [&](Vec3 d) { return d - dot(n_, d) * n_; };
+    const Vec3 side = across(kept_[to].point - kept_[from].point);
+    const Vec3 d = across(x - kept_[from].point);
+    const Vec3 between = d - share_nearest(d, {}, side) * side;
+    return dot(between, between);
+  }
+  [[nodiscard]] BROADSIDE_HD float beyond(float squared) const {
+    return squared > apart_m_ * apart_m_ ? squared : 0.0F;
+  }
+
   Vec3 n_;
   float reach_m_;
   float tilt_;
+  float apart_m_;
   int count_ = 0;
   ManifoldPoint kept_[kManifoldPoints];
 };
@@ -119,8 +143,9 @@ BROADSIDE_HD void keep_four_of(Manifold& out, float reach_m, float tilt, const F
 
 // The same of candidates that have numbers: at(k) gives one, of those that has(k) says.
 template <typename Lanes, typename At, typename Has>
-BROADSIDE_HD void keep_four_by(Manifold& out, int count, float reach_m, float tilt, const At& at, const Has& has) {
-  FourKept four(out.normal, reach_m, tilt);
+BROADSIDE_HD void keep_four_by(Manifold& out, int count, float reach_m, float tilt, const At& at, const Has& has,
+                               float apart_m = 0.0F) {
+  FourKept four(out.normal, reach_m, tilt, apart_m);
   for (int round = 0; round < kManifoldPoints; ++round) {
     const int best = Lanes::first_best(count, [&](int k) { return has(k) ? four.rate(at(k)) : Rated{}; });
     if (best < 0) break;

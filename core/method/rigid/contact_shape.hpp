@@ -55,6 +55,10 @@ struct TriangleNode {
   std::uint32_t first = 0;
   Vec3 max;
   std::uint32_t count = 0;  // of triangles; 0 = an inner node
+  // A cone about this unit direction has all in which surfaces of its triangles look: the cosine of its half angle, or
+  // -1 where that is not below a right angle. Johnson and Cohen, Spatialized Normal Cone Hierarchies (2001).
+  Vec3 looking;
+  float least_looking = -1.0F;
 };
 
 struct MeshView {
@@ -67,6 +71,7 @@ struct MeshView {
   std::uint32_t vertex_count = 0;
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;
+  bool is_closed = false;  // and has an inside: neither open nor crossing itself
 };
 
 struct ContactShape {

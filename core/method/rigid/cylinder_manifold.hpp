@@ -287,8 +287,8 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
     }
   }
   // Overlapping, the deepest corner is over the face whose normal it is, but for rounding.
-  if (points.least_gap() > shown && axis.gap_m <= 0.0F) {
-    const float gap = axis.gap_m - ball;
+  const float gap = axis.gap_m - ball;
+  if (points.least_gap() > shown && gap <= 0.0F) {
     const int lowest = lowest_corner(polytope, -n);
     const Vec3 of_other =
         other.shape->kind == ContactKind::kCylinder ? lowest_point(other, n) : polytope.corner(lowest) + ball * n;

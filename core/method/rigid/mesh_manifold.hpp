@@ -3,6 +3,8 @@
 // A tree over the triangles finds those that are near; each of them is a sheet of two faces and is treated as any
 // polytope. What is kept of a pair of triangles are contacts in front of both: the normal lies between a triangle's
 // own and those beyond its convex edges, so that the inner edges of a smooth surface make no contacts of their own.
+// Sheets tell nothing of closed meshes that are deeper in each other than their triangles are large: there, vertices
+// inside the other mesh are points, with the shortest way out.
 // Points are merged into patches by normal, the deepest first.
 #pragma once
 
@@ -16,63 +18,15 @@
 #include "core/method/rigid/cylinder_manifold.hpp"
 #include "core/method/rigid/lanes.hpp"
 #include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/mesh_inside.hpp"
+#include "core/method/rigid/mesh_touches.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
 #include "core/method/rigid/polytopes.hpp"
 
 namespace broadside::core {
 
-// A pair of bodies has at most so many patches: a convex pair one, meshes the four deepest of different normals.
-inline constexpr int kPatchesOfPair = 4;
-
-// Normals within 26 degrees of that of its deepest point (this cosine) are one patch.
-inline constexpr float kSamePatch = 0.9F;
-
-// So many points of a pair of meshes are looked at when patches are made, the deepest ones.
-inline constexpr int kMeshPoints = 48;
-
 namespace mesh_detail {
-
-struct Touch {
-  Vec3 normal;
-  ManifoldPoint point;
-};
-
-struct Touches {
-  int count = 0;
-  float shallowest_m = 3.402823e38F;  // with no place left, of the least deep one: no point less deep gets one
-  Touch all[kMeshPoints];
-
-  // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
-  // the deepest or, of equal ones, the lowest key.
-  template <typename Lanes>
-  BROADSIDE_HD void add(const Touch& t, float rounding_m) {
-    // The last one that is the same.
-    const FirstLeast same = Lanes::first_least(count, [&](int k) {
-      const Vec3 apart = t.point.point - all[k].point.point;
-      const bool is_same =
-          dot(apart, apart) <= 16.0F * rounding_m * rounding_m && dot(t.normal, all[k].normal) >= kSameNormal;
-      return is_same ? -static_cast<float>(k) : 3.402823e38F;
-    });
-    int place = same.value <= 0.0F ? same.item : count;
-    if (place == kMeshPoints)  // the least deep one gives way
-      place = Lanes::first_best(count, [&](int k) { return Rated{true, all[k].point.gap_m, ~all[k].point.feature}; });
-    if (place < count && !is_deeper(t.point, all[place].point)) return;
-    if (place == count) ++count;
-    all[place] = t;
-    if (count == kMeshPoints)
-      shallowest_m = -Lanes::first_least(count, [&](int k) { return -all[k].point.gap_m; }).value;
-  }
-
-  // How far apart nodes are looked into: farther ones only have points that get no place. Points are no nearer than
-  // what they are on, but for 3 roundings, and boxes are off by one: twice that is allowed.
-  BROADSIDE_HD float seen_m(float reach_m, float rounding_m) const {
-    return fminf(reach_m, fmaxf(shallowest_m, 0.0F) + 8.0F * rounding_m);
-  }
-  BROADSIDE_HD static bool is_deeper(const ManifoldPoint& p, const ManifoldPoint& q) {
-    return is_better(-p.gap_m, p.feature, -q.gap_m, q.feature);
-  }
-};
 
 BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::uint32_t t) {
   const MeshView& view = mesh.shape->mesh;
@@ -84,10 +38,10 @@ BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::ui
   return out;
 }
 
-// The least cosine between a triangle's normal and a direction in which its surface looks. Rounding of normals counts
-// as looking.
-BROADSIDE_HD float least_looking(const PlacedShape& mesh, std::uint32_t t) {
-  return fmaxf(mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal), 0.0F);
+// The least cosine between a triangle's normal and a direction in which its surface looks, of MeshView::least_facing.
+// Rounding of normals counts as looking.
+BROADSIDE_HD float least_looking(float least_facing) {
+  return fmaxf(least_facing - (1.0F - kSameNormal), 0.0F);
 }
 
 // Does a triangle's surface look that way?
@@ -101,6 +55,14 @@ BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, V
 BROADSIDE_HD bool may_look_at_each_other(float least_a, Vec3 normal_a, float least_b, Vec3 normal_b) {
   const float aside = sqrtf((1.0F - least_a * least_a) * (1.0F - least_b * least_b));
   return -dot(normal_a, normal_b) >= least_a * least_b - aside - 0x1p-14F;
+}
+
+// The same of any two triangles of two nodes.
+BROADSIDE_HD bool may_look_at_each_other(const PlacedShape& a, const TriangleNode& of_a, const PlacedShape& b,
+                                         const TriangleNode& of_b) {
+  if (of_a.least_looking < 0.0F || of_b.least_looking < 0.0F) return true;
+  return may_look_at_each_other(of_a.least_looking, turned(a.axes, of_a.looking), of_b.least_looking,
+                                turned(b.axes, of_b.looking));
 }
 
 // Boxes of two nodes, one in the axes of the other body: apart along an axis of either by more than reach_m? Not all
@@ -196,11 +158,6 @@ BROADSIDE_HD Vec3 half_of(const ContactShape& s) {
 }
 
 template <typename Lanes>
-BROADSIDE_HD void take_all(const Manifold& m, float rounding_m, Touches& out) {
-  for (int k = 0; k < m.count; ++k) out.add<Lanes>({m.normal, m.points[k]}, rounding_m);
-}
-
-template <typename Lanes>
 BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape& mesh, float rounding_m, float reach_m,
                                         Touches& out) {
   const Vec3 half = half_of(*a.shape);
@@ -245,7 +202,9 @@ BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, 
   const TrianglePolytope of_a = triangle_polytope(a, i);
   const TrianglePolytope of_b = triangle_polytope(b, j);
   m.count = 0;
-  if (!may_look_at_each_other(least_looking(a, i), of_a.normal, least_looking(b, j), of_b.normal)) return;
+  if (!may_look_at_each_other(least_looking(a.shape->mesh.least_facing[i]), of_a.normal,
+                              least_looking(b.shape->mesh.least_facing[j]), of_b.normal))
+    return;
   const SeparatingAxis axis = separating_axis(of_a, of_b, rounding_m, seen_m);
   if (axis.gap_m > seen_m) return;
   polytope_manifold(of_a, of_b, axis, 0.0F, 0.0F, rounding_m, reach_m, m);
@@ -254,9 +213,10 @@ BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, 
   for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(key_in_mesh(m.points[k].feature, i), j);
 }
 
+// Of triangles that are no farther apart than ahead_m, or than the points that are kept, once there is no more place.
 template <typename Lanes>
 BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
-                                      Touches& out) {
+                                      float ahead_m, Touches& out) {
   const TriangleNode* nodes_a = a.shape->mesh.nodes;
   const TriangleNode* nodes_b = b.shape->mesh.nodes;
   const auto open = [&](NodePair pair, NodePair(&below)[2]) {
@@ -264,9 +224,10 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const TriangleNode& node_b = nodes_b[pair.b];
     const Vec3 half_a = 0.5F * (node_a.max - node_a.min);
     const Vec3 half_b = 0.5F * (node_b.max - node_b.min);
-    const float seen_m = out.seen_m(reach_m, rounding_m);
+    const float seen_m = out.seen_m(ahead_m, rounding_m);
     if (are_apart(a, 0.5F * (node_a.min + node_a.max), half_a, b, 0.5F * (node_b.min + node_b.max), half_b, seen_m))
       return 0;
+    if (!may_look_at_each_other(a, node_a, b, node_b)) return 0;
     if (node_a.count > 0 && node_b.count > 0) return Lanes::kLeaf;
     const bool opens_a = node_b.count > 0 || (node_a.count == 0 && dot(half_a, half_a) >= dot(half_b, half_b));
     for (std::uint32_t k = 0; k < 2; ++k)
@@ -279,35 +240,79 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
     const std::uint32_t of_b = nodes_b[pair.b].count;
     Manifold m;
     triangles_touch(a, nodes_a[pair.a].first + at / of_b, b, nodes_b[pair.b].first + at % of_b, rounding_m, reach_m,
-                    out.seen_m(reach_m, rounding_m), m);
+                    out.seen_m(ahead_m, rounding_m), m);
     return m;
   };
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
-// The deepest point that is left begins a patch, and takes along what shares its normal.
+// A vertex of one mesh that is inside the other one, and how it comes out: triangles are sheets, so two of them that
+// are behind each other touch nowhere. is_a: the vertex is A's.
+BROADSIDE_HD bool vertex_inside(const PlacedShape& of_vertex, std::uint32_t vertex, const PlacedShape& solid, bool is_a,
+                                float rounding_m, Manifold& out) {
+  const Vec3 x = of_vertex.center + turned(of_vertex.axes, of_vertex.shape->mesh.vertices[vertex]);
+  const Vec3 local = turned_back(solid.axes, x - solid.center);
+  if (!is_inside(solid.shape->mesh, local)) return false;
+  const NearestOfMesh nearest = nearest_of_mesh(solid.shape->mesh, local, solid.shape->size_m);
+  const float depth = sqrtf(nearest.squared_m2);
+  // Nearer to the surface than rounding, sheets tell it.
+  if (!(nearest.squared_m2 < 3.0e38F) || !(depth > 4.0F * rounding_m)) return false;
+  const Vec3 way_out = turned(solid.axes, (1.0F / depth) * (nearest.point - local));
+  out.normal = is_a ? way_out : -way_out;
+  out.count = 1;
+  const std::uint32_t corner = corner_name(vertex);
+  const std::uint32_t face = face_name(nearest.triangle);
+  out.points[0] = {x + (0.5F * depth) * way_out, -depth, is_a ? feature_key(corner, face) : feature_key(face, corner)};
+  return true;
+}
+
+// Those of all vertices, where one is deeper than what sheets tell.
 template <typename Lanes>
-BROADSIDE_HD int patches_of(Touches& touches, float reach_m, Manifold* out) {
-  int patches = 0;
-  bool is_taken[kMeshPoints] = {};
-  while (patches < kPatchesOfPair) {
-    const int deepest = Lanes::first_best(touches.count, [&](int k) {
-      const ManifoldPoint& p = touches.all[k].point;
-      return Rated{!is_taken[k], -p.gap_m, p.feature};
-    });
-    if (deepest < 0) break;
-    Manifold& patch = out[patches++];
-    patch.normal = touches.all[deepest].normal;
-    bool is_of_patch[kMeshPoints] = {};
-    for (int k = 0; k < touches.count; ++k) {
-      is_of_patch[k] = !is_taken[k] && dot(touches.all[k].normal, patch.normal) >= kSamePatch;
-      is_taken[k] |= is_of_patch[k];
+BROADSIDE_HD_CALLED void add_vertices_inside(const PlacedShape& a, const PlacedShape& b, float rounding_m,
+                                             Touches& out) {
+  if (!a.shape->mesh.is_closed || !b.shape->mesh.is_closed) return;
+  const TriangleNode& root_a = a.shape->mesh.nodes[0];
+  const TriangleNode& root_b = b.shape->mesh.nodes[0];
+  if (are_apart(a, 0.5F * (root_a.min + root_a.max), 0.5F * (root_a.max - root_a.min), b,
+                0.5F * (root_b.min + root_b.max), 0.5F * (root_b.max - root_b.min), 0.0F))
+    return;
+  const auto of_a = static_cast<int>(a.shape->mesh.vertex_count);
+  const int all = of_a + static_cast<int>(b.shape->mesh.vertex_count);
+  const auto make = [&](int k, Manifold& made) {
+    return k < of_a ? vertex_inside(a, static_cast<std::uint32_t>(k), b, true, rounding_m, made)
+                    : vertex_inside(b, static_cast<std::uint32_t>(k - of_a), a, false, rounding_m, made);
+  };
+  float deepest = 0.0F;
+  for (int k = 0; k < out.count; ++k) deepest = fminf(deepest, out.all[k].point.gap_m);
+  typename Lanes::template Handful<Manifold> some;
+  bool is_deeper = false;
+  for (int pass = 0; pass < 2 && (pass == 0 || is_deeper); ++pass)
+    for (int k = 0; k < all;) {
+      k = some.fill(k, all, make);
+      some.each_in_turn([](const Manifold&) { return true; },
+                        [&](const Manifold& m) {
+                          if (pass == 0)
+                            is_deeper |= m.points[0].gap_m < deepest - 8.0F * rounding_m;
+                          else
+                            take_all<Lanes>(m, rounding_m, out);
+                        });
     }
-    keep_four_by<Lanes>(
-        patch, touches.count, reach_m, 0.0F, [&](int k) { return touches.all[k].point; },
-        [&](int k) { return is_of_patch[k]; });
+}
+
+// What overlaps first, then from near to far: what has no place any more beside the points that are kept is not looked
+// at. The points are the same whatever the order.
+template <typename Lanes>
+BROADSIDE_HD void meshes_touch(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
+                               Touches& out) {
+  constexpr float kFirst = 0x1p-5F;  // of the reach
+  constexpr float kFarther = 4.0F;
+  float ahead_m = fminf(8.0F * rounding_m, reach_m);
+  mesh_against<Lanes>(a, b, rounding_m, reach_m, ahead_m, out);
+  add_vertices_inside<Lanes>(a, b, rounding_m, out);
+  while (out.seen_m(reach_m, rounding_m) > ahead_m) {
+    ahead_m = fminf(reach_m, fmaxf(kFarther * ahead_m, kFirst * reach_m));
+    mesh_against<Lanes>(a, b, rounding_m, reach_m, ahead_m, out);
   }
-  return patches;
 }
 
 }  // namespace mesh_detail
@@ -318,10 +323,10 @@ BROADSIDE_HD_CALLED int mesh_manifolds(const PlacedShape& a, const PlacedShape& 
                                        Manifold* out) {
   mesh_detail::Touches touches;
   if (a.shape->kind == ContactKind::kMesh)
-    mesh_detail::mesh_against<Lanes>(a, b, rounding_m, reach_m, touches);
+    mesh_detail::meshes_touch<Lanes>(a, b, rounding_m, reach_m, touches);
   else
     mesh_detail::convex_against<Lanes>(a, b, rounding_m, reach_m, touches);
-  return mesh_detail::patches_of<Lanes>(touches, reach_m, out);
+  return mesh_detail::patches_of<Lanes>(touches, rounding_m, reach_m, out);
 }
 
 // Corners of the mesh over a plane: one patch.

@@ -19,7 +19,7 @@ struct MeshBody {
   ContactShape shape;
   ContactPose pose;
 
-  explicit MeshBody(Mesh given) : mesh(std::move(given)), tables(triangle_tables(mesh)) {
+  explicit MeshBody(Mesh given, bool is_closed_mesh = false) : mesh(std::move(given)), tables(triangle_tables(mesh)) {
     shape.kind = ContactKind::kMesh;
     shape.mesh = {mesh.vertices.data(),
                   tables.triangles.data(),
@@ -29,6 +29,7 @@ struct MeshBody {
                   static_cast<std::uint32_t>(mesh.vertices.size()),
                   static_cast<std::uint32_t>(tables.normals.size()),
                   static_cast<std::uint32_t>(tables.nodes.size())};
+    shape.mesh.is_closed = is_closed_mesh;
     for (const Vec3 v : mesh.vertices) shape.size_m = std::max(shape.size_m, length(v));
   }
   MeshBody(const MeshBody&) = delete;

@@ -174,7 +174,7 @@ TEST(Meshes, FarTrianglesArePassedOverWithoutATrace) {
         mesh_detail::take_all<OneLane>(m, rounding_m, touches);
       }
     Manifold all[kPatchesOfPair];
-    const int patches = mesh_detail::patches_of<OneLane>(touches, kReach, all);
+    const int patches = mesh_detail::patches_of<OneLane>(touches, rounding_m, kReach, all);
     Manifold found[kPatchesOfPair];
     ASSERT_EQ(make_manifolds(a.shape, a.pose, b.shape, b.pose, kReach, found), patches) << "trial " << trial;
     for (int k = 0; k < patches; ++k) {
@@ -188,6 +188,102 @@ TEST(Meshes, FarTrianglesArePassedOverWithoutATrace) {
     full += touches.count == kMeshPoints ? 1 : 0;
   }
   EXPECT_GT(full, 0) << "no trial had more points than are kept";
+}
+
+// Nodes that are passed over for where they look have no triangles that look at each other; and some are.
+TEST(Meshes, NodesLookWhereverATriangleDoes) {
+  Draw draw(6);
+  MeshBody a(datasets::lumpy_mesh(320, 1).value());
+  MeshBody b(datasets::lumpy_mesh(320, 2).value());
+  int passed_over = 0;
+  for (int trial = 0; trial < 4; ++trial) {
+    const PlacedShape at_a = placed_shape(a.shape, {{}, draw.turn()}, {});
+    const PlacedShape at_b = placed_shape(b.shape, {{}, draw.turn()}, {});
+    for (const TriangleNode& of_a : a.tables.nodes)
+      for (const TriangleNode& of_b : b.tables.nodes) {
+        if (of_a.count == 0 || of_b.count == 0 || mesh_detail::may_look_at_each_other(at_a, of_a, at_b, of_b)) continue;
+        ++passed_over;
+        for (std::uint32_t i = of_a.first; i < of_a.first + of_a.count; ++i)
+          for (std::uint32_t j = of_b.first; j < of_b.first + of_b.count; ++j)
+            EXPECT_FALSE(mesh_detail::may_look_at_each_other(
+                mesh_detail::least_looking(a.tables.least_facing[i]), turned(at_a.axes, a.tables.normals[i]),
+                mesh_detail::least_looking(b.tables.least_facing[j]), turned(at_b.axes, b.tables.normals[j])));
+      }
+  }
+  EXPECT_GT(passed_over, 1000);
+}
+
+// By the distance to every triangle and the solid angle that all of them fill.
+TEST(MeshInside, IsWhereTheSurfaceSurrounds) {
+  Draw draw(8);
+  const MeshBody body(datasets::lumpy_mesh(320, 1).value(), true);
+  int inside = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    // Some on the lines through vertices, where a ray meets corners and edges.
+    Vec3 p = draw.in_cube(1.3F);
+    if (trial % 3 == 0) {
+      const Vec3 v =
+          body.mesh.vertices[static_cast<std::size_t>(draw.below(static_cast<int>(body.mesh.vertices.size())))];
+      p = {draw.between(-1.3F, 1.3F), v.y, v.z};
+    }
+    double angle = 0.0;
+    double nearest = 1e30;
+    for (std::uint32_t t = 0; t < body.shape.mesh.triangle_count; ++t) {
+      exact::Point c[3];
+      for (std::uint32_t k = 0; k < 3; ++k)
+        c[k] = exact::to_point(body.shape.mesh.vertices[body.shape.mesh.triangles[3 * t + k]]) - exact::to_point(p);
+      const auto norm = [](exact::Point q) { return std::sqrt(dot(q, q)); };
+      const double la = norm(c[0]), lb = norm(c[1]), lc = norm(c[2]);
+      angle += 2.0 * std::atan2(dot(c[0], cross(c[1], c[2])),
+                                la * lb * lc + dot(c[0], c[1]) * lc + dot(c[1], c[2]) * la + dot(c[2], c[0]) * lb);
+      // The nearest of many points of the triangle: no nearer than the truth.
+      for (int u = 0; u <= 12; ++u)
+        for (int w = 0; u + w <= 12; ++w) {
+          const double s = u / 12.0, r = w / 12.0;
+          nearest = std::min(nearest, norm((1.0 - s - r) * c[0] + s * c[1] + r * c[2]));
+        }
+    }
+    if (nearest < 1e-4) continue;
+    const bool is_in = angle > 2.0 * 3.14159265358979;
+    EXPECT_EQ(is_inside(body.shape.mesh, p), is_in) << trial;
+    inside += is_in ? 1 : 0;
+    const NearestOfMesh found = nearest_of_mesh(body.shape.mesh, p, 10.0F);
+    const double distance = std::sqrt(static_cast<double>(found.squared_m2));
+    EXPECT_LE(distance, nearest + 1e-5) << trial;
+    EXPECT_GE(distance, nearest - 0.02) << trial;
+    EXPECT_NEAR(length(found.point - p), distance, 1e-5);
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_LT(inside, 350);
+}
+
+// Two balls of triangles, deeper in each other than triangles are large: before, in none of these poses was a point.
+TEST(Meshes, DeepInEachOtherHaveThePointsOfTheirVertices) {
+  Draw draw(9);
+  MeshBody a(datasets::sphere_mesh(1.0, 8).value(), true);
+  MeshBody b(datasets::sphere_mesh(1.0, 8).value(), true);
+  const float radius = a.shape.size_m;
+  for (int trial = 0; trial < 20; ++trial) {
+    a.pose.q = draw.turn();
+    b.pose.q = draw.turn();
+    const Vec3 direction = normalized(draw.in_cube(1.0F));
+    const float depth = (trial % 2 == 0 ? 0.03F : 0.3F) * radius;
+    b.pose.x = (2.0F * radius - depth) * direction;
+    Manifold m[kPatchesOfPair];
+    const int count = make_manifolds(a.shape, a.pose, b.shape, b.pose, 0.01F, m);
+    ASSERT_GE(count, 1) << "trial " << trial;
+    // Facets are flatter than the ball by 0.3 % of the radius, and a vertex is up to 6 % beside the axis.
+    EXPECT_LE(-deepest(m, count), depth) << trial;
+    EXPECT_GE(-deepest(m, count), depth - 0.012F * radius) << trial;
+    EXPECT_LT(dot(m[0].normal, direction), -0.95F) << trial;
+    for (int k = 0; k < m[0].count; ++k) {
+      const ManifoldPoint& p = m[0].points[k];
+      if (p.gap_m > deepest(m, 1)) continue;  // the normal is that of the deepest
+      const Vec3 half = (0.5F * p.gap_m) * m[0].normal;
+      EXPECT_NEAR(length(p.point + half), radius, 0.015F * radius) << "off A, trial " << trial;
+      EXPECT_NEAR(length((p.point - half) - b.pose.x), radius, 0.015F * radius) << "off B, trial " << trial;
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,101 @@
+// Points of a pair of meshes: the deepest ones are kept while they are found, in any order, and merged into patches by
+// normal.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/capsule_manifold.hpp"
+#include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/lanes.hpp"
+#include "core/method/rigid/manifold.hpp"
+
+namespace broadside::core {
+
+// A pair of bodies has at most so many patches: a convex pair one, meshes the four deepest of different normals.
+inline constexpr int kPatchesOfPair = 4;
+
+// Normals within 26 degrees of that of its deepest point (this cosine) are one patch.
+inline constexpr float kSamePatch = 0.9F;
+
+// So many points of a pair of meshes are looked at when patches are made, the deepest ones.
+inline constexpr int kMeshPoints = 48;
+
+namespace mesh_detail {
+
+struct Touch {
+  Vec3 normal;
+  ManifoldPoint point;
+};
+
+struct Touches {
+  int count = 0;
+  float shallowest_m = 3.402823e38F;  // with no place left, of the least deep one: no point less deep gets one
+  Touch all[kMeshPoints];
+
+  // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
+  // the deepest or, of equal ones, the lowest key.
+  template <typename Lanes>
+  BROADSIDE_HD void add(const Touch& t, float rounding_m) {
+    // The last one that is the same.
+    const FirstLeast same = Lanes::first_least(count, [&](int k) {
+      const Vec3 apart = t.point.point - all[k].point.point;
+      const bool is_same =
+          dot(apart, apart) <= 16.0F * rounding_m * rounding_m && dot(t.normal, all[k].normal) >= kSameNormal;
+      return is_same ? -static_cast<float>(k) : 3.402823e38F;
+    });
+    int place = same.value <= 0.0F ? same.item : count;
+    if (place == kMeshPoints)  // the least deep one gives way
+      place = Lanes::first_best(count, [&](int k) { return Rated{true, all[k].point.gap_m, ~all[k].point.feature}; });
+    if (place < count && !is_deeper(t.point, all[place].point)) return;
+    if (place == count) ++count;
+    all[place] = t;
+    if (count == kMeshPoints)
+      shallowest_m = -Lanes::first_least(count, [&](int k) { return -all[k].point.gap_m; }).value;
+  }
+
+  // How far apart nodes are looked into: farther ones only have points that get no place. Points are no nearer than
+  // what they are on, but for 3 roundings, and boxes are off by one: twice that is allowed.
+  BROADSIDE_HD float seen_m(float reach_m, float rounding_m) const {
+    return fminf(reach_m, fmaxf(shallowest_m, 0.0F) + 8.0F * rounding_m);
+  }
+  BROADSIDE_HD static bool is_deeper(const ManifoldPoint& p, const ManifoldPoint& q) {
+    return is_better(-p.gap_m, p.feature, -q.gap_m, q.feature);
+  }
+};
+
+template <typename Lanes>
+BROADSIDE_HD void take_all(const Manifold& m, float rounding_m, Touches& out) {
+  for (int k = 0; k < m.count; ++k) out.add<Lanes>({m.normal, m.points[k]}, rounding_m);
+}
+
+// The deepest point that is left begins a patch, and takes along what shares its normal.
+template <typename Lanes>
+BROADSIDE_HD int patches_of(Touches& touches, float rounding_m, float reach_m, Manifold* out) {
+  int patches = 0;
+  bool is_taken[kMeshPoints] = {};
+  while (patches < kPatchesOfPair) {
+    const int deepest = Lanes::first_best(touches.count, [&](int k) {
+      const ManifoldPoint& p = touches.all[k].point;
+      return Rated{!is_taken[k], -p.gap_m, p.feature};
+    });
+    if (deepest < 0) break;
+    Manifold& patch = out[patches++];
+    patch.normal = touches.all[deepest].normal;
+    bool is_of_patch[kMeshPoints] = {};
+    for (int k = 0; k < touches.count; ++k) {
+      is_of_patch[k] = !is_taken[k] && dot(touches.all[k].normal, patch.normal) >= kSamePatch;
+      is_taken[k] |= is_of_patch[k];
+    }
+    keep_four_by<Lanes>(
+        patch, touches.count, reach_m, 0.0F, [&](int k) { return touches.all[k].point; },
+        [&](int k) { return is_of_patch[k]; }, 4.0F * rounding_m);
+  }
+  return patches;
+}
+
+}  // namespace mesh_detail
+
+}  // namespace broadside::core
