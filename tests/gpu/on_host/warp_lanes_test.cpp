@@ -165,7 +165,7 @@ TEST(WarpLanes, FindTheContactsOfHullsAndMeshes) {
   const core::Subject few = core::hull(core::random_hull(draw, 20));
   const core::Subject box = core::box({0.5F, 0.4F, 0.3F});
   const core::Subject capsule = core::capsule(0.2F, 0.5F, 1);
-  const core::MeshBody mesh(core::random_hull(draw, 60));
+  const core::MeshBody mesh(core::random_hull(draw, 60), true);
   const core::ContactShape shapes[] = {round.shape,   few.shape,  box.shape,
                                        capsule.shape, mesh.shape, core::domain_face_shape(2)};
   int points = 0;
