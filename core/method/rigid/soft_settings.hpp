@@ -136,7 +136,7 @@ inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_
     // What pushes apart is taken back: a start without it, and what changes by that relaxes.
     if (takes_back_pushes(settings)) applications += 1 + kMostRelaxSweeps;
     // Before a bounce all relaxes; a sweep of it visits a patch's points several times, and its friction.
-    if (may_bounce) applications += kMostBounceSweeps + kMostBounceSweeps * (kSweepsOfBounce + 1);
+    if (may_bounce) applications += kMostStopSweeps + kMostBounceSweeps * (kSweepsOfBounce + 1);
     return MostOfStep{parts * numbers.substeps, applications};
   };
   const auto larger = [](const MostOfStep& a, const MostOfStep& b) {

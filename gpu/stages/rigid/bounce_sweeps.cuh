@@ -77,7 +77,7 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
 
 // The end of such a substep: core::drop_impacts. What is left is added to the totals where all other impulses are.
 __device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f,
-                                                 const core::SoftStep& soft, bool is_last) {
+                                                 const core::SoftStep& soft) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;
     load_directions(slot, c);
@@ -85,7 +85,7 @@ __device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const Ri
     load_bodies(slot, c);
     load_impulses(slot, c);
     load_impact(slot, c);
-    core::drop_impacts(c, soft, is_last);
+    core::drop_impacts(c, soft);
     store_totals(slot, c);
     store_impulses(slot, c);
   });

@@ -87,7 +87,7 @@ enum class Stirred : std::uint8_t { kPushed, kBouncing };
 // because it is long.
 __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                                  Stirred of, float done) {
-  const int most = of == Stirred::kPushed ? core::kMostRelaxSweeps : core::kMostBounceSweeps;
+  const int most = of == Stirred::kPushed ? core::kMostRelaxSweeps : core::kMostStopSweeps;
   bool is_done = false;
   for (int k = 0; k < most && !is_done; ++k, ++solve.sweep) {
     relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
@@ -110,17 +110,16 @@ __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFra
   }
 }
 
-// The same as StepConstraints::relax_pushed and bounce of the twin. is_last: of the substeps. Begins behind a barrier
-// and ends with one.
+// The same as StepConstraints::relax_pushed and bounce of the twin. Begins behind a barrier and ends with one.
 __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
-                                            bool is_pushed, float fastest_push, bool is_last) {
+                                            bool is_pushed, float fastest_push) {
   for (Stirred of = is_pushed ? Stirred::kPushed : Stirred::kBouncing;; of = Stirred::kBouncing) {
     float fastest = 0.0F;
     float done = 0.0F;
     if (of == Stirred::kPushed) {
       done = core::done_m_s(solve.soft, core::kRelaxDone, fastest_push);
     } else {
-      if (!solve.may_bounce || !is_last) return;
+      if (!solve.may_bounce) return;
       fastest = largest_of_turn(team, solve);
       if (!(fastest > 0.0F)) return;
       done = core::kBounceDone * fastest;
@@ -133,12 +132,11 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
       break;
     }
     if (!solve.may_bounce) return;
-    if (!is_last) break;
     solve.sweep += 2;
     stir_what_bounces(team, f, solve.soft, solve.sweep, solve.sums);
     team.sync();
   }
-  drop_all_impacts(team, f, solve.soft, is_last);
+  drop_all_impacts(team, f, solve.soft);
   team.sync();
 }
 
@@ -167,8 +165,7 @@ __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFra
   return fastest_push;
 }
 
-__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
-                                            bool is_last) {
+__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
     core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
@@ -190,17 +187,16 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     store_body(f.bodies[i], body);
   });
   team.sync();
-  const ThenBounce then = is_last ? ThenBounce::kStir : ThenBounce::kDrop;
-  relax_all(team, f, solve.soft, solve.may_bounce && !is_pushed ? then : ThenBounce::kNothing, solve.sweep, solve.sums);
+  relax_all(team, f, solve.soft, solve.may_bounce && !is_pushed, solve.sweep, solve.sums);
   team.sync();
   solve.owes_totals = true;
-  end_substep(team, f, solve, is_pushed, fastest_push, is_last);
+  end_substep(team, f, solve, is_pushed, fastest_push);
 }
 
 __device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
   Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.even.sweeps > 1, TeamSums(f.counts), 0, false, {}};
-  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve, k + 1 == f.substeps[kind]);
+  for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve);
   if (team.rank() == 0) {
     f.counts->done = solve.done;
     f.counts->done.waits = team.waits();

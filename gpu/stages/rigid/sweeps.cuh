@@ -144,16 +144,10 @@ __device__ __forceinline__ void set_goals_after_motion(const RigidFrameView& f, 
   if (sets_masses) store_masses(slot, p.c);
 }
 
-// What is done with patches that may bounce right after they have relaxed, while they are at hand.
-enum class ThenBounce : std::uint8_t {
-  kNothing,  // they go on relaxing, or there are none
-  kDrop,     // core::drop_impacts
-  kStir,     // what bounces stirs its bodies, and its fastest approach is brought
-};
-
-// Each contact once, after the bodies moved. sweep: for which bodies are stirred.
+// Each contact once, after the bodies moved. may_bounce: what bounces stirs its bodies for this sweep, and its fastest
+// approach is brought.
 __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
-                                          ThenBounce then, std::uint32_t sweep, const TeamSums& sums) {
+                                          bool may_bounce, std::uint32_t sweep, const TeamSums& sums) {
   float fastest = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
@@ -165,13 +159,8 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedPatch& p) {
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::relax_patch(p.c, p.goals, p.a, p.b); });
-        const bool may_bounce = then != ThenBounce::kNothing && p.c.surface.restitution > 0.0F;
-        if (may_bounce && then == ThenBounce::kDrop) {
-          core::drop_impacts(p.c, soft, false);
-          store_totals(slot, p.c);
-        }
         store_impulses(slot, p.c);
-        if (!may_bounce || then != ThenBounce::kStir) return;
+        if (!may_bounce || !(p.c.surface.restitution > 0.0F)) return;
         const float own = core::fastest_bounce(p.c, soft);
         if (!(own > 0.0F)) return;
         fastest = fmaxf(fastest, own);
@@ -179,7 +168,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         stir(f, p.c.b, sweep);
       });
   __syncwarp();
-  if (then == ThenBounce::kStir) sums.bring_largest(TeamSums::kFirst, fastest);
+  if (may_bounce) sums.bring_largest(TeamSums::kFirst, fastest);
 }
 
 }  // namespace broadside::gpu

@@ -211,10 +211,10 @@ void relax(const TileRange& range, const core::SoftStep& step) {
 }
 
 template <typename Lanes>
-void end_substep(const TileRange& range, const core::SoftStep& step, bool is_last) {
+void end_substep(const TileRange& range, const core::SoftStep& step) {
   for (std::size_t k = range.first; k < range.last; ++k) {
     core::PatchOf<Lanes>& patch = Tile<Lanes>::at(range.tiles, k).patch;
-    core::drop_impacts(patch, step, is_last);
+    core::drop_impacts(patch, step);
     core::add_to_totals(patch);
   }
 }

@@ -69,7 +69,7 @@ void SoftSolver::relax(const core::SoftStep& numbers) {
   if (work_.is_pushed()) sweeps_done_ += work_.relax_pushed(numbers);
 }
 
-void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, bool is_last) {
+void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   const auto bodies = work_.bodies();
   work_.each_body([&](std::size_t i) {
     core::accelerate(bodies[i], step.gravity_m_s2, step.wrenches.empty() ? nullptr : &step.wrenches[i], numbers.dt_s);
@@ -77,8 +77,8 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, b
   sweep_until_done(numbers);
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
   relax(numbers);
-  if (is_last) work_.bounce(numbers);
-  work_.each_range([&](const TileRange& range) { kernels_.end_substep(range, numbers, is_last); });
+  work_.bounce(numbers);
+  work_.each_range([&](const TileRange& range) { kernels_.end_substep(range, numbers); });
 }
 
 std::uint32_t SoftSolver::parts_of_step(float largest_mass_ratio, bool is_calm) const {
@@ -92,7 +92,7 @@ void SoftSolver::advance(std::span<core::RigidState> states, std::span<const cor
   const core::SolveNumbers& solve = core::solve_numbers(settings_, kind, step.is_calm);
   const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, solve);
   work_.begin(states, patches, step, numbers, settings_.limits);
-  for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers, k + 1 == solve.substeps);
+  for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers);
   work_.finish(states, patches);
 }
 

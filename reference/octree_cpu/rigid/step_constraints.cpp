@@ -229,7 +229,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   if (!(done > 0.0F)) return;
   // A share of what stopped them is given back, so that is to be known well.
   float largest = fastest;
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
+  for (int k = 0; k < core::kMostStopSweeps && largest > done; ++k) {
     largest = relax_stirred(numbers, done);
     ++bounce_sweeps_;
   }

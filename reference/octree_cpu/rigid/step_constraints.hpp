@@ -63,7 +63,7 @@ class StepConstraints {
   // Sweeps of bounces since it was made.
   [[nodiscard]] std::uint64_t bounce_sweeps() const { return bounce_sweeps_; }
 
-  // In the last substep. Points that came fast leave with their share of that speed: sweeps until one changes no speed
+  // Points that came fast and are met first leave with their share of that speed: sweeps until one changes no speed
   // by more than 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by
   // more than that.
   void bounce(const core::SoftStep& numbers);
