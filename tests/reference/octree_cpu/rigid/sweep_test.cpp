@@ -102,7 +102,7 @@ float least_lead_m(const std::vector<FrameRecord>& frames) {
 }
 
 TEST(Sweep, ABulletPassesThroughNoCardThatItDrivesIntoOthers) {
-  for (const float speed : {120.0F, 180.0F}) {
+  for (const float speed : {160.0F, 180.0F}) {
     EXPECT_GT(least_lead_m(cards(speed, true).run(10)), 0.0F) << speed;
     EXPECT_LT(least_lead_m(cards(speed, false).run(10)), 0.0F) << speed << ": nothing to be seen without the sweep";
   }
