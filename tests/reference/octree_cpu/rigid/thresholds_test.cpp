@@ -67,6 +67,29 @@ TEST(Thresholds, FixedOnesDoNotServeAMillimeter) {
   EXPECT_GT(deepest_of_size(0.001F, true), kBar);
 }
 
+// Cubes of a millimeter, a meter and a kilometer, each on the floor and one on it, in one scene.
+double deepest_of_far_sizes(bool is_fixed) {
+  PipelineRig rig = rig_of_still_boxes(is_fixed);
+  rig.scene.dt_s = std::sqrt(0.001F) / 60.0F;
+  rig.scene.domain = {{-10, 0, -1000}, {4000, 4000, 1000}};
+  std::vector<float> sides;
+  float x = 0.0F;
+  for (const float side : {0.001F, 1.0F, 1000.0F}) {
+    const std::uint32_t cube = rig.box(static_cast<double>(side), static_cast<double>(side), static_cast<double>(side));
+    for (int k = 0; k < 2; ++k) {
+      add_cube(rig, cube, {x + 0.1F * side * static_cast<float>(k), side * (0.5F + static_cast<float>(k)), 0}, side);
+      sides.push_back(side);
+    }
+    x += 1000.0F;
+  }
+  return deepest_share(rig, sides, 240);
+}
+
+TEST(Thresholds, OneSettingServesAMillimeterBesideAKilometer) {
+  EXPECT_LT(deepest_of_far_sizes(false), kBar);
+  EXPECT_GT(deepest_of_far_sizes(true), kBar);
+}
+
 // Cubes of 0.1 m, 1 cm and 1 mm on one of a meter.
 double deepest_of_mixture(bool is_fixed) {
   PipelineRig rig = rig_of_still_boxes(is_fixed);
