@@ -84,16 +84,14 @@ BROADSIDE_HD void follow_impulses(PatchOf<Number>& c, PatchWayOf<Number>& way, f
 // What the step along the direction does to the bodies. Before follow_impulses turns it.
 template <typename Number, typename Body>
 BROADSIDE_HD void push_along(const PatchOf<Number>& c, const PatchWayOf<Number>& way, Body& a, Body& b, float share) {
-  BodyGain of_a(a);
-  BodyGain of_b(b);
+  PatchPushOf<Number> given;
   each_point(c, [&](int k) {
     const PointStep<Number> more = step_along(way.way[k], share);
-    const VectorOf<Number> impulse = impulse_of(c, more.normal, more.tangent_1, more.tangent_2);
-    of_a.add_to_a(a, c.points[k].arm_a, impulse);
-    of_b.add_to_b(b, c.points[k].arm_b, impulse);
+    given.add_normal(c.points[k].lever, more.normal);
+    given.add_tangents(c.points[k].lever, more.tangent_1, more.tangent_2);
   });
-  of_a.store(a);
-  of_b.store(b);
+  give_to_a(c, given, a);
+  give_to_b(c, given, b);
 }
 
 }  // namespace broadside::core

@@ -15,16 +15,16 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
 #include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/patch_twist.hpp"
 #include "core/method/rigid/solver_body.hpp"
 
 namespace broadside::core {
 
 template <typename Number>
 struct PatchPointOf {
-  // From each center of mass to the point, at the start of the step. They stay through the step: an impulse's moment is
-  // then that of the recorded point, and both bodies together gain none.
-  VectorOf<Number> arm_a;
-  VectorOf<Number> arm_b;
+  // From the patch's center to the point, in the patch's axes, at the start of the step. It stays through the step: an
+  // impulse's moment is then that of the recorded point, and both bodies together gain none.
+  VectorOf<Number> lever;
   Number gap_m = 0.0F;        // at the start of the step
   Number normal_mass = 0.0F;  // kg: impulse along the normal per change of speed along it
   // Of the tangent plane: the inverse of the mobility, symmetric 2 x 2, and that of its larger eigenvalue.
@@ -59,6 +59,10 @@ struct PatchOf {
   VectorOf<Number> normal;  // unit, from B to A
   VectorOf<Number> tangent_1;
   VectorOf<Number> tangent_2;
+  // From each center of mass to the patch's center, the middle of its points, at the start of the step.
+  VectorOf<Number> center_a;
+  VectorOf<Number> center_b;
+  TwistMobilityOf<Number> mobility;
   std::conditional_t<std::is_same_v<Number, float>, Material, LaneMaterial<Number>> surface;  // of both, combined
   Number slop_m = 0.0F;            // the depth at which the patch rests
   Number fastest_push_m_s = 0.0F;  // at which an overlap is pushed apart without gravity
@@ -92,10 +96,24 @@ BROADSIDE_HD void each_point_back(const PatchOf<Number>& c, const Work& work) {
     if (k < c.count) work(k);
 }
 
-// d1 . M d2 of the point's mobility: how fast it moves along d2 for an impulse of 1 N s along d1, by body.
-template <typename Body, typename Vector>
-BROADSIDE_HD auto mobility(const Body& body, const Vector& arm, const Vector& d1, const Vector& d2) {
-  return body.inverse_mass * dot(d1, d2) + dot(cross(arm, d1), body.inverse_inertia * cross(arm, d2));
+// From the patch's axes to the world, and back.
+template <typename Number>
+BROADSIDE_HD VectorOf<Number> in_world(const PatchOf<Number>& c, Number along_normal, Number along_1, Number along_2) {
+  return (along_normal * c.normal + along_1 * c.tangent_1) + along_2 * c.tangent_2;
+}
+template <typename Number, typename Vector>
+BROADSIDE_HD Vector in_patch(const PatchOf<Number>& c, const Vector& v) {
+  return {dot(c.normal, v), dot(c.tangent_1, v), dot(c.tangent_2, v)};
+}
+
+// From the centers of mass to a point, world axes.
+template <typename Number>
+BROADSIDE_HD VectorOf<Number> arm_a(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
+  return c.center_a + in_world<Number>(c, p.lever.x, p.lever.y, p.lever.z);
+}
+template <typename Number>
+BROADSIDE_HD VectorOf<Number> arm_b(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
+  return c.center_b + in_world<Number>(c, p.lever.x, p.lever.y, p.lever.z);
 }
 
 // How far the patch reaches from the centers of mass: of its smaller moved body, m. What is small is measured in it.
@@ -103,25 +121,33 @@ BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const
   float of_a = 0.0F;
   float of_b = 0.0F;
   each_point(c, [&](int k) {
-    const PatchPoint& p = c.points[k];
-    of_a = dot(p.arm_a, p.arm_a) > of_a ? dot(p.arm_a, p.arm_a) : of_a;
-    of_b = dot(p.arm_b, p.arm_b) > of_b ? dot(p.arm_b, p.arm_b) : of_b;
+    const Vec3 from_a = arm_a(c, c.points[k]);
+    const Vec3 from_b = arm_b(c, c.points[k]);
+    of_a = dot(from_a, from_a) > of_a ? dot(from_a, from_a) : of_a;
+    of_b = dot(from_b, from_b) > of_b ? dot(from_b, from_b) : of_b;
   });
   if (!is_moved(a)) return sqrtf(of_b);
   if (!is_moved(b)) return sqrtf(of_a);
   return sqrtf(of_a < of_b ? of_a : of_b);
 }
 
-// How much of an impulse each point takes to change its speed, as its bodies are turned now.
 template <typename Number, typename Body>
-BROADSIDE_HD void set_masses(const PatchOf<Number>& c, PatchPointOf<Number>& p, const Body& a, const Body& b) {
-  const auto entry = [&](const auto& d1, const auto& d2) {
-    return mobility(a, p.arm_a, d1, d2) + mobility(b, p.arm_b, d1, d2);
-  };
-  p.normal_mass = 1.0F / entry(c.normal, c.normal);
-  const Number k11 = entry(c.tangent_1, c.tangent_1);
-  const Number k22 = entry(c.tangent_2, c.tangent_2);
-  const Number k12 = entry(c.tangent_1, c.tangent_2);
+BROADSIDE_HD TwistMobilityOf<Number> mobility_of(const PatchOf<Number>& c, const Body& a, const Body& b) {
+  TwistMobilityOf<Number> m;
+  add_mobility(m, a, c.normal, c.tangent_1, c.tangent_2, c.center_a);
+  add_mobility(m, b, c.normal, c.tangent_1, c.tangent_2, c.center_b);
+  return m;
+}
+
+// How much of an impulse each point takes to change its speed.
+template <typename Number>
+BROADSIDE_HD void set_masses(const TwistMobilityOf<Number>& m, PatchPointOf<Number>& p) {
+  const TwistOf<Number> by_1 = gain_by_tangent_1(m, p.lever);
+  const TwistOf<Number> by_2 = gain_by_tangent_2(m, p.lever);
+  p.normal_mass = 1.0F / normal_speed(gain_by_normal(m, p.lever), p.lever);
+  const Number k11 = tangent_1_speed(by_1, p.lever);
+  const Number k22 = tangent_2_speed(by_2, p.lever);
+  const Number k12 = tangent_1_speed(by_2, p.lever);
   // The mobility is at least the inverse masses' sum in every direction, so its determinant is positive.
   const Number inverse = 1.0F / (k11 * k22 - k12 * k12);
   p.stick_mass_11 = inverse * k22;
@@ -131,17 +157,28 @@ BROADSIDE_HD void set_masses(const PatchOf<Number>& c, PatchPointOf<Number>& p, 
   p.slide_mass = 1.0F / (0.5F * (k11 + k22) + square_root(half * half + k12 * k12));
 }
 
+// The mobility of the patch, and the masses of its points, as its bodies are turned now.
+template <typename Number, typename Body>
+BROADSIDE_HD void set_mobility(PatchOf<Number>& c, const Body& a, const Body& b) {
+  c.mobility = mobility_of(c, a, b);
+  each_point(c, [&](int k) { set_masses(c.mobility, c.points[k]); });
+}
+
 // The same where it is asked for.
 template <typename Number, typename Body>
-BROADSIDE_HD void set_masses_where(TruthOf<Number> is_asked, const PatchOf<Number>& c, PatchPointOf<Number>& p,
-                                   const Body& a, const Body& b) {
-  PatchPointOf<Number> now = p;
-  set_masses(c, now, a, b);
-  p.normal_mass = pick(is_asked, now.normal_mass, p.normal_mass);
-  p.stick_mass_11 = pick(is_asked, now.stick_mass_11, p.stick_mass_11);
-  p.stick_mass_12 = pick(is_asked, now.stick_mass_12, p.stick_mass_12);
-  p.stick_mass_22 = pick(is_asked, now.stick_mass_22, p.stick_mass_22);
-  p.slide_mass = pick(is_asked, now.slide_mass, p.slide_mass);
+BROADSIDE_HD void set_mobility_where(TruthOf<Number> is_asked, PatchOf<Number>& c, const Body& a, const Body& b) {
+  const TwistMobilityOf<Number> now = mobility_of(c, a, b);
+  const auto choose = [&](Number& kept, const Number& other) { kept = pick(is_asked, other, kept); };
+  each_of_mobilities(c.mobility, now, choose);
+  each_point(c, [&](int k) {
+    PatchPointOf<Number> of_now = c.points[k];
+    set_masses(now, of_now);
+    choose(c.points[k].normal_mass, of_now.normal_mass);
+    choose(c.points[k].stick_mass_11, of_now.stick_mass_11);
+    choose(c.points[k].stick_mass_12, of_now.stick_mass_12);
+    choose(c.points[k].stick_mass_22, of_now.stick_mass_22);
+    choose(c.points[k].slide_mass, of_now.slide_mass);
+  });
 }
 
 // Whether a body has turned so far in the step that these are no longer those of its start, rad: a slender one that
@@ -162,58 +199,38 @@ BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const Sol
   c.tangent_2 = cross(c.normal, c.tangent_1);
   c.surface = surface;
   c.count = manifold.count;
+  Vec3 sum;
+  each_point(c, [&](int k) { sum = sum + manifold.points[k].point; });
+  c.center_a = (1.0F / static_cast<float>(c.count)) * sum;
+  c.center_b = c.center_a - center_b_from_a;
   each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
-    p.arm_a = manifold.points[k].point;
-    p.arm_b = manifold.points[k].point - center_b_from_a;
+    p.lever = in_patch(c, manifold.points[k].point - c.center_a);
     p.gap_m = manifold.points[k].gap_m;
   });
-  each_point(c, [&](int k) { set_masses(c, c.points[k], a, b); });
+  set_mobility(c, a, b);
   return c;
 }
 
-// The two bodies of a patch while it is solved: velocities at hand, and what their angular momenta have gained.
+// Impulses at points of a patch, on A, together: their sum and its moment about the patch's center, in its axes.
 template <typename Number>
-struct PatchMotionOf {
-  VectorOf<Number> v_a;
-  VectorOf<Number> w_a;
-  VectorOf<Number> gain_a;
-  VectorOf<Number> v_b;
-  VectorOf<Number> w_b;
-  VectorOf<Number> gain_b;
+struct PatchPushOf {
+  VectorOf<Number> push;    // N s
+  VectorOf<Number> moment;  // N m s
+
+  BROADSIDE_HD void add_normal(const VectorOf<Number>& lever, Number normal) {
+    push.x = push.x + normal;
+    moment.y = moment.y + lever.z * normal;
+    moment.z = moment.z - lever.y * normal;
+  }
+  BROADSIDE_HD void add_tangents(const VectorOf<Number>& lever, Number tangent_1, Number tangent_2) {
+    push.y = push.y + tangent_1;
+    push.z = push.z + tangent_2;
+    moment.x = moment.x + (lever.y * tangent_2 - lever.z * tangent_1);
+    moment.y = moment.y - lever.x * tangent_2;
+    moment.z = moment.z + lever.x * tangent_1;
+  }
 };
-using PatchMotion = PatchMotionOf<float>;
-
-template <typename Number>
-BROADSIDE_HD PatchMotionOf<Number> pick(TruthOf<Number> is_first, const PatchMotionOf<Number>& first,
-                                        const PatchMotionOf<Number>& second) {
-  return {pick(is_first, first.v_a, second.v_a),       pick(is_first, first.w_a, second.w_a),
-          pick(is_first, first.gain_a, second.gain_a), pick(is_first, first.v_b, second.v_b),
-          pick(is_first, first.w_b, second.w_b),       pick(is_first, first.gain_b, second.gain_b)};
-}
-
-template <typename Body>
-BROADSIDE_HD PatchMotionOf<typename Body::Number> motion_of(const Body& a, const Body& b) {
-  return {a.v, angular_velocity(a), {}, b.v, angular_velocity(b), {}};
-}
-
-template <typename Number>
-BROADSIDE_HD VectorOf<Number> relative_velocity(const PatchMotionOf<Number>& m, const PatchPointOf<Number>& p) {
-  return (m.v_a + cross(m.w_a, p.arm_a)) - (m.v_b + cross(m.w_b, p.arm_b));
-}
-
-template <typename Number, typename Body>
-BROADSIDE_HD void push(PatchMotionOf<Number>& m, const Body& a, const Body& b, const PatchPointOf<Number>& p,
-                       const VectorOf<Number>& impulse) {
-  const VectorOf<Number> moment_a = cross(p.arm_a, impulse);
-  m.v_a = m.v_a + a.inverse_mass * impulse;
-  m.w_a = m.w_a + a.inverse_inertia * moment_a;
-  m.gain_a = m.gain_a + moment_a;
-  const VectorOf<Number> moment_b = cross(p.arm_b, impulse);
-  m.v_b = m.v_b - b.inverse_mass * impulse;
-  m.w_b = m.w_b - b.inverse_inertia * moment_b;
-  m.gain_b = m.gain_b - moment_b;
-}
 
 // Static bodies are shared by patches of one color: they are not written.
 template <typename Body>
@@ -224,49 +241,74 @@ BROADSIDE_HD void store(Body& body, const VectorOf<typename Body::Number>& v,
   body.angular_momentum = pick(is_moved(body), body.angular_momentum + gain, body.angular_momentum);
 }
 
+// What such impulses do to each body.
 template <typename Number, typename Body>
-BROADSIDE_HD void store(const PatchMotionOf<Number>& m, Body& a, Body& b) {
-  store(a, m.v_a, m.gain_a);
-  store(b, m.v_b, m.gain_b);
+BROADSIDE_HD void give_to_a(const PatchOf<Number>& c, const PatchPushOf<Number>& given, Body& a) {
+  const VectorOf<Number> impulse = in_world<Number>(c, given.push.x, given.push.y, given.push.z);
+  const VectorOf<Number> moment = in_world<Number>(c, given.moment.x, given.moment.y, given.moment.z);
+  store(a, a.v + a.inverse_mass * impulse, cross(c.center_a, impulse) + moment);
+}
+template <typename Number, typename Body>
+BROADSIDE_HD void give_to_b(const PatchOf<Number>& c, const PatchPushOf<Number>& given, Body& b) {
+  const VectorOf<Number> none;
+  const VectorOf<Number> impulse = in_world<Number>(c, given.push.x, given.push.y, given.push.z);
+  const VectorOf<Number> moment = in_world<Number>(c, given.moment.x, given.moment.y, given.moment.z);
+  store(b, b.v - b.inverse_mass * impulse, none - (cross(c.center_b, impulse) + moment));
+}
+
+// The two bodies of a patch while it is solved: how they move now, and what they were given for it.
+template <typename Number>
+struct PatchMotionOf {
+  TwistOf<Number> twist;
+  PatchPushOf<Number> given;
+};
+using PatchMotion = PatchMotionOf<float>;
+
+template <typename Number>
+BROADSIDE_HD PatchMotionOf<Number> pick(TruthOf<Number> is_first, const PatchMotionOf<Number>& first,
+                                        const PatchMotionOf<Number>& second) {
+  return {
+      pick<Number>(is_first, first.twist, second.twist),
+      {pick(is_first, first.given.push, second.given.push), pick(is_first, first.given.moment, second.given.moment)}};
+}
+
+// Of velocities in world axes.
+template <typename Number, typename Vector>
+BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Vector& v_a, const Vector& w_a,
+                                             const Vector& v_b, const Vector& w_b) {
+  const Vector speed = (v_a + cross(w_a, c.center_a)) - (v_b + cross(w_b, c.center_b));
+  return {{in_patch(c, speed), in_patch(c, w_a - w_b)}, {}};
+}
+template <typename Number, typename Body>
+BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Body& a, const Body& b) {
+  return motion_of(c, a.v, angular_velocity(a), b.v, angular_velocity(b));
+}
+
+template <typename Number, typename Body>
+BROADSIDE_HD void store(const PatchOf<Number>& c, const PatchMotionOf<Number>& m, Body& a, Body& b) {
+  give_to_a(c, m.given, a);
+  give_to_b(c, m.given, b);
 }
 
 // The impulse on A, N s, of what acts along the normal and the tangents.
 template <typename Number>
 BROADSIDE_HD VectorOf<Number> impulse_of(const PatchOf<Number>& c, Number normal, Number tangent_1, Number tangent_2) {
-  return (normal * c.normal + tangent_1 * c.tangent_1) + tangent_2 * c.tangent_2;
+  return in_world<Number>(c, normal, tangent_1, tangent_2);
 }
-
-// What impulses that are known beforehand do to one body of a patch: the same as push and store do to it.
-template <typename Body>
-struct BodyGain {
-  using Number = typename Body::Number;
-  using Vector = VectorOf<Number>;
-  Vector v;
-  Vector gain;
-
-  BROADSIDE_HD explicit BodyGain(const Body& body) : v(body.v), gain{} {}
-  // On A.
-  BROADSIDE_HD void add_to_a(const Body& a, const Vector& arm_a, const Vector& impulse) {
-    v = v + a.inverse_mass * impulse;
-    gain = gain + cross(arm_a, impulse);
-  }
-  // Of the impulse on A, on B.
-  BROADSIDE_HD void add_to_b(const Body& b, const Vector& arm_b, const Vector& impulse) {
-    v = v - b.inverse_mass * impulse;
-    gain = gain - cross(arm_b, impulse);
-  }
-  BROADSIDE_HD void store(Body& body) const { core::store(body, v, gain); }
-};
 
 // How far the end of an arm went while its body turned by this vector, rad: sine and 1 - cosine by their series, which
 // are off by a hundredth at 2.4 rad and are not followed farther. A thousandth of a radian is small enough for the
 // first order. Without the second one a corner that swings past the lowest point of its circle went on down: small
 // cubes that spin under heavy ones were pushed into the floor, and out of it again with energy.
 template <typename Vector>
+BROADSIDE_HD auto swings_far(const Vector& turned) {
+  return dot(turned, turned) > 0x1p-20F;
+}
+template <typename Vector>
 BROADSIDE_HD Vector swung(const Vector& turned, const Vector& arm) {
   const Vector first = cross(turned, arm);
   const auto squared = dot(turned, turned);
-  const auto is_far = squared > 0x1p-20F;
+  const auto is_far = swings_far(turned);
   if (!any(is_far)) return first;
   const auto s = pick(squared < 6.0F, squared, 6.0F);
   const auto sine = 1.0F - s * (1.0F / 6.0F - s * (1.0F / 120.0F - s * (1.0F / 5040.0F)));
@@ -274,12 +316,41 @@ BROADSIDE_HD Vector swung(const Vector& turned, const Vector& arm) {
   return pick(is_far, sine * first + versine * cross(turned, first), first);
 }
 
-// The gap now: that of the start, and how far the bodies moved along the normal since.
+// The gaps of a patch's points now: those of the start, and how far the bodies moved along the normal since.
 template <typename Number, typename Body>
-BROADSIDE_HD Number gap_now(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const Body& a, const Body& b) {
-  const VectorOf<Number> moved_a = a.moved + swung(a.turned, p.arm_a);
-  const VectorOf<Number> moved_b = b.moved + swung(b.turned, p.arm_b);
-  return p.gap_m + dot(c.normal, moved_a - moved_b);
+class PatchGaps {
+ public:
+  BROADSIDE_HD PatchGaps(const PatchOf<Number>& c, const Body& a, const Body& b)
+      : c_(c), a_(a), b_(b), is_far_(swings_far(a.turned) | swings_far(b.turned)) {
+    const VectorOf<Number> moved = (a.moved + cross(a.turned, c.center_a)) - (b.moved + cross(b.turned, c.center_b));
+    const VectorOf<Number> turned = a.turned - b.turned;
+    moved_ = dot(c.normal, moved);
+    turned_1_ = dot(c.tangent_1, turned);
+    turned_2_ = dot(c.tangent_2, turned);
+  }
+
+  // Of point k. The first order in the patch's axes, as its speeds are; where a body turned far, along the arcs.
+  BROADSIDE_HD Number operator()(int k) const {
+    const PatchPointOf<Number>& p = c_.points[k];
+    const Number near = p.gap_m + (moved_ + (turned_1_ * p.lever.z - turned_2_ * p.lever.y));
+    if (!any(is_far_)) return near;
+    const VectorOf<Number> moved_a = a_.moved + swung(a_.turned, arm_a(c_, p));
+    const VectorOf<Number> moved_b = b_.moved + swung(b_.turned, arm_b(c_, p));
+    return pick(is_far_, p.gap_m + dot(c_.normal, moved_a - moved_b), near);
+  }
+
+ private:
+  const PatchOf<Number>& c_;
+  const Body& a_;
+  const Body& b_;
+  TruthOf<Number> is_far_;
+  Number moved_ = 0.0F;
+  Number turned_1_ = 0.0F;
+  Number turned_2_ = 0.0F;
+};
+template <typename Number, typename Body>
+BROADSIDE_HD PatchGaps<Number, Body> gaps_now(const PatchOf<Number>& c, const Body& a, const Body& b) {
+  return {c, a, b};
 }
 
 // N s on A, of the whole step.

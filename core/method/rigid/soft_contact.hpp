@@ -73,11 +73,11 @@ BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPoin
 // Before anything else of a step: how fast the points come. Returns whether one comes fast enough to bounce. A patch of
 // which none does has no restitution in this step, so that nobody has to look at its points again to know.
 BROADSIDE_HD bool note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const SoftStep& step) {
-  const PatchMotion m = motion_of(a, b);
+  const PatchMotion m = motion_of<float>(c, a, b);
   bool is_fast = false;
   each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
-    p.approach_m_s = -dot(c.normal, relative_velocity(m, p));
+    p.approach_m_s = -normal_speed(m.twist, p.lever);
     is_fast = is_fast || came_fast(c, p, step);
   });
   if (!is_fast) c.surface.restitution = 0.0F;
@@ -89,7 +89,9 @@ template <typename Number>
 BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const PatchMotionOf<Number>& m) {
   Number squared = 0.0F;
   each_point(c, [&](int k) {
-    const VectorOf<Number> v = relative_velocity(m, c.points[k]);
+    const VectorOf<Number>& lever = c.points[k].lever;
+    const VectorOf<Number> v = {normal_speed(m.twist, lever), tangent_1_speed(m.twist, lever),
+                                tangent_2_speed(m.twist, lever)};
     squared = pick(dot(v, v) > squared, dot(v, v), squared);
   });
   return square_root(squared);
@@ -104,39 +106,37 @@ BROADSIDE_HD void forget_slips(PatchOf<Number>& c) {
 // The impulses of the substep before.
 template <typename Number, typename Body>
 BROADSIDE_HD void warm_start(const PatchOf<Number>& c, Body& a, Body& b) {
-  BodyGain of_a(a);
-  BodyGain of_b(b);
+  PatchPushOf<Number> given;
   each_point(c, [&](int k) {
     const PatchPointOf<Number>& p = c.points[k];
-    const VectorOf<Number> impulse = impulse_of(c, p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2);
-    of_a.add_to_a(a, p.arm_a, impulse);
-    of_b.add_to_b(b, p.arm_b, impulse);
+    given.add_normal(p.lever, p.normal_impulse);
+    given.add_tangents(p.lever, p.tangent_impulse_1, p.tangent_impulse_2);
   });
-  of_a.store(a);
-  of_b.store(b);
+  give_to_a(c, given, a);
+  give_to_b(c, given, b);
 }
 
 // Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
-template <typename Number, typename Body>
+template <typename Number>
 BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m,
-                                       const Body& a, const Body& b, Number change) {
+                                       Number change) {
+  const TwistOf<Number> gain = gain_by_normal(c.mobility, p.lever);
   const Number sum = p.normal_impulse + change;
   const Number next = pick(sum > 0.0F, sum, 0.0F);
   const Number done = next - p.normal_impulse;
   p.normal_impulse = next;
-  push(m, a, b, p, done * c.normal);
-  return pick(done < 0.0F, -done, done) / p.normal_mass;
+  m.twist = plus<Number>(m.twist, done, gain);
+  m.given.add_normal(p.lever, done);
+  return pick(done < 0.0F, -done, done) * normal_speed(gain, p.lever);
 }
 
 // Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
 // the slip. With one mass for both directions of a sliding point its friction turns until it opposes the slip. Returns
 // how fast it changed the point, m/s.
-template <typename Number, typename Body>
-BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m,
-                                   const Body& a, const Body& b) {
-  const VectorOf<Number> v = relative_velocity(m, p);
-  const Number v1 = dot(v, c.tangent_1);
-  const Number v2 = dot(v, c.tangent_2);
+template <typename Number>
+BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m) {
+  const Number v1 = tangent_1_speed(m.twist, p.lever);
+  const Number v2 = tangent_2_speed(m.twist, p.lever);
   Number want_1 = p.tangent_impulse_1 - (p.stick_mass_11 * v1 + p.stick_mass_12 * v2);
   Number want_2 = p.tangent_impulse_2 - (p.stick_mass_12 * v1 + p.stick_mass_22 * v2);
   const Number held = pick(p.slides, c.surface.mu_kinetic, c.surface.mu_static) * p.normal_impulse;
@@ -155,15 +155,17 @@ BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number
   const Number change_2 = want_2 - p.tangent_impulse_2;
   p.tangent_impulse_1 = want_1;
   p.tangent_impulse_2 = want_2;
-  push(m, a, b, p, change_1 * c.tangent_1 + change_2 * c.tangent_2);
+  m.twist = plus<Number>(m.twist, change_1, gain_by_tangent_1(c.mobility, p.lever));
+  m.twist = plus<Number>(m.twist, change_2, gain_by_tangent_2(c.mobility, p.lever));
+  m.given.add_tangents(p.lever, change_1, change_2);
   return square_root(change_1 * change_1 + change_2 * change_2) / p.slide_mass;
 }
 
-template <typename Number, typename Body>
-BROADSIDE_HD Number solve_frictions(PatchOf<Number>& c, PatchMotionOf<Number>& m, const Body& a, const Body& b) {
+template <typename Number>
+BROADSIDE_HD Number solve_frictions(PatchOf<Number>& c, PatchMotionOf<Number>& m) {
   Number largest = 0.0F;
   each_point(c, [&](int k) {
-    const Number size = solve_friction(c, c.points[k], m, a, b);
+    const Number size = solve_friction(c, c.points[k], m);
     largest = pick(size > largest, size, largest);
   });
   return largest;
@@ -217,25 +219,25 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const SoftS
 template <typename Number, typename Body>
 BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const Body& a, const Body& b,
                                            const SoftStep& step) {
-  return goals_of(c, step, [&](int k) { return gap_now(c, c.points[k], a, b); });
+  return goals_of(c, step, gaps_now(c, a, b));
 }
 
 // One sweep over a patch before the bodies move. Returns the largest change of a point's speed, m/s.
 template <typename Number, typename Body>
 BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& goals, Body& a, Body& b,
                                 const SoftStep& step) {
-  PatchMotionOf<Number> m = motion_of(a, b);
+  PatchMotionOf<Number> m = motion_of<Number>(c, a, b);
   Number largest = 0.0F;
   each_point(c, [&](int k) {
     PatchPointOf<Number>& p = c.points[k];
-    const Number speed = dot(c.normal, relative_velocity(m, p));
+    const Number speed = normal_speed(m.twist, p.lever);
     const Number rigid = speed + goals.allowed_m_s[k];
     const Number soft = -p.normal_mass * step.mass_scale * rigid - step.impulse_scale * p.normal_impulse;
-    const Number size = add_normal_impulse<Number>(c, p, m, a, b, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
+    const Number size = add_normal_impulse<Number>(c, p, m, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
     largest = pick(size > largest, size, largest);
   });
-  const Number size = solve_frictions(c, m, a, b);
-  store(m, a, b);
+  const Number size = solve_frictions(c, m);
+  store<Number>(c, m, a, b);
   return pick(size > largest, size, largest);
 }
 
@@ -257,11 +259,12 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
   const TruthOf<Number> is_far_a = has_turned_far(a);
   const TruthOf<Number> is_far_b = has_turned_far(b);
   const TruthOf<Number> is_far = is_far_a | is_far_b;
-  if (any(is_far)) each_point(c, [&](int k) { set_masses_where(is_far, c, c.points[k], a, b); });
+  if (any(is_far)) set_mobility_where<Number>(is_far, c, a, b);
   PatchGoalsOf<Number> goals;
+  const auto gaps = gaps_now(c, a, b);
   each_point(c, [&](int k) {
     const PatchPointOf<Number>& p = c.points[k];
-    const Number gap = gap_now(c, p, a, b);
+    const Number gap = gaps(k);
     const TruthOf<Number> has_gap = gap > 0.0F;
     const TruthOf<Number> has_pushed = p.normal_impulse > 0.0F;
     const TruthOf<Number> is_bouncing = bounces(c, p, step);
@@ -277,21 +280,21 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
 // point's speed, m/s.
 template <typename Number, typename Body>
 BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& goals, Body& a, Body& b) {
-  PatchMotionOf<Number> m = motion_of(a, b);
+  PatchMotionOf<Number> m = motion_of<Number>(c, a, b);
   Number largest = 0.0F;
   each_point(c, [&](int k) {
     const TruthOf<Number> is_met = !goals.is_open[k];
     if (!any(is_met)) return;
     PatchPointOf<Number>& p = c.points[k];
-    const Number speed = dot(c.normal, relative_velocity(m, p)) + goals.allowed_m_s[k];
+    const Number speed = normal_speed(m.twist, p.lever) + goals.allowed_m_s[k];
     // Where it is not met, nothing changes.
     const PatchMotionOf<Number> before = m;
-    const Number size = add_normal_impulse<Number>(c, p, m, a, b, pick(is_met, -p.normal_mass * speed, 0.0F));
+    const Number size = add_normal_impulse<Number>(c, p, m, pick(is_met, -p.normal_mass * speed, 0.0F));
     m = pick<Number>(is_met, m, before);
     largest = pick(is_met & (size > largest), size, largest);
   });
-  const Number size = solve_frictions(c, m, a, b);
-  store(m, a, b);
+  const Number size = solve_frictions(c, m);
+  store<Number>(c, m, a, b);
   return pick(size > largest, size, largest);
 }
 
@@ -332,7 +335,7 @@ BROADSIDE_HD void note_most_impulses(PatchConstraint& c) {
 // corner, Newton's rule alone may give back more energy than stopping took (Kane and Levinson, Dynamics, 1985). Returns
 // the largest change of a point's speed, m/s. done_m_s: sweeps over its points end that change no speed by more.
 BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step, float done_m_s) {
-  PatchMotion m = motion_of(a, b);
+  PatchMotion m = motion_of<float>(c, a, b);
   float largest = 0.0F;
   float changed = 0.0F;  // of the last two sweeps over the patch
   // Of the patch together: how its points share what stopped it is often open.
@@ -344,10 +347,10 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
   const auto visit = [&](int k) {
     PatchPoint& p = c.points[k];
     if (!bounces(c, p, step)) return;
-    const float speed = dot(c.normal, relative_velocity(m, p));
+    const float speed = normal_speed(m.twist, p.lever);
     const float wish = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
     const float before = p.normal_impulse;
-    const float size = add_normal_impulse(c, p, m, a, b, wish < room ? wish : room);
+    const float size = add_normal_impulse<float>(c, p, m, wish < room ? wish : room);
     room -= p.normal_impulse - before;
     largest = size > largest ? size : largest;
     changed = size > changed ? size : changed;
@@ -361,8 +364,8 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
     each_point_back(c, visit);
     if (!(changed > done_m_s)) break;
   }
-  const float size = solve_frictions(c, m, a, b);
-  store(m, a, b);
+  const float size = solve_frictions(c, m);
+  store<float>(c, m, a, b);
   return size > largest ? size : largest;
 }
 

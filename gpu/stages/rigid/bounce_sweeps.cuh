@@ -58,8 +58,9 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
         core::PatchConstraint& c = loaded.c;
         if (!(core::fastest_bounce(c, soft) > 0.0F)) return;
-        load_arms(slot, load_directions(slot, c), c);
+        load_levers(slot, c);
         load_masses(slot, c);
+        load_mobility(slot, load_directions(slot, c), c);
         if (is_first) {
           core::note_most_impulses(c);
           store_most_impulses(slot, c);

@@ -10,14 +10,15 @@ namespace broadside::gpu {
 
 enum ConstraintWord : std::uint32_t {
   // What no sweep changes.
-  kPatchBodies,                             // body A and the number of points, body B, slop, fastest push
-  kNormal,                                  // w: static friction
-  kTangent,                                 // the first tangent; w: kinetic friction
-  kAcross,                                  // from A's center of mass to B's; w: restitution
-  kArms,                                    // [points] from A's center of mass; w: gap
-  kMasses = kArms + core::kManifoldPoints,  // [points] normal mass, stick masses 11, 12, 22
+  kPatchBodies,                                 // body A and the number of points, body B, slop, fastest push
+  kNormal,                                      // w: static friction
+  kTangent,                                     // the first tangent; w: kinetic friction
+  kAcross,                                      // from A's center of mass to B's; w: restitution
+  kLevers,                                      // [points] of core::PatchPoint; w: gap
+  kMasses = kLevers + core::kManifoldPoints,    // [points] normal mass, stick masses 11, 12, 22
+  kMobility = kMasses + core::kManifoldPoints,  // [6] core::TwistMobility, then from A's center of mass to the patch's
   // What every sweep changes.
-  kImpulses = kMasses + core::kManifoldPoints,  // [points] normal, tangents 1 and 2, of the substep; w: slide mass
+  kImpulses = kMobility + 6,  // [points] normal, tangents 1 and 2, of the substep; w: slide mass
   // By point: x y z w.
   kApproaches = kImpulses + core::kManifoldPoints,
   kMostImpulses,

@@ -59,15 +59,56 @@ __device__ __forceinline__ core::Vec3 load_directions(const TileSlot& slot, core
   return across.v;
 }
 
-// across: from load_directions. The second arm is the same difference as when the constraint was made.
-__device__ __forceinline__ void load_arms(const TileSlot& slot, core::Vec3 across, core::PatchConstraint& c) {
+__device__ __forceinline__ void load_levers(const TileSlot& slot, core::PatchConstraint& c) {
 #pragma unroll
   for (std::uint32_t k = 0; k < kFourPoints; ++k) {
-    const PackedVec3 arm = slot.at(kArms + k);
-    c.points[k].arm_a = arm.v;
-    c.points[k].arm_b = arm.v - across;
-    c.points[k].gap_m = arm.w;
+    const PackedVec3 lever = slot.at(kLevers + k);
+    c.points[k].lever = lever.v;
+    c.points[k].gap_m = lever.w;
   }
+}
+
+// across: from load_directions. B's arm is the same difference as when the constraint was made.
+__device__ __forceinline__ void set_centers(core::Vec3 center_a, core::Vec3 across, core::PatchConstraint& c) {
+  c.center_a = center_a;
+  c.center_b = center_a - across;
+}
+
+// Where the patch is, and nothing else of these words.
+constexpr std::uint32_t kMobilityNumbers = 21;
+constexpr std::uint32_t kMobilityWords = kImpulses - kMobility;
+static_assert(kMobilityNumbers + 3 == 4 * kMobilityWords, "the mobility and the center fill their words");
+__device__ __forceinline__ void load_centers(const TileSlot& slot, core::Vec3 across, core::PatchConstraint& c) {
+  const PackedVec3 last = slot.at(kMobility + kMobilityWords - 1);
+  set_centers({last.v.y, last.v.z, last.w}, across, c);
+}
+
+__device__ __forceinline__ void load_mobility(const TileSlot& slot, core::Vec3 across, core::PatchConstraint& c) {
+  float numbers[4 * kMobilityWords];
+#pragma unroll
+  for (std::uint32_t i = 0; i < kMobilityWords; ++i) {
+    const PackedVec3 word = slot.at(kMobility + i);
+    numbers[4 * i] = word.v.x;
+    numbers[4 * i + 1] = word.v.y;
+    numbers[4 * i + 2] = word.v.z;
+    numbers[4 * i + 3] = word.w;
+  }
+  int next = 0;
+  core::each_of_mobilities(c.mobility, c.mobility, [&](float& number, float&) { number = numbers[next++]; });
+  set_centers({numbers[21], numbers[22], numbers[23]}, across, c);
+}
+
+__device__ __forceinline__ void store_mobility(const TileSlot& slot, const core::PatchConstraint& c) {
+  float numbers[4 * kMobilityWords];
+  int next = 0;
+  core::each_of_mobilities(c.mobility, c.mobility,
+                           [&](const float& number, const float&) { numbers[next++] = number; });
+  numbers[21] = c.center_a.x;
+  numbers[22] = c.center_a.y;
+  numbers[23] = c.center_a.z;
+#pragma unroll
+  for (std::uint32_t i = 0; i < kMobilityWords; ++i)
+    slot.at(kMobility + i) = {{numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2]}, numbers[4 * i + 3]};
 }
 
 __device__ __forceinline__ void load_masses(const TileSlot& slot, core::PatchConstraint& c) {
@@ -118,8 +159,9 @@ __device__ __forceinline__ core::PatchConstraint load_for_sweep(const TileSlot& 
   core::PatchConstraint c;
   load_bodies(slot, c);
   const core::Vec3 across = load_directions(slot, c);
-  load_arms(slot, across, c);
+  load_levers(slot, c);
   load_masses(slot, c);
+  load_mobility(slot, across, c);
   load_impulses(slot, c);
   return c;
 }
@@ -229,10 +271,11 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
 #pragma unroll
   for (std::uint32_t k = 0; k < kFourPoints; ++k) {
     const core::PatchPoint& p = c.points[k];
-    slot.at(kArms + k) = {p.arm_a, p.gap_m};
+    slot.at(kLevers + k) = {p.lever, p.gap_m};
     slot.at(kMasses + k) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12}, p.stick_mass_22};
     slot.at(kImpulses + k) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2}, p.slide_mass};
   }
+  store_mobility(slot, c);
   store_approach(slot, c);
   const float none[kFourPoints] = {};
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, none);

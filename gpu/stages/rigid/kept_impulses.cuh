@@ -27,7 +27,8 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
     KnownPatch known;
     known.is_b = place_and_side % 2 != 0;
     load_bodies(slot, known.c);
-    load_arms(slot, load_directions(slot, known.c), known.c);
+    load_centers(slot, load_directions(slot, known.c), known.c);
+    load_levers(slot, known.c);
     triples(slot, known.changes);
     return known;
   };
@@ -39,17 +40,16 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
     if (k < count) ahead = load(next);
     next = k + 1 < count ? places[k + 1] : 0;
     if (k == 0) continue;
-    core::BodyGain gain(body);
+    core::PatchPushOf<float> given;
     core::each_point(now.c, [&](int point) {
-      const core::PatchPoint& p = now.c.points[point];
       const float(&change)[3] = now.changes[point];
-      const core::Vec3 impulse = core::impulse_of(now.c, change[0], change[1], change[2]);
-      if (now.is_b)
-        gain.add_to_b(body, p.arm_b, impulse);
-      else
-        gain.add_to_a(body, p.arm_a, impulse);
+      given.add_normal(now.c.points[point].lever, change[0]);
+      given.add_tangents(now.c.points[point].lever, change[1], change[2]);
     });
-    gain.store(body);
+    if (now.is_b)
+      core::give_to_b(now.c, given, body);
+    else
+      core::give_to_a(now.c, given, body);
   }
 }
 

@@ -39,7 +39,7 @@ __device__ __forceinline__ float begin_substep(const TileSlot& slot, LoadedPatch
   core::forget_slips(c);
   float push = 0.0F;
   if (core::takes_back_pushes(soft)) {
-    push = core::fastest_push(c, soft, [&](int k) { return core::gap_now(c, c.points[k], loaded.a, loaded.b); });
+    push = core::fastest_push(c, soft, core::gaps_now(c, loaded.a, loaded.b));
     store_before_push(slot, c, core::is_taken_back(push, soft));
   }
   if (!owes_totals) return push;
@@ -73,8 +73,8 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
 __device__ __forceinline__ core::PatchMotion driven_motion(const RigidFrameView& f, const LoadedPatch& p) {
   const PackedStart& a = f.starts[p.c.a];
   const PackedStart& b = f.starts[p.c.b];
-  return {a.driven_v.v, p.a.inverse_inertia * a.driven_angular_momentum.v, {},
-          b.driven_v.v, p.b.inverse_inertia * b.driven_angular_momentum.v, {}};
+  return core::motion_of<float>(p.c, a.driven_v.v, p.a.inverse_inertia * a.driven_angular_momentum.v, b.driven_v.v,
+                                p.b.inverse_inertia * b.driven_angular_momentum.v);
 }
 
 // A sweep of several along conjugate directions. The impulses follow the last direction by `share` before, except in
@@ -141,7 +141,9 @@ __device__ __forceinline__ void set_goals_after_motion(const RigidFrameView& f, 
     p.b.inverse_mass = inverse_mass_of(f, p.c.b);
   }
   p.goals = core::goals_after_motion(p.c, p.a, p.b, soft);
-  if (sets_masses) store_masses(slot, p.c);
+  if (!sets_masses) return;
+  store_masses(slot, p.c);
+  store_mobility(slot, p.c);
 }
 
 // Each contact once, after the bodies moved. may_bounce: what bounces stirs its bodies for this sweep, and its fastest

@@ -95,6 +95,9 @@ void each_number(Patches& many, Patch& one, const Visit& visit) {
   vector(many.normal, one.normal);
   vector(many.tangent_1, one.tangent_1);
   vector(many.tangent_2, one.tangent_2);
+  vector(many.center_a, one.center_a);
+  vector(many.center_b, one.center_b);
+  core::each_of_mobilities(many.mobility, one.mobility, visit);
   visit(many.surface.mu_static, one.surface.mu_static);
   visit(many.surface.mu_kinetic, one.surface.mu_kinetic);
   visit(many.surface.restitution, one.surface.restitution);
@@ -103,8 +106,7 @@ void each_number(Patches& many, Patch& one, const Visit& visit) {
   for (int k = 0; k < many.count; ++k) {
     auto& p = many.points[k];
     auto& q = one.points[k];
-    vector(p.arm_a, q.arm_a);
-    vector(p.arm_b, q.arm_b);
+    vector(p.lever, q.lever);
     visit(p.gap_m, q.gap_m);
     visit(p.normal_mass, q.normal_mass);
     visit(p.stick_mass_11, q.stick_mass_11);
@@ -168,10 +170,11 @@ void each_tile_moving(const TileRange& range, const Work& work) {
 template <typename Lanes>
 void begin_sweeps(const TileRange& range, const core::SoftStep& step, float* speeds, float* pushes) {
   each_tile<Lanes>(range, [&](Tile<Lanes>& t, const auto& a, const auto& b, std::size_t k) {
-    core::each_point(t.patch, [&](int n) { t.gaps[n] = core::gap_now(t.patch, t.patch.points[n], a, b); });
+    const auto gaps = core::gaps_now(t.patch, a, b);
+    core::each_point(t.patch, [&](int n) { t.gaps[n] = gaps(n); });
     core::forget_slips(t.patch);
     core::fastest_push(t.patch, step, [&](int n) { return t.gaps[n]; }).store(pushes + k * kTileLanes);
-    speeds[k] = largest_of(core::fastest_point(t.patch, core::motion_of(a, b)));
+    speeds[k] = largest_of(core::fastest_point(t.patch, core::motion_of<Lanes>(t.patch, a, b)));
   });
 }
 

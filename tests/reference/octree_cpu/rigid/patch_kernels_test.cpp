@@ -127,12 +127,12 @@ struct OneByOne {
     changes.assign(patches.size(), 0.0F);
     float fastest = 0.0F;
     each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) {
-      fastest = std::max(fastest, core::fastest_point(c, core::motion_of(a, b)));
+      fastest = std::max(fastest, core::fastest_point(c, core::motion_of<float>(c, a, b)));
     });
     speeds.push_back(fastest);
     each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) {
       core::forget_slips(c);
-      pushes.push_back(core::fastest_push(c, step, [&](int k) { return core::gap_now(c, c.points[k], a, b); }));
+      pushes.push_back(core::fastest_push(c, step, core::gaps_now(c, a, b)));
     });
     each([](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) { core::warm_start(c, a, b); });
     for (std::size_t n = 0; n <= shares.size(); ++n) {
