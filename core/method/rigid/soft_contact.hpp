@@ -64,21 +64,30 @@ BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, fl
 
 // Whether the point came fast enough to bounce.
 template <typename Number>
-BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const SoftStep& step) {
+BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
   const TruthOf<Number> gives_back = c.surface.restitution > 0.0F;
-  const TruthOf<Number> is_fast = p.approach_m_s > step.bounce_from_m_s;
+  const TruthOf<Number> is_fast = p.approach_m_s > 0.0F;
   return gives_back & is_fast;
 }
 
-// Before anything else of a step: how fast the points come. Returns whether one comes fast enough to bounce. A patch of
-// which none does has no restitution in this step, so that nobody has to look at its points again to know.
+// And has not been met in a substep that is over: who bounced leaves, and whom neighbors drive back to it comes at
+// another speed.
+template <typename Number>
+BROADSIDE_HD TruthOf<Number> may_bounce(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
+  const TruthOf<Number> was_met = p.normal_total > 0.0F;
+  return came_fast(c, p) & !was_met;
+}
+
+// Before anything else of a step: how fast the points come that come fast enough to bounce. Returns whether one does. A
+// patch of which none does has no restitution in this step, so that nobody has to look at its points again to know.
 BROADSIDE_HD bool note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const SoftStep& step) {
   const PatchMotion m = motion_of<float>(c, a, b);
   bool is_fast = false;
   each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];
-    p.approach_m_s = -normal_speed(m.twist, p.lever);
-    is_fast = is_fast || came_fast(c, p, step);
+    const float approach = -normal_speed(m.twist, p.lever);
+    p.approach_m_s = approach > step.bounce_from_m_s ? approach : 0.0F;
+    is_fast = is_fast || came_fast(c, p);
   });
   if (!is_fast) c.surface.restitution = 0.0F;
   return is_fast;
@@ -116,10 +125,11 @@ BROADSIDE_HD void warm_start(const PatchOf<Number>& c, Body& a, Body& b) {
   give_to_b(c, given, b);
 }
 
-// Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
+// Adds to a point's normal impulse, which stays a push. speed_m_s: the point's along the normal. Returns how fast that
+// changed the point, m/s.
 template <typename Number>
 BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m,
-                                       Number change) {
+                                       Number speed_m_s, Number change) {
   const TwistOf<Number> gain = gain_by_normal(c.mobility, p.lever);
   const Number sum = p.normal_impulse + change;
   const Number next = pick(sum > 0.0F, sum, 0.0F);
@@ -127,7 +137,10 @@ BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Nu
   p.normal_impulse = next;
   m.twist = plus<Number>(m.twist, done, gain);
   m.given.add_normal(p.lever, done);
-  return pick(done < 0.0F, -done, done) * normal_speed(gain, p.lever);
+  const Number faster = done * normal_speed(gain, p.lever);
+  // What warm starts did to a point that had been met is not known here.
+  m.absorbed_j = m.absorbed_j - pick(may_bounce(c, p), done * (speed_m_s + 0.5F * faster), 0.0F);
+  return pick(faster < 0.0F, -faster, faster);
 }
 
 // Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
@@ -233,7 +246,8 @@ BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
     const Number speed = normal_speed(m.twist, p.lever);
     const Number rigid = speed + goals.allowed_m_s[k];
     const Number soft = -p.normal_mass * step.mass_scale * rigid - step.impulse_scale * p.normal_impulse;
-    const Number size = add_normal_impulse<Number>(c, p, m, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
+    const Number size =
+        add_normal_impulse<Number>(c, p, m, speed, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
     largest = pick(size > largest, size, largest);
   });
   const Number size = solve_frictions(c, m);
@@ -241,14 +255,11 @@ BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
   return pick(size > largest, size, largest);
 }
 
-// Whether the point came fast, and is met for the first time in this step: who bounced leaves, and whom neighbors drive
-// back to it comes at another speed.
+// Whether the point came fast, and is met in this substep for the first time.
 template <typename Number>
-BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointOf<Number>& p, const SoftStep& step) {
+BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
   const TruthOf<Number> is_met = p.normal_impulse > 0.0F;
-  const TruthOf<Number> was_met = p.normal_total > 0.0F;
-  const TruthOf<Number> is_fast = came_fast(c, p, step);
-  return is_fast & is_met & !was_met;
+  return may_bounce(c, p) & is_met;
 }
 
 // Of a sweep after the bodies moved. Sets the patch's masses where its bodies have turned far: bodies turn where they
@@ -267,7 +278,7 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
     const Number gap = gaps(k);
     const TruthOf<Number> has_gap = gap > 0.0F;
     const TruthOf<Number> has_pushed = p.normal_impulse > 0.0F;
-    const TruthOf<Number> is_bouncing = bounces(c, p, step);
+    const TruthOf<Number> is_bouncing = bounces(c, p);
     // An open point that gave no impulse is the next substep's.
     goals.is_open[k] = has_gap & !has_pushed;
     // What bounces has been met, wherever its neighbors left it.
@@ -286,10 +297,11 @@ BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
     const TruthOf<Number> is_met = !goals.is_open[k];
     if (!any(is_met)) return;
     PatchPointOf<Number>& p = c.points[k];
-    const Number speed = normal_speed(m.twist, p.lever) + goals.allowed_m_s[k];
+    const Number speed = normal_speed(m.twist, p.lever);
+    const Number wish = -p.normal_mass * (speed + goals.allowed_m_s[k]);
     // Where it is not met, nothing changes.
     const PatchMotionOf<Number> before = m;
-    const Number size = add_normal_impulse<Number>(c, p, m, pick(is_met, -p.normal_mass * speed, 0.0F));
+    const Number size = add_normal_impulse<Number>(c, p, m, speed, pick(is_met, wish, 0.0F));
     m = pick<Number>(is_met, m, before);
     largest = pick(is_met & (size > largest), size, largest);
   });
@@ -299,10 +311,10 @@ BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
 }
 
 // The fastest approach of the patch's points that bounce, m/s; 0 = none does.
-BROADSIDE_HD float fastest_bounce(const PatchOf<float>& c, const SoftStep& step) {
+BROADSIDE_HD float fastest_bounce(const PatchOf<float>& c) {
   float fastest = 0.0F;
   each_point(c, [&](int k) {
-    if (bounces(c, c.points[k], step) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
+    if (bounces(c, c.points[k]) && c.points[k].approach_m_s > fastest) fastest = c.points[k].approach_m_s;
   });
   return fastest;
 }
@@ -315,43 +327,40 @@ inline constexpr int kSweepsOfBounce = 8;
 
 // Sweeps over all patches, at most: of three balls that meet at once two pairs share one, and what the second pair does
 // changes the first. One that changes no speed by more than kBounceDone of the fastest is the last. A heap that lands
-// would take hundreds. First what came fast is stopped, which takes more of them: with 8 a heap of 10,000 cubes gains
-// energy. Then it bounces.
-inline constexpr int kMostStopSweeps = 32;
-inline constexpr int kMostBounceSweeps = 8;
+// would take hundreds. First what came fast is stopped, which takes more of them: with 4 and 8 bodies end deeper in
+// each other, and what pushes those apart is a gain of energy. Then it bounces.
+inline constexpr int kMostStopSweeps = 16;
+inline constexpr int kMostBounceSweeps = 4;
 inline constexpr float kBounceDone = 0x1p-10F;
 
-// Before a bounce, of each point: the impulse up to which it may push, which is what it gives in this substep and the
-// restituted share of what stopped it in the step.
-BROADSIDE_HD void note_most_impulses(PatchConstraint& c) {
-  each_point(c, [&](int k) {
-    PatchPoint& p = c.points[k];
-    p.most_impulse = p.normal_impulse + c.surface.restitution * (p.normal_total + p.normal_impulse);
-  });
+// Before a bounce: how much energy it may give, which is the restituted share of what stopping took.
+BROADSIDE_HD void note_budget(PatchConstraint& c) {
+  const float share = c.surface.restitution * c.surface.restitution;
+  c.budget_j = c.absorbed_j > 0.0F ? share * c.absorbed_j : 0.0F;
 }
 
-// Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
-// than that share of the impulse that stopped their patch (Poisson's rule): where friction turns a body about its
-// corner, Newton's rule alone may give back more energy than stopping took (Kane and Levinson, Dynamics, 1985). Returns
+// Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but with no
+// more energy than the square of that share of what the patch absorbed in the step (Stronge, Rigid body collisions with
+// friction, 1990). Newton's rule alone may give back more than stopping took, where friction turns a body about its
+// corner or where sweeps end before all is stopped; this way no bounce adds energy, however far it is solved. Returns
 // the largest change of a point's speed, m/s. done_m_s: sweeps over its points end that change no speed by more.
-BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, const SoftStep& step, float done_m_s) {
+BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, float done_m_s) {
   PatchMotion m = motion_of<float>(c, a, b);
   float largest = 0.0F;
   float changed = 0.0F;  // of the last two sweeps over the patch
-  // Of the patch together: how its points share what stopped it is often open.
-  float room = 0.0F;
-  each_point(c, [&](int k) {
-    const PatchPoint& p = c.points[k];
-    if (bounces(c, p, step)) room += p.most_impulse - p.normal_impulse;
-  });
   const auto visit = [&](int k) {
     PatchPoint& p = c.points[k];
-    if (!bounces(c, p, step)) return;
+    if (!bounces(c, p)) return;
     const float speed = normal_speed(m.twist, p.lever);
-    const float wish = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
-    const float before = p.normal_impulse;
-    const float size = add_normal_impulse<float>(c, p, m, wish < room ? wish : room);
-    room -= p.normal_impulse - before;
+    const float wanted = c.surface.restitution * p.approach_m_s;
+    // What is not stopped yet gives back its share of what stopping it takes.
+    const float stopped = speed < 0.0F ? c.surface.restitution * speed : speed;
+    const float most = sqrtf(stopped * stopped + 2.0F * c.budget_j / p.normal_mass);
+    const float size =
+        add_normal_impulse<float>(c, p, m, speed, p.normal_mass * ((wanted < most ? wanted : most) - speed));
+    const float after = normal_speed(m.twist, p.lever);
+    c.budget_j -= 0.5F * p.normal_mass * (after * after - stopped * stopped);
+    if (c.budget_j < 0.0F) c.budget_j = 0.0F;
     largest = size > largest ? size : largest;
     changed = size > changed ? size : changed;
   };
@@ -371,10 +380,10 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, cons
 
 // Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
 template <typename Number>
-BROADSIDE_HD void drop_impacts(PatchOf<Number>& c, const SoftStep& step) {
+BROADSIDE_HD void drop_impacts(PatchOf<Number>& c) {
   each_point(c, [&](int k) {
     PatchPointOf<Number>& p = c.points[k];
-    const TruthOf<Number> leaves = bounces(c, p, step);
+    const TruthOf<Number> leaves = bounces(c, p);
     p.normal_total = pick(leaves, p.normal_total + p.normal_impulse, p.normal_total);
     p.tangent_total_1 = pick(leaves, p.tangent_total_1 + p.tangent_impulse_1, p.tangent_total_1);
     p.tangent_total_2 = pick(leaves, p.tangent_total_2 + p.tangent_impulse_2, p.tangent_total_2);

@@ -31,6 +31,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
         store_impulses(slot, p.c);
+        store_energies(slot, p.c);
         largest = fmaxf(largest, change);
         if (!(change > done)) return;
         stir(f, p.c.a, sweep + 1);
@@ -57,20 +58,16 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
         core::PatchConstraint& c = loaded.c;
-        if (!(core::fastest_bounce(c, soft) > 0.0F)) return;
+        if (!(core::fastest_bounce(c) > 0.0F)) return;
         load_levers(slot, c);
         load_masses(slot, c);
         load_mobility(slot, load_directions(slot, c), c);
-        if (is_first) {
-          core::note_most_impulses(c);
-          store_most_impulses(slot, c);
-        } else {
-          load_most_impulses(slot, c);
-        }
+        if (is_first) core::note_budget(c);
         core::SolverBody a = load_place(f.bodies[c.a]);
         core::SolverBody b = load_place(f.bodies[c.b]);
-        with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, soft, done)); });
+        with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, done)); });
         store_impulses(slot, c);
+        store_energies(slot, c);
       });
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
@@ -86,7 +83,7 @@ __device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const Ri
     load_bodies(slot, c);
     load_impulses(slot, c);
     load_impact(slot, c);
-    core::drop_impacts(c, soft);
+    core::drop_impacts(c);
     store_totals(slot, c);
     store_impulses(slot, c);
   });

@@ -179,17 +179,15 @@ __device__ __forceinline__ void store_approach(const TileSlot& slot, const core:
   slot.store_each(kApproaches, all);
 }
 
-__device__ __forceinline__ void load_most_impulses(const TileSlot& slot, core::PatchConstraint& c) {
-  float all[kFourPoints];
-  slot.load_each(kMostImpulses, all);
-#pragma unroll
-  for (std::uint32_t k = 0; k < kFourPoints; ++k) c.points[k].most_impulse = all[k];
+// Of a patch that may bounce in this step: none else asks for it.
+__device__ __forceinline__ void load_energies(const TileSlot& slot, core::PatchConstraint& c) {
+  const PackedVec3 energies = slot.at(kEnergies);
+  c.absorbed_j = energies.v.x;
+  c.budget_j = energies.v.y;
 }
 
-__device__ __forceinline__ void store_most_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
-  float all[kFourPoints] = {};
-  core::each_point(c, [&](int k) { all[k] = c.points[k].most_impulse; });
-  slot.store_each(kMostImpulses, all);
+__device__ __forceinline__ void store_energies(const TileSlot& slot, const core::PatchConstraint& c) {
+  if (c.surface.restitution > 0.0F) slot.at(kEnergies) = {{c.absorbed_j, c.budget_j, 0.0F}, 0.0F};
 }
 
 __device__ __forceinline__ void load_totals(const TileSlot& slot, core::PatchConstraint& c) {
@@ -215,12 +213,13 @@ __device__ __forceinline__ void store_totals(const TileSlot& slot, const core::P
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, all[i]);
 }
 
-// What tells whether a point bounces, of a patch that may: none else has restitution in this step. After
-// load_directions.
+// What tells whether a point bounces, and with how much energy, of a patch that may: none else has restitution in this
+// step. After load_directions.
 __device__ __forceinline__ void load_impact(const TileSlot& slot, core::PatchConstraint& c) {
   if (!(c.surface.restitution > 0.0F)) return;
   load_approach(slot, c);
   load_totals(slot, c);
+  load_energies(slot, c);
 }
 
 // Three numbers of each point: `word` is kBefore, kWays or kPushed.
@@ -277,6 +276,7 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
   }
   store_mobility(slot, c);
   store_approach(slot, c);
+  store_energies(slot, c);
   const float none[kFourPoints] = {};
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, none);
 }

@@ -15,9 +15,12 @@ __device__ __forceinline__ void take_back_impulses(const SolveTeam& team, const 
     if (!load_before_push(slot, before)) return;
     core::PatchConstraint c;
     load_bodies(slot, c);
+    load_directions(slot, c);
     load_impulses(slot, c);
+    if (c.surface.restitution > 0.0F) load_energies(slot, c);
     core::go_back_to(before, c);
     store_impulses(slot, c);
+    store_energies(slot, c);
     stir(f, c.a, sweep);
     stir(f, c.b, sweep);
   });
@@ -45,7 +48,7 @@ __device__ __forceinline__ void stir_what_bounces(const SolveTeam& team, const R
     load_bodies(slot, c);
     load_impulses(slot, c);
     load_impact(slot, c);
-    const float own = core::fastest_bounce(c, soft);
+    const float own = core::fastest_bounce(c);
     if (!(own > 0.0F)) return;
     fastest = fmaxf(fastest, own);
     stir(f, c.a, sweep);

@@ -103,6 +103,8 @@ void each_number(Patches& many, Patch& one, const Visit& visit) {
   visit(many.surface.restitution, one.surface.restitution);
   visit(many.slop_m, one.slop_m);
   visit(many.fastest_push_m_s, one.fastest_push_m_s);
+  visit(many.absorbed_j, one.absorbed_j);
+  visit(many.budget_j, one.budget_j);
   for (int k = 0; k < many.count; ++k) {
     auto& p = many.points[k];
     auto& q = one.points[k];
@@ -119,7 +121,6 @@ void each_number(Patches& many, Patch& one, const Visit& visit) {
     visit(p.normal_total, q.normal_total);
     visit(p.tangent_total_1, q.tangent_total_1);
     visit(p.tangent_total_2, q.tangent_total_2);
-    visit(p.most_impulse, q.most_impulse);
     visit(p.approach_m_s, q.approach_m_s);
     visit(p.slides, q.slides);
   }
@@ -214,10 +215,10 @@ void relax(const TileRange& range, const core::SoftStep& step) {
 }
 
 template <typename Lanes>
-void end_substep(const TileRange& range, const core::SoftStep& step) {
+void end_substep(const TileRange& range) {
   for (std::size_t k = range.first; k < range.last; ++k) {
     core::PatchOf<Lanes>& patch = Tile<Lanes>::at(range.tiles, k).patch;
-    core::drop_impacts(patch, step);
+    core::drop_impacts(patch);
     core::add_to_totals(patch);
   }
 }

@@ -48,7 +48,7 @@ struct PatchKernels {
   void (*sweep)(const TileRange& range, const core::SoftStep& step, const SweepWay& way);
   void (*push_along)(const TileRange& range, float share);
   void (*relax)(const TileRange& range, const core::SoftStep& step);
-  void (*end_substep)(const TileRange& range, const core::SoftStep& step);
+  void (*end_substep)(const TileRange& range);
 };
 
 // Those that this machine has; the first is the fastest.

@@ -78,7 +78,7 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
   relax(numbers);
   work_.bounce(numbers);
-  work_.each_range([&](const TileRange& range) { kernels_.end_substep(range, numbers); });
+  work_.each_range([&](const TileRange& range) { kernels_.end_substep(range); });
 }
 
 std::uint32_t SoftSolver::parts_of_step(float largest_mass_ratio, bool is_calm) const {

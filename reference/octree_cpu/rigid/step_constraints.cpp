@@ -212,10 +212,10 @@ void StepConstraints::list_fast() {
   }
 }
 
-float StepConstraints::stir_what_bounces(const core::SoftStep& numbers) {
+float StepConstraints::stir_what_bounces() {
   of_places_.assign(std::max(fast_.size(), tiles_.places()), 0.0F);
   in_parallel(0, fast_.size(), [&](std::size_t k) {
-    of_places_[k] = core::fastest_bounce(tiles_.get(fast_[k]), numbers);
+    of_places_[k] = core::fastest_bounce(tiles_.get(fast_[k]));
     if (of_places_[k] > 0.0F) stir(fast_[k], sweep_);
   });
   return largest_of_places();
@@ -224,7 +224,7 @@ float StepConstraints::stir_what_bounces(const core::SoftStep& numbers) {
 void StepConstraints::bounce(const core::SoftStep& numbers) {
   if (fast_.empty()) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
-  const float fastest = stir_what_bounces(numbers);
+  const float fastest = stir_what_bounces();
   const float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
   // A share of what stopped them is given back, so that is to be known well.
@@ -238,8 +238,8 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     of_places_.assign(fast_.size(), 0.0F);
     visit_by_color(fast_begin_, [&](std::size_t n) {
       of_places_[n] = change(fast_[n], [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-        if (k == 0) core::note_most_impulses(c);
-        return core::fastest_bounce(c, numbers) > 0.0F ? core::bounce(c, a, b, numbers, done) : 0.0F;
+        if (k == 0) core::note_budget(c);
+        return core::fastest_bounce(c) > 0.0F ? core::bounce(c, a, b, done) : 0.0F;
       });
     });
     ++bounce_sweeps_;

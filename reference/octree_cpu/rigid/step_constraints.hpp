@@ -89,7 +89,7 @@ class StepConstraints {
   // Places of patches with a point that came fast enough to bounce.
   void list_fast();
   // The fastest approach of what bounces, whose bodies are stirred.
-  float stir_what_bounces(const core::SoftStep& numbers);
+  float stir_what_bounces();
   void stir(std::size_t place, std::uint32_t sweep);
   [[nodiscard]] bool is_stirred(std::size_t place) const;
   [[nodiscard]] float largest_of_places() const;

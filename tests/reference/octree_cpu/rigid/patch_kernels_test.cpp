@@ -151,7 +151,7 @@ struct OneByOne {
       core::relax_patch(c, core::goals_after_motion(c, a, b, step), a, b);
     });
     each([&](PatchConstraint& c, SolverBody&, SolverBody&, std::size_t) {
-      core::drop_impacts(c, step);
+      core::drop_impacts(c);
       core::add_to_totals(c);
     });
   }
@@ -199,7 +199,7 @@ void expect_same_substep(const PatchKernels& kernels, unsigned seed, int points,
   for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
     expect_same_bits(changes[lane], one.changes[lane], "squared change", static_cast<int>(lane));
   kernels.relax(range, step);
-  kernels.end_substep(range, step);
+  kernels.end_substep(range);
   for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
     expect_same(kernels.get(tiles, 0, lane), one.patches[lane]);
   EXPECT_EQ(std::memcmp(bodies.data(), one.bodies.data(), bodies.size() * sizeof(SolverBody)), 0);
