@@ -302,17 +302,26 @@ BROADSIDE_HD std::uint32_t name_on_box(Vec3 outward) {
 
 // Two boxes that are apart, where no axis shows by how much.
 struct NearestOfBoxes {
-  Vec3 normal;  // unit, from B to A; meant only where the gap is wider than that along the axis
-  float gap_m = -3.402823e38F;
-  float distance_m = 0.0F;
+  Vec3 normal;                  // unit, from B to A
+  float gap_m = -3.402823e38F;  // along the normal: the boxes are no nearer
+  float distance_m = 0.0F;      // of these points: nor farther apart
   Vec3 on_a;
   Vec3 on_b;
   std::uint32_t name_a = 0;
   std::uint32_t name_b = 0;
 };
 
-BROADSIDE_HD_CALLED NearestOfBoxes nearest_of_boxes(const BoxPolytope& a, const BoxPolytope& b,
-                                                    const SeparatingAxis& axis, float rounding_m, float reach_m) {
+BROADSIDE_HD void try_direction(const BoxPolytope& a, const BoxPolytope& b, Vec3 direction, NearestOfBoxes& best) {
+  const float squared = dot(direction, direction);
+  if (!(squared > 0.0F)) return;
+  const Vec3 n = (1.0F / sqrtf(squared)) * direction;
+  const float gap = gap_along(a, b, n);
+  if (!(gap > best.gap_m)) return;
+  best.gap_m = gap;
+  best.normal = n;
+}
+
+BROADSIDE_HD_CALLED NearestOfBoxes nearest_of_boxes(const BoxPolytope& a, const BoxPolytope& b, float rounding_m) {
   NearestOfBoxes out;
   const NearestCorner of_a = nearest_corner(a, b);
   const NearestCorner of_b = nearest_corner(b, a);
@@ -328,24 +337,19 @@ BROADSIDE_HD_CALLED NearestOfBoxes nearest_of_boxes(const BoxPolytope& a, const 
   out.name_a = is_of_a ? of_corner : of_solid;
   out.name_b = is_of_a ? of_solid : of_corner;
   out.distance_m = sqrtf(near.squared_m2);
-  if (near.squared_m2 > 0.0F) {
-    const Vec3 outward = turned(solid.axes, near.beyond);
-    out.normal = normalized(is_of_a ? outward : -outward);
-    out.gap_m = gap_along(a, b, out.normal);
+  const Vec3 outward = turned(solid.axes, near.beyond);
+  Vec3 d = is_of_a ? outward : -outward;
+  try_direction(a, b, d, out);
+  // A corner may be nearest where a point of its edge is nearer by less than rounding, as in nearest_direction.
+  BROADSIDE_KEPT_LOOP
+  for (int round = 0; round < 2 && out.gap_m > 0.0F && out.distance_m - out.gap_m > 2.0F * rounding_m; ++round) {
+    const Vec3 u = a.corner(lowest_corner(a, out.normal)) - out.on_a;
+    const Vec3 v = b.corner(lowest_corner(b, -out.normal)) - out.on_b;
+    d = out.on_a - out.on_b;
+    if (dot(out.normal, u) < 0.0F) d = without(d, u);
+    if (dot(out.normal, v) > 0.0F) d = without(d, v);
+    try_direction(a, b, d, out);
   }
-  // The distance is no more than that of these points and no less than the gap along their direction. Where that leaves
-  // more than rounding between, all features are tried: edges that are parallel but for rounding.
-  if (out.distance_m - out.gap_m <= 2.0F * rounding_m) return out;
-  const NearestDirection all = nearest_direction(a, b, axis.normal, axis.gap_m, rounding_m, reach_m);
-  out = {};
-  if (!(all.gap_m > -3.0e38F)) return out;
-  out.normal = all.normal;
-  out.gap_m = all.gap_m;
-  out.distance_m = sqrtf(all.features.squared_m2);
-  out.on_a = all.features.on_a;
-  out.on_b = all.features.on_b;
-  out.name_a = all.features.name_a;
-  out.name_b = all.features.name_b;
   return out;
 }
 
@@ -408,8 +412,7 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
   }
   is_shown |= has_witness;
   if (!is_shown) {
-    const NearestOfBoxes near = nearest_of_boxes(a, b, axis, rounding_m, reach_m + 2.0F * rounding_m);
-    if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near
+    const NearestOfBoxes near = nearest_of_boxes(a, b, rounding_m);
     has_witness = true;
     witness.gap_m = axis.gap_m;
     witness.feature = feature_key(near.name_a, near.name_b);
