@@ -80,13 +80,13 @@ struct FlatArea {
 
 // Keeps what is at most slack_m beyond the side: of line `side`, across u or w, at `half` on its upper or lower side.
 // As clip() of face_clipping.hpp.
-BROADSIDE_HD void cut_by_side(FlatArea& area, bool across_u, bool is_upper, float half, std::uint32_t side,
-                              float slack_m) {
-  FlatArea kept;
+BROADSIDE_HD void cut_by_side(const FlatArea& area, FlatArea& kept, bool across_u, bool is_upper, float half,
+                              std::uint32_t side, float slack_m) {
   const auto height = [&](const FlatPoint& p) {
     const float at = across_u ? p.u : p.w;
     return (is_upper ? at : -at) - half;
   };
+  kept.count = 0;
   if (area.count == 0) return;
   FlatPoint here = area.points[0];
   float here_m = height(here);
@@ -95,20 +95,21 @@ BROADSIDE_HD void cut_by_side(FlatArea& area, bool across_u, bool is_upper, floa
     const FlatPoint next = area.points[k + 1 == area.count ? 0 : k + 1];
     const float next_m = height(next);
     const bool is_in = here_m <= slack_m;
-    const bool is_next_in = next_m <= slack_m;
-    const std::uint32_t leaving = here.made_by >> 8;
+    const bool is_cut = is_in != (next_m <= slack_m);
     const float inside = is_in ? here_m : next_m;
-    const float outside = is_in ? next_m : here_m;
-    const bool is_cut = is_in != is_next_in;
+    const std::uint32_t leaving = here.made_by >> 8;
+    const bool makes_corner = is_cut && inside < 0.0F;
     if (is_in && kept.count < kRoom) {
+      kept.points[kept.count] = here;
       // A corner that lies on the side is no cut; what follows it is the side.
-      if (is_cut && !(inside < 0.0F)) here.made_by = (here.made_by & 0xFFU) | ((kSideLine + side) << 8);
-      kept.points[kept.count++] = here;
+      if (is_cut && !makes_corner) kept.points[kept.count].made_by = (here.made_by & 0xFFU) | ((kSideLine + side) << 8);
+      ++kept.count;
     }
-    if (is_cut && inside < 0.0F && kept.count < kRoom) {
-      const FlatPoint& from = is_in ? here : next;
-      const FlatPoint& to = is_in ? next : here;
-      const float share = inside / (inside - outside);
+    if (makes_corner && kept.count < kRoom) {
+      // From the corner that is kept, so that equal edges are cut alike in both directions.
+      const FlatPoint from = is_in ? here : next;
+      const FlatPoint to = is_in ? next : here;
+      const float share = inside / (inside - (is_in ? next_m : here_m));
       const std::uint32_t line = is_in ? kSideLine + side : leaving;
       kept.points[kept.count++] = {from.u + share * (to.u - from.u), from.w + share * (to.w - from.w),
                                    from.gap_m + share * (to.gap_m - from.gap_m),
@@ -117,7 +118,6 @@ BROADSIDE_HD void cut_by_side(FlatArea& area, bool across_u, bool is_upper, floa
     here = next;
     here_m = next_m;
   }
-  area = kept;
 }
 
 // What both faces have in common, seen along `outward`, a unit direction out of the reference's body that its face
@@ -171,13 +171,15 @@ BROADSIDE_HD void common_area_of(const FlatView& v, Vec3 plane, float rounding_m
     area.points[k] = corner;
     if (corner.gap_m < deepest.gap_m) deepest = corner;
   }
+  FlatArea other;
   BROADSIDE_KEPT_LOOP
   for (int side = 0; side < 4; ++side) {
     const bool across_u = (side & 1) != 0;
     // Around the upper face: lower w, upper u, upper w, lower u; the lower face: upper w, upper u, lower w, lower u.
     const bool is_upper = across_u ? side == 1 : (side == 2) == v.reference.is_upper;
-    cut_by_side(area, across_u, is_upper, across_u ? v.reference.half_u : v.reference.half_w,
-                static_cast<std::uint32_t>(side), rounding_m);
+    // Two sides are cut from one area into the other one, two back.
+    cut_by_side(across_u ? other : area, across_u ? area : other, across_u, is_upper,
+                across_u ? v.reference.half_u : v.reference.half_w, static_cast<std::uint32_t>(side), rounding_m);
   }
 }
 
