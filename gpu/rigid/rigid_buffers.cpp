@@ -81,6 +81,11 @@ core::Status RigidBuffers::wake_all() {
   return sleep_.still.fill_bytes(0);
 }
 
+core::Status RigidBuffers::reserve_confirmed(std::size_t pairs) {
+  BROADSIDE_TRY(confirmed_.reserve(pairs, "pairs"));
+  return near_.reserve(confirmed_.capacity(), "pairs");
+}
+
 core::Status RigidBuffers::reserve_patches(std::size_t patches) {
   BROADSIDE_TRY(patches_.reserve(patches, "contacts"));
   BROADSIDE_TRY(ranks_.reserve(patches, "contacts"));
@@ -130,7 +135,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   BROADSIDE_TRY(stirred_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(old_memory_.reserve_bodies(n));
   BROADSIDE_TRY(memory_.reserve_bodies(n));
-  BROADSIDE_TRY(confirmed_.reserve(std::max(kLeast, kConfirmedPerBody * n), "pairs"));
+  BROADSIDE_TRY(reserve_confirmed(std::max(kLeast, kConfirmedPerBody * n)));
   BROADSIDE_TRY(reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
   BROADSIDE_TRY(old_memory_.reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
   colors_ = 0;
@@ -150,8 +155,7 @@ std::size_t RigidBuffers::patch_room() const {
 }
 
 core::Status RigidBuffers::grow(const RigidCounts& demanded) {
-  if (demanded.confirmed > confirmed_.capacity())
-    BROADSIDE_TRY(confirmed_.reserve(with_reserve(demanded.confirmed), "pairs"));
+  if (demanded.confirmed > confirmed_.capacity()) BROADSIDE_TRY(reserve_confirmed(with_reserve(demanded.confirmed)));
   if (demanded.patches > patch_room()) BROADSIDE_TRY(reserve_patches(with_reserve(demanded.patches)));
   if (demanded.colors > colors_) BROADSIDE_TRY(reserve_colors(with_reserve(demanded.colors)));
   if (demanded.places > patch_at_.capacity()) BROADSIDE_TRY(reserve_places(with_reserve(demanded.places)));
@@ -179,6 +183,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.shape_boxes = shape_boxes_.data();
   view.boxes = boxes_.data();
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
+  view.near = near_.data();
   view.patches = {patches_.data(), patch_room()};
   view.ranks = ranks_.data();
   view.colors = patch_colors_.data();
@@ -206,8 +211,8 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 std::uint64_t RigidBuffers::bytes() const {
   return before_.bytes() + after_.bytes() + free_end_.bytes() + pushers_.bytes() + old_push_.bytes() + push_.bytes() +
          reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() + shape_boxes_.bytes() + boxes_.bytes() +
-         confirmed_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
-         color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
+         confirmed_.bytes() + near_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() +
+         coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
          constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + starts_.bytes() +
          stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + sleep_.bytes() +
          counts_.bytes() + barrier_.bytes();

@@ -59,6 +59,7 @@ class RigidBuffers {
     [[nodiscard]] std::uint64_t bytes() const;
   };
   [[nodiscard]] std::size_t patch_room() const;
+  core::Status reserve_confirmed(std::size_t pairs);
   core::Status reserve_patches(std::size_t patches);
   core::Status reserve_places(std::size_t places);
   core::Status reserve_colors(std::size_t colors);
@@ -75,6 +76,7 @@ class RigidBuffers {
   DeviceBuffer<core::Box> shape_boxes_;
   DeviceBuffer<PackedBox> boxes_;
   DeviceBuffer<core::Pair> confirmed_;
+  DeviceBuffer<core::Pair> near_;
   DeviceBuffer<core::ContactPatch> patches_;
   DeviceBuffer<PatchRank> ranks_;
   DeviceBuffer<std::uint32_t> patch_colors_;

@@ -11,6 +11,7 @@
 #include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/passing_by.hpp"
+#include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
 
 namespace broadside::core {
@@ -61,6 +62,8 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
   const float size_m = is_plane ? shape_a.size_m : fminf(shape_a.size_m, shape_b.size_m);
   const float unseen = unseen_m(shape_a, shape_b);
   if (count == 0 || !(swing_m > unseen)) return count;
+  if (are_boxes(shape_a, shape_b) && gap_of_boxes(shape_a, a.end, shape_b, b.end, found[0].normal) > -unseen)
+    return count;
   if constexpr (Lanes::kKnowsLongShapes)
     if (known != nullptr || has_quick_answers(shape_a, shape_b)) {
       const HullBounds bounds =

@@ -6,6 +6,7 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
@@ -52,6 +53,7 @@ BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, 
                             const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m,
                             const KnownGaps* known = nullptr) {
   if (!(least_gap_m(start) > near_m)) return false;
+  if (are_boxes(shape_a, shape_b) && parts_ends(start.normal, shape_a, a, shape_b, b)) return true;
   const float seen_m = seen_reach_m(reach_m);
   const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b, const HullBounds* bounds) {
     return is_still_apart<Lanes>(start, shape_a, at_a, shape_b, at_b, seen_m, bounds);

@@ -8,6 +8,7 @@
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "core/method/rigid/pushed_motion.hpp"
+#include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
 #include "core/method/rigid/sweep.hpp"
 #include "gpu/rigid/contact_view.hpp"
@@ -94,37 +95,53 @@ __device__ int touch_face(const ContactView& f, std::uint32_t body, std::uint32_
                                       count);
 }
 
+// By one lane: what few bounds tell is left out, so that warps make patches of no pair that has none.
+template <typename Lanes>
+__device__ bool may_touch(const ContactView& f, core::Pair pair) {
+  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
+  const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
+  const float near_m =
+      core::near_at_most_m(f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j], f.pushers[pair.j].pushed.v);
+  return !core::surely_passes<Lanes>(a, path_of(f, pair.i), b, path_of(f, pair.j),
+                                     f.reach_m[pair.i] + f.reach_m[pair.j], near_m);
+}
+
+// Confirmed pairs that may touch, in a list of their own: lanes of a warp that have none would wait for those that do.
+template <typename Team>
+__device__ void list_near_pairs(const Team& team, const ContactView& f) {
+  each_item_by_warps(team, f.counts->confirmed, false, [&](std::uint64_t k, bool is_item) {
+    const core::Pair pair = is_item ? f.confirmed.items[k] : core::Pair{};
+    const bool is_near =
+        is_item && !(is_idle(f, pair.i) && is_idle(f, pair.j)) && may_touch<core::OneLaneOfShortShapes>(f, pair);
+    const std::uint64_t place = warp_append_one(is_near, &f.counts->near);
+    if (is_near) f.near[place] = pair;
+  });
+}
+
 // Pairs first, then bodies at faces; by whole warps. No shape is a hull or a mesh.
 template <typename Team>
 __device__ void make_short_patches(const Team& team, const ContactView& f) {
   using Lanes = core::OneLaneOfShortShapes;
-  const std::uint64_t confirmed = f.counts->confirmed;
-  each_item_by_warps(team, confirmed + f.body_count, false, [&](std::uint64_t k, bool is_item) {
+  list_near_pairs(team, f);
+  team.sync();
+  const std::uint64_t near = f.counts->near;
+  each_item_by_warps(team, near + f.body_count, false, [&](std::uint64_t k, bool is_item) {
     core::Manifold found[core::kPatchesOfPair];
-    const bool is_pair = is_item && k < confirmed;
+    const bool is_pair = is_item && k < near;
     if (__any_sync(kFullWarp, is_pair)) {
-      const core::Pair pair = is_pair ? f.confirmed.items[k] : core::Pair{};
+      const core::Pair pair = is_pair ? f.near[k] : core::Pair{};
       add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes>(f, pair, found) : 0);
     }
     const bool is_body = is_item && !is_pair;
     if (!__any_sync(kFullWarp, is_body)) return;
-    const auto body = static_cast<std::uint32_t>(is_body ? k - confirmed : 0);
+    const auto body = static_cast<std::uint32_t>(is_body ? k - near : 0);
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-      const int count = is_body && may_touch_face(f, body, face) ? touch_face<Lanes>(f, body, face, found) : 0;
+      const bool may = is_body && may_touch_face(f, body, face);
+      if (!__any_sync(kFullWarp, may)) continue;
+      const int count = may ? touch_face<Lanes>(f, body, face, found) : 0;
       add_patches(f, body, core::kFirstFace + face, found, count);
     }
   });
-}
-
-// By one lane: what few bounds tell is left out, so that a warp makes patches of no pair that has none.
-__device__ inline bool may_touch(const ContactView& f, core::Pair pair) {
-  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
-  const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
-  if (!core::has_quick_answers(a, b)) return true;
-  const float near_m =
-      core::near_at_most_m(f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j], f.pushers[pair.j].pushed.v);
-  return !core::surely_pass(a, path_of(f, pair.i), b, path_of(f, pair.j), f.reach_m[pair.i] + f.reach_m[pair.j],
-                            near_m);
 }
 
 __device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body) {
@@ -157,7 +174,7 @@ __device__ void make_long_patches(const Team& team, const ContactView& f) {
     if (k >= confirmed) return may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed));
     own = f.confirmed.items[k];
     if (f.follows_ways) return true;
-    if (!may_touch(f, own)) return false;
+    if (!may_touch<core::OneLane>(f, own)) return false;
     has_gaps = find_gaps(f, own, own_gaps);
     return true;
   };

@@ -8,6 +8,7 @@
 
 #include "core/method/rigid/end_patches.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/sweep.hpp"
 
 namespace broadside::reference {
@@ -43,10 +44,9 @@ bool surely_passes(const core::RigidBodies& bodies, core::Pair pair) {
   const auto [i, j] = pair;
   const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
   const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
-  return core::has_quick_answers(a, b) &&
-         core::surely_pass(
-             a, bodies.path(i), b, bodies.path(j), bodies.reach_m[i] + bodies.reach_m[j],
-             core::near_at_most_m(bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]));
+  return core::surely_passes(
+      a, bodies.path(i), b, bodies.path(j), bodies.reach_m[i] + bodies.reach_m[j],
+      core::near_at_most_m(bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]));
 }
 
 }  // namespace
