@@ -39,6 +39,9 @@ struct SoftStep {
   // many-th.
   float done_share = 0.0F;
   std::uint32_t most_sweeps = 1;
+  // While something bounces, sweeps that stop what came fast, and sweeps that let it bounce, at most.
+  std::uint32_t most_stop_sweeps = 0;
+  std::uint32_t most_bounce_sweeps = 0;
 };
 
 // A spring and damper under each contact, taken implicitly: frequency and damping in units of the substep, omega h and
@@ -325,12 +328,7 @@ BROADSIDE_HD float fastest_bounce(const PatchOf<float>& c) {
 // all patches change little.
 inline constexpr int kSweepsOfBounce = 8;
 
-// Sweeps over all patches, at most: of three balls that meet at once two pairs share one, and what the second pair does
-// changes the first. One that changes no speed by more than kBounceDone of the fastest is the last. A heap that lands
-// would take hundreds. First what came fast is stopped, which takes more of them: with 4 and 8 bodies end deeper in
-// each other, and what pushes those apart is a gain of energy. Then it bounces.
-inline constexpr int kMostStopSweeps = 16;
-inline constexpr int kMostBounceSweeps = 4;
+// Sweeps over all patches end where one changes no speed by more than this share of the fastest approach.
 inline constexpr float kBounceDone = 0x1p-10F;
 
 // Before a bounce: how much energy it may give, which is the restituted share of what stopping took.

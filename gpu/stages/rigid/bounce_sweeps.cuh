@@ -30,21 +30,20 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
         set_goals_after_motion(f, slot, soft, p);
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
-        store_impulses(slot, p.c);
-        store_energies(slot, p.c);
+        store_solved(slot, p.c);
         largest = fmaxf(largest, change);
         if (!(change > done)) return;
         stir(f, p.c.a, sweep + 1);
         stir(f, p.c.b, sweep + 1);
-      });
+      },
+      KeepsNothing{});
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
 // What came fast leaves. is_first: how far each point may push is noted. Brings the largest change of a point's speed.
-__device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f,
-                                               const core::SoftStep& soft, bool is_first, float done,
-                                               const TeamSums& sums) {
+__device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f, bool is_first,
+                                               float done, const TeamSums& sums) {
   float largest = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
@@ -66,16 +65,15 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         core::SolverBody a = load_place(f.bodies[c.a]);
         core::SolverBody b = load_place(f.bodies[c.b]);
         with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, done)); });
-        store_impulses(slot, c);
-        store_energies(slot, c);
-      });
+        store_solved(slot, c);
+      },
+      KeepsNothing{});
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
 // The end of such a substep: core::drop_impacts. What is left is added to the totals where all other impulses are.
-__device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f,
-                                                 const core::SoftStep& soft) {
+__device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;
     load_directions(slot, c);

@@ -28,21 +28,33 @@ enum class SweepBegin : std::uint8_t { kAtOnce, kWithBarrier };
 // What a thread waits for before it goes on with the next color.
 enum class ColorWait : std::uint8_t { kNothing, kTeam, kBlock };
 
-// work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. load(slot) gives
+// Of a sweep whose work writes all itself.
+struct KeepsNothing {
+  template <typename Loaded>
+  __device__ void operator()(const TileSlot& /*slot*/, std::uint32_t /*place*/, const Loaded& /*loaded*/) const {}
+};
+
+// work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. keep(slot, place,
+// loaded) writes what no other patch waits for, once the thread has arrived at the barrier: a barrier waits until all
+// that was written before it can be seen. load(slot) gives
 // what work needs of the constraint, and of its bodies what no sweep changes. A thread loads its next constraint right
 // after its last one, mostly some colors ahead: nobody but this thread writes it during a sweep.
 //
 // Both are called at one place each: they are long, and with a copy of load at every barrier the solver's code was
 // several times what a multiprocessor keeps of it, so that warps waited for instructions.
-template <typename Load, typename Work>
+template <typename Load, typename Work, typename Keep>
 __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, SweepBegin begin,
-                                                    const Load& load, const Work& work) {
+                                                    const Load& load, const Work& work, const Keep& keep) {
   decltype(load(TileSlot(nullptr, 0))) loaded;
   ColorTurn turn = team.turn_from(0);
   bool is_loaded = false;
+  bool owes = false;
+  std::uint32_t owed = 0;
   ColorWait wait = begin == SweepBegin::kWithBarrier ? ColorWait::kTeam : ColorWait::kNothing;
   if (wait == ColorWait::kTeam) team.arrive();
   for (std::uint32_t color = 0;;) {
+    if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
+    owes = false;
     // Not before it arrives at the barrier behind its last turn of a color.
     const bool loads = wait != ColorWait::kNothing || turn.color == color;
     if (loads && !is_loaded && turn.color != kNoColor) {
@@ -54,20 +66,23 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
     wait = ColorWait::kNothing;
     if (turn.color == color) {
       work(TileSlot(f.constraints, turn.place), turn.place, loaded);
+      owes = true;
+      owed = turn.place;
       turn = team.turn_after(turn);
       is_loaded = false;
     }
     if (__any_sync(kFullWarp, turn.color == color)) continue;
-    if (++color >= team.colors()) return;
+    if (++color >= team.colors()) break;
     if (color <= team.alone_from()) {
       team.arrive();
       wait = ColorWait::kTeam;
     } else if (blockIdx.x == 0) {
       wait = ColorWait::kBlock;
     } else {
-      return;
+      break;
     }
   }
+  if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
 }
 
 // work(a, b) changes the velocities of a patch's two bodies, of which the rest is there already.

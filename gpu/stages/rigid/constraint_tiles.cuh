@@ -190,6 +190,12 @@ __device__ __forceinline__ void store_energies(const TileSlot& slot, const core:
   if (c.surface.restitution > 0.0F) slot.at(kEnergies) = {{c.absorbed_j, c.budget_j, 0.0F}, 0.0F};
 }
 
+// What a sweep changes.
+__device__ __forceinline__ void store_solved(const TileSlot& slot, const core::PatchConstraint& c) {
+  store_impulses(slot, c);
+  store_energies(slot, c);
+}
+
 __device__ __forceinline__ void load_totals(const TileSlot& slot, core::PatchConstraint& c) {
   float all[3][kFourPoints];
 #pragma unroll

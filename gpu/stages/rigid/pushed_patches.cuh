@@ -37,8 +37,7 @@ __device__ __forceinline__ void go_back_to_start(const RigidFrameView& f, std::u
 }
 
 // After these have relaxed: what bounces stirs its bodies for `sweep`. Brings the fastest approach of what bounces.
-__device__ __forceinline__ void stir_what_bounces(const SolveTeam& team, const RigidFrameView& f,
-                                                  const core::SoftStep& soft, std::uint32_t sweep,
+__device__ __forceinline__ void stir_what_bounces(const SolveTeam& team, const RigidFrameView& f, std::uint32_t sweep,
                                                   const TeamSums& sums) {
   float fastest = 0.0F;
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {

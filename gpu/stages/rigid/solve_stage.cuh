@@ -87,7 +87,7 @@ enum class Stirred : std::uint8_t { kPushed, kBouncing };
 // because it is long.
 __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                                  Stirred of, float done) {
-  const int most = of == Stirred::kPushed ? core::kMostRelaxSweeps : core::kMostStopSweeps;
+  const int most = of == Stirred::kPushed ? core::kMostRelaxSweeps : static_cast<int>(solve.soft.most_stop_sweeps);
   bool is_done = false;
   for (int k = 0; k < most && !is_done; ++k, ++solve.sweep) {
     relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
@@ -102,8 +102,8 @@ __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const Ri
 __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve, float fastest,
                                            float done) {
   float largest = fastest;
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
-    sweep_bouncing(team, f, solve.soft, k == 0, done, solve.sums);
+  for (std::uint32_t k = 0; k < solve.soft.most_bounce_sweeps && largest > done; ++k) {
+    sweep_bouncing(team, f, k == 0, done, solve.sums);
     ++solve.done.bounce_sweeps;
     team.sync();
     largest = largest_of_turn(team, solve);
@@ -133,10 +133,10 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
     }
     if (!solve.may_bounce) return;
     solve.sweep += 2;
-    stir_what_bounces(team, f, solve.soft, solve.sweep, solve.sums);
+    stir_what_bounces(team, f, solve.sweep, solve.sums);
     team.sync();
   }
-  drop_all_impacts(team, f, solve.soft);
+  drop_all_impacts(team, f);
   team.sync();
 }
 

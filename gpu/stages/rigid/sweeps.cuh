@@ -62,11 +62,10 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
         loaded.goals = core::goals_of(loaded.c, loaded.a, loaded.b, soft);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedPatch& p) {
+      [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedPatch& p) {
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::solve_patch(p.c, p.goals, p.a, p.b, soft); });
-        store_impulses(slot, p.c);
-        store_energies(slot, p.c);
-      });
+      },
+      [](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) { store_solved(slot, p.c); });
   __syncwarp();
   if (core::takes_back_pushes(soft)) sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
@@ -109,13 +108,14 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
         loaded.patch.goals = core::goals_of(c, loaded.patch.a, loaded.patch.b, soft);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint32_t place, LoadedWay& loaded) {
+      [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedWay& loaded) {
         LoadedPatch& p = loaded.patch;
         with_velocities(f, p.c, p.a, p.b,
                         [&] { largest_speed = fmaxf(largest_speed, core::solve_patch(p.c, p.goals, p.a, p.b, soft)); });
-        store_impulses(slot, p.c);
-        store_energies(slot, p.c);
-        const float change = core::squared_change(p.c, loaded.way);
+      },
+      [&](const TileSlot& slot, std::uint32_t place, const LoadedWay& loaded) {
+        store_solved(slot, loaded.patch.c);
+        const float change = core::squared_change(loaded.patch.c, loaded.way);
         largest_change = fmaxf(largest_change, change);
         f.changes[place] = change;
       });
@@ -163,10 +163,11 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         set_goals_after_motion(f, slot, soft, loaded);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedPatch& p) {
+      [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedPatch& p) {
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::relax_patch(p.c, p.goals, p.a, p.b); });
-        store_impulses(slot, p.c);
-        store_energies(slot, p.c);
+      },
+      [&](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) {
+        store_solved(slot, p.c);
         if (!may_bounce || !(p.c.surface.restitution > 0.0F)) return;
         const float own = core::fastest_bounce(p.c);
         if (!(own > 0.0F)) return;

@@ -229,12 +229,12 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
   if (!(done > 0.0F)) return;
   // A share of what stopped them is given back, so that is to be known well.
   float largest = fastest;
-  for (int k = 0; k < core::kMostStopSweeps && largest > done; ++k) {
+  for (std::uint32_t k = 0; k < numbers.most_stop_sweeps && largest > done; ++k) {
     largest = relax_stirred(numbers, done);
     ++bounce_sweeps_;
   }
   largest = fastest;
-  for (int k = 0; k < core::kMostBounceSweeps && largest > done; ++k) {
+  for (std::uint32_t k = 0; k < numbers.most_bounce_sweeps && largest > done; ++k) {
     of_places_.assign(fast_.size(), 0.0F);
     visit_by_color(fast_begin_, [&](std::size_t n) {
       of_places_[n] = change(fast_[n], [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
