@@ -93,7 +93,7 @@ void SoftSolver::advance(std::span<core::RigidState> states, std::span<const cor
   const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, solve);
   work_.begin(states, patches, step, numbers, settings_.limits);
   for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers);
-  work_.finish(states, patches);
+  work_.finish(states, patches, step, solve.substeps);
 }
 
 }  // namespace broadside::reference

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/contact.hpp"
+#include "core/method/rigid/unpushed_body.hpp"
 
 namespace broadside::reference {
 
@@ -99,8 +100,9 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
   list_fast();
 }
 
-void StepConstraints::finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches) {
-  each_body([&](std::size_t i) { states[i] = core::state_after(bodies_[i], states[i]); });
+void StepConstraints::finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
+                             const RigidStep& step, std::uint32_t substeps) {
+  is_pushed_body_.assign(bodies_.size(), 0);
   memory_.begin(patches);
   impulses_.resize(patches.size());
   const float per_s = 1.0F / substep_s_;
@@ -109,6 +111,9 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
     if (of_awake == PatchTiles::kNoPatch) return;
     const std::uint32_t patch = asleep_.empty() ? of_awake : awake_[of_awake];
     const PatchConstraint c = tiles_.get(place);
+    if (core::has_pushed(c))
+      for (const std::uint32_t body : {c.a, c.b})
+        std::atomic_ref(is_pushed_body_[body]).store(1, std::memory_order_relaxed);
     impulses_[patch] = {};
     for (int k = 0; k < c.count; ++k) {
       const PatchPoint& p = c.points[k];
@@ -122,6 +127,12 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
     for (int k = 0; k < core::kManifoldPoints; ++k)
       memory_.keep(kept.patch, k, kept.remembered[static_cast<std::size_t>(k)]);
   }
+  each_body([&](std::size_t i) {
+    if (is_pushed_body_[i] == 0)
+      core::forget_pushes(bodies_[i], states[i], step.gravity_m_s2, step.wrenches.empty() ? nullptr : &step.wrenches[i],
+                          substep_s_, substeps);
+    states[i] = core::state_after(bodies_[i], states[i]);
+  });
 }
 
 // Patches of one color, and patches in any order, may stir the same body that never moves, and bodies that bounce may

@@ -26,7 +26,8 @@ class StepConstraints {
   void begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
              const RigidStep& step, const core::SoftStep& numbers, const core::PatchLimits& limits);
   // Writes the states, and keeps the impulses of the last substep and of the step.
-  void finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches);
+  void finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches, const RigidStep& step,
+              std::uint32_t substeps);
   void forget() { memory_.forget(); }
 
   [[nodiscard]] std::span<core::SolverBody> bodies() { return bodies_; }
@@ -126,11 +127,12 @@ class StepConstraints {
   };
   std::vector<Velocity> driven_;  // by body, where something is pushed
   float fastest_push_m_s_ = 0.0F;
-  std::vector<PatchImpulses> impulses_;     // by patch as given
-  std::vector<float> of_places_;            // what a loop over places found, for the largest of it
-  std::vector<std::uint32_t> place_begin_;  // by color
-  std::vector<std::uint8_t> came_fast_;     // by place
-  std::vector<std::uint32_t> fast_;         // places of patches that came fast, by color
+  std::vector<PatchImpulses> impulses_;       // by patch as given
+  std::vector<std::uint8_t> is_pushed_body_;  // by body: 1 = the step left it an impulse
+  std::vector<float> of_places_;              // what a loop over places found, for the largest of it
+  std::vector<std::uint32_t> place_begin_;    // by color
+  std::vector<std::uint8_t> came_fast_;       // by place
+  std::vector<std::uint32_t> fast_;           // places of patches that came fast, by color
   std::vector<std::uint32_t> fast_begin_;
   std::vector<std::uint32_t> stirred_;  // [bodies] the sweep that has to visit the body's patches
   std::uint32_t sweep_ = 0;             // of all sweeps of bounces in this step
