@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/contact.hpp"
+#include "core/method/rigid/kept_blows.hpp"
 #include "core/method/rigid/unpushed_body.hpp"
 
 namespace broadside::reference {
@@ -232,9 +233,20 @@ float StepConstraints::stir_what_bounces(const core::SoftStep& numbers) {
   return largest_of_places();
 }
 
-void StepConstraints::bounce(const core::SoftStep& numbers) {
+void StepConstraints::drop_blows(std::uint32_t since) {
+  in_parallel(0, tiles_.places(), [&](std::size_t place) {
+    if (tiles_.patch_at()[place] == PatchTiles::kNoPatch) return;
+    if (stirred_[touched_[place].a] < since && stirred_[touched_[place].b] < since) return;
+    PatchConstraint c = tiles_.get(place);
+    core::drop_impulses(c);
+    tiles_.put(place, c);
+  });
+}
+
+void StepConstraints::bounce(const core::SoftStep& numbers, bool forgets_blows) {
   if (fast_.empty()) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
+  const std::uint32_t since = sweep_;
   const float fastest = stir_what_bounces(numbers);
   const float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
@@ -256,6 +268,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     ++bounce_sweeps_;
     largest = largest_of_places();
   }
+  if (forgets_blows) drop_blows(since);
 }
 
 }  // namespace broadside::reference

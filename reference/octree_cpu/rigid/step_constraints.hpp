@@ -66,8 +66,9 @@ class StepConstraints {
 
   // Points that came fast and are met first leave with their share of that speed: sweeps until one changes no speed
   // by more than 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by
-  // more than that.
-  void bounce(const core::SoftStep& numbers);
+  // more than that. forgets_blows: patches of bodies that it reached keep no impulse
+  // (core/method/rigid/kept_blows.hpp).
+  void bounce(const core::SoftStep& numbers, bool forgets_blows);
 
  private:
   template <typename Work>
@@ -87,6 +88,8 @@ class StepConstraints {
   // One sweep of relaxation over patches whose bodies are stirred; bodies that change by more than done_m_s are stirred
   // for the next one. Returns the largest change of a point's speed.
   float relax_stirred(const core::SoftStep& numbers, float done_m_s);
+  // Patches of bodies that were stirred by this sweep or a later one keep no impulse.
+  void drop_blows(std::uint32_t since);
   // Places of patches with a point that came fast enough to bounce.
   void list_fast();
   // The fastest approach of what bounces, whose bodies are stirred.
