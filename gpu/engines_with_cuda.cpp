@@ -85,7 +85,7 @@ core::Result<core::Engine> create_octree_gpu(const core::Settings& settings) {
   turning.levels = options.levels;
   turning.solver = core::soft_settings_of(settings);
   turning.has_fixed_thresholds = settings.text("thresholds") == "fixed";
-  turning.sweeps_fast = settings.text("sweep") == "fast";
+  turning.swept = core::swept_named(settings.text("sweep"));
   turning.sleeps = settings.text("sleep") == "on";
   auto dynamics = std::make_unique<PipelineByMotion>(options, turning, "octree-cpu",
                                                      core::refuse_method_settings("octree-gpu", settings));

@@ -91,6 +91,7 @@ std::string rigid_lines(const core::Scene& s) {
   for (const core::MassProperties& m : s.mass_properties)
     text += fmt::format("  scene.mass_properties.push_back({{{{{}}}, {{{}}}}});\n", fmt::join(m.center_of_mass_m, ", "),
                         fmt::join(m.inertia_kg_m2, ", "));
+  if (!s.is_fast.empty()) text += fmt::format("  scene.is_fast = {{{}}};\n", fmt::join(s.is_fast, ", "));
   for (const core::Wrench& w : s.wrenches)
     text += fmt::format("  scene.wrenches.push_back({{{}, core::WrenchAxes::{}, {}, {}}});\n", w.body,
                         w.axes == core::WrenchAxes::kBody ? "kBody" : "kWorld", vec3(w.force_n), vec3(w.torque_n_m));

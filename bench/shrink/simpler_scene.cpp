@@ -88,6 +88,7 @@ Scene with_bodies(const Scene& scene, std::span<const std::uint32_t> bodies) {
   smaller.springs.clear();
   smaller.wrenches.clear();
   smaller.mass_properties.clear();
+  smaller.is_fast.clear();
   std::map<std::uint32_t, std::uint32_t> new_index;
   std::map<std::uint32_t, std::uint32_t> new_body;
   for (const std::uint32_t i : order) {
@@ -98,6 +99,7 @@ Scene with_bodies(const Scene& scene, std::span<const std::uint32_t> bodies) {
     body.mesh = at->second;
     smaller.bodies.push_back(body);
     if (!scene.mass_properties.empty()) smaller.mass_properties.push_back(scene.mass_properties[i]);
+    if (!scene.is_fast.empty()) smaller.is_fast.push_back(scene.is_fast[i]);
   }
   for (core::Spring spring : scene.springs) {
     const auto at = new_body.find(spring.body);

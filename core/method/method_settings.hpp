@@ -59,10 +59,10 @@ inline SettingRow sleep_setting() {
 
 inline SettingRow sweep_setting() {
   return {"sweep",
-          "off",
-          {"off", "fast"},
-          "bodies that turn: fast = those that move farther in a step than they are thick stop before they pass "
-          "through others"};
+          "flagged",
+          {"flagged", "fast", "off"},
+          "bodies that turn: who moves farther in a step than it is thick stops before it passes through others: "
+          "flagged = bodies that the scene calls fast, fast = all, off = none"};
 }
 
 }  // namespace broadside::core

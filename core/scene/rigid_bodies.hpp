@@ -50,7 +50,8 @@ struct RigidBodies {
   std::vector<std::uint32_t> shape;
   std::vector<RigidShape> shapes;
   ContactShapes contact_shapes;
-  std::vector<PushWord> push;  // what the candidates of a step tell the next one
+  std::vector<std::uint8_t> is_swept;  // by body: 1 = its way is followed; or none: nobody's is (swept_bodies.hpp)
+  std::vector<PushWord> push;          // what the candidates of a step tell the next one
   // Of detection: the pose, where it leads to if nothing is touched, by its velocity alone, and where others may drive
   // the body; how far it can come and how far it falls, the box of the shape, and a box that contains all of where it
   // goes.
@@ -76,6 +77,9 @@ struct RigidBodies {
   [[nodiscard]] float thickness_m(std::uint32_t body) const { return shapes[shape[body]].half_thickness_m; }
   // The same of the thinner of both.
   [[nodiscard]] float thinner_m(Pair pair) const { return std::min(thickness_m(pair.i), thickness_m(pair.j)); }
+  [[nodiscard]] bool is_followed(std::uint32_t body) const { return !is_swept.empty() && is_swept[body] != 0; }
+  // Whether two bodies are kept from passing through each other.
+  [[nodiscard]] bool are_followed(Pair pair) const { return is_followed(pair.i) || is_followed(pair.j); }
   // As another body may feel it.
   [[nodiscard]] Pusher pusher(std::uint32_t body) const {
     return {detected[body].x, drift[body], pushed[body], swing_m[body], mass[body].inverse_mass, body, pushed_by[body]};

@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -120,6 +121,11 @@ Status check_wrench(const Scene& scene, std::size_t index) {
   return Done{};
 }
 
+Status check_fast(const Scene& scene) {
+  if (scene.is_fast.empty() || scene.is_fast.size() == scene.bodies.size()) return Done{};
+  return bad(scene, "bodies", "some bodies say whether they are fast and some do not", "say it of every body");
+}
+
 Status check_motion(const Scene& scene) {
   if (scene.motion == Motion::kTranslate && scene.mass_properties.empty()) return Done{};
   if (!scene.mass_properties.empty() && scene.mass_properties.size() != scene.bodies.size())
@@ -181,6 +187,7 @@ Status check_scene(const Scene& scene) {
   if (!(scene.dt_s > 0.0F && std::isfinite(scene.dt_s)))
     return bad(scene, "dt_s", "it is zero, negative or not finite", "give a step above zero, in s");
   if (Status s = check_motion(scene); !s) return s;
+  if (Status s = check_fast(scene); !s) return s;
   const Box& d = scene.domain;
   if (!(is_finite(d.min) && is_finite(d.max) && d.min.x < d.max.x && d.min.y < d.max.y && d.min.z < d.max.z))
     return bad(scene, "domain", "it has no volume or is not finite", "give min below max on every axis, in m");
@@ -262,6 +269,11 @@ std::uint64_t scene_digest(const Scene& scene) {
   // And scenes without wrenches. The word in front tells their bytes from those of springs.
   if (!scene.wrenches.empty()) hash.add(std::array<char, 8>{'w', 'r', 'e', 'n', 'c', 'h', 'e', 's'});
   for (const Wrench& w : scene.wrenches) hash.add(w);
+  // And scenes that flag nobody.
+  if (std::find(scene.is_fast.begin(), scene.is_fast.end(), 1) != scene.is_fast.end()) {
+    hash.add(std::array<char, 8>{'f', 'a', 's', 't', 'b', 'o', 'd', 'y'});
+    for (const std::uint8_t is_fast : scene.is_fast) hash.add(is_fast);
+  }
   return hash.value();
 }
 

@@ -52,6 +52,9 @@ struct Scene {
   Motion motion = Motion::kTranslate;
   // One per body where the scene gives them; otherwise none, and mass_properties_of derives them.
   std::vector<MassProperties> mass_properties;
+  // One per body where the scene says of some that they are fast: 1 = an engine that can is to see that it passes
+  // through nothing within a step. Otherwise none.
+  std::vector<std::uint8_t> is_fast;
   // The name of the formula that says how this scene ends (validation/closed_form); empty = none is known.
   std::string answer;
 

@@ -131,6 +131,8 @@ Scene renumbered_scene(const Scene& scene, std::span<const std::uint32_t> order)
   for (Wrench& w : out.wrenches) w.body = place[w.body];
   if (!scene.mass_properties.empty())
     for (std::uint32_t k = 0; k < order.size(); ++k) out.mass_properties[k] = scene.mass_properties[order[k]];
+  if (!scene.is_fast.empty())
+    for (std::uint32_t k = 0; k < order.size(); ++k) out.is_fast[k] = scene.is_fast[order[k]];
   return out;
 }
 

@@ -154,6 +154,16 @@ std::vector<MassProperties> read_mass_properties(Hdf5Source& source, std::size_t
   return rows;
 }
 
+constexpr const char* kFast = "/scene/body/fast";
+
+std::vector<std::uint8_t> read_fast(Hdf5Source& source, std::size_t bodies) {
+  if (!source.has(kFast)) return {};
+  std::vector<std::uint8_t> rows = source.whole<std::uint8_t>(kFast, Element::kU8, 1);
+  if (source.ok() && rows.size() != bodies)
+    source.fail(kFast, "it does not have one row per body", "give every array of /scene/body the same length");
+  return rows;
+}
+
 Motion read_motion(Hdf5Source& source) {
   if (!source.has_attribute("/scene", "motion")) return Motion::kTranslate;
   const std::string word = source.text("/scene", "motion");
@@ -242,6 +252,7 @@ void write_scene(Hdf5Sink& sink, const Scene& scene) {
   sink.text("/scene", "motion", std::string(motion_word(scene.motion)));
   if (!scene.answer.empty()) sink.text("/scene", "answer", scene.answer);
   if (!scene.mass_properties.empty()) write_mass_properties(sink, scene.mass_properties);
+  if (!scene.is_fast.empty()) sink.array(kFast, Element::kU8, 1, scene.is_fast.size(), scene.is_fast.data(), "1");
   if (!scene.springs.empty()) write_rows(sink, "/scene/spring", kSpringFields, scene.springs);
   if (!scene.wrenches.empty()) write_rows(sink, "/scene/wrench", kWrenchFields, scene.wrenches);
   write_meshes(sink, scene.meshes);
@@ -258,6 +269,7 @@ Scene read_scene(Hdf5Source& source) {
   if (source.has_attribute("/scene", "answer")) scene.answer = source.text("/scene", "answer");
   scene.bodies = read_rows<Body>(source, "/scene/body", kBodyFields, "body");
   if (source.ok()) scene.mass_properties = read_mass_properties(source, scene.bodies.size());
+  if (source.ok()) scene.is_fast = read_fast(source, scene.bodies.size());
   if (source.ok() && source.has("/scene/spring"))
     scene.springs = read_rows<Spring>(source, "/scene/spring", kSpringFields, "spring");
   if (source.ok() && source.has("/scene/wrench"))

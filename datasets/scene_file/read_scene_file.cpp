@@ -241,9 +241,13 @@ class SceneFileReader {
     std::vector<double> q;
     if (table.numbers("orientation_wxyz", 4, q)) body.orientation = unit(table, q);
     read_mass(table, body);
+    bool is_fast = false;
+    table.flag("fast", is_fast);
     table.finish();
     lines_["body " + std::to_string(scene_.bodies.size())] = node.line;
     scene_.bodies.push_back(body);
+    if (is_fast || !scene_.is_fast.empty()) scene_.is_fast.resize(scene_.bodies.size());
+    if (is_fast) scene_.is_fast.back() = 1;
   }
 
   // Rounded once from the normalized doubles; written digits are rarely a unit quaternion to the last bit.

@@ -72,7 +72,7 @@ std::string mass(const core::MassProperties& m) {
   return "center_of_mass_m = " + list(m.center_of_mass_m) + "\ninertia_kg_m2 = " + list(m.inertia_kg_m2) + "\n";
 }
 
-std::string body(const core::Body& b, const core::MassProperties* m, const core::Material& common) {
+std::string body(const core::Body& b, const core::MassProperties* m, bool is_fast, const core::Material& common) {
   std::string text = "\n[[body]]\nmesh = " + quoted(mesh_name(b.mesh)) + "\nposition_m = " + vec3(b.position) + "\n";
   if (!(b.orientation == core::Quat{}))
     text += "orientation_wxyz = [" + number(b.orientation.w) + ", " + number(b.orientation.x) + ", " +
@@ -82,6 +82,7 @@ std::string body(const core::Body& b, const core::MassProperties* m, const core:
   // 1 / w is off by 2^-53 of itself, so its inverse rounds to the float w again.
   text += b.inverse_mass > 0.0F ? "mass_kg = " + digits(1.0 / double{b.inverse_mass}, 17) + "\n" : "static = true\n";
   if (m != nullptr && b.inverse_mass > 0.0F) text += mass(*m);
+  if (is_fast) text += "fast = true\n";
   if (!(b.material == common)) text += "[body.material]\n" + material(b.material);
   return text;
 }
@@ -103,7 +104,8 @@ std::string whole_scene(const Scene& scene, const std::string& stem) {
     text +=
         "\n[[mesh]]\nname = " + quoted(mesh_name(m)) + "\nfile = " + quoted(stem + "." + mesh_name(m) + ".ply") + "\n";
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    text += body(scene.bodies[i], scene.mass_properties.empty() ? nullptr : &scene.mass_properties[i], common);
+    text += body(scene.bodies[i], scene.mass_properties.empty() ? nullptr : &scene.mass_properties[i],
+                 !scene.is_fast.empty() && scene.is_fast[i] != 0, common);
   for (const core::Spring& s : scene.springs)
     text += "\n[[spring]]\nbody = " + std::to_string(s.body) + "\nanchor_m = " + vec3(s.anchor) +
             "\nstiffness_n_m = " + number(s.stiffness_n_m) + "\ndamping_n_s_m = " + number(s.damping_n_s_m) + "\n";

@@ -101,11 +101,12 @@ struct ContactView {
   core::Levels levels = core::Levels::kC;
   bool has_broad = true;           // else the levels test all pairs of bodies
   bool has_long_contacts = false;  // some shapes are hulls or meshes
-  bool follows_ways = false;       // sweep=fast: patches of bodies that move far are followed on their way
+  bool follows_ways = false;       // patches of swept bodies that move far are followed on their way
   core::Box domain;
 
   const RigidShapeView* shapes = nullptr;
   const std::uint32_t* shape_of_body = nullptr;
+  const std::uint8_t* is_swept = nullptr;  // [bodies] 1: its way is followed; where follows_ways
   const core::RigidMass* mass = nullptr;
   const core::Material* material = nullptr;
   const core::ContactShape* face_shapes = nullptr;  // [6]

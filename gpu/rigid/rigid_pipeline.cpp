@@ -140,6 +140,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   auto bodies = core::make_rigid_bodies(scene);
   if (!bodies.ok()) return bodies.error();
   d.bodies = std::move(bodies).value();
+  d.bodies.is_swept = core::swept_bodies(scene, d.options.swept);
   d.scene = &scene;
   d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
   d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = d.launches = 0;
@@ -168,7 +169,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
     return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
   });
-  d.view.follows_ways = d.options.sweeps_fast;
+  d.view.follows_ways = !d.bodies.is_swept.empty();
   auto contact_shape =
       d.view.has_long_contacts || d.view.follows_ways ? long_contact_launch_shape() : contact_launch_shape();
   if (!contact_shape.ok()) return contact_shape.error();
@@ -183,7 +184,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   if (!sleep_shape.ok()) return sleep_shape.error();
   d.sleep_shape = sleep_shape.value();
 
-  if (d.options.sweeps_fast) BROADSIDE_TRY(d.sweep.load(d.bodies));
+  if (d.view.follows_ways) BROADSIDE_TRY(d.sweep.load(d.bodies));
 
   d.facts = {};
   d.facts.count = static_cast<std::uint32_t>(n);
@@ -295,7 +296,7 @@ core::Status RigidPipeline::Impl::run_part() {
     if (!kept.ok()) return kept.error();
     is_done = kept.value();
   }
-  if (options.sweeps_fast) BROADSIDE_TRY(sweep.stop_short(view, view.after, stream));
+  if (view.follows_ways) BROADSIDE_TRY(sweep.stop_short(view, view.after, stream));
   take_frame();
   return core::Done{};
 }
@@ -370,7 +371,7 @@ std::vector<core::Counter> RigidPipeline::counters() const {
                                       {"solver: waits", d.waits},
                                       {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() +
                                                            d.pairs.bytes() + d.sweep.bytes()}};
-  if (d.options.sweeps_fast) counters.push_back({"sweep: bodies stopped short", d.sweep.stopped()});
+  if (d.view.follows_ways) counters.push_back({"sweep: bodies stopped short", d.sweep.stopped()});
   if (d.options.sleeps) counters.push_back({"sleep: bodies asleep", d.steps_slept});
   return counters;
 }

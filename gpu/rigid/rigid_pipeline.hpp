@@ -11,6 +11,7 @@
 #include "core/engine/frame_on_device.hpp"
 #include "core/method/levels.hpp"
 #include "core/method/rigid/rigid_settings.hpp"
+#include "core/scene/swept_bodies.hpp"
 #include "gpu/broad/broad_buffers.hpp"
 
 namespace broadside::gpu {
@@ -21,9 +22,10 @@ struct RigidPipelineOptions {
   core::SoftSettings solver;
   bool has_fixed_thresholds = false;  // the scene's
   std::uint32_t least_for_grid = kLeastBodiesForGrid;
-  bool sweeps_fast = false;  // bodies that move farther than they are thick stop before they pass through others
-  bool sleeps = false;       // islands that stand still stop being solved
-  bool may_cluster = true;   // few contacts are solved by one cluster of blocks, where the GPU has them
+  // Who stops, where it moves farther than it is thick, before it passes through others.
+  core::Swept swept = core::Swept::kFlagged;
+  bool sleeps = false;      // islands that stand still stop being solved
+  bool may_cluster = true;  // few contacts are solved by one cluster of blocks, where the GPU has them
 };
 
 // Uses the current CUDA device; not thread-safe.

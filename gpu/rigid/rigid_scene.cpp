@@ -100,6 +100,7 @@ core::Status RigidScene::load(const core::Scene& scene, const core::RigidBodies&
   has_wrenches_ = !bodies.wrench.empty();
   BROADSIDE_TRY(shapes_.upload(shapes, "shapes"));
   BROADSIDE_TRY(shape_of_body_.upload(bodies.shape, "bodies"));
+  BROADSIDE_TRY(is_swept_.upload(bodies.is_swept, "bodies"));
   BROADSIDE_TRY(mass_.upload(bodies.mass, "bodies"));
   BROADSIDE_TRY(material_.upload(bodies.material, "bodies"));
   BROADSIDE_TRY(wrench_.upload(bodies.wrench, "wrenches"));
@@ -110,6 +111,7 @@ core::Status RigidScene::load(const core::Scene& scene, const core::RigidBodies&
 void RigidScene::fill(RigidFrameView& view) const {
   view.shapes = shapes_.data();
   view.shape_of_body = shape_of_body_.data();
+  view.is_swept = is_swept_.data();
   view.mass = mass_.data();
   view.material = material_.data();
   view.wrench = has_wrenches_ ? wrench_.data() : nullptr;
@@ -119,8 +121,8 @@ void RigidScene::fill(RigidFrameView& view) const {
 
 std::uint64_t RigidScene::bytes() const {
   return vectors_.bytes() + indices_.bytes() + numbers_.bytes() + faces_.bytes() + edges_.bytes() + nodes_.bytes() +
-         boxes_.bytes() + levels_.bytes() + shapes_.bytes() + shape_of_body_.bytes() + mass_.bytes() +
-         material_.bytes() + wrench_.bytes() + face_shapes_.bytes() + face_poses_.bytes();
+         boxes_.bytes() + levels_.bytes() + shapes_.bytes() + shape_of_body_.bytes() + is_swept_.bytes() +
+         mass_.bytes() + material_.bytes() + wrench_.bytes() + face_shapes_.bytes() + face_poses_.bytes();
 }
 
 }  // namespace broadside::gpu

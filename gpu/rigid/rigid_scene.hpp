@@ -50,6 +50,7 @@ class RigidScene {
   DeviceTable<core::NodeBoxes> levels_;
   DeviceBuffer<RigidShapeView> shapes_;
   DeviceBuffer<std::uint32_t> shape_of_body_;
+  DeviceBuffer<std::uint8_t> is_swept_;
   DeviceBuffer<core::RigidMass> mass_;
   DeviceBuffer<core::Material> material_;
   DeviceBuffer<core::RigidWrench> wrench_;

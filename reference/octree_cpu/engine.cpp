@@ -77,7 +77,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   };
   turning.declare = [soft](const core::Scene& scene) { return core::rigid_declaration(soft, scene); };
   turning.sleeps = settings.text("sleep") == "on";
-  turning.sweeps_fast = settings.text("sweep") == "fast";
+  turning.swept = core::swept_named(settings.text("sweep"));
   turning.threads = threads;
 
   core::Engine engine;

@@ -14,7 +14,7 @@ namespace {
 RigidPipelineOptions options_of(const TurningStages& stages) {
   RigidPipelineOptions options;
   options.sleeps = stages.sleeps;
-  options.sweeps_fast = stages.sweeps_fast;
+  options.swept = stages.sweeps_fast ? core::Swept::kAll : core::Swept::kFlagged;
   options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };
   options.make_solver = [](const core::Scene&) { return make_contact_solver({}); };
   options.declare = [](const core::Scene& scene) { return rigid_declaration({}, scene); };

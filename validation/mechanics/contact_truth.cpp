@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "validation/mechanics/detection_pose.hpp"
+#include "validation/mechanics/meeting_within.hpp"
 #include "validation/mechanics/motion.hpp"
 #include "validation/mechanics/oriented_box.hpp"
 #include "validation/mechanics/ways_within.hpp"
@@ -22,6 +23,7 @@ class ContactTruth final : public Validator {
       : header_(subject.header),
         shapes_(header_.scene),
         margin_(header_.declaration.number("contact_margin_m")),
+        has_substeps_(header_.declaration.number("substeps") > 1.0),
         detects_within_(header_.declaration.text("detection_at") == "within") {}
 
   void look(const Evidence& evidence) override {
@@ -31,6 +33,7 @@ class ContactTruth final : public Validator {
     place_bodies(m);
     sort_points();
     if (detects_within_) ways_.read(m, frame_->points);
+    if (has_substeps_) meetings_.read(m, header_.scene, frame_->points);
     for (const core::Pair pair : m.near)
       if (is_known(m, pair.i) && is_known(m, pair.j)) judge_pair(m, pair);
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i)
@@ -244,9 +247,19 @@ class ContactTruth final : public Validator {
     const core::ContactPoint& p = point(index);
     if (core::is_face(p.b) || p.impulse == core::Vec3{}) return;
     const core::Pair pair = core::make_pair_of(p.a, p.b);
-    tally_.require(std::binary_search(m.near.begin(), m.near.end(), pair),
+    tally_.require(std::binary_search(m.near.begin(), m.near.end(), pair) || can_have_met(m, pair),
                    "bodies whose boxes, swept over the step, do not meet have no impulse between them",
                    Where::pair(m.step, pair.i, pair.j, "points"));
+  }
+
+  // Within a step of several substeps, and elsewhere than at its ends.
+  bool can_have_met(const Motion& m, core::Pair pair) {
+    if (!has_substeps_) return false;
+    std::vector<core::ContactPoint> own;
+    for (const std::uint32_t k : points_of(pair.i, pair.j)) own.push_back(point(k));
+    const double apart_m = -overlap_bound(oriented_box(m.facts[pair.i], m.bodies[pair.i].before),
+                                          oriented_box(m.facts[pair.j], m.bodies[pair.j].before));
+    return apart_m <= meetings_.way_m(m, pair, own) + margin_ + header_.scene.parameters.delta_m;
   }
 
   static constexpr Vec3d axis_vector(int axis) {
@@ -262,8 +275,10 @@ class ContactTruth final : public Validator {
   const core::TraceHeader& header_;
   ExactShapes shapes_;
   double margin_;
+  bool has_substeps_;
   bool detects_within_;
   WaysWithin ways_;
+  MeetingWithin meetings_;
   const core::FrameRecord* frame_ = nullptr;
   std::vector<std::optional<DetectionPose>> poses_;
   std::vector<OrientedBox> boxes_;  // at these poses

@@ -49,6 +49,7 @@ class Unilateral final : public Validator {
       if (has_substeps_) approach = std::max(approach, came + driven_by_others(m, evidence.frame.points, p));
       // Gravity may bring them together within the step.
       double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
+      reach += arc_m(m, p, p.a) + arc_m(m, p, p.b);
       // A point that was found within the step is told where its surfaces were at the start.
       if (detects_within_) reach = std::max(reach, way_m(m, p, p.a) + way_m(m, p, p.b));
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
@@ -127,9 +128,18 @@ class Unilateral final : public Validator {
     return core::is_face(body) ? 0.0 : ways_.way_m(body, length(Vec3d(p.point) - m.bodies[body].before.x));
   }
 
+  // A point of a body that turns by an angle t about an axis is off the tangent of its arc by at most t^2 / 2 of its
+  // arm, since |exp(i t) - 1 - i t| <= t^2 / 2.
+  static double arc_m(const Motion& m, const core::ContactPoint& p, std::uint32_t body) {
+    if (core::is_face(body) || !m.facts[body].is_dynamic) return 0.0;
+    const BodyStep& b = m.bodies[body];
+    const double angle = m.h * std::max(length(b.before.w), length(b.after.w));
+    return 0.5 * angle * angle * length(Vec3d(p.point) - b.before.x);
+  }
+
   static constexpr std::string_view kOrigin =
-      "the declared margin, h times the approach speed with gravity, wrenches and turning, and rounding; with substeps "
-      "also what other impulses of the step drive";
+      "the declared margin, h times the approach speed with gravity, wrenches and turning, what an arc is off its "
+      "tangent, and rounding; with substeps also what other impulses of the step drive";
   const core::Scene& scene_;
   double margin_m_;
   bool has_substeps_;

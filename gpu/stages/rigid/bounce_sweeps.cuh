@@ -1,6 +1,7 @@
 // What contacts that bounce do beside the sweeps of all: core/method/rigid/soft_contact.hpp.
 #pragma once
 
+#include "core/method/rigid/kept_blows.hpp"
 #include "gpu/stages/rigid/sweeps.cuh"
 
 namespace broadside::gpu {
@@ -72,16 +73,24 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
-// The end of such a substep: core::drop_impacts. What is left is added to the totals where all other impulses are.
-__device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f) {
+// The end of such a substep: core::drop_impacts; and of patches of bodies that were stirred since this sweep,
+// core::drop_impulses. What is left is added to the totals where all other impulses are.
+__device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f,
+                                                 std::uint32_t since) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;
     load_directions(slot, c);
-    if (!(c.surface.restitution > 0.0F)) return;
     load_bodies(slot, c);
+    const bool is_struck = f.stirred[c.a] >= since || f.stirred[c.b] >= since;
+    if (!is_struck && !(c.surface.restitution > 0.0F)) return;
     load_impulses(slot, c);
-    load_impact(slot, c);
-    core::drop_impacts(c);
+    if (is_struck) {
+      load_totals(slot, c);
+      core::drop_impulses(c);
+    } else {
+      load_impact(slot, c);
+      core::drop_impacts(c);
+    }
     store_totals(slot, c);
     store_impulses(slot, c);
   });

@@ -4,6 +4,7 @@
 
 #include "core/method/rigid/patch_constraint.hpp"
 #include "core/method/rigid/soft_contact.hpp"
+#include "core/method/rigid/unpushed_body.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
@@ -74,14 +75,41 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
   if (__any_sync(kFullWarp, bounces) && lane() == 0) atomicMax(&f.counts->bounces, 1U);
 }
 
-template <typename Team>
-__device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
-  for (std::uint64_t i = team.spread_rank(); i < f.body_count; i += team.size())
-    f.after[i] = core::state_after(load_body(f.bodies[i]), f.before[i]);
+// With the impulses of the last substep, which are not in the totals yet.
+__device__ inline void load_given(const TileSlot& slot, core::PatchConstraint& c) {
+  load_bodies(slot, c);
+  load_directions(slot, c);
+  load_impulses(slot, c);
+  load_totals(slot, c);
+  core::add_to_totals(c);
 }
 
-// Impulses of the step for those who read it, those of the last substep, which are not in the totals yet, for the next
-// step.
+// Whether a patch of the body gave it something in this step.
+__device__ inline bool is_pushed_body(const RigidFrameView& f, std::uint32_t i) {
+  const std::uint32_t* places = f.by_color + f.memory.begin[i];
+  for (std::uint32_t k = 0; k < f.memory.count[i]; ++k) {
+    core::PatchConstraint c;
+    load_given(TileSlot(f.constraints, places[k] / 2), c);
+    if (core::has_pushed(c)) return true;
+  }
+  return false;
+}
+
+template <typename Team>
+__device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
+  const int kind = step_kind(f);
+  for (std::uint64_t k = team.spread_rank(); k < f.body_count; k += team.size()) {
+    const auto i = static_cast<std::uint32_t>(k);
+    core::SolverBody body = load_body(f.bodies[i]);
+    // Who sleeps is not moved, and has other patches.
+    if (core::is_moved(body) && !is_pushed_body(f, i))
+      core::forget_pushes(body, f.before[i], f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i,
+                          f.soft[kind].dt_s, f.substeps[kind]);
+    f.after[i] = core::state_after(body, f.before[i]);
+  }
+}
+
+// Impulses of the step for those who read it, those of the last substep for the next step.
 template <typename Team>
 __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];
@@ -89,13 +117,8 @@ __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
   for (std::uint64_t place = team.spread_rank(); place < f.counts->places; place += team.size()) {
     const std::uint32_t patch = f.patch_at[place];
     if (patch == kUncolored) continue;
-    const TileSlot slot(f.constraints, place);
     core::PatchConstraint c;
-    load_bodies(slot, c);
-    load_directions(slot, c);
-    load_impulses(slot, c);
-    load_totals(slot, c);
-    core::add_to_totals(c);
+    load_given(TileSlot(f.constraints, place), c);
     const std::uint64_t first = std::uint64_t{kFourPoints} * patch;
     // Points that the patch does not have get zeros: the host copies all four.
 #pragma unroll

@@ -24,6 +24,11 @@ __device__ inline bool is_idle(const ContactView& f, std::uint32_t body) {
   return !is_moved(f, body) || is_asleep(f, body);
 }
 
+// Whether two bodies are kept from passing through each other: core::RigidBodies. Where f.follows_ways.
+__device__ inline bool are_followed(const ContactView& f, core::Pair pair) {
+  return f.is_swept[pair.i] != 0 || f.is_swept[pair.j] != 0;
+}
+
 // Half of the least thickness of the thinner one.
 __device__ inline float thinner_m(const ContactView& f, core::Pair pair) {
   const float a = f.shapes[f.shape_of_body[pair.i]].half_thickness_m;

@@ -42,7 +42,7 @@ __device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Ma
   const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
   const core::ContactPath path_a = path_of(f, pair.i);
   const core::ContactPath path_b = path_of(f, pair.j);
-  if (Lanes::kKnowsLongShapes && f.follows_ways) {
+  if (Lanes::kKnowsLongShapes && f.follows_ways && are_followed(f, pair)) {
     const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
     const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
     const float thin_m = thinner_m(f, pair);
@@ -173,7 +173,7 @@ __device__ void make_long_patches(const Team& team, const ContactView& f) {
     if (!is_item) return false;
     if (k >= confirmed) return may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed));
     own = f.confirmed.items[k];
-    if (f.follows_ways) return true;
+    if (f.follows_ways && are_followed(f, own)) return true;
     if (!may_touch<core::OneLane>(f, own)) return false;
     has_gaps = find_gaps(f, own, own_gaps);
     return true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/math/order_free_sum.hpp"
+#include "core/method/rigid/kept_blows.hpp"
 #include "core/method/rigid/soft_contact.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/rigid/bounce_sweeps.cuh"
@@ -19,6 +20,7 @@ namespace broadside::gpu {
 struct Solve {
   core::SoftStep soft;
   bool may_bounce = false;
+  bool forgets_blows = false;
   bool has_way = false;  // several sweeps along conjugate directions
   TeamSums sums;
   std::uint32_t sweep = 0;   // of all sweeps of bounces in this step
@@ -113,6 +115,7 @@ __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFra
 // The same as StepConstraints::relax_pushed and bounce of the twin. Begins behind a barrier and ends with one.
 __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                             bool is_pushed, float fastest_push) {
+  std::uint32_t since = 0xFFFFFFFFU;  // no sweep: nobody forgets
   for (Stirred of = is_pushed ? Stirred::kPushed : Stirred::kBouncing;; of = Stirred::kBouncing) {
     float fastest = 0.0F;
     float done = 0.0F;
@@ -126,6 +129,7 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
     }
     // A bounce so slow that its share vanishes has no sweeps.
     const bool has_sweeps = of == Stirred::kPushed || done > 0.0F;
+    if (of == Stirred::kBouncing && has_sweeps && solve.forgets_blows) since = solve.sweep;
     if (has_sweeps) relax_until_done(team, f, solve, of, done);
     if (of == Stirred::kBouncing) {
       if (has_sweeps) bounce_all(team, f, solve, fastest, done);
@@ -136,7 +140,7 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
     stir_what_bounces(team, f, solve.sweep, solve.sums);
     team.sync();
   }
-  drop_all_impacts(team, f);
+  drop_all_impacts(team, f, since);
   team.sync();
 }
 
@@ -195,7 +199,14 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
 
 __device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
-  Solve solve{f.soft[kind], f.counts->bounces != 0, f.solver.even.sweeps > 1, TeamSums(f.counts), 0, false, {}};
+  Solve solve{f.soft[kind],
+              f.counts->bounces != 0,
+              core::forgets_blows(static_cast<core::SolveKind>(kind)),
+              f.solver.even.sweeps > 1,
+              TeamSums(f.counts),
+              0,
+              false,
+              {}};
   for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve);
   if (team.rank() == 0) {
     f.counts->done = solve.done;

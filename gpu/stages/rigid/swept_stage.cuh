@@ -54,7 +54,7 @@ __device__ inline void lower_parts(const SweptView& s, std::uint32_t body, float
 
 __device__ inline void shorten_pair(const SweptView& s, core::Pair pair) {
   const ContactView& f = s.bodies;
-  if (!is_moved(f, pair.i) && !is_moved(f, pair.j)) return;
+  if (!are_followed(f, pair) || (!is_moved(f, pair.i) && !is_moved(f, pair.j))) return;
   const float thin_m = thinner_m(f, pair);
   if (!core::moves_far(s.length_m[pair.i], s.length_m[pair.j], thin_m)) return;
   if (s.is_changed[pair.i] == 0 && s.is_changed[pair.j] == 0) return;
@@ -70,7 +70,7 @@ __device__ inline void shorten_at_faces(const SweptView& s, std::uint32_t body) 
   const ContactView& f = s.bodies;
   const RigidShapeView& shape = f.shapes[f.shape_of_body[body]];
   const float thin_m = shape.half_thickness_m;
-  if (!is_moved(f, body) || !(s.length_m[body] > core::swept_depth_m(thin_m))) return;
+  if (f.is_swept[body] == 0 || !is_moved(f, body) || !(s.length_m[body] > core::swept_depth_m(thin_m))) return;
   if (s.is_changed[body] == 0 || s.parts[body] == 0) return;
   for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
     if (!core::may_reach_face(s.boxes[body], 0.0F, f.domain, face)) continue;

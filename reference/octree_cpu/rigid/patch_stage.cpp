@@ -51,8 +51,7 @@ bool surely_passes(const core::RigidBodies& bodies, core::Pair pair) {
 
 }  // namespace
 
-void PatchStage::load(const core::Scene& scene, bool sweeps_fast) {
-  sweeps_fast_ = sweeps_fast;
+void PatchStage::load(const core::Scene& scene) {
   domain_ = scene.domain;
   for (int k = 0; k < core::kFaceCount; ++k) {
     face_shapes_[static_cast<std::size_t>(k)] = core::domain_face_shape(k);
@@ -70,7 +69,7 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
   const core::RigidShape& b = bodies.shapes[bodies.shape[j]];
   const core::ContactPath path_a = bodies.path(i);
   const core::ContactPath path_b = bodies.path(j);
-  if (sweeps_fast_) {
+  if (bodies.are_followed(pair)) {
     const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
     const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
     const float thinner_m = bodies.thinner_m(pair);
@@ -89,7 +88,7 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
   fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
     const auto [i, j] = confirmed[k];
     if (is_idle(i) && is_idle(j)) return;
-    if (!sweeps_fast_ && surely_passes(bodies, confirmed[k])) return;
+    if (!bodies.are_followed(confirmed[k]) && surely_passes(bodies, confirmed[k])) return;
     core::Manifold found[core::kPatchesOfPair];
     const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
     const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;

@@ -18,9 +18,7 @@ namespace broadside::reference {
 
 class PatchStage {
  public:
-  // sweeps_fast: whether bodies that move farther than they are thick are followed on their way, to see whether they
-  // touch.
-  void load(const core::Scene& scene, bool sweeps_fast);
+  void load(const core::Scene& scene);
   // confirmed: sorted pairs. asleep: by body; pairs that nobody awake is in are left out.
   void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                     std::span<const std::uint8_t> asleep);
@@ -40,7 +38,6 @@ class PatchStage {
 
   [[nodiscard]] bool is_passing(const core::RigidBodies& bodies, core::Pair pair, const core::Manifold& found) const;
 
-  bool sweeps_fast_ = false;
   core::Box domain_;
   std::array<core::ContactShape, core::kFaceCount> face_shapes_;
   std::array<core::ContactPose, core::kFaceCount> face_poses_;

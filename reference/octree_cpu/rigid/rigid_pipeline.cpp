@@ -58,7 +58,8 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   patches_.clear();
   points_.clear();
   level_stage_.reset_counts();
-  patch_stage_.load(scene, options_.sweeps_fast);
+  bodies_.is_swept = core::swept_bodies(scene, options_.swept);
+  patch_stage_.load(scene);
   sweep_stage_.load(scene, bodies_, options_.make_broad_phase);
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
@@ -104,7 +105,7 @@ core::Status RigidPipeline::run_stages(float dt_s) {
   clock.lap(core::Stage::kFaces);
   respond(dt_s);
   if (options_.sleeps) fall_asleep(dt_s);
-  if (options_.sweeps_fast)
+  if (!bodies_.is_swept.empty())
     if (core::Status s = stop_short(); !s) return s;
   tell_points();
   clock.lap(core::Stage::kResponse);
@@ -228,7 +229,7 @@ std::vector<core::Counter> RigidPipeline::counters() const {
     counters.push_back({"solver: sweeps of bounces", sweeps.bouncing});
   }
   if (options_.sleeps) counters.push_back({"sleep: bodies asleep", sleepers_.steps_slept()});
-  if (options_.sweeps_fast) counters.push_back({"sweep: bodies stopped short", sweep_stage_.stopped()});
+  if (!bodies_.is_swept.empty()) counters.push_back({"sweep: bodies stopped short", sweep_stage_.stopped()});
   return counters;
 }
 

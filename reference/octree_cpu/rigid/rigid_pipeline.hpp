@@ -18,6 +18,7 @@
 #include "core/method/rigid/step_in_parts.hpp"
 #include "core/pair.hpp"
 #include "core/scene/rigid_bodies.hpp"
+#include "core/scene/swept_bodies.hpp"
 #include "reference/octree_cpu/rigid/contact_solver.hpp"
 #include "reference/octree_cpu/rigid/oriented_level_stage.hpp"
 #include "reference/octree_cpu/rigid/patch_stage.hpp"
@@ -32,9 +33,10 @@ struct RigidPipelineOptions {
   core::Levels levels = core::Levels::kC;
   std::function<std::unique_ptr<ContactSolver>(const core::Scene&)> make_solver;
   std::function<core::Declaration(const core::Scene&)> declare;  // of these stages with this solver
-  bool sweeps_fast = false;  // bodies that move farther than they are thick stop before they pass through others
-  bool sleeps = false;       // islands that stand still stop being solved
-  int threads = 0;           // 0 = all
+  // Who stops, where it moves farther than it is thick, before it passes through others.
+  core::Swept swept = core::Swept::kFlagged;
+  bool sleeps = false;  // islands that stand still stop being solved
+  int threads = 0;      // 0 = all
 };
 
 // A step detects at its start, as far ahead as bodies can come within it, and moves bodies last; where masses are far

@@ -6,6 +6,7 @@
 #include "core/contact.hpp"
 #include "core/math/order_free_sum.hpp"
 #include "core/method/rigid/conjugate_directions.hpp"
+#include "core/method/rigid/kept_blows.hpp"
 
 namespace broadside::reference {
 
@@ -69,7 +70,7 @@ void SoftSolver::relax(const core::SoftStep& numbers) {
   if (work_.is_pushed()) sweeps_done_ += work_.relax_pushed(numbers);
 }
 
-void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
+void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, core::SolveKind kind) {
   const auto bodies = work_.bodies();
   work_.each_body([&](std::size_t i) {
     core::accelerate(bodies[i], step.gravity_m_s2, step.wrenches.empty() ? nullptr : &step.wrenches[i], numbers.dt_s);
@@ -77,7 +78,7 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers) {
   sweep_until_done(numbers);
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
   relax(numbers);
-  work_.bounce(numbers);
+  work_.bounce(numbers, core::forgets_blows(kind));
   work_.each_range([&](const TileRange& range) { kernels_.end_substep(range); });
 }
 
@@ -92,8 +93,8 @@ void SoftSolver::advance(std::span<core::RigidState> states, std::span<const cor
   const core::SolveNumbers& solve = core::solve_numbers(settings_, kind, step.is_calm);
   const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, solve);
   work_.begin(states, patches, step, numbers, settings_.limits);
-  for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers);
-  work_.finish(states, patches);
+  for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers, kind);
+  work_.finish(states, patches, step, solve.substeps);
 }
 
 }  // namespace broadside::reference

@@ -25,7 +25,7 @@ class SoftSolver final : public ContactSolver {
   [[nodiscard]] SolverSweeps sweeps_done() const override { return {sweeps_done_, work_.bounce_sweeps()}; }
 
  private:
-  void substep(const RigidStep& step, const core::SoftStep& numbers);
+  void substep(const RigidStep& step, const core::SoftStep& numbers, core::SolveKind kind);
   void sweep_until_done(const core::SoftStep& numbers);
   void relax(const core::SoftStep& numbers);
   // How much of the last directions the impulses follow.

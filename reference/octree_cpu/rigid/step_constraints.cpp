@@ -6,6 +6,8 @@
 #include <cstddef>
 
 #include "core/contact.hpp"
+#include "core/method/rigid/kept_blows.hpp"
+#include "core/method/rigid/unpushed_body.hpp"
 
 namespace broadside::reference {
 
@@ -99,8 +101,9 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
   list_fast();
 }
 
-void StepConstraints::finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches) {
-  each_body([&](std::size_t i) { states[i] = core::state_after(bodies_[i], states[i]); });
+void StepConstraints::finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
+                             const RigidStep& step, std::uint32_t substeps) {
+  is_pushed_body_.assign(bodies_.size(), 0);
   memory_.begin(patches);
   impulses_.resize(patches.size());
   const float per_s = 1.0F / substep_s_;
@@ -109,6 +112,9 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
     if (of_awake == PatchTiles::kNoPatch) return;
     const std::uint32_t patch = asleep_.empty() ? of_awake : awake_[of_awake];
     const PatchConstraint c = tiles_.get(place);
+    if (core::has_pushed(c))
+      for (const std::uint32_t body : {c.a, c.b})
+        std::atomic_ref(is_pushed_body_[body]).store(1, std::memory_order_relaxed);
     impulses_[patch] = {};
     for (int k = 0; k < c.count; ++k) {
       const PatchPoint& p = c.points[k];
@@ -122,6 +128,12 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
     for (int k = 0; k < core::kManifoldPoints; ++k)
       memory_.keep(kept.patch, k, kept.remembered[static_cast<std::size_t>(k)]);
   }
+  each_body([&](std::size_t i) {
+    if (is_pushed_body_[i] == 0)
+      core::forget_pushes(bodies_[i], states[i], step.gravity_m_s2, step.wrenches.empty() ? nullptr : &step.wrenches[i],
+                          substep_s_, substeps);
+    states[i] = core::state_after(bodies_[i], states[i]);
+  });
 }
 
 // Patches of one color, and patches in any order, may stir the same body that never moves, and bodies that bounce may
@@ -221,9 +233,20 @@ float StepConstraints::stir_what_bounces() {
   return largest_of_places();
 }
 
-void StepConstraints::bounce(const core::SoftStep& numbers) {
+void StepConstraints::drop_blows(std::uint32_t since) {
+  in_parallel(0, tiles_.places(), [&](std::size_t place) {
+    if (tiles_.patch_at()[place] == PatchTiles::kNoPatch) return;
+    if (stirred_[touched_[place].a] < since && stirred_[touched_[place].b] < since) return;
+    PatchConstraint c = tiles_.get(place);
+    core::drop_impulses(c);
+    tiles_.put(place, c);
+  });
+}
+
+void StepConstraints::bounce(const core::SoftStep& numbers, bool forgets_blows) {
   if (fast_.empty()) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
+  const std::uint32_t since = sweep_;
   const float fastest = stir_what_bounces();
   const float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
@@ -245,6 +268,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers) {
     ++bounce_sweeps_;
     largest = largest_of_places();
   }
+  if (forgets_blows) drop_blows(since);
 }
 
 }  // namespace broadside::reference

@@ -26,7 +26,8 @@ class StepConstraints {
   void begin(std::span<const core::RigidState> states, std::span<const core::ContactPatch> patches,
              const RigidStep& step, const core::SoftStep& numbers, const core::PatchLimits& limits);
   // Writes the states, and keeps the impulses of the last substep and of the step.
-  void finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches);
+  void finish(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches, const RigidStep& step,
+              std::uint32_t substeps);
   void forget() { memory_.forget(); }
 
   [[nodiscard]] std::span<core::SolverBody> bodies() { return bodies_; }
@@ -65,8 +66,9 @@ class StepConstraints {
 
   // Points that came fast and are met first leave with their share of that speed: sweeps until one changes no speed
   // by more than 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by
-  // more than that.
-  void bounce(const core::SoftStep& numbers);
+  // more than that. forgets_blows: patches of bodies that it reached keep no impulse
+  // (core/method/rigid/kept_blows.hpp).
+  void bounce(const core::SoftStep& numbers, bool forgets_blows);
 
  private:
   template <typename Work>
@@ -86,6 +88,8 @@ class StepConstraints {
   // One sweep of relaxation over patches whose bodies are stirred; bodies that change by more than done_m_s are stirred
   // for the next one. Returns the largest change of a point's speed.
   float relax_stirred(const core::SoftStep& numbers, float done_m_s);
+  // Patches of bodies that were stirred by this sweep or a later one keep no impulse.
+  void drop_blows(std::uint32_t since);
   // Places of patches with a point that came fast enough to bounce.
   void list_fast();
   // The fastest approach of what bounces, whose bodies are stirred.
@@ -126,11 +130,12 @@ class StepConstraints {
   };
   std::vector<Velocity> driven_;  // by body, where something is pushed
   float fastest_push_m_s_ = 0.0F;
-  std::vector<PatchImpulses> impulses_;     // by patch as given
-  std::vector<float> of_places_;            // what a loop over places found, for the largest of it
-  std::vector<std::uint32_t> place_begin_;  // by color
-  std::vector<std::uint8_t> came_fast_;     // by place
-  std::vector<std::uint32_t> fast_;         // places of patches that came fast, by color
+  std::vector<PatchImpulses> impulses_;       // by patch as given
+  std::vector<std::uint8_t> is_pushed_body_;  // by body: 1 = the step left it an impulse
+  std::vector<float> of_places_;              // what a loop over places found, for the largest of it
+  std::vector<std::uint32_t> place_begin_;    // by color
+  std::vector<std::uint8_t> came_fast_;       // by place
+  std::vector<std::uint32_t> fast_;           // places of patches that came fast, by color
   std::vector<std::uint32_t> fast_begin_;
   std::vector<std::uint32_t> stirred_;  // [bodies] the sweep that has to visit the body's patches
   std::uint32_t sweep_ = 0;             // of all sweeps of bounces in this step

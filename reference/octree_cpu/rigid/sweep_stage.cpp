@@ -75,14 +75,15 @@ core::Status SweepStage::find_pairs(const core::RigidBodies& bodies) {
   }
   // Who does not move farther than the thinner one is thick passes through nothing.
   for (const Pair p : near) {
-    if (bodies.is_static[p.i] != 0 && bodies.is_static[p.j] != 0) continue;
+    if (!bodies.are_followed(p) || (bodies.is_static[p.i] != 0 && bodies.is_static[p.j] != 0)) continue;
     if (core::moves_far(core::length_of(way(bodies, p.i)), core::length_of(way(bodies, p.j)), bodies.thinner_m(p)))
       pairs_.push_back(p);
   }
   at_faces_.clear();
   for (std::uint32_t i = 0; i < bodies.count(); ++i) {
     const core::SweptWay way = this->way(bodies, i);
-    if (bodies.is_static[i] != 0 || !(core::length_of(way) > core::swept_depth_m(bodies.thickness_m(i)))) continue;
+    if (!bodies.is_followed(i) || bodies.is_static[i] != 0) continue;
+    if (!(core::length_of(way) > core::swept_depth_m(bodies.thickness_m(i)))) continue;
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face)
       if (core::may_reach_face(boxes_[i], 0.0F, scene_->domain, face)) {
         at_faces_.push_back(i);

@@ -155,6 +155,7 @@ TEST(RoundTrip, Float64StatesComeBackWholeAndRounded) {
   scene.motion = core::Motion::kRigid;
   scene.springs.clear();
   for (std::uint32_t i = 0; i < 4; ++i) scene.mass_properties.push_back({{0.1 * i, 0, 1e-300}, {2, 3, 4, 0.1, 0, 0}});
+  scene.is_fast = {0, 1, 0, 1};
   FrameRecord frame;
   frame.step = 1;
   for (int i = 0; i < 4; ++i) {
@@ -172,6 +173,7 @@ TEST(RoundTrip, Float64StatesComeBackWholeAndRounded) {
   EXPECT_EQ(reader.value().header().groups, kGroups);
   EXPECT_EQ(reader.value().header().scene.motion, core::Motion::kRigid);
   EXPECT_EQ(reader.value().header().scene.mass_properties, scene.mass_properties);
+  EXPECT_EQ(reader.value().header().scene.is_fast, scene.is_fast);
   auto read = reader.value().read(0, bit(Group::kBodies));
   ASSERT_TRUE(read.ok()) << read.error().line();
   EXPECT_EQ(read.value().wide.position, frame.wide.position);

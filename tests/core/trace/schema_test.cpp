@@ -65,6 +65,7 @@ struct Sizes {
 Sizes write_trace(const std::filesystem::path& path) {
   Scene scene = tetrahedra_scene(13);
   scene.mass_properties.assign(13, {{}, {1, 1, 1, 0, 0, 0}});
+  scene.is_fast.assign(13, 1);
   auto writer = TraceWriter::create(path, header_of(scene, kAllGroups));
   EXPECT_TRUE(writer.ok());
   Bits bits(3);

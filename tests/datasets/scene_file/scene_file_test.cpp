@@ -116,6 +116,7 @@ orientation_wxyz = [0, 0.6, 0, -0.8]
 velocity_m_s = [4, 5, 6]
 angular_velocity_rad_s = [7, 8, 9]
 mass_kg = 4
+fast = true
 [body.material]
 mu_static = 0
 mu_kinetic = 0
@@ -155,6 +156,7 @@ static = true
   EXPECT_EQ(first.angular_velocity, (core::Vec3{7.0F, 8.0F, 9.0F}));
   EXPECT_EQ(first.inverse_mass, 0.25F);
   EXPECT_EQ(first.material, (core::Material{0.0F, 0.0F, 0.5F}));
+  EXPECT_EQ(scene.is_fast, (std::vector<std::uint8_t>{1, 0}));
   EXPECT_EQ(scene.bodies[1].inverse_mass, 0.0F);
   EXPECT_EQ(scene.bodies[1].material, (core::Material{0.5F, 0.25F, 1.0F}));
 }
@@ -274,6 +276,8 @@ TEST(WriteSceneFile, ReadsBackToTheSameDigest) {
     scene.bodies[0].inverse_mass = 1.0F / 3.0F;
     scene.bodies[1].orientation = {std::sqrt(0.5F), 0.0F, -std::sqrt(0.5F), 0.0F};
     scene.bodies[1].material = {0.2F, 0.1F, 0.7F};
+    scene.is_fast.assign(scene.bodies.size(), 0);
+    scene.is_fast[1] = 1;
     scene.seed = 0xFFFFFFFFFFFFFFFEULL;
     scene.name = "quoted \"name\" \\ and\ttab";
     const auto path = folder.path() / "written.toml";

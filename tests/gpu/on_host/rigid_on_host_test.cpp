@@ -158,7 +158,7 @@ TEST(RigidOnHost, PilesSleepAndWake) {
 TEST(RigidOnHost, FastBodiesStopShort) {
   std::uint64_t stopped = 0;
   RigidPipelineOptions options;
-  options.sweeps_fast = true;
+  options.swept = core::Swept::kAll;
   for (const char* name : {"rigid:bullet-through-cards", "rigid:needle-through-plate", "freefall:cube:20[rigid=1]",
                            "freefall:bunny:3[rigid=1]"}) {
     SCOPED_TRACE(name);
@@ -174,6 +174,18 @@ TEST(RigidOnHost, FastBodiesStopShort) {
     stopped += of_gpu["sweep: bodies stopped short"];
   }
   EXPECT_GT(stopped, 10U);
+}
+
+// Of a scene that flags its bullet alone, pairs of that bullet.
+TEST(RigidOnHost, FlaggedBodiesStopShort) {
+  core::Scene scene = scene_of("rigid:bullet-through-cards");
+  for (std::size_t i = 1; i < scene.bodies.size(); ++i) scene.is_fast[i] = 0;
+  RigidPipeline subject{{}};
+  const auto twin = twin_of({});
+  compare_pipelines(scene, subject, *twin, 12, 3);
+  EXPECT_EQ(tests::counts_of(subject)["sweep: bodies stopped short"],
+            tests::counts_of(*twin)["sweep: bodies stopped short"]);
+  EXPECT_GT(tests::counts_of(*twin)["sweep: bodies stopped short"], 0U);
 }
 
 // Both say how many sweeps they took.

@@ -302,5 +302,36 @@ TEST(Rest, IsAskedOfScenesThatStandAlone) {
   expect_nothing_met("rest", r, "does not say that it stands");
 }
 
+// A cube at rest is struck by one at 64 m/s, strikes a fixed one `gap` away, and lies where it lay when the step ends:
+// its boxes at the two ends are one.
+bench::Specimen struck_back(double gap, const char* substeps, bool is_struck) {
+  bench::Specimen r = one_step(3, {1000.0, 1000.0, 1000.0});
+  r.header.declaration =
+      core::Declaration::of({{"precision", "f32"}, {"detection_at", "start"}, {"substeps", substeps}});
+  auto& bodies = r.header.scene.bodies;
+  for (core::Body& b : bodies) b.material = {};
+  bodies[0].position = {-1, 0, 0};
+  bodies[0].velocity = {64, 0, 0};
+  bodies[2].position = {1.0F + static_cast<float>(gap), 0, 0};
+  bodies[2].inverse_mass = 0.0F;
+  end_step(r, [](core::WideStates& s) { s.velocity[0].x = 0; });
+  add_point(r, {0, 1, {-0.5F, 0, 0}, {-1, 0, 0}, 0.0F, {is_struck ? -64.0F : 0.0F, 0, 0}, 1});
+  add_point(r, {1, 2, {0.5F, 0, 0}, {-1, 0, 0}, static_cast<float>(gap), {-64, 0, 0}, 1});
+  return r;
+}
+
+// h (g h + J / m sqrt(1 + mu^2)) of its center, and as little as it turns: with the mu of 0.6 of surfaces by default.
+TEST(ContactTruth, BodiesThatOthersDroveTogetherWithinTheStepMayHaveMet) {
+  const double way_m = kStep * (kG * kStep + 64.0 * std::sqrt(1.36));
+  const auto outcome = [](double gap, const char* substeps, bool is_struck) {
+    return law("contact-truth", struck_back(gap, substeps, is_struck)).outcome;
+  };
+  EXPECT_EQ(outcome(0.99 * way_m, "4", true), core::Outcome::kPass)
+      << told(law("contact-truth", struck_back(0.99 * way_m, "4", true)));
+  EXPECT_EQ(outcome(1.01 * way_m, "4", true), core::Outcome::kFail) << "farther than anything drove it";
+  EXPECT_EQ(outcome(0.5 * way_m, "4", false), core::Outcome::kFail) << "what they gave each other drove nobody there";
+  EXPECT_EQ(outcome(0.5 * way_m, "1", true), core::Outcome::kFail) << "one step of one solve meets at its ends";
+}
+
 }  // namespace
 }  // namespace broadside::tests

@@ -82,7 +82,7 @@ TEST(Sweep, WhoIsInAnotherMayLeaveIt) {
 // A ball of 1 cm that is fast, and five loose cards of 2 mm that stand one behind the other.
 PipelineRig cards(float speed_m_s, bool sweeps) {
   PipelineRig rig;
-  rig.options.sweeps_fast = sweeps;
+  rig.options.swept = sweeps ? core::Swept::kAll : core::Swept::kNobody;
   const std::uint32_t bullet = rig.ball(0.01);
   const std::uint32_t card = rig.box(0.002, 0.2, 0.3);
   rig.add(bullet, {-3, 50.03F, 0.02F}, 0.03F, {speed_m_s, 0, 0});
@@ -108,6 +108,40 @@ TEST(Sweep, ABulletPassesThroughNoCardThatItDrivesIntoOthers) {
   }
 }
 
+// By default those are followed that the scene flags, with all that they meet.
+TEST(Sweep, FollowsWhomTheSceneCallsFast) {
+  PipelineRig rig = cards(160.0F, false);
+  rig.options.swept = core::Swept::kFlagged;
+  const auto sum = [&] {
+    std::uint64_t digest = 0;
+    for (const FrameRecord& f : rig.run(10)) digest = 31 * digest + f.digest;
+    return digest;
+  };
+  const std::uint64_t with_nobody = sum();
+  rig.scene.is_fast.assign(rig.scene.bodies.size(), 0);
+  EXPECT_EQ(sum(), with_nobody);
+  rig.scene.is_fast.assign(rig.scene.bodies.size(), 1);
+  EXPECT_GT(least_lead_m(rig.run(10)), 0.0F);
+  const std::uint64_t with_all = sum();
+  EXPECT_NE(with_all, with_nobody);
+  rig.options.swept = core::Swept::kAll;
+  rig.scene.is_fast.clear();
+  EXPECT_EQ(sum(), with_all);
+  rig.options.swept = core::Swept::kNobody;
+  rig.scene.is_fast.assign(rig.scene.bodies.size(), 1);
+  EXPECT_EQ(sum(), with_nobody);
+}
+
+// The bullet alone is flagged: it passes no card, and cards that it drives on are no pair of its.
+TEST(Sweep, AFlaggedBulletPassesThroughNoCard) {
+  PipelineRig rig = cards(160.0F, false);
+  rig.options.swept = core::Swept::kFlagged;
+  rig.scene.is_fast.assign(rig.scene.bodies.size(), 0);
+  rig.scene.is_fast[0] = 1;
+  for (const FrameRecord& f : rig.run(10))
+    for (std::size_t i = 1; i < f.position.size(); ++i) ASSERT_GT(f.position[i].x, f.position[0].x) << i;
+}
+
 TEST(Sweep, HasTheSameBitsOnAnyNumberOfThreads) {
   PipelineRig rig = cards(300.0F, true);
   std::vector<std::uint64_t> sums;
@@ -128,7 +162,7 @@ TEST(Sweep, ChangesNothingWhereNobodyIsFast) {
   for (int k = 0; k < 4; ++k)
     rig.add(cube, {0.2F * static_cast<float>(k), 0.5F + 1.2F * static_cast<float>(k), 0}, 1.0F);
   const auto without = rig.run(60);
-  rig.options.sweeps_fast = true;
+  rig.options.swept = core::Swept::kAll;
   const auto with = rig.run(60);
   for (std::size_t k = 0; k < with.size(); ++k) ASSERT_EQ(with[k].digest, without[k].digest) << k;
 }

@@ -1,0 +1,40 @@
+// Bodies that a step left without an impulse, though its sweeps gave them some and took them back. What is added to a
+// velocity and subtracted again leaves rounding, of which no point tells: such a body has the velocities of one that
+// nothing touched, to the last bit. Before, a card that stood still behind others that a bullet struck went on with
+// 0.24 micrometers a second.
+#pragma once
+
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/rigid_integrate.hpp"
+#include "core/method/rigid/rigid_state.hpp"
+#include "core/method/rigid/solver_body.hpp"
+
+namespace broadside::core {
+
+// Whether a patch gave its bodies anything in the substeps that are over: a normal impulse only grows from substep to
+// substep, and friction needs one.
+BROADSIDE_HD bool has_pushed(const PatchConstraint& c) {
+  bool has = false;
+  each_point(c, [&](int k) {
+    const PatchPoint& p = c.points[k];
+    has = has || p.normal_total != 0.0F || p.tangent_total_1 != 0.0F || p.tangent_total_2 != 0.0F;
+  });
+  return has;
+}
+
+// Of gravity and the scene's wrench alone, in so many substeps. What is constant in a body's axes turns with it, and
+// where it turned is what nothing told too: such a body is left as it is.
+BROADSIDE_HD void forget_pushes(SolverBody& body, const RigidState& before, Vec3 gravity_m_s2,
+                                const RigidWrench* wrench, float substep_s, std::uint32_t substeps) {
+  if (!is_moved(body)) return;
+  if (wrench != nullptr && !(wrench->force_body_n == Vec3{} && wrench->torque_body_n_m == Vec3{})) return;
+  body.v = before.v;
+  body.angular_momentum = before.angular_momentum;
+  for (std::uint32_t k = 0; k < substeps; ++k) accelerate(body, gravity_m_s2, wrench, substep_s);
+}
+
+}  // namespace broadside::core
