@@ -21,7 +21,9 @@ int find_build_id(dl_phdr_info* info, std::size_t, void* out) {
   for (int k = 0; k < info->dlpi_phnum; ++k) {
     const auto& header = info->dlpi_phdr[k];
     if (header.p_type != PT_NOTE) continue;
-    const char* at = reinterpret_cast<const char*>(info->dlpi_addr + header.p_vaddr);
+    // The loader says addresses as integers.
+    const char* at =
+        reinterpret_cast<const char*>(info->dlpi_addr + header.p_vaddr);  // NOLINT(performance-no-int-to-ptr)
     const char* const end = at + header.p_memsz;
     while (at + 12 <= end) {
       std::uint32_t sizes[3];
@@ -82,8 +84,8 @@ std::string machine_line() {
   utsname kernel{};
   uname(&kernel);
   return cpu_model() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads, " +
-         std::to_string(static_cast<int>(gib + 0.5)) + " GiB, " + system_name() + " (" + kernel.sysname + " " +
-         kernel.release + "), GPU: " + gpu::device_name();
+         std::to_string(std::lround(gib)) + " GiB, " + system_name() + " (" + kernel.sysname + " " + kernel.release +
+         "), GPU: " + gpu::device_name();
 }
 
 }  // namespace broadside::bench

@@ -2,6 +2,7 @@
 // reports.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -20,9 +21,9 @@ inline constexpr std::size_t kEnergyColumnCount = std::size(kEnergyColumns);
 struct EnergySeries {
   std::string trace_file;
   std::string scene_name;
-  std::string label;                              // of the engine and its settings
-  std::vector<std::uint64_t> step;                // rising
-  std::vector<double> joule[kEnergyColumnCount];  // as long as step
+  std::string label;                                          // of the engine and its settings
+  std::vector<std::uint64_t> step;                            // rising
+  std::array<std::vector<double>, kEnergyColumnCount> joule;  // each as long as step
 };
 
 // energy.json of a run's folder: {"format": "broadside-energy", "version": 1, "rows": [{..., "step": [..], "kinetic":

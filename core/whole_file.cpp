@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace broadside::core {
@@ -29,7 +29,7 @@ class Descriptor {
 };
 
 Error system_error(const std::string& doing, const std::filesystem::path& file, int code) {
-  return Error{.what = doing + ": " + std::strerror(code),
+  return Error{.what = doing + ": " + std::generic_category().message(code),
                .where = file.string(),
                .advice = code == ENOSPC   ? "free some space, or choose another output folder"
                          : code == EACCES ? "check the folder's permissions, or choose another output folder"

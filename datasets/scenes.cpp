@@ -81,6 +81,7 @@ Error unknown_scene(const std::string& spec, const std::string& plain) {
       return {"it is a stream of boxes, and no scene", "scene '" + spec + "'", "use 'broadside pairs " + spec + "'"};
   const std::vector<SceneRow> table = scene_table();
   std::vector<std::string_view> known;
+  known.reserve(table.size());
   for (const SceneRow& row : table) known.push_back(row.example);
   return {"no such scene", "scene '" + spec + "'",
           core::advise_name(plain, known, "broadside list scenes") +

@@ -11,7 +11,7 @@ namespace {
 
 // The keys and values of octree-cpu, but for its threads; and what its broad phase has on devices.
 std::span<const core::SettingRow> octree_settings() {
-  static const std::vector<core::SettingRow> rows{
+  static const std::vector<core::SettingRow> kSettings{
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
@@ -30,14 +30,14 @@ std::span<const core::SettingRow> octree_settings() {
       {"parts", "0", {}, "boxes alone: ranges of space, searched each on a device; 0 = one for each device"},
       {"devices", "1", {}, "boxes alone: GPUs that share them; 0 = all that there are"},
   };
-  return rows;
+  return kSettings;
 }
 
 // Those of hash-cpu, but for its threads.
 std::span<const core::SettingRow> hash_settings() {
-  static const std::vector<core::SettingRow> rows{core::cell_setting(), core::levels_setting(),
-                                                  core::vertex_stage_setting()};
-  return rows;
+  static const std::vector<core::SettingRow> kSettings{core::cell_setting(), core::levels_setting(),
+                                                       core::vertex_stage_setting()};
+  return kSettings;
 }
 
 }  // namespace

@@ -139,10 +139,10 @@ class AllPairs final : public core::BroadPhase {
 };
 
 std::span<const core::SettingRow> all_pairs_settings() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create_all_pairs(const core::Settings& settings) {

@@ -108,7 +108,7 @@ class BulletDbvt final : public core::BroadPhase {
       const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
       const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
                                          : static_cast<int>(btBroadphaseProxy::AllFilter);
-      void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
+      void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));  // NOLINT(performance-no-int-to-ptr)
       proxies_.push_back(broad_phase_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE,
                                                    body, group, mask, nullptr));
     }
@@ -132,14 +132,14 @@ class BulletDbvt final : public core::BroadPhase {
 };
 
 std::span<const core::SettingRow> bullet_dbvt_settings() {
-  static const std::array<core::SettingRow, 2> rows{{
+  static const std::array<core::SettingRow, 2> kSettings{{
       {"margin",
        "bullet",
        {"bullet", core::kMeters},
        "by how much a moving leaf is fattened: what Bullet ships (0.05 m in 3.24), or meters; 0 = not at all"},
       {"deferred", "off", {"off", "on"}, "on: pairs are found by one tree-tree pass in find instead of inside setAabb"},
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create_bullet_dbvt(const core::Settings& settings) {

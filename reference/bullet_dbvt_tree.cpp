@@ -55,9 +55,10 @@ class BulletDbvtTree final : public core::BroadPhase {
       trees_ = std::make_unique<Trees>();
       leaves_.clear();
       found_.pairs.clear();
-      for (std::uint32_t i = 0; i < given_.count(); ++i)
-        leaves_.push_back(
-            tree_of(i).insert(volume_of(boxes[i]), reinterpret_cast<void*>(static_cast<std::uintptr_t>(i))));
+      for (std::uint32_t i = 0; i < given_.count(); ++i) {
+        void* number = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));  // NOLINT(performance-no-int-to-ptr)
+        leaves_.push_back(tree_of(i).insert(volume_of(boxes[i]), number));
+      }
       trees_->moving.optimizeTopDown();
       trees_->fixed.optimizeTopDown();
       return core::Done{};
@@ -105,13 +106,13 @@ class BulletDbvtTree final : public core::BroadPhase {
 };
 
 std::span<const core::SettingRow> bullet_dbvt_tree_settings() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       {"margin",
        "0",
        {"bullet", core::kMeters},
        "by how much a moving leaf is fattened: meters, or what Bullet ships (0.05 m in 3.24)"},
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create_bullet_dbvt_tree(const core::Settings& settings) {

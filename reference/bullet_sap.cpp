@@ -103,7 +103,7 @@ class BulletSap final : public core::BroadPhase {
       const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
       const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
                                          : static_cast<int>(btBroadphaseProxy::AllFilter);
-      void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));
+      void* body = reinterpret_cast<void*>(static_cast<std::uintptr_t>(i));  // NOLINT(performance-no-int-to-ptr)
       proxies_.push_back(sweep_->createProxy(bullet(boxes[i].min), bullet(boxes[i].max), BOX_SHAPE_PROXYTYPE, body,
                                              group, mask, nullptr));
     }

@@ -111,13 +111,13 @@ class BulletShapes final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> bullet_shapes_settings() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       {"margin",
        "0",
        {"bullet", core::kMeters},
        "rounds the edges of boxes and thickens hulls: meters, or what Bullet ships (0.04 m)"},
   }};
-  return rows;
+  return kSettings;
 }
 
 core::EquivalenceCard bullet_shapes_card(const core::Scene& scene, const BulletShapeOptions& options) {

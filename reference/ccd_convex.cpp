@@ -214,7 +214,7 @@ class CcdConvex final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 3> rows{{
+  static const std::array<core::SettingRow, 3> kSettings{{
       {"algorithm",
        "gjk",
        {"gjk", "mpr"},
@@ -226,7 +226,7 @@ std::span<const core::SettingRow> setting_rows() {
        "the hull of a body's vertices, its axis-aligned box, or the box, sphere or capsule that its mesh draws"},
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {

@@ -22,10 +22,10 @@ namespace {
 constexpr std::string_view kId = "cgal-boxes";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       {"cutoff", "100", {}, "ranges of no more boxes than this are scanned rather than divided"},
   }};
-  return rows;
+  return kSettings;
 }
 
 #if BROADSIDE_HAS_CGAL

@@ -133,11 +133,11 @@ class EmbreeCollide final : public core::BroadPhase {
 };
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 2> rows{{
+  static const std::array<core::SettingRow, 2> kSettings{{
       threads_setting(),
       {"quality", "low", {"low", "medium", "high"}, "how carefully the hierarchy is built: Embree's build quality"},
   }};
-  return rows;
+  return kSettings;
 }
 
 RTCBuildQuality quality_of(const core::Settings& settings) {

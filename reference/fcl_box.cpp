@@ -107,10 +107,10 @@ class FclBox final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> fcl_box_settings() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> make_fcl_box(const core::Settings& settings) {

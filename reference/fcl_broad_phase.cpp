@@ -58,7 +58,8 @@ class BoxObjects {
       auto geometry = std::make_shared<BoxGeometry>();
       geometry->aabb_local = fcl_box(boxes[i]);
       auto object = std::make_unique<Object>(geometry);  // takes its box from the geometry
-      object->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+      object->setUserData(
+          reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));  // NOLINT(performance-no-int-to-ptr)
       pointers_.push_back(object.get());
       geometries_.push_back(std::move(geometry));
       objects_.push_back(std::move(object));
@@ -180,20 +181,20 @@ core::Result<core::Engine> make_engine(std::string_view id, const core::Settings
 }
 
 std::span<const core::SettingRow> tree_settings() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       {"manager", "tree", {"tree", "tree-array"}, "nodes linked by pointers, or by indices into one array"},
   }};
-  return rows;
+  return kSettings;
 }
 
 std::span<const core::SettingRow> sap_settings() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       {"manager",
        "ssap",
        {"ssap", "sap", "interval-tree", "spatial-hash"},
        "simple sweep and prune (sorts each frame); incremental (known to crash); interval trees; a hash grid"},
   }};
-  return rows;
+  return kSettings;
 }
 
 }  // namespace

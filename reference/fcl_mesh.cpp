@@ -124,14 +124,14 @@ class FclMesh final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> fcl_mesh_settings() {
-  static const std::array<core::SettingRow, 2> rows{{
+  static const std::array<core::SettingRow, 2> kSettings{{
       {"query",
        "both",
        {"both", "distance"},
        "distance with nearest points and collide, which is sure about touching; or distance alone, 0 = touching"},
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> make_fcl_mesh(const core::Settings& settings) {

@@ -192,7 +192,7 @@ class FclShapes final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> fcl_shapes_settings() {
-  static const std::array<core::SettingRow, 3> rows{{
+  static const std::array<core::SettingRow, 3> kSettings{{
       {"query",
        "distance",
        {"distance", "collide"},
@@ -200,7 +200,7 @@ std::span<const core::SettingRow> fcl_shapes_settings() {
       {"solver", "libccd", {"libccd", "indep"}, "FCL's GST_LIBCCD or GST_INDEP"},
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 core::EquivalenceCard card_of(const core::Scene& scene, const Query& query, int workers) {

@@ -7,6 +7,12 @@
 namespace broadside::reports {
 namespace {
 
+// std::lgamma writes the sign to a variable of the whole process; here it is positive.
+double log_gamma(double v) {
+  int sign = 0;
+  return lgamma_r(v, &sign);
+}
+
 // The regularized incomplete beta function by its continued fraction (Abramowitz and Stegun 26.5.8), evaluated by
 // Lentz's method; it converges fast for x < (a + 1) / (a + b + 2), and the other side follows by symmetry.
 double incomplete_beta(double a, double b, double x) {
@@ -31,7 +37,7 @@ double incomplete_beta(double a, double b, double x) {
     }
     if (std::abs(factor - 1.0) < std::numeric_limits<double>::epsilon()) break;
   }
-  const double log_front = std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x);
+  const double log_front = log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * std::log(x) + b * std::log1p(-x);
   return std::exp(log_front) * fraction / a;
 }
 

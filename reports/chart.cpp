@@ -136,8 +136,8 @@ std::string ChartBook::figure(Chart chart) {
   const std::string drawn = element("div.chart-place", {{"data-chart", std::to_string(charts_.size())}},
                                     chart_svg(chart, plots::Placement::kInline));
   const std::string summary = element("summary", "The same as a table", element("span.unseen", ": ", title));
-  const std::string out = element("figure.chart", element("figcaption", title), drawn,
-                                  element("details.beside", summary, chart_table(chart)));
+  std::string out = element("figure.chart", element("figcaption", title), drawn,
+                            element("details.beside", summary, chart_table(chart)));
   charts_.push_back(std::move(chart));
   return out;
 }

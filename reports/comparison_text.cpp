@@ -91,8 +91,7 @@ std::string comparison_text(const Comparison& comparison) {
 }
 
 std::string comparison_json(const Comparison& comparison) {
-  using OrderedJson = nlohmann::ordered_json;
-  OrderedJson changes = OrderedJson::array();
+  nlohmann::ordered_json changes = nlohmann::ordered_json::array();
   for (const Change& c : comparison.changes)
     changes.push_back({{"scene", c.scene},
                        {"label", c.label},
@@ -100,9 +99,10 @@ std::string comparison_json(const Comparison& comparison) {
                        {"was", c.was},
                        {"is", c.is},
                        {"exit", static_cast<int>(c.exit)}});
-  OrderedJson times = OrderedJson::array();
+  nlohmann::ordered_json times = nlohmann::ordered_json::array();
   for (const TimeRatio& t : comparison.times) {
-    OrderedJson one{{"scene", t.scene}, {"label", t.label}, {"speed", speed_word(t.speed)}, {"reason", t.reason}};
+    nlohmann::ordered_json one{
+        {"scene", t.scene}, {"label", t.label}, {"speed", speed_word(t.speed)}, {"reason", t.reason}};
     if (t.speed != Speed::kNotComparable) {
       one["ratio"] = t.ratio;
       one["low"] = t.low;
@@ -113,18 +113,18 @@ std::string comparison_json(const Comparison& comparison) {
     }
     times.push_back(std::move(one));
   }
-  const OrderedJson document{{"format", "broadside-comparison"},
-                             {"version", 1},
-                             {"exit", static_cast<int>(comparison.exit())},
-                             {"sentence", sentence(comparison)},
-                             {"delta", comparison.delta},
-                             {"looks", comparison.looks},
-                             {"remarks", comparison.remarks},
-                             {"same_verdicts", comparison.same_verdicts},
-                             {"same_counters", comparison.same_counters},
-                             {"changes", std::move(changes)},
-                             {"times", std::move(times)}};
-  return document.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+  const nlohmann::ordered_json document{{"format", "broadside-comparison"},
+                                        {"version", 1},
+                                        {"exit", static_cast<int>(comparison.exit())},
+                                        {"sentence", sentence(comparison)},
+                                        {"delta", comparison.delta},
+                                        {"looks", comparison.looks},
+                                        {"remarks", comparison.remarks},
+                                        {"same_verdicts", comparison.same_verdicts},
+                                        {"same_counters", comparison.same_counters},
+                                        {"changes", std::move(changes)},
+                                        {"times", std::move(times)}};
+  return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace broadside::reports

@@ -44,10 +44,11 @@ std::string share(double value, const Scale& scale) {
 std::string axis(const Scale& scale) {
   const TimeUnit unit = time_unit_for(scale.step_s);
   std::string ticks;
-  for (double at = 0.0; at <= scale.end_s; at += scale.step_s) {
-    const char* anchor = at == 0.0 ? "start" : at > 0.93 * scale.end_s ? "end" : "middle";
+  for (int k = 0; k * scale.step_s <= scale.end_s; ++k) {
+    const double at = k * scale.step_s;
+    const char* anchor = k == 0 ? "start" : at > 0.93 * scale.end_s ? "end" : "middle";
     ticks += element("text", {{"x", share(at, scale)}, {"y", "11"}, {"text-anchor", anchor}},
-                     figure(at * unit.per_second), at == 0.0 ? "" : " " + std::string(unit.name));
+                     figure(at * unit.per_second), k == 0 ? "" : " " + std::string(unit.name));
   }
   return element("svg.axis", {{"width", "100%"}, {"height", "16"}, {"aria-hidden", "true"}}, ticks);
 }
@@ -64,8 +65,8 @@ std::string down(std::string_view style, const std::string& x, const std::string
 std::string bar(const Timing& timing, const Scale& scale, TimeUnit unit) {
   std::string label = "Mean per frame:";
   std::string shapes;
-  for (double at = scale.step_s; at <= scale.end_s; at += scale.step_s)
-    shapes += down("line.grid", share(at, scale), "0", "26");
+  for (int k = 1; k * scale.step_s <= scale.end_s; ++k)
+    shapes += down("line.grid", share(k * scale.step_s, scale), "0", "26");
   double left = 0.0;
   const auto segment = [&](const std::string& name, double mean, const std::string& style) {
     if (!(mean > 0.0)) return;

@@ -122,7 +122,7 @@ LawSketch& LawSketch::no(SketchPoint at) {
 LawSketch& LawSketch::ground(double y, double from, double to) {
   constexpr double kPitch = 8.0;
   line({from, y}, {to, y});
-  for (double x = from + kPitch; x <= to; x += kPitch) line({x, y}, {x - 5.0, y + 5.0});
+  for (int k = 1; from + k * kPitch <= to; ++k) line({from + k * kPitch, y}, {from + k * kPitch - 5.0, y + 5.0});
   return *this;
 }
 

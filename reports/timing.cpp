@@ -74,6 +74,7 @@ std::vector<Timing> pool_samples(const core::RunRows& rows) {
     add(*found, sample, rows);
   }
   std::vector<Timing> timings;
+  timings.reserve(pools.size());
   for (Pool& pool : pools) timings.push_back(finish(std::move(pool)));
   return timings;
 }

@@ -185,6 +185,7 @@ core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const
   }
 
   std::vector<core::Verdict> verdicts;
+  verdicts.reserve(entries.size());
   for (Entry& entry : entries) verdicts.push_back(conclude(entry));
   return verdicts;
 }

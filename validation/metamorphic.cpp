@@ -113,6 +113,7 @@ class Metamorphic final : public Validator {
 
   bool is_same_set(const std::vector<Pair>& mine, const std::vector<Pair>& theirs, Pair& first) const {
     std::vector<Pair> wanted;
+    wanted.reserve(mine.size());
     for (const Pair p : mine) wanted.push_back(mapped(p));
     std::sort(wanted.begin(), wanted.end());
     std::vector<Pair> difference;

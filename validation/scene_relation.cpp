@@ -27,9 +27,12 @@ bool is_power_of_two(float factor) {
   return factor > 0.0F && std::isfinite(factor) && std::frexp(factor, &exponent) == 0.5F;
 }
 
-// A fixed order of bodies by their properties.
-bool comes_before(const core::Body& a, const core::Body& b) {
-  return std::memcmp(&a, &b, sizeof a) < 0;
+// Bodies are compared bit by bit, -0 and 0 as different: they are the same when a scene was renumbered, and only then.
+static_assert(sizeof(core::Body) == sizeof(core::Body::mesh) + 3 * sizeof(core::Vec3) + sizeof(core::Quat) +
+                                        sizeof(core::Body::inverse_mass) + sizeof(core::Material),
+              "no padding, whose bytes would say nothing");
+int compared(const core::Body& a, const core::Body& b) {
+  return std::memcmp(&a, &b, sizeof a);  // NOLINT(bugprone-suspicious-memory-comparison): floats by their bits
 }
 
 // place of every body, when the two lists hold the same bodies.
@@ -40,7 +43,7 @@ std::optional<std::vector<std::uint32_t>> permutation(const Scene& subject, cons
     std::vector<std::uint32_t> ids(n);
     std::iota(ids.begin(), ids.end(), 0U);
     std::stable_sort(ids.begin(), ids.end(), [&scene](std::uint32_t p, std::uint32_t q) {
-      return comes_before(scene.bodies[p], scene.bodies[q]);
+      return compared(scene.bodies[p], scene.bodies[q]) < 0;
     });
     return ids;
   };
@@ -48,7 +51,7 @@ std::optional<std::vector<std::uint32_t>> permutation(const Scene& subject, cons
   const auto to = sorted(baseline);
   std::vector<std::uint32_t> place(n);
   for (std::size_t k = 0; k < n; ++k) {
-    if (std::memcmp(&subject.bodies[from[k]], &baseline.bodies[to[k]], sizeof(core::Body)) != 0) return std::nullopt;
+    if (compared(subject.bodies[from[k]], baseline.bodies[to[k]]) != 0) return std::nullopt;
     place[from[k]] = to[k];
   }
   return place;
@@ -100,22 +103,21 @@ std::optional<SceneRelation> relation_of(const Scene& subject, const Scene& base
     return std::nullopt;
   const std::uint64_t wanted = core::scene_digest(baseline);
   if (core::scene_digest(subject) == wanted) return std::nullopt;
-  using Kind = SceneRelation::Kind;
   const float scale = factor_of(subject.domain.max, baseline.domain.max);
   if (is_power_of_two(scale) && core::scene_digest(core::scaled_scene(subject, scale)) == wanted)
-    return SceneRelation{Kind::kScaled, scale, 0, {}};
+    return SceneRelation{SceneRelation::Kind::kScaled, scale, 0, {}};
   for (int axis = 0; axis < 3; ++axis)
     if (core::scene_digest(core::mirrored_scene(subject, axis)) == wanted)
-      return SceneRelation{Kind::kMirrored, 1.0F, axis, {}};
+      return SceneRelation{SceneRelation::Kind::kMirrored, 1.0F, axis, {}};
   if (const auto place = permutation(subject, baseline)) {
     std::vector<std::uint32_t> order(place->size());
     for (std::uint32_t i = 0; i < place->size(); ++i) order[(*place)[i]] = i;
     if (core::scene_digest(core::renumbered_scene(subject, order)) == wanted)
-      return SceneRelation{Kind::kRenumbered, 1.0F, 0, *place};
+      return SceneRelation{SceneRelation::Kind::kRenumbered, 1.0F, 0, *place};
   }
   const float growth = factor_of(core::bounds(*subject.meshes[0]).max, core::bounds(*baseline.meshes[0]).max);
   if (growth >= 1.0F && std::isfinite(growth) && core::scene_digest(core::grown_scene(subject, growth)) == wanted)
-    return SceneRelation{Kind::kGrown, growth, 0, {}};
+    return SceneRelation{SceneRelation::Kind::kGrown, growth, 0, {}};
   return std::nullopt;
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
+#include <system_error>
 
 #include "bench/process/interrupt.hpp"
 #include "bench/process/process_limits.hpp"
@@ -41,7 +41,7 @@ core::Status draw_in_children(std::uint64_t count, std::uint32_t processes,
     const pid_t child = fork();
     if (child < 0) {
       end_all();
-      return failed(std::strerror(errno));
+      return failed(std::generic_category().message(errno).c_str());
     }
     if (child == 0) {
       die_with(parent);

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <ctime>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -120,7 +121,8 @@ class Lane {
     if (timed_out_) return fmt::format("no answer within {} s", seconds_per_query);
     const std::string line = said_.substr(said_.find_last_of('\n') + 1);
     const int signal = WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
-    return line.empty() ? fmt::format("signal {} ({})", signal, strsignal(signal)) : without_path(line);
+    return line.empty() ? fmt::format("signal {} ({})", signal, strsignal(signal))  // NOLINT(concurrency-mt-unsafe)
+                        : without_path(line);
   }
 
   void go_on_behind(std::uint64_t pair) { next_ = pair + 1; }
@@ -141,7 +143,7 @@ class Lane {
   }
 
   static core::Error no_process(const char* what) {
-    return {std::string(what) + ": " + std::strerror(errno), "agree", "", core::Exit::kInternal};
+    return {std::string(what) + ": " + std::generic_category().message(errno), "agree", "", core::Exit::kInternal};
   }
 
   std::size_t next_;

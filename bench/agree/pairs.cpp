@@ -138,7 +138,8 @@ core::Result<PairSource> PairSource::make(PairKind kind, std::uint64_t seed, con
   return source;
 }
 
-core::Result<PairSource> PairSource::of_case(std::vector<std::shared_ptr<const core::Mesh>> meshes, bool is_convex) {
+core::Result<PairSource> PairSource::of_case(const std::vector<std::shared_ptr<const core::Mesh>>& meshes,
+                                             bool is_convex) {
   PairSource source;
   source.is_convex_ = is_convex;
   for (const auto& mesh : meshes)

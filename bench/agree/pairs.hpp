@@ -51,7 +51,7 @@ class PairSource {
   // mesh: a name of the catalogue for both bodies, with kMeshes alone; empty = lumpy bodies of 320 triangles.
   static core::Result<PairSource> make(PairKind kind, std::uint64_t seed, const std::string& mesh);
   // A source of one given pair.
-  static core::Result<PairSource> of_case(std::vector<std::shared_ptr<const core::Mesh>> meshes, bool is_convex);
+  static core::Result<PairSource> of_case(const std::vector<std::shared_ptr<const core::Mesh>>& meshes, bool is_convex);
 
   TestPair pair(std::uint64_t index);
   // Sets the arbiter's answer for a pair whose poses are set.

@@ -7,7 +7,7 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstring>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -21,13 +21,13 @@ core::Result<FolderLock> FolderLock::take(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "lock";
   const int descriptor = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (descriptor < 0)
-    return core::Error{"cannot be written: " + std::string(std::strerror(errno)), file.string(),
+    return core::Error{"cannot be written: " + std::generic_category().message(errno), file.string(),
                        "choose another --out"};
   FolderLock lock(descriptor);
   bool is_told = false;
   while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK && errno != EINTR)
-      return core::Error{"cannot be locked: " + std::string(std::strerror(errno)), file.string(),
+      return core::Error{"cannot be locked: " + std::generic_category().message(errno), file.string(),
                          "choose another --out, on a file system of this machine"};
     if (is_interrupted()) return core::Error{"interrupted", "bisect", "", core::Exit::kMissing};
     if (!is_told)

@@ -108,6 +108,7 @@ void add_builds(CLI::App& command, BisectArguments& a) {
 
 void add_gate(CLI::App& command, BisectArguments& a) {
   std::vector<std::string> words;
+  words.reserve(std::size(bisect::kQuantityWords));
   for (const bisect::QuantityWord& row : bisect::kQuantityWords) words.emplace_back(row.word);
   a.on = {"verdict", "contacts", "digest", "counter"};
   command

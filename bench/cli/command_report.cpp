@@ -40,8 +40,9 @@ core::Result<bool> add_paper(const std::string& folder, reports::ReportOptions& 
   auto part =
       paper::report_part(folder, options.guests.empty() ? "paper" : fmt::format("paper{}", options.guests.size() + 1));
   if (!part) return part.error();
-  if (part.value()) options.guests.push_back(*std::move(part).value());
-  return part.value().has_value();
+  if (!part.value()) return false;
+  options.guests.push_back(*std::move(part).value());
+  return true;
 }
 
 // Rows of all folders, and what the page shows from the traces there.

@@ -71,6 +71,7 @@ void add_view(CLI::App& program, core::Exit& exit) {
   CLI::App* command = program.add_subcommand("view", "Write what ParaView needs to play a trace");
   command->add_option("TRACE", a->trace, "A trace with recorded boxes (--record full)")->required();
   std::vector<std::string> names;
+  names.reserve(std::size(kViews));
   for (const auto& row : kViews) names.emplace_back(row.first);
   command
       ->add_option("--what", a->what,

@@ -101,6 +101,7 @@ class BodyPainter {
 
   [[nodiscard]] std::vector<Point> placed(const std::vector<Projected>& points) const {
     std::vector<Point> out;
+    out.reserve(points.size());
     for (const Projected& p : points) out.push_back(plane_.at(p, left_));
     return out;
   }

@@ -34,6 +34,7 @@ bool is_shown(const ContestTable& table, const std::string& label) {
 // others.
 double range_j(const std::map<std::string, EnergyCurve>& curves) {
   std::vector<double> all;
+  all.reserve(curves.size());
   for (const auto& [label, curve] : curves) all.push_back(largest(curve));
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end());

@@ -117,6 +117,7 @@ fs::path fetched_folder(std::string_view id) {
 
 core::Status fetch_engine(std::string_view id, const std::function<void(std::string_view)>& say) {
   std::vector<std::string_view> ids;
+  ids.reserve(std::size(kFetchedTable));
   for (const FetchedEngine& e : kFetchedTable) ids.push_back(e.id);
   if (std::find(ids.begin(), ids.end(), id) == ids.end())
     return core::Error{"no engine '" + std::string(id) + "' can be fetched", "fetch-engine",

@@ -99,7 +99,7 @@ class Scorer {
       for (std::uint32_t k = 0; k < options_.random_scenes; ++k)
         if (core::Status s = judge_sound(random_of(k), settings_of(k), k); !s) return s.error();
       if (core::Status s = judge_sound_rigid(options_.random_scenes, score_, [this] { tick(); }); !s) return s.error();
-      score_.random_scenes = 2 * options_.random_scenes;
+      score_.random_scenes = std::uint64_t{2} * options_.random_scenes;
     }
     if (is_interrupted()) return core::Error{"interrupted", "mutants", "run it again", core::Exit::kMissing};
     return std::move(score_);

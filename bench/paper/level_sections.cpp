@@ -81,6 +81,7 @@ void add_table5(Document& document, Rows all) {
     std::vector<TableCell> line{{model}, {std::to_string(count), static_cast<double>(count)}};
     std::vector<std::pair<std::string, Measured>> ours;
     std::vector<std::pair<std::string, Measured>> theirs;
+    ours.reserve(levels.size());
     for (const std::string& level : levels) ours.emplace_back(level, fps_of(rows.find(model, count, level)));
     for (const std::string& level : levels) {
       Measured p;

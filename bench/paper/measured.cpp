@@ -147,6 +147,7 @@ std::vector<std::string> reasons(const RowTable& table) {
     if (row->absence.empty() && row->is_stand_in) add("Stand-in mesh: " + row->mesh, *row);
   }
   std::vector<std::string> sentences;
+  sentences.reserve(cells_by_reason.size());
   for (const auto& [reason, cells] : cells_by_reason) sentences.push_back(reason + ": " + cells + ".");
   return sentences;
 }

@@ -43,10 +43,10 @@ std::uint64_t heap_bytes() {
 }
 
 std::optional<std::uint64_t> device_bytes() {
-  static const Driver driver;
+  static const Driver kDriver;
   std::size_t free = 0;
   std::size_t total = 0;
-  if (driver.memory == nullptr || driver.memory(&free, &total) != 0) return std::nullopt;
+  if (kDriver.memory == nullptr || kDriver.memory(&free, &total) != 0) return std::nullopt;
   return total - free;
 }
 

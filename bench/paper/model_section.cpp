@@ -17,7 +17,8 @@ const std::vector<std::string> kModels{"bunny", "armadillo", "asian_dragon"};
 std::vector<core::Box> boxes_of_level(const core::BodyOctree& octree, std::size_t level) {
   std::vector<core::Box> boxes;
   for (int n = 0; n < core::kLevelSize[level]; ++n) {
-    const core::Box& box = octree.boxes[static_cast<std::size_t>(core::kLevelOffset[level] + n)];
+    const core::Box& box =
+        octree.boxes[static_cast<std::size_t>(core::kLevelOffset[level]) + static_cast<std::size_t>(n)];
     if (!core::is_empty(box)) boxes.push_back(box);
   }
   return boxes;

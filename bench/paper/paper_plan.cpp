@@ -224,6 +224,7 @@ core::Result<Device> choose_device(const std::string& wanted) {
 core::Result<std::vector<PaperCell>> plan_cells(const std::vector<std::string>& names, const PlanOptions& options,
                                                 const Device& device) {
   std::vector<std::string_view> known;
+  known.reserve(std::size(kExperiments));
   for (const ExperimentRow& row : kExperiments) known.push_back(row.id);
   const std::vector<std::string> models = paper_models();
   const std::vector<std::string_view> model_names(models.begin(), models.end());

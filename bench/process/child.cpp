@@ -18,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -168,7 +169,8 @@ void name_ending(ChildEnding& ending, int status, double time_limit_s) {
   } else if (ending.timed_out) {
     ending.words = fmt::format("no end after {:g} s", time_limit_s);
   } else if (WIFSIGNALED(status)) {
-    ending.words = fmt::format("signal {} ({}){}", WTERMSIG(status), strsignal(WTERMSIG(status)), after);
+    const char* const name = strsignal(WTERMSIG(status));  // NOLINT(concurrency-mt-unsafe)
+    ending.words = fmt::format("signal {} ({}){}", WTERMSIG(status), name, after);
   } else if (ending.exit_code != 0) {
     ending.words = fmt::format("exit code {}{}", ending.exit_code, after);
   }
@@ -244,7 +246,8 @@ class CellFolder {
 };
 
 core::Error no_process(const char* what) {
-  return {std::string(what) + ": " + std::strerror(errno), "starting a child process", "", core::Exit::kInternal};
+  return {std::string(what) + ": " + std::generic_category().message(errno), "starting a child process", "",
+          core::Exit::kInternal};
 }
 
 }  // namespace
@@ -282,7 +285,7 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
   }
   const bool passes_errors_on = keeps != Keeps::kOutputAndErrors;
   // The child's progress line passes through here to this terminal.
-  if (is_live() && passes_errors_on) setenv(kLiveVariable, "1", 1);
+  if (is_live() && passes_errors_on) setenv(kLiveVariable, "1", 1);  // NOLINT(concurrency-mt-unsafe)
   std::string name = "broadside";
   std::vector<std::string> owned = arguments;
   std::vector<char*> argv{name.data()};

@@ -27,7 +27,7 @@ fs::path on_path(std::string_view name) {
     const std::string_view folder = left.substr(0, left.find(':'));
     left.remove_prefix(std::min(left.size(), folder.size() + 1));
     std::error_code failed;
-    const fs::path file = fs::canonical(fs::path(folder) / name, failed);
+    fs::path file = fs::canonical(fs::path(folder) / name, failed);
     if (!failed && fs::is_regular_file(file, failed)) return file;
   }
   return {};

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 namespace broadside::bench {
@@ -49,7 +49,7 @@ core::Result<RunningProgram> RunningProgram::start(const std::string& program,
   const int failed = posix_spawnp(&child, program.c_str(), &files, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   if (failed != 0)
-    return core::Error{"cannot be started: " + std::string(std::strerror(failed)), program,
+    return core::Error{"cannot be started: " + std::generic_category().message(failed), program,
                        "name a program that runs here"};
   return RunningProgram(child, program, log);
 }

@@ -38,7 +38,8 @@ reports::PlaybackShape shape_of(const core::Shape& shape, const core::Mesh& mesh
     auto& boxes = out.levels.emplace_back();
     const auto l = static_cast<std::size_t>(level);
     for (int k = 0; k < core::kLevelSize[l]; ++k) {
-      const core::Box& box = shape.octree.boxes[static_cast<std::size_t>(core::kLevelOffset[l] + k)];
+      const core::Box& box =
+          shape.octree.boxes[static_cast<std::size_t>(core::kLevelOffset[l]) + static_cast<std::size_t>(k)];
       if (!core::is_empty(box)) boxes.push_back(box);
     }
   }

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "bench/engines.hpp"
@@ -185,7 +185,7 @@ core::Status prepare_folder(const std::filesystem::path& folder) {
   if (failed)
     return core::Error{"cannot make the folder: " + failed.message(), folder.string(), "choose another --out"};
   if (access(folder.c_str(), W_OK | X_OK) != 0)
-    return core::Error{"cannot write into the folder: " + std::string(std::strerror(errno)), folder.string(),
+    return core::Error{"cannot write into the folder: " + std::generic_category().message(errno), folder.string(),
                        "choose another --out, or change its permissions"};
   return core::Done{};
 }

@@ -100,6 +100,7 @@ class BoxShrinker {
 
   static std::vector<Box> chosen(const std::vector<Box>& boxes, const std::vector<std::uint32_t>& ids) {
     std::vector<Box> part;
+    part.reserve(ids.size());
     for (const std::uint32_t id : ids) part.push_back(boxes[id]);
     return part;
   }

@@ -9,9 +9,9 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 #include "bench/process/interrupt.hpp"
@@ -173,7 +173,7 @@ core::Status time_one_by_one(std::array<Side*, 2> order, std::size_t scene, std:
 core::Status time_in_turns(std::array<Side*, 2> order, std::size_t scene, std::uint64_t pair, int core) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    return core::Error{"two processes cannot be connected: " + std::string(std::strerror(errno)), "compare", "",
+    return core::Error{"two processes cannot be connected: " + std::generic_category().message(errno), "compare", "",
                        core::Exit::kInternal};
   constexpr std::array kRoles{"first", "second"};
   std::vector<core::Result<RunningProgram>> timings;

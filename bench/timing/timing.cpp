@@ -106,8 +106,8 @@ core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint6
   if (core::Status s = dynamics.load(plan.scene); !s) return s;
   // Turns may only change hands when none of this engine's steps is under way.
   core::RunsAhead* ahead = turns.are_alone() ? dynamic_cast<core::RunsAhead*>(&dynamics) : nullptr;
-  const core::Status ran = ahead != nullptr ? time_ahead(plan, dynamics, *ahead, frames, sample)
-                                            : time_steps(plan, dynamics, frames, turns, sample);
+  core::Status ran = ahead != nullptr ? time_ahead(plan, dynamics, *ahead, frames, sample)
+                                      : time_steps(plan, dynamics, frames, turns, sample);
   if (!ran) return ran;
   core::FrameRecord last;
   if (core::Status s = dynamics.read_back(last, core::RecordLevel::kDigest); !s) return s;

@@ -159,6 +159,8 @@ BROADSIDE_HD auto is_apart_along_an_axis(const Differences<Real, kCount>& x) {
     most = larger(most, larger(x.start[k], x.end[k]));
   }
   const Real zero(0.0);
+  // | instead of ||: no branch.
+  // NOLINTNEXTLINE(clang-diagnostic-bitwise-instead-of-logical)
   return (larger(larger(least.x, least.y), least.z) > zero) | (lesser(lesser(most.x, most.y), most.z) < zero);
 }
 

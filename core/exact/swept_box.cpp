@@ -38,8 +38,13 @@ void grow(Range& range, const Coordinate& x) {
   if (!(std::abs(ratio) <= 1.0)) return;
   const double phase = std::atan2(x.c, x.s);  // s cos a - c sin a = amplitude cos(a + phase)
   const double turn = 2.0 * std::numbers::pi;
-  for (const double root : {std::acos(ratio) - phase, -std::acos(ratio) - phase})
-    for (double a = root - turn * std::floor(root / turn); a < x.angle; a += turn) range.grow(x.at(a / x.angle));
+  for (const double root : {std::acos(ratio) - phase, -std::acos(ratio) - phase}) {
+    double a = root - turn * std::floor(root / turn);
+    while (a < x.angle) {
+      range.grow(x.at(a / x.angle));
+      a += turn;
+    }
+  }
 }
 
 float below(double x) {

@@ -79,21 +79,21 @@ Topology topology(const Mesh& mesh) {
     first = last;
   }
   // The first fan of each vertex, and whether there is another.
-  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> fan_of(mesh.vertices.size(), kNone);
+  constexpr std::uint32_t kNoFan = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> fan_of(mesh.vertices.size(), kNoFan);
   std::vector<bool> is_counted(mesh.vertices.size(), false);
   for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n)
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t vertex = mesh.triangles[n][k];
       const std::uint32_t fan = fans.root(3 * n + k);
-      if (fan_of[vertex] == kNone) fan_of[vertex] = fan;
+      if (fan_of[vertex] == kNoFan) fan_of[vertex] = fan;
       if (fan_of[vertex] == fan || is_counted[vertex]) continue;
       is_counted[vertex] = true;
       ++t.non_manifold_vertices;
     }
   std::int64_t named = 0;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (fan_of[v] == kNone) continue;
+    if (fan_of[v] == kNoFan) continue;
     ++named;
     if (components.root(v) == v) ++t.components;
   }

@@ -72,7 +72,7 @@ Scene mirrored_scene(const Scene& scene, int axis) {
     m.center_of_mass_m[static_cast<std::size_t>(axis)] *= -1.0;
     // Of xy, xz and yz, the two that have the mirrored axis change their sign.
     for (int k = 0; k < 3; ++k)
-      if (k != 2 - axis) m.inertia_kg_m2[static_cast<std::size_t>(3 + k)] *= -1.0;
+      if (k != 2 - axis) m.inertia_kg_m2[std::size_t{3} + static_cast<std::size_t>(k)] *= -1.0;
   }
   out.domain.min[axis] = -scene.domain.max[axis];
   out.domain.max[axis] = -scene.domain.min[axis];

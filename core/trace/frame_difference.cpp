@@ -69,7 +69,7 @@ class Comparison {
       : a_(a), b_(b), passes_(passes) {}
 
   [[nodiscard]] bool found() const { return found_.has_value(); }
-  std::optional<FrameDifference> take() { return std::move(found_); }
+  std::optional<FrameDifference> take() { return found_; }
 
   void compare(Records records) {
     if (records == Records::kPairs) return compare_pairs(records, a_.pairs, b_.pairs);

@@ -27,8 +27,8 @@ herr_t notice_no_memory(unsigned /*n*/, const H5E_error2_t* entry, void* is_out_
 // Every handle is closed by its owner. When the program ends, HDF5 1.10 would close itself once more, and after some
 // damaged files it says "infinite loop closing library" then.
 void never_close_at_exit() {
-  static const herr_t once = H5dont_atexit();
-  static_cast<void>(once);
+  static const herr_t kOnce = H5dont_atexit();
+  static_cast<void>(kOnce);
 }
 
 QuietHdf5::QuietHdf5() : alone_(hdf5_mutex()) {

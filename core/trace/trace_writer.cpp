@@ -36,7 +36,7 @@ Error misuse(const std::filesystem::path& path, const std::string& what, const s
 }
 
 Status check_header(const std::filesystem::path& path, const TraceHeader& header) {
-  if (const Status s = check_scene(header.scene); !s) return s;
+  if (Status s = check_scene(header.scene); !s) return s;
   if (header.stamp.scene_digest != scene_digest(header.scene))
     return misuse(path, "the stamp's scene_digest is not the digest of the scene", "stamp the scene that is recorded");
   const auto has = [&header](Group g) { return (header.groups & bit(g)) != 0U; };
@@ -186,7 +186,7 @@ struct TraceWriter::Impl {
     if (failed) return *failed;
     if (finished) return misuse(path, "finish() was called twice", "call it once");
     if ((groups & bit(Group::kContacts)) != 0U) add_statistics(counter.rest());
-    if (const Status s = flush(); !s) return s;
+    if (Status s = flush(); !s) return s;
     const std::uint64_t stored = stored_bytes();
     columns.clear();
     if (!file.close() || !part->commit()) return stop_writing("closing the trace");

@@ -59,10 +59,10 @@ void virtual_corners(Hdf5Sink& sink, const std::string& path, hsize_t frames, hs
   for (hsize_t c = 0; c < 8; ++c) {
     const auto& corner = kHexahedronCorners[c];
     if (corner[0] == corner[1] && corner[1] == corner[2]) {
-      map(c, 0, 3, corner[0] * 3U);
+      map(c, 0, 3, corner[0] * hsize_t{3});
       continue;
     }
-    for (hsize_t axis = 0; axis < 3; ++axis) map(c, axis, 1, axis + corner[axis] * 3U);
+    for (hsize_t axis = 0; axis < 3; ++axis) map(c, axis, 1, axis + corner[axis] * hsize_t{3});
   }
   H5Sselect_all(here.get());
   if (sink.note(good, path)) create_virtual(sink, path, Element::kF32, here, properties, "m");

@@ -61,14 +61,17 @@ std::vector<Box> heap_boxes(std::uint32_t n, std::uint64_t seed) {
   std::vector<Box> boxes;
   boxes.reserve(n);
   for (std::uint32_t heap = 0; heap < kHeaps; ++heap) {
+    const std::uint32_t row = heap / 4;
     const double x0 = 4.0 * radius * (heap % 4 + 0.5);
-    const double y0 = 4.0 * radius * (heap / 4 + 0.5);
+    const double y0 = 4.0 * radius * (row + 0.5);
     std::uint32_t left = in_heap;
     for (double z = 0.0; left > 0; z += 1.0) {
       const double r = std::max(1.0, radius - z);
-      const double edge = static_cast<double>(static_cast<std::int64_t>(r));
-      for (double x = -edge; x <= edge; x += 1.0) {
-        for (double y = -edge; y <= edge && left > 0; y += 1.0) {
+      const auto edge = static_cast<std::int64_t>(r);
+      for (std::int64_t column = -edge; column <= edge; ++column) {
+        for (std::int64_t line = -edge; line <= edge && left > 0; ++line) {
+          const auto x = static_cast<double>(column);
+          const auto y = static_cast<double>(line);
           if (x * x + y * y > r * r) continue;
           const Triple shift = drawn(random, -0.1, 0.1);
           boxes.push_back(box_of({x0 + x + shift[0], y0 + y + shift[1], z + shift[2]}, drawn(random, 0.84, 1.24)));

@@ -194,6 +194,7 @@ Error unknown_boxes(const std::string& spec) {
 
 std::vector<BoxStreamRow> box_stream_table() {
   std::vector<BoxStreamRow> table;
+  table.reserve(std::size(kBoxSets));
   for (const BoxSet& set : kBoxSets) table.push_back(set.row);
   table.push_back(kMeshStream);
   return table;

@@ -55,7 +55,8 @@ std::vector<Box> boxes_of_gap(std::uint32_t n, std::uint64_t seed, double gap) {
     const std::uint32_t cube = random.below(16);
     Triple center = drawn(random, 0.0, width);
     center[0] += gap * width * (cube % 4);
-    center[1] += gap * width * (cube / 4);
+    const std::uint32_t row = cube / 4;
+    center[1] += gap * width * row;
     boxes.push_back(box_of(center, drawn(random, 0.5, 1.5)));
   }
   return boxes;

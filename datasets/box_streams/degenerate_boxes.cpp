@@ -41,8 +41,9 @@ Boxes touching_boxes(std::uint32_t n) {
   Boxes boxes;
   boxes.reserve(n);
   for (std::uint64_t i = 0; i < n; ++i) {
+    const std::uint64_t layer = i / (width * width);
     const core::Vec3 low{static_cast<float>(i % width), static_cast<float>(i / width % width),
-                         static_cast<float>(i / (width * width))};
+                         static_cast<float>(layer)};
     boxes.push_back({low, low + core::Vec3{1.0F, 1.0F, 1.0F}});
   }
   return boxes;

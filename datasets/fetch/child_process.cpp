@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <system_error>
 
 namespace broadside::datasets {
 namespace {
@@ -50,6 +50,7 @@ class FileActions {
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> list;
+  list.reserve(words.size() + 1);
   for (std::string& word : words) list.push_back(word.data());
   list.push_back(nullptr);
   return list;
@@ -77,8 +78,8 @@ core::Status run_command(const Command& command) {
     return Error{"'" + words[0] + "' is not installed", text_of(command), "install it, or provide the mesh in a folder",
                  Exit::kMissing};
   if (failed != 0)
-    return Error{std::string("cannot be run: ") + std::strerror(failed), text_of(command), "check the installation",
-                 Exit::kMissing};
+    return Error{std::string("cannot be run: ") + std::generic_category().message(failed), text_of(command),
+                 "check the installation", Exit::kMissing};
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -44,8 +44,8 @@ core::Scene funnel(const GivenScene& given) {
   const auto columns = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(2.0 * rim / pitch));
   const double shift = 0.45 * (pitch - longest);
   for (std::uint32_t n = 0; n < given.count; ++n) {
-    Triple center{n % columns - 0.5 * (columns - 1), n / (columns * columns) + 0.5,
-                  n / columns % columns - 0.5 * (columns - 1)};
+    const std::uint32_t layer = n / (columns * columns);
+    Triple center{n % columns - 0.5 * (columns - 1), layer + 0.5, n / columns % columns - 0.5 * (columns - 1)};
     for (double& c : center) c = c * pitch + random.between(-shift, shift);
     center[1] += top;
     const RandomStream::Direction d = random.direction();
@@ -53,7 +53,7 @@ core::Scene funnel(const GivenScene& given) {
   }
   const auto friction = static_cast<float>(given.knobs[3]);
   for (core::Body& body : stage.scene().bodies) body.material = {friction, friction, body.material.restitution};
-  const double layers = given.count / (columns * columns) + 2;
+  const std::uint32_t layers = given.count / (columns * columns) + 2;
   return std::move(stage).finish({-half, 0.0, -half}, {half, top + layers * pitch, half});
 }
 

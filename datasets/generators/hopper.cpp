@@ -40,8 +40,8 @@ core::Scene hopper(const GivenScene& given) {
   if (open < inner) ring(open, inner + thick, low - thick, low);
   const double shift = 0.45 * (pitch - longest);
   for (std::uint32_t n = 0; n < given.count; ++n) {
-    Triple center{n % columns - 0.5 * (columns - 1), n / (columns * columns) + 0.5,
-                  n / columns % columns - 0.5 * (columns - 1)};
+    const std::uint32_t layer = n / (columns * columns);
+    Triple center{n % columns - 0.5 * (columns - 1), layer + 0.5, n / columns % columns - 0.5 * (columns - 1)};
     for (double& c : center) c = c * pitch + random.between(-shift, shift);
     center[1] += low;
     stage.add_body(center);

@@ -22,8 +22,10 @@ core::Scene pyramid(const GivenScene& given) {
     const std::uint32_t side = base - layer;
     const double low = -0.5 * (side - 1) * pitch;
     const double y = (layer + 0.5) * stage.sides()[1];
-    for (std::uint32_t cell = 0; cell < side * side && left > 0; ++cell, --left)
-      stage.add_body({low + cell % side * pitch, y, low + cell / side * pitch});
+    for (std::uint32_t cell = 0; cell < side * side && left > 0; ++cell, --left) {
+      const std::uint32_t row = cell / side;
+      stage.add_body({low + cell % side * pitch, y, low + row * pitch});
+    }
   }
   const double half = 0.5 * base * pitch + 2.0 * longest;
   return std::move(stage).finish({-half, 0.0, -half}, {half, (base + 2) * longest, half});

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kShapeSeed = 1;
 
 std::string from_environment_variable(const char* name) {
-  const char* value = std::getenv(name);
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
   return value == nullptr ? std::string() : std::string(value);
 }
 

@@ -137,6 +137,7 @@ std::span<const MeshRow> mesh_catalogue() {
 
 std::vector<std::string_view> mesh_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kMeshes));
   for (const MeshRow& row : kMeshes) names.push_back(row.name);
   return names;
 }

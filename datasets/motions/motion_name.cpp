@@ -31,6 +31,7 @@ constexpr std::array<MotionSet, 2> kMotions{{
 
 std::vector<MotionRow> motion_table() {
   std::vector<MotionRow> rows;
+  rows.reserve(std::size(kMotions));
   for (const MotionSet& set : kMotions) rows.push_back(set.row);
   return rows;
 }
@@ -49,6 +50,7 @@ core::Result<continuous::MovingSurface> make_motion(const std::string& spec, std
     return made;
   }
   std::vector<std::string_view> known;
+  known.reserve(std::size(kMotions));
   for (const MotionSet& set : kMotions) known.push_back(set.row.example);
   return core::Error{"no such motion", "motion '" + spec + "'",
                      core::advise_name(spec, known) + "; or give two mesh files, START --to END"};

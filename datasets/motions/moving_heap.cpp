@@ -66,7 +66,8 @@ continuous::MovingSurface moving_heap(std::uint64_t triangles, std::uint64_t see
     core::Vec3d moved;
     for (int k = 0; k < 3; ++k) {
       place[k] = kPitch_m * at[k];
-      const double middle = kPitch_m * (at[k] / 2 * 2 + 0.5);
+      const auto even = at[k] / 2 * 2;
+      const double middle = kPitch_m * (even + 0.5);
       moved[k] = place[k] + kShrink * (middle - place[k]) + random.between(-kStray_m, kStray_m);
     }
     const core::Vec3d axis = lot(1.0);

@@ -109,7 +109,7 @@ void FrameBuffers::fill_small(SmallFrameView& view) const {
   view.given_out = barrier_.data() + 1;
   view.leftovers[0] = {leftovers_.data(), leftover_entries_.data()};
   view.leftovers[1] = {leftovers_.data() + LeftoverView::kMost,
-                       leftover_entries_.data() + LeftoverView::kMost * LeftoverView::kEntries};
+                       leftover_entries_.data() + std::size_t{LeftoverView::kMost} * LeftoverView::kEntries};
 }
 
 void FrameBuffers::fill_grid(GridFrameView& view) const {

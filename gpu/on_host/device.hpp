@@ -12,6 +12,7 @@
 #include "gpu/on_host/fibers.hpp"
 #include "gpu/stages/grid/grid_word.hpp"
 
+// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming): the names are CUDA's
 // The two function attributes that stages are written with.
 #define __device__
 #define __forceinline__ inline
@@ -246,3 +247,4 @@ inline unsigned long long now_ns() {
 }
 
 }  // namespace broadside::gpu
+// NOLINTEND(bugprone-reserved-identifier, readability-identifier-naming)

@@ -13,7 +13,7 @@
 namespace broadside::gpu::on_host {
 namespace {
 
-constexpr std::size_t kStackBytes = 128 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{128} << 10U;
 // Rounds over all fibers in which no barrier opened and no fiber returned: far more than any spin needs.
 constexpr std::uint64_t kMostIdleRounds = 1'000'000;
 

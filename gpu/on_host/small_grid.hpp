@@ -12,7 +12,7 @@ inline constexpr std::uint32_t kBlocks = 2;
 
 // A test that sets the seed runs the fibers in another order each round; 0 = one after another.
 inline std::uint64_t order_seed() {
-  const char* text = std::getenv("BROADSIDE_ON_HOST_SEED");
+  const char* text = std::getenv("BROADSIDE_ON_HOST_SEED");  // NOLINT(concurrency-mt-unsafe)
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
 }
 

@@ -10,9 +10,8 @@ namespace {
 
 template <typename T>
 core::DeviceColumn column(std::string_view path, const T* rows, std::uint64_t count) {
-  return {path,      rows,
-          count,     sizeof(T) / sizeof(float),
-          sizeof(T), !std::is_integral_v<T> && !std::is_same_v<T, core::Pair>};
+  constexpr std::size_t kWords = sizeof(T) / sizeof(float);  // NOLINT(bugprone-sizeof-expression): of a float one
+  return {path, rows, count, kWords, sizeof(T), !std::is_integral_v<T> && !std::is_same_v<T, core::Pair>};
 }
 
 core::DeviceFrame columns_of(const RigidLeft& left, const ToldView& told, std::uint64_t points) {

@@ -49,7 +49,7 @@ class StreamMark {
   StreamMark() = default;
   StreamMark(const StreamMark&) = delete;
   StreamMark& operator=(const StreamMark&) = delete;
-  ~StreamMark();
+  ~StreamMark();  // NOLINT(performance-trivially-destructible): on_host/ has nothing to end
   core::Status set(StreamHandle stream);
   // What is asked of that stream from now on runs after the mark.
   core::Status hold_back(StreamHandle other) const;
@@ -65,7 +65,7 @@ class StreamTimer {
   StreamTimer() = default;
   StreamTimer(const StreamTimer&) = delete;
   StreamTimer& operator=(const StreamTimer&) = delete;
-  ~StreamTimer();
+  ~StreamTimer();  // NOLINT(performance-trivially-destructible): on_host/ has nothing to end
   core::Status start(StreamHandle stream);
   core::Status stop(StreamHandle stream);
   // After the stream was waited for. 0 where there are no events.

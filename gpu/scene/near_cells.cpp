@@ -151,8 +151,8 @@ bool are_quanta_few(const Grid& grid) {
 }
 
 bool are_worth_it(const TreeHeader& tree, const NearNeeds& needs) {
-  return tree.top >= kLeastTop && tree.node_count[0] * kLeafVertices <= kMostVertices && needs.theta_m > 0.0F &&
-         needs.theta_m <= kMostEdgesInTheta * tree.mean_edge_m;
+  return tree.top >= kLeastTop && std::uint64_t{tree.node_count[0]} * kLeafVertices <= kMostVertices &&
+         needs.theta_m > 0.0F && needs.theta_m <= kMostEdgesInTheta * tree.mean_edge_m;
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const BulletWorldOptions
 }
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 8> rows{{
+  static const std::array<core::SettingRow, 8> kSettings{{
       {"mesh",
        "gimpact",
        {"gimpact", "hull", "tetrahedra"},
@@ -116,7 +116,7 @@ std::span<const core::SettingRow> setting_rows() {
        {"on", "off"},
        "start the solver from the last step's impulses; off, Bullet keeps none, and contacts are not recorded"},
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {

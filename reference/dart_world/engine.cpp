@@ -17,14 +17,14 @@ namespace {
 constexpr std::string_view kId = "dart-world";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 2> rows{{
+  static const std::array<core::SettingRow, 2> kSettings{{
       {"detector",
        "fcl-mesh",
        {"fcl-mesh", "fcl-primitive", "dart"},
        "who finds contacts: FCL on meshes of the shapes, as DART ships, FCL on primitives, or DART's own code"},
       {"solver", "dantzig", {"dantzig", "pgs"}, "of impulses: pivoting, or projected Gauss-Seidel"},
   }};
-  return rows;
+  return kSettings;
 }
 
 #if BROADSIDE_HAS_DART

@@ -78,14 +78,14 @@ class ExactMesh final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> exact_mesh_settings() {
-  static const std::array<core::SettingRow, 2> rows{{
+  static const std::array<core::SettingRow, 2> kSettings{{
       {"method",
        "surface-tree",
        {"surface-tree", "surface-brute", "vertices-brute"},
        "least distance of surfaces by a box tree or over all triangle pairs; or of vertices (d_vv) over all pairs"},
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create_exact_mesh(const core::Settings& settings) {

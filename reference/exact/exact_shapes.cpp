@@ -72,10 +72,10 @@ class ExactShapes final : public core::NarrowPhase {
 };
 
 std::span<const core::SettingRow> exact_shapes_settings() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create_exact_shapes(const core::Settings& settings) {

@@ -85,7 +85,7 @@ class Bodies final : public core::BodyMotionQuery {
 };
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 2> rows{{
+  static const std::array<core::SettingRow, 2> kSettings{{
       {"method",
        "continuous",
        {"continuous", "subsimplex", "gjk"},
@@ -95,7 +95,7 @@ std::span<const core::SettingRow> setting_rows() {
        {"bullet", core::kMeters},
        "rounds the edges of boxes and thickens hulls: meters, or what Bullet ships (0.04 m)"},
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::MotionEngine> create(const core::Settings& settings) {

@@ -129,7 +129,7 @@ struct MotionOptions {
 
 class Bodies final : public core::BodyMotionQuery {
  public:
-  explicit Bodies(MotionOptions query) : query_(std::move(query)) {}
+  explicit Bodies(const MotionOptions& query) : query_(query) {}
 
   core::Status load(std::span<const std::shared_ptr<const core::Mesh>> meshes) override {
     meshes_.assign(meshes.begin(), meshes.end());
@@ -198,7 +198,7 @@ class Bodies final : public core::BodyMotionQuery {
 };
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 5> rows{{
+  static const std::array<core::SettingRow, 5> kSettings{{
       {"motion",
        "linear",
        {"linear", "translation", "screw", "spline"},
@@ -212,7 +212,7 @@ std::span<const core::SettingRow> setting_rows() {
       {"samples", "10", {}, "with naive: samples of the step; FCL's default is 10"},
       {"shape", "solid", {"solid", "mesh"}, "primitives and convex bodies, or triangles under RSS"},
   }};
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::MotionEngine> create(const core::Settings& settings) {
@@ -241,7 +241,7 @@ core::Result<core::MotionEngine> create(const core::Settings& settings) {
   engine.id = "fcl-motion";
   engine.build = fcl_build();
   engine.settings = settings;
-  engine.bodies = std::make_unique<Bodies>(std::move(query));
+  engine.bodies = std::make_unique<Bodies>(query);
   return engine;
 }
 

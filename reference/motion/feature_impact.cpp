@@ -37,11 +37,11 @@ class Features final : public core::FeatureMotionQuery {
 };
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 2> rows{{
+  static const std::array<core::SettingRow, 2> kSettings{{
       {"lanes", "widest", {"widest", "1", "4", "8"}, "many queries at once: so many side by side; the same answers"},
       threads_setting(),
   }};
-  return rows;
+  return kSettings;
 }
 
 Width width_of(const std::string& lanes) {

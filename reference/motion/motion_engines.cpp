@@ -5,12 +5,12 @@
 namespace broadside::reference {
 
 std::span<const core::MotionEngineRow> motion_engine_rows() {
-  static const std::array rows{
+  static const std::array kEngines{
 #define MOTION_ENGINE_ROW(function) function(),
 #include "reference/motion/motion_engines.inc"
 #undef MOTION_ENGINE_ROW
   };
-  return rows;
+  return kEngines;
 }
 
 }  // namespace broadside::reference

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kId = "mujoco-world";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 3> rows{{
+  static const std::array<core::SettingRow, 3> kSettings{{
       {"integrator",
        "euler",
        {"euler", "implicit", "rk4"},
@@ -28,7 +28,7 @@ std::span<const core::SettingRow> setting_rows() {
        "recommended: elliptic cones, friction harder than contact, many points of convex bodies (see the card)"},
       {"contact_time_ms", "20", {}, "time constant of contacts (solref), ms; 20 is what MuJoCo ships"},
   }};
-  return rows;
+  return kSettings;
 }
 
 #if BROADSIDE_HAS_MUJOCO

@@ -59,6 +59,7 @@ core::Result<mjModel*> compiled(const std::string& text) {
   mj_defaultVFS(files.get());
   constexpr const char* kName = "scene.xml";
   mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(text.size()));
+  // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the file has a length
   std::memcpy(files->filedata[mj_findFileVFS(files.get(), kName)], text.data(), text.size());
   char error[512] = "";
   mjModel* model = mj_loadXML(kName, files.get(), error, sizeof error);
@@ -186,8 +187,8 @@ class MujocoWorld final : public core::Dynamics {
 
   // Half of a box's extent along a unit vector.
   [[nodiscard]] double half_extent(int geom, Vec n) const {
-    const mjtNum* r = data_->geom_xmat + 9 * geom;  // rows; columns are the box's axes
-    const mjtNum* half = model_->geom_size + 3 * geom;
+    const mjtNum* r = data_->geom_xmat + std::ptrdiff_t{9} * geom;  // rows; columns are the box's axes
+    const mjtNum* half = model_->geom_size + std::ptrdiff_t{3} * geom;
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) sum += half[k] * std::abs(r[k] * n.x + r[3 + k] * n.y + r[6 + k] * n.z);
     return sum;
@@ -199,7 +200,7 @@ class MujocoWorld final : public core::Dynamics {
     const int b = contact.geom2;
     if (model_->geom_type[a] != mjGEOM_BOX || model_->geom_type[b] != mjGEOM_BOX) return;
     const Vec n = vec(contact.frame);
-    const Vec between = vec(data_->geom_xpos + 3 * b) - vec(data_->geom_xpos + 3 * a);
+    const Vec between = vec(data_->geom_xpos + std::ptrdiff_t{3} * b) - vec(data_->geom_xpos + std::ptrdiff_t{3} * a);
     const double sizes = half_extent(a, n) + half_extent(b, n);
     // A few dozen roundings of numbers of the boxes' size.
     const bool is_too_deep =

@@ -21,7 +21,7 @@ namespace broadside::reference {
 namespace {
 
 std::span<const core::SettingRow> settings_table() {
-  static const std::vector<core::SettingRow> rows{
+  static const std::vector<core::SettingRow> kSettings{
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
@@ -38,14 +38,15 @@ std::span<const core::SettingRow> settings_table() {
       core::sleep_setting(),
       core::sweep_setting(),
   };
-  return rows;
+  return kSettings;
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {
   PipelineOptions options;
   options.levels = *core::levels_named(settings.text("levels"));
   options.variant = *core::variant_named(settings.text("variant"));
-  const int threads = static_cast<int>(settings.number("threads"));
+  const unsigned long asked = settings.number("threads");
+  const int threads = asked == 0 ? 0 : worker_count(asked);  // oneTBB complains aloud of more than cores
   std::unique_ptr<core::BroadPhase> alone;
   // E2 and E7 are faults of the published scene octree, so they need broad=octree.
   const bool needs_octree = options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7;

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kId = "ode-world";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 5> rows{{
+  static const std::array<core::SettingRow, 5> kSettings{{
       {"solver", "quick", {"quick", "dantzig"}, "dWorldQuickStep, which iterates, or dWorldStep, which pivots"},
       {"iterations", "20", {}, "of QuickStep; 20 is ODE's default"},
       {"tuning",
@@ -27,7 +27,7 @@ std::span<const core::SettingRow> setting_rows() {
       {"gyroscopic", "on", {"on", "off"}, "the torque that turns w about L; ODE has it on"},
       {"convex", "hull", {"hull", "mesh"}, "convex bodies as ODE's convex geom, or as their triangles"},
   }};
-  return rows;
+  return kSettings;
 }
 
 #if BROADSIDE_HAS_ODE

@@ -147,7 +147,7 @@ class OdeWorld final : public core::Dynamics {
     const RigidState& s = start.state;
     const OdeShape& shape = world_->shapes[start.mesh];
     const dGeomID geom = make_geom(shape, world_->space);
-    dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+    dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));  // NOLINT(performance-no-int-to-ptr)
     world_->geoms.push_back(geom);
     const Vec offset = shape.origin - start.center_of_mass;
     if (start.is_static) {

@@ -13,10 +13,10 @@ namespace {
 constexpr std::string_view kId = "plain-rigid";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 1> rows{{
+  static const std::array<core::SettingRow, 1> kSettings{{
       {"iterations", "300", {}, "at most so many passes of the contact solver, forward and backward over all points"},
   }};
-  return rows;
+  return kSettings;
 }
 
 core::EquivalenceCard card_of(const core::Scene& scene, const plain::WorldOptions& options) {

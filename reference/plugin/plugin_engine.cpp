@@ -39,7 +39,7 @@ bool is_executable(std::ifstream& file) {
 }
 
 std::string build_of(const PluginSource& source) {
-  const std::string build = core::shown_text(source.table().build);
+  std::string build = core::shown_text(source.table().build);
   if (!source.is_behind_a_pipe()) return build;
   return build + (source.tells_step_seconds() ? ", times by its own clock" : ", times include its pipe");
 }

@@ -64,7 +64,9 @@ core::Result<std::shared_ptr<const PluginSource>> PluginLibrary::open(const std:
   std::error_code failed;
   const std::filesystem::path absolute = std::filesystem::absolute(file, failed);
   void* handle = dlopen(absolute.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) return Error{std::string("cannot load it: ") + dlerror(), file.string(), advice};
+  if (handle == nullptr)
+    return Error{std::string("cannot load it: ") + dlerror(),  // NOLINT(concurrency-mt-unsafe)
+                 file.string(), advice};
   const std::shared_ptr<PluginLibrary> library(new PluginLibrary(handle));
   bool is_there = false;
   if (const auto* second = called<broadside_engine2>(handle, "broadside_engine_v2", is_there); is_there) {

@@ -15,6 +15,7 @@ template <typename Row>
 bool is_unwritten(const Row& row) {
   unsigned char blank[sizeof(Row)];
   std::memset(blank, 0xFF, sizeof blank);
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): it is the bytes that are asked for
   return std::memcmp(&row, blank, sizeof row) == 0;
 }
 

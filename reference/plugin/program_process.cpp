@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace broadside::reference {
@@ -96,6 +97,7 @@ core::Result<std::vector<std::string>> words_of(std::string_view command) {
 core::Result<ProgramProcess> ProgramProcess::start(const std::vector<std::string>& words) {
   std::vector<std::string> owned = words;
   std::vector<char*> argv;
+  argv.reserve(owned.size() + 1);
   for (std::string& word : owned) argv.push_back(word.data());
   argv.push_back(nullptr);
   Pipe in;
@@ -106,7 +108,7 @@ core::Result<ProgramProcess> ProgramProcess::start(const std::vector<std::string
   };
   if (!in.open() || !out.open() || !failure.open()) {
     close_all();
-    return Error{std::string("no pipe: ") + std::strerror(errno), words[0], "", Exit::kInternal};
+    return Error{std::string("no pipe: ") + std::generic_category().message(errno), words[0], "", Exit::kInternal};
   }
   signal(SIGPIPE, SIG_IGN);  // a program that ended is an error of send
   const pid_t parent = getpid();
@@ -118,7 +120,8 @@ core::Result<ProgramProcess> ProgramProcess::start(const std::vector<std::string
   if (why != 0) {
     close_all();
     if (child > 0) waitpid(child, nullptr, 0);
-    return Error{std::string("cannot start it: ") + std::strerror(why), words[0], "name a program that can be run"};
+    return Error{std::string("cannot start it: ") + std::generic_category().message(why), words[0],
+                 "name a program that can be run"};
   }
   ProgramProcess process(child, std::exchange(in.to, -1), std::exchange(out.from, -1));
   close_all();
@@ -150,7 +153,8 @@ std::string ProgramProcess::ending() {
   if (ended != id_) return "the program closed its standard output";
   id_ = -1;
   if (WIFSIGNALED(status))
-    return "the program was ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) +
+    return "the program was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
+           strsignal(WTERMSIG(status)) +  // NOLINT(concurrency-mt-unsafe)
            ")";
   return "the program ended with exit code " + std::to_string(WEXITSTATUS(status));
 }

@@ -294,8 +294,8 @@ constexpr Row kRows[] = {
 }  // namespace
 
 std::span<const RigidMutant> pipeline_mutants() {
-  static const std::vector<RigidMutant> table = mutants_of(kRows);
-  return table;
+  static const std::vector<RigidMutant> kTable = mutants_of(kRows);
+  return kTable;
 }
 
 }  // namespace broadside::reference

@@ -31,8 +31,8 @@ void SceneOctree::build(std::span<const Box> boxes, std::span<const std::uint8_t
   const core::SceneGrid grid = core::make_scene_grid(domain, depth_);
   nodes_.resize(n);
   order_.resize(n);
-  using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, n, kTreeGrain), [&](const Range& range) {
+  using Places = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Places(0, n, kTreeGrain), [&](const Places& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       nodes_[i] = core::scene_node(grid, boxes[i]);
       order_[i] = static_cast<std::uint64_t>(nodes_[i].key) << 32U | i;
@@ -44,7 +44,7 @@ void SceneOctree::build(std::span<const Box> boxes, std::span<const std::uint8_t
   id_.resize(n);
   is_static_.resize(n + kTile);
   range_end_.resize(n);
-  tbb::parallel_for(Range(0, n, kTreeGrain), [&](const Range& range) {
+  tbb::parallel_for(Places(0, n, kTreeGrain), [&](const Places& range) {
     for (std::size_t place = range.begin(); place != range.end(); ++place) {
       const auto id = static_cast<std::uint32_t>(order_[place]);
       const Box& box = boxes[id];
@@ -73,8 +73,8 @@ void SceneOctree::build(std::span<const Box> boxes, std::span<const std::uint8_t
 
 void SceneOctree::find() {
   found_.clear();
-  using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, id_.size(), 16), [&](const Range& range) {
+  using Places = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Places(0, id_.size(), 16), [&](const Places& range) {
     PairWriter& writer = found_.writer();
     for (std::size_t place = range.begin(); place != range.end(); ++place) {
       const Box a{{min_x_[place], min_y_[place], min_z_[place]}, {max_x_[place], max_y_[place], max_z_[place]}};
@@ -86,6 +86,8 @@ void SceneOctree::find() {
         // The arrays are padded by a tile, so reading past the end is harmless; hits there are not looked at.
         for (std::uint32_t k = 0; k < kTile; ++k) {
           const std::uint32_t b = first + k;
+          // & instead of &&: all tests in vector lanes, none a branch.
+          // NOLINTNEXTLINE(clang-diagnostic-bitwise-instead-of-logical)
           hit[k] = static_cast<std::uint8_t>((a.min.x <= max_x_[b]) & (min_x_[b] <= a.max.x) & (a.min.y <= max_y_[b]) &
                                              (min_y_[b] <= a.max.y) & (a.min.z <= max_z_[b]) & (min_z_[b] <= a.max.z) &
                                              ((static_a & is_static_[b]) == 0));
@@ -93,7 +95,7 @@ void SceneOctree::find() {
         const std::uint32_t count = std::min(kTile, end - first);
         Pair* to = writer.room(kTile);
         for (std::uint32_t k = 0; k < count; k += 8U) {
-          std::uint64_t eight;
+          std::uint64_t eight = 0;
           std::memcpy(&eight, hit.data() + k, sizeof eight);
           if (eight == 0) continue;
           for (std::uint32_t lane = k; lane < std::min(k + 8U, count); ++lane)

@@ -18,6 +18,7 @@
 
 #include "reference/scene_octree/tree_view.hpp"
 
+// NOLINTBEGIN(google-build-namespaces, misc-definitions-in-headers): internal linkage, as said above
 namespace broadside::reference {
 namespace {
 
@@ -137,3 +138,4 @@ class Join {
 
 }  // namespace
 }  // namespace broadside::reference
+// NOLINTEND(google-build-namespaces, misc-definitions-in-headers)

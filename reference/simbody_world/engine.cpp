@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kId = "simbody-world";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::array<core::SettingRow, 4> rows{{
+  static const std::array<core::SettingRow, 4> kSettings{{
       {"tuning",
        "accurate",
        {"accurate", "shipped"},
@@ -27,7 +27,7 @@ std::span<const core::SettingRow> setting_rows() {
       {"stiffness_kpa", "10000", {}, "of every surface, kPa; 10000 is rubber"},
       {"slip_speed_um_s", "1000", {}, "micrometers/s below which friction fades; Simbody ships 10000"},
   }};
-  return rows;
+  return kSettings;
 }
 
 #if BROADSIDE_HAS_SIMBODY

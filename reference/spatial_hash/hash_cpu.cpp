@@ -20,9 +20,9 @@ namespace {
 constexpr std::string_view kId = "hash-cpu";
 
 std::span<const core::SettingRow> setting_rows() {
-  static const std::vector<core::SettingRow> rows{core::cell_setting(), core::levels_setting(), threads_setting(),
-                                                  core::vertex_stage_setting()};
-  return rows;
+  static const std::vector<core::SettingRow> kSettings{core::cell_setting(), core::levels_setting(), threads_setting(),
+                                                       core::vertex_stage_setting()};
+  return kSettings;
 }
 
 core::Result<core::Engine> create(const core::Settings& settings) {

@@ -55,12 +55,13 @@ void Axis::make_linear(double low, double high) {
   }
   const double step = round_step((high - low) / kLinearTicks);
   const double first = std::floor(low / step + 1e-9);
-  const double last = std::ceil(high / step - 1e-9);
+  const auto steps = static_cast<int>(std::ceil(high / step - 1e-9) - first);
   low_ = first * step;
-  high_ = last * step;
-  for (double k = first; k <= last; ++k) {
+  high_ = (first + steps) * step;
+  for (int k = 0; k <= steps; ++k) {
     // Steps are decimal, so a tick is what its digits say: 0.3 and not 0.30000000000000004.
-    const double value = std::stod(figure(k * step, 12) == "0" ? "0" : figure(k * step, 12));
+    const double exact = (first + k) * step;
+    const double value = std::stod(figure(exact, 12) == "0" ? "0" : figure(exact, 12));
     ticks_.push_back({value, tick_label(value)});
   }
 }

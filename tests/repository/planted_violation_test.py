@@ -211,11 +211,40 @@ class PlantedViolation(unittest.TestCase):
             (build / "Unity").mkdir()
             unit = str(build / "Unity/unit_0.cxx")
             Path(unit).write_text('#include "/a.cpp"\n\n#include "/b.cpp"\n', encoding="utf-8")
-            (build / "compile_commands.json").write_text(json.dumps(
-                [{"directory": str(build), "file": file, "command": f"c++ -O1 -c {file}"} for file in (unit, "/c.cpp")]), encoding="utf-8")
-            commands = clang_tidy.commands_of_files(build)
+            given = [{"directory": str(build), "file": file, "command": f"c++ -O1 -c {file}"} for file in (unit, "/c.cpp")]
+            commands = clang_tidy.commands_of_files(given)
         self.assertEqual([("/a.cpp", "c++ -O1 -c /a.cpp"), ("/b.cpp", "c++ -O1 -c /b.cpp"), ("/c.cpp", "c++ -O1 -c /c.cpp")],
                          [(command["file"], command["command"]) for command in commands])
+
+    def test_units_that_clang_tidy_looks_at(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            root = Path(scratch).resolve()
+            commands = []
+            for unit, source in (("build/core/Unity/unity_0.cxx", "core/a.cpp"), ("build/tests/Unity/unity_0.cxx", "tests/a_test.cpp")):
+                (root / unit).parent.mkdir(parents=True)
+                (root / unit).write_text(f'#include "{root}/{source}"\n', encoding="utf-8")
+                commands.append({"directory": str(root), "file": str(root / unit), "command": ""})
+            commands.append({"directory": str(root), "file": str(root / "bench/main.cpp"), "command": ""})
+            unit = str(root / "build/core/Unity/unity_0.cxx")
+            self.assertEqual([str(root / "bench/main.cpp"), unit], clang_tidy.units_with(commands, root, ""))
+            self.assertEqual([unit], clang_tidy.units_with(commands, root, "core/"))
+
+    def test_what_clang_tidy_finds_in_a_unit(self):
+        program = shutil.which(f"clang-tidy-{clang_tidy.VERSION}")
+        if not program:
+            self.skipTest("no clang-tidy here")
+        with tempfile.TemporaryDirectory() as scratch:
+            root = Path(scratch).resolve()
+            (root / "core").mkdir()
+            (root / "build/Unity").mkdir(parents=True)
+            (root / "core/a.cpp").write_text("int two() {\n  int BadName = 2;\n  return BadName;\n}\n", encoding="utf-8")
+            unit = root / "build/Unity/unity_0.cxx"
+            unit.write_text(f'#include "{root}/core/a.cpp"\n', encoding="utf-8")
+            shutil.copy(Path(__file__).resolve().parents[2] / ".clang-tidy", root / ".clang-tidy")
+            (root / "compile_commands.json").write_text(json.dumps([{"directory": str(root), "file": str(unit),
+                                                                     "command": f"c++ -c {unit}"}]), encoding="utf-8")
+            found = clang_tidy.findings(program, root, root, str(unit))
+        self.assertEqual(["core/a.cpp:2: invalid case style for variable 'BadName' [readability-identifier-naming]"], sorted(found))
 
     def test_workflow_that_the_forge_cannot_run(self):
         def workflow(step, head="on: push"):

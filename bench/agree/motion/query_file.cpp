@@ -41,7 +41,7 @@ std::string split(std::string_view line, std::array<std::string_view, kColumns>&
     at = end + 1;
   }
   if (count != kColumns) return "it has " + std::to_string(count) + " columns, not 7";
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!is_integer(cells[2 * axis])) return "'" + std::string(cells[2 * axis]) + "' is no integer";
     if (!is_above_zero(cells[2 * axis + 1]))
       return "the denominator '" + std::string(cells[2 * axis + 1]) + "' is no integer above zero";
@@ -73,7 +73,7 @@ core::Result<std::vector<FileQuery>> read_query_file(const std::filesystem::path
     const bool touches = cells[6] == "1";
     if (row > 0 && touches != query.touches) return fault(file, number, "the truth differs within one query");
     query.touches = touches;
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis)
       query.features.points[row][axis] = {std::string(cells[2 * axis]), std::string(cells[2 * axis + 1])};
     row = (row + 1) % kRows;
   }

@@ -38,11 +38,11 @@ pybind11::array rows_of_frame(const HeldFrame& frame, const core::Column& column
 
 // An array that owns these values.
 template <typename T>
-pybind11::array owned_array(std::vector<T> values, pybind11::dtype dtype, std::vector<pybind11::ssize_t> shape) {
+pybind11::array owned_array(std::vector<T> values, const pybind11::dtype& dtype, std::vector<pybind11::ssize_t> shape) {
   auto held = std::make_unique<std::vector<T>>(std::move(values));
   void* const data = held->data();
   const pybind11::capsule owner(held.release(), [](void* given) { delete static_cast<std::vector<T>*>(given); });
-  return pybind11::array(std::move(dtype), std::move(shape), data, owner);
+  return pybind11::array(dtype, std::move(shape), data, owner);
 }
 
 }  // namespace broadside::bench::python

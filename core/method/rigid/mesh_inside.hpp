@@ -69,7 +69,7 @@ BROADSIDE_HD_CALLED bool is_inside(const MeshView& mesh, Vec3 p) {
       open[count++] = node.first;
       open[count++] = node.first + 1;
     }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
+    for (std::size_t t = node.first; t < std::size_t{node.first} + node.count; ++t)
       is_odd ^=
           inside_detail::crosses(p, mesh.vertices[mesh.triangles[3 * t]], mesh.vertices[mesh.triangles[3 * t + 1]],
                                  mesh.vertices[mesh.triangles[3 * t + 2]]);

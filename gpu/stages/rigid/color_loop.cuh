@@ -1,4 +1,17 @@
 // Loops over constraints and bodies while contacts are solved.
+//
+// A sweep goes color by color, with a barrier between two. Unless there are some hundred thousand patches, its time is
+// that of the barriers and of one patch's chain of operations. So all of the solver serves to shorten these two:
+// - The four points of a patch and both its bodies lie in registers: loops over points have a fixed length
+//   (core::each_point), and a thread may have 255 registers.
+// - A thread loads its next constraint ahead, and works out then what follows from where the bodies are, gaps and how
+//   fast they may close (core::goals_of): behind the barrier only velocities are loaded.
+// - No pass goes over all constraints beside the sweeps: the next sweep adds up totals, and the last relaxation notes
+//   which points bounce. A substep of soft steps waits 2 C + 2 times for C colors.
+// - Impulses that are known beforehand need no colors (kept_impulses.cuh), and while contacts bounce, a sweep visits
+//   patches whose bodies have just changed (bounce_sweeps.cuh).
+// - A patch that came too slowly to bounce has no restitution in the step, which lies in a word that all sweeps read
+//   (core::note_approach): approaches and totals are read of the others alone.
 #pragma once
 
 #include "core/method/rigid/patch_constraint.hpp"

@@ -218,7 +218,8 @@ void StepConstraints::list_fast() {
   fast_begin_.assign(1, 0);
   const auto begin = tiles_.color_begin();
   for (std::size_t color = 0; color + 1 < begin.size(); ++color) {
-    for (std::size_t place = begin[color] * kTileLanes; place < begin[color + 1] * kTileLanes; ++place)
+    for (std::size_t place = std::size_t{begin[color]} * kTileLanes; place < std::size_t{begin[color + 1]} * kTileLanes;
+         ++place)
       if (came_fast_[place] != 0) fast_.push_back(static_cast<std::uint32_t>(place));
     fast_begin_.push_back(static_cast<std::uint32_t>(fast_.size()));
   }

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
+
+#include "reference/engines.hpp"
 
 namespace broadside::reference {
 namespace {
@@ -123,6 +126,29 @@ TEST(Pipeline, EveryThreadCountGivesTheSameBits) {
   const auto b = run(scene, two, 60);
   ASSERT_GT(contacts_of(a), 100U) << "a heap without contacts would show nothing";
   for (std::size_t k = 0; k < a.size(); ++k) ASSERT_EQ(a[k].digest, b[k].digest) << "step " << k + 1;
+}
+
+// oneTBB warns on stderr, once a process, when an arena asks for more threads than there are cores.
+TEST(Pipeline, MoreThreadsThanCoresAreAsMany) {
+  const auto digests_of = [](const std::string& threads) {
+    std::vector<std::uint64_t> digests;
+    const core::EngineRow row = octree_cpu_row();
+    const auto settings = core::Settings::parse(row.id, row.settings, {{"threads", threads}});
+    const auto engine = row.create(settings.value());
+    const core::Scene scene = heap();
+    EXPECT_TRUE(engine.value().dynamics->load(scene).ok());
+    for (int frame = 0; frame < 10; ++frame) {
+      core::FrameRecord record;
+      EXPECT_TRUE(engine.value().dynamics->step(scene.dt_s).ok());
+      EXPECT_TRUE(engine.value().dynamics->read_back(record, core::RecordLevel::kDigest).ok());
+      digests.push_back(record.digest);
+    }
+    return digests;
+  };
+  testing::internal::CaptureStderr();
+  const auto of_many = digests_of("1000");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(of_many, digests_of("1"));
 }
 
 TEST(Pipeline, LevelsABCAgreeAndFlatContainsThem) {
