@@ -11,7 +11,7 @@
 namespace broadside::core {
 namespace {
 
-struct Meeting {
+struct BoxesNear {
   Subject a;
   Subject b;
   ContactPath path_a;
@@ -20,11 +20,11 @@ struct Meeting {
 };
 
 // Two boxes near each other, of which both move by up to half a meter; where they turn, by up to a tenth of a radian.
-Meeting any_meeting(Draw& draw, bool turns) {
+BoxesNear any_meeting(Draw& draw, bool turns) {
   const auto any_box = [&] {
     return box({draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F)});
   };
-  Meeting m{any_box(), any_box(), {}, {}, 0.0F};
+  BoxesNear m{any_box(), any_box(), {}, {}, 0.0F};
   const auto path = [&](Vec3 from) {
     ContactPath way;
     way.start = {from, draw.turn()};
@@ -50,7 +50,7 @@ TEST(QuickBoxes, WhatPassesIsApartOnAllWays) {
   Draw draw(1);
   int passing = 0;
   for (int trial = 0; trial < 600; ++trial) {
-    Meeting m = any_meeting(draw, false);
+    BoxesNear m = any_meeting(draw, false);
     if (!boxes_surely_pass(m.a.shape, m.path_a, m.b.shape, m.path_b, m.reach_m, 0.0F)) continue;
     const exact::SignedDistance start = exact::signed_distance(m.a.placed(), m.b.placed());
     if (start.distance_m > m.reach_m) continue;
@@ -72,7 +72,7 @@ TEST(QuickBoxes, OfWhatPassesNoPatchIsKept) {
   int passing = 0;
   int kept_pairs = 0;
   for (int trial = 0; trial < 4000; ++trial) {
-    const Meeting m = any_meeting(draw, true);
+    const BoxesNear m = any_meeting(draw, true);
     const float near_m = draw.between(0.0F, 0.2F);
     Manifold found[kPatchesOfPair];
     const int count = make_manifolds(m.a.shape, m.path_a.start, m.b.shape, m.path_b.start, m.reach_m, found);
