@@ -340,7 +340,8 @@ BROADSIDE_HD void note_budget(PatchConstraint& c) {
 // Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but with no
 // more energy than the square of that share of what the patch absorbed in the step (Stronge, Rigid body collisions with
 // friction, 1990). Newton's rule alone may give back more than stopping took, where friction turns a body about its
-// corner or where sweeps end before all is stopped; this way no bounce adds energy, however far it is solved. Returns
+// corner or where sweeps end before all is stopped; this way its normal impulses add none, however far they are solved.
+// Returns
 // the largest change of a point's speed, m/s. done_m_s: sweeps over its points end that change no speed by more.
 BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, float done_m_s) {
   PatchMotion m = motion_of<float>(c, a, b);

@@ -183,15 +183,15 @@ TEST(Unilateral, AddsTheDeclaredMargin) {
 // A point half a meter below the center of a body that spins about z moves along the floor: its speed toward it is none
 // at the start and none at the end, and a turn of t takes it t^2 / 2 of the arm off the tangent that says so.
 TEST(Unilateral, AllowsWhatAnArcIsOffItsTangent) {
-  constexpr double kSpin = 16.0;  // rad/s: a quarter of a radian a step
+  constexpr double kArcSpin = 16.0;  // rad/s: a quarter of a radian a step
   const auto spinning = [](double gap) {
     Specimen r = on_floor({}, {}, {0, 0.125F, 0}, gap);
-    r.header.scene.bodies[0].angular_velocity = {0, 0, static_cast<float>(kSpin)};
-    r.frames.back().wide.angular_velocity[0].z = kSpin;
-    r.frames.back().angular_velocity[0].z = static_cast<float>(kSpin);
+    r.header.scene.bodies[0].angular_velocity = {0, 0, static_cast<float>(kArcSpin)};
+    r.frames.back().wide.angular_velocity[0].z = kArcSpin;
+    r.frames.back().angular_velocity[0].z = static_cast<float>(kArcSpin);
     return r;
   };
-  const double arc_m = 0.5 * (kSpin * kStep) * (kSpin * kStep) * 0.5;
+  const double arc_m = 0.5 * (kArcSpin * kStep) * (kArcSpin * kStep) * 0.5;
   expect_limit("unilateral", kStep * (0.125 + 0.125) + arc_m, spinning);
 }
 

@@ -1,0 +1,152 @@
+#include "core/method/rigid/patch_twist.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/soft_contact.hpp"
+#include "core/method/rigid/solver_body.hpp"
+
+namespace broadside::core {
+namespace {
+
+class RandomPatches {
+ public:
+  explicit RandomPatches(unsigned seed) : engine_(seed) {}
+
+  float in(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
+  Vec3 vector(float size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
+
+  SolverBody body() {
+    SolverBody b;
+    b.inverse_mass = in(0.1F, 2.0F);
+    b.inverse_inertia = {in(1.0F, 3.0F),  in(1.0F, 3.0F),  in(1.0F, 3.0F),
+                         in(-0.3F, 0.3F), in(-0.3F, 0.3F), in(-0.3F, 0.3F)};
+    b.v = vector(2.0F);
+    b.angular_momentum = vector(0.5F);
+    return b;
+  }
+  PatchConstraint patch(const SolverBody& a, const SolverBody& b, float mu, float restitution) {
+    Manifold m;
+    m.normal = normalized(vector(1.0F) + Vec3{0.0F, 2.0F, 0.0F});
+    m.count = std::uniform_int_distribution<int>(1, kManifoldPoints)(engine_);
+    for (int k = 0; k < m.count; ++k) m.points[k] = {vector(0.5F), 0.0F, 1};
+    return make_constraint(m, a, b, vector(1.0F), {mu, mu, restitution});
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+// A's point less B's, from the bodies alone, along the normal and the tangents.
+Vec3 speed_of_point(const PatchConstraint& c, const PatchPoint& p, const SolverBody& a, const SolverBody& b) {
+  const Vec3 of_a = a.v + cross(angular_velocity(a), arm_a<float>(c, p));
+  const Vec3 of_b = b.v + cross(angular_velocity(b), arm_b<float>(c, p));
+  return in_patch<float>(c, of_a - of_b);
+}
+
+double kinetic_j(const SolverBody& b) {
+  if (!is_moved(b)) return 0.0;
+  return 0.5 * (dot(b.v, b.v) / b.inverse_mass + dot(b.angular_momentum, angular_velocity(b)));
+}
+
+TEST(PatchTwist, APointIsAsFastAsItsBodiesMakeIt) {
+  RandomPatches random(1);
+  for (int n = 0; n < 100; ++n) {
+    const SolverBody a = random.body();
+    const SolverBody b = n % 4 == 0 ? SolverBody{} : random.body();
+    const PatchConstraint c = random.patch(a, b, 0.5F, 0.0F);
+    const PatchMotion m = motion_of<float>(c, a, b);
+    for (int k = 0; k < c.count; ++k) {
+      const Vec3 expected = speed_of_point(c, c.points[k], a, b);
+      EXPECT_NEAR(normal_speed(m.twist, c.points[k].lever), expected.x, 2e-5);
+      EXPECT_NEAR(tangent_1_speed(m.twist, c.points[k].lever), expected.y, 2e-5);
+      EXPECT_NEAR(tangent_2_speed(m.twist, c.points[k].lever), expected.z, 2e-5);
+    }
+  }
+}
+
+// What the columns say that an impulse does to every point is what it does to the bodies.
+TEST(PatchTwist, AnImpulseChangesPointsAsItChangesTheBodies) {
+  RandomPatches random(2);
+  for (int n = 0; n < 100; ++n) {
+    SolverBody a = random.body();
+    SolverBody b = n % 4 == 0 ? SolverBody{} : random.body();
+    PatchConstraint c = random.patch(a, b, 0.5F, 0.0F);
+    PatchMotion m = motion_of<float>(c, a, b);
+    for (int k = 0; k < c.count; ++k) {
+      const Vec3 lever = c.points[k].lever;
+      const float impulse[3] = {random.in(-1.0F, 1.0F), random.in(-1.0F, 1.0F), random.in(-1.0F, 1.0F)};
+      m.twist = plus<float>(m.twist, impulse[0], gain_by_normal(c.mobility, lever));
+      m.twist = plus<float>(m.twist, impulse[1], gain_by_tangent_1(c.mobility, lever));
+      m.twist = plus<float>(m.twist, impulse[2], gain_by_tangent_2(c.mobility, lever));
+      m.given.add_normal(lever, impulse[0]);
+      m.given.add_tangents(lever, impulse[1], impulse[2]);
+    }
+    store<float>(c, m, a, b);
+    for (int k = 0; k < c.count; ++k) {
+      const Vec3 expected = speed_of_point(c, c.points[k], a, b);
+      EXPECT_NEAR(normal_speed(m.twist, c.points[k].lever), expected.x, 1e-4);
+      EXPECT_NEAR(tangent_1_speed(m.twist, c.points[k].lever), expected.y, 1e-4);
+      EXPECT_NEAR(tangent_2_speed(m.twist, c.points[k].lever), expected.z, 1e-4);
+    }
+  }
+}
+
+// Without friction, however little of what came fast has been stopped: the bodies do not leave with more than they came with, nor with
+// more of what was taken than the square of the restitution.
+TEST(PatchTwist, ABounceGivesNoMoreThanItsShareOfWhatStoppingTook) {
+  RandomPatches random(3);
+  SoftStep step = soft_step(1.0F / 240.0F, 6.0F, 1.0F);
+  step.bounce_from_m_s = 0.1F;
+  int bounced = 0;
+  for (int n = 0; n < 400; ++n) {
+    const float restitution = random.in(0.1F, 1.0F);
+    SolverBody a = random.body();
+    SolverBody b = n % 4 == 0 ? SolverBody{} : random.body();
+    PatchConstraint c = random.patch(a, b, 0.0F, restitution);
+    if (!note_approach(c, a, b, step)) continue;
+    const double start = kinetic_j(a) + kinetic_j(b);
+    for (int sweep = 0; sweep < 1 + n % 3; ++sweep)
+      (void)solve_patch<float>(c, goals_of<float>(c, a, b, step), a, b, step);
+    const double stopped = kinetic_j(a) + kinetic_j(b);
+    const float taken = c.absorbed_j;
+    if (!(fastest_bounce(c) > 0.0F)) continue;
+    note_budget(c);
+    for (int sweep = 0; sweep < 4; ++sweep) (void)bounce(c, a, b, step.least_done_m_s);
+    const double end = kinetic_j(a) + kinetic_j(b);
+    const double allowed = std::max(0.0, double{restitution} * restitution * taken);
+    EXPECT_LE(end, stopped + allowed + 1e-4) << "case " << n << ", restitution " << restitution;
+    EXPECT_LE(end, start + 1e-4) << "case " << n;
+    if (end > stopped + 1e-3) ++bounced;
+  }
+  EXPECT_GT(bounced, 50);
+}
+
+// A ball on the ground: the closed form.
+TEST(PatchTwist, ABallLeavesWithItsShareOfTheSpeed) {
+  SolverBody a;
+  a.inverse_mass = 0.5F;
+  a.inverse_inertia = {1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F};
+  a.v = {0.0F, -3.0F, 0.0F};
+  SolverBody ground;
+  Manifold m;
+  m.normal = {0.0F, 1.0F, 0.0F};
+  m.count = 1;
+  m.points[0] = {{0.0F, -0.5F, 0.0F}, 0.0F, 1};
+  SoftStep step = soft_step(1.0F / 240.0F, 6.0F, 1.0F);
+  step.bounce_from_m_s = 0.1F;
+  PatchConstraint c = make_constraint(m, a, ground, {}, {0.6F, 0.5F, 0.5F});
+  ASSERT_TRUE(note_approach(c, a, ground, step));
+  (void)solve_patch<float>(c, goals_of<float>(c, a, ground, step), a, ground, step);
+  (void)relax_patch<float>(c, goals_after_motion<float>(c, a, ground, step), a, ground);
+  note_budget(c);
+  (void)bounce(c, a, ground, 0.0F);
+  EXPECT_NEAR(a.v.y, 1.5F, 1e-5F);
+}
+
+}  // namespace
+}  // namespace broadside::core
