@@ -75,8 +75,7 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
 
 // The end of such a substep: core::drop_impacts; and of patches of bodies that were stirred since this sweep,
 // core::drop_impulses. What is left is added to the totals where all other impulses are.
-__device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f,
-                                                 std::uint32_t since) {
+__device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f, std::uint32_t since) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;
     load_directions(slot, c);

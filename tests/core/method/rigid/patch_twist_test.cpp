@@ -96,8 +96,8 @@ TEST(PatchTwist, AnImpulseChangesPointsAsItChangesTheBodies) {
   }
 }
 
-// Without friction, however little of what came fast has been stopped: the bodies do not leave with more than they came with, nor with
-// more of what was taken than the square of the restitution.
+// Without friction, however little of what came fast has been stopped: the bodies do not leave with more than they came
+// with, nor with more of what was taken than the square of the restitution.
 TEST(PatchTwist, ABounceGivesNoMoreThanItsShareOfWhatStoppingTook) {
   RandomPatches random(3);
   SoftStep step = soft_step(1.0F / 240.0F, 6.0F, 1.0F);
