@@ -65,10 +65,7 @@ struct PatchOf {
   std::conditional_t<std::is_same_v<Number, float>, Material, LaneMaterial<Number>> surface;  // of both, combined
   Number slop_m = 0.0F;            // the depth at which the patch rests
   Number fastest_push_m_s = 0.0F;  // at which an overlap is pushed apart without gravity
-  // Of the step: what normal impulses took from the bodies' motion, less what they gave, and how much of that a bounce
-  // may still give, J.
-  Number absorbed_j = 0.0F;
-  Number budget_j = 0.0F;
+  Number budget_n_s = 0.0F;        // of normal impulses that a bounce may still give
   int count = 0;
   PatchPointOf<Number> points[kManifoldPoints];
 };
@@ -264,7 +261,6 @@ template <typename Number>
 struct PatchMotionOf {
   TwistOf<Number> twist;
   PatchPushOf<Number> given;
-  Number absorbed_j = 0.0F;  // by normal impulses
 };
 using PatchMotion = PatchMotionOf<float>;
 
@@ -273,8 +269,7 @@ BROADSIDE_HD PatchMotionOf<Number> pick(TruthOf<Number> is_first, const PatchMot
                                         const PatchMotionOf<Number>& second) {
   return {
       pick<Number>(is_first, first.twist, second.twist),
-      {pick(is_first, first.given.push, second.given.push), pick(is_first, first.given.moment, second.given.moment)},
-      pick(is_first, first.absorbed_j, second.absorbed_j)};
+      {pick(is_first, first.given.push, second.given.push), pick(is_first, first.given.moment, second.given.moment)}};
 }
 
 // Of velocities in world axes.
@@ -282,7 +277,7 @@ template <typename Number, typename Vector>
 BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Vector& v_a, const Vector& w_a,
                                              const Vector& v_b, const Vector& w_b) {
   const Vector speed = (v_a + cross(w_a, c.center_a)) - (v_b + cross(w_b, c.center_b));
-  return {{in_patch(c, speed), in_patch(c, w_a - w_b)}, {}, 0.0F};
+  return {{in_patch(c, speed), in_patch(c, w_a - w_b)}, {}};
 }
 template <typename Number, typename Body>
 BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Body& a, const Body& b) {
@@ -290,8 +285,7 @@ BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Bod
 }
 
 template <typename Number, typename Body>
-BROADSIDE_HD void store(PatchOf<Number>& c, const PatchMotionOf<Number>& m, Body& a, Body& b) {
-  c.absorbed_j = c.absorbed_j + m.absorbed_j;
+BROADSIDE_HD void store(const PatchOf<Number>& c, const PatchMotionOf<Number>& m, Body& a, Body& b) {
   give_to_a(c, m.given, a);
   give_to_b(c, m.given, b);
 }

@@ -66,7 +66,6 @@ BROADSIDE_HD PatchImpulsesBefore impulses_before(const PatchConstraint& c) {
 }
 
 BROADSIDE_HD void go_back_to(const PatchImpulsesBefore& before, PatchConstraint& c) {
-  c.absorbed_j = 0.0F;
   each_point(c, [&](int k) {
     c.points[k].normal_impulse = before.of[k][0];
     c.points[k].tangent_impulse_1 = before.of[k][1];

@@ -128,11 +128,10 @@ BROADSIDE_HD void warm_start(const PatchOf<Number>& c, Body& a, Body& b) {
   give_to_b(c, given, b);
 }
 
-// Adds to a point's normal impulse, which stays a push. speed_m_s: the point's along the normal. Returns how fast that
-// changed the point, m/s.
+// Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
 template <typename Number>
 BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m,
-                                       Number speed_m_s, Number change) {
+                                       Number change) {
   const TwistOf<Number> gain = gain_by_normal(c.mobility, p.lever);
   const Number sum = p.normal_impulse + change;
   const Number next = pick(sum > 0.0F, sum, 0.0F);
@@ -141,8 +140,6 @@ BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Nu
   m.twist = plus<Number>(m.twist, done, gain);
   m.given.add_normal(p.lever, done);
   const Number faster = done * normal_speed(gain, p.lever);
-  // What warm starts did to a point that had been met is not known here.
-  m.absorbed_j = m.absorbed_j - pick(may_bounce(c, p), done * (speed_m_s + 0.5F * faster), 0.0F);
   return pick(faster < 0.0F, -faster, faster);
 }
 
@@ -249,8 +246,7 @@ BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
     const Number speed = normal_speed(m.twist, p.lever);
     const Number rigid = speed + goals.allowed_m_s[k];
     const Number soft = -p.normal_mass * step.mass_scale * rigid - step.impulse_scale * p.normal_impulse;
-    const Number size =
-        add_normal_impulse<Number>(c, p, m, speed, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
+    const Number size = add_normal_impulse<Number>(c, p, m, pick(goals.is_open[k], -p.normal_mass * rigid, soft));
     largest = pick(size > largest, size, largest);
   });
   const Number size = solve_frictions(c, m);
@@ -304,7 +300,7 @@ BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
     const Number wish = -p.normal_mass * (speed + goals.allowed_m_s[k]);
     // Where it is not met, nothing changes.
     const PatchMotionOf<Number> before = m;
-    const Number size = add_normal_impulse<Number>(c, p, m, speed, pick(is_met, wish, 0.0F));
+    const Number size = add_normal_impulse<Number>(c, p, m, pick(is_met, wish, 0.0F));
     m = pick<Number>(is_met, m, before);
     largest = pick(is_met & (size > largest), size, largest);
   });
@@ -331,17 +327,20 @@ inline constexpr int kSweepsOfBounce = 8;
 // Sweeps over all patches end where one changes no speed by more than this share of the fastest approach.
 inline constexpr float kBounceDone = 0x1p-10F;
 
-// Before a bounce: how much energy it may give, which is the restituted share of what stopping took.
+// Before a bounce: how much the points that bounce may push together, which is the restituted share of what stopped
+// them. How they share it is often open.
 BROADSIDE_HD void note_budget(PatchConstraint& c) {
-  const float share = c.surface.restitution * c.surface.restitution;
-  c.budget_j = c.absorbed_j > 0.0F ? share * c.absorbed_j : 0.0F;
+  float stopped = 0.0F;
+  each_point(c, [&](int k) {
+    const PatchPoint& p = c.points[k];
+    if (bounces(c, p)) stopped += p.normal_impulse;
+  });
+  c.budget_n_s = c.surface.restitution * stopped;
 }
 
-// Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but with no
-// more energy than the square of that share of what the patch absorbed in the step (Stronge, Rigid body collisions with
-// friction, 1990). Newton's rule alone may give back more than stopping took, where friction turns a body about its
-// corner or where sweeps end before all is stopped; this way its normal impulses add none, however far they are solved.
-// Returns
+// Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
+// than that share of the impulse that stopped their patch (Poisson's rule): where friction turns a body about its
+// corner, Newton's rule alone may give back more energy than stopping took (Kane and Levinson, Dynamics, 1985). Returns
 // the largest change of a point's speed, m/s. done_m_s: sweeps over its points end that change no speed by more.
 BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, float done_m_s) {
   PatchMotion m = motion_of<float>(c, a, b);
@@ -351,15 +350,10 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, floa
     PatchPoint& p = c.points[k];
     if (!bounces(c, p)) return;
     const float speed = normal_speed(m.twist, p.lever);
-    const float wanted = c.surface.restitution * p.approach_m_s;
-    // What is not stopped yet gives back its share of what stopping it takes.
-    const float stopped = speed < 0.0F ? c.surface.restitution * speed : speed;
-    const float most = sqrtf(stopped * stopped + 2.0F * c.budget_j / p.normal_mass);
-    const float size =
-        add_normal_impulse<float>(c, p, m, speed, p.normal_mass * ((wanted < most ? wanted : most) - speed));
-    const float after = normal_speed(m.twist, p.lever);
-    c.budget_j -= 0.5F * p.normal_mass * (after * after - stopped * stopped);
-    if (c.budget_j < 0.0F) c.budget_j = 0.0F;
+    const float wish = p.normal_mass * (c.surface.restitution * p.approach_m_s - speed);
+    const float before = p.normal_impulse;
+    const float size = add_normal_impulse<float>(c, p, m, wish < c.budget_n_s ? wish : c.budget_n_s);
+    c.budget_n_s -= p.normal_impulse - before;
     largest = size > largest ? size : largest;
     changed = size > changed ? size : changed;
   };

@@ -31,7 +31,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
         set_goals_after_motion(f, slot, soft, p);
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
-        store_solved(slot, p.c);
+        store_impulses(slot, p.c);
         largest = fmaxf(largest, change);
         if (!(change > done)) return;
         stir(f, p.c.a, sweep + 1);
@@ -62,11 +62,15 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         load_levers(slot, c);
         load_masses(slot, c);
         load_mobility(slot, load_directions(slot, c), c);
-        if (is_first) core::note_budget(c);
+        if (is_first)
+          core::note_budget(c);
+        else
+          c.budget_n_s = slot.at(kBudget).v.x;
         core::SolverBody a = load_place(f.bodies[c.a]);
         core::SolverBody b = load_place(f.bodies[c.b]);
         with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, done)); });
-        store_solved(slot, c);
+        store_impulses(slot, c);
+        slot.at(kBudget) = {{c.budget_n_s, 0.0F, 0.0F}, 0.0F};
       },
       KeepsNothing{});
   __syncwarp();

@@ -21,7 +21,7 @@ enum ConstraintWord : std::uint32_t {
   kImpulses = kMobility + 6,  // [points] normal, tangents 1 and 2, of the substep; w: slide mass
   // By point: x y z w.
   kApproaches = kImpulses + core::kManifoldPoints,
-  kEnergies,              // x: absorbed, y: budget
+  kBudget,                // x: of a bounce
   kTotals,                // [3] as impulses
   kBefore = kTotals + 3,  // [3] of core::PatchWay
   kWays = kBefore + 3,    // [3] of core::PatchWay

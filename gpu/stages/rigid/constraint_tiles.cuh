@@ -179,23 +179,6 @@ __device__ __forceinline__ void store_approach(const TileSlot& slot, const core:
   slot.store_each(kApproaches, all);
 }
 
-// Of a patch that may bounce in this step: none else asks for it.
-__device__ __forceinline__ void load_energies(const TileSlot& slot, core::PatchConstraint& c) {
-  const PackedVec3 energies = slot.at(kEnergies);
-  c.absorbed_j = energies.v.x;
-  c.budget_j = energies.v.y;
-}
-
-__device__ __forceinline__ void store_energies(const TileSlot& slot, const core::PatchConstraint& c) {
-  if (c.surface.restitution > 0.0F) slot.at(kEnergies) = {{c.absorbed_j, c.budget_j, 0.0F}, 0.0F};
-}
-
-// What a sweep changes.
-__device__ __forceinline__ void store_solved(const TileSlot& slot, const core::PatchConstraint& c) {
-  store_impulses(slot, c);
-  store_energies(slot, c);
-}
-
 __device__ __forceinline__ void load_totals(const TileSlot& slot, core::PatchConstraint& c) {
   float all[3][kFourPoints];
 #pragma unroll
@@ -219,13 +202,12 @@ __device__ __forceinline__ void store_totals(const TileSlot& slot, const core::P
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, all[i]);
 }
 
-// What tells whether a point bounces, and with how much energy, of a patch that may: none else has restitution in this
-// step. After load_directions.
+// What tells whether a point bounces, of a patch that may: none else has restitution in this step. After
+// load_directions.
 __device__ __forceinline__ void load_impact(const TileSlot& slot, core::PatchConstraint& c) {
   if (!(c.surface.restitution > 0.0F)) return;
   load_approach(slot, c);
   load_totals(slot, c);
-  load_energies(slot, c);
 }
 
 // Three numbers of each point: `word` is kBefore, kWays or kPushed.
@@ -282,7 +264,6 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
   }
   store_mobility(slot, c);
   store_approach(slot, c);
-  store_energies(slot, c);
   const float none[kFourPoints] = {};
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, none);
 }

@@ -15,12 +15,9 @@ __device__ __forceinline__ void take_back_impulses(const SolveTeam& team, const 
     if (!load_before_push(slot, before)) return;
     core::PatchConstraint c;
     load_bodies(slot, c);
-    load_directions(slot, c);
     load_impulses(slot, c);
-    if (c.surface.restitution > 0.0F) load_energies(slot, c);
     core::go_back_to(before, c);
     store_impulses(slot, c);
-    store_energies(slot, c);
     stir(f, c.a, sweep);
     stir(f, c.b, sweep);
   });

@@ -58,14 +58,13 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
       [&](const TileSlot& slot) {
         LoadedPatch loaded = load_patch(f, slot);
         fastest_push = fmaxf(fastest_push, begin_substep(slot, loaded, soft, owes_totals));
-        load_impact(slot, loaded.c);
         loaded.goals = core::goals_of(loaded.c, loaded.a, loaded.b, soft);
         return loaded;
       },
       [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedPatch& p) {
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::solve_patch(p.c, p.goals, p.a, p.b, soft); });
       },
-      [](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) { store_solved(slot, p.c); });
+      [](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) { store_impulses(slot, p.c); });
   __syncwarp();
   if (core::takes_back_pushes(soft)) sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
@@ -101,7 +100,6 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
           load_triples(slot, kWays, loaded.way.way);
           core::follow_impulses(c, loaded.way, share);
         }
-        load_impact(slot, c);
         core::note_impulses(c, loaded.way);
         store_triples(slot, kBefore, loaded.way.before);
         store_triples(slot, kWays, loaded.way.way);
@@ -114,7 +112,7 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
                         [&] { largest_speed = fmaxf(largest_speed, core::solve_patch(p.c, p.goals, p.a, p.b, soft)); });
       },
       [&](const TileSlot& slot, std::uint32_t place, const LoadedWay& loaded) {
-        store_solved(slot, loaded.patch.c);
+        store_impulses(slot, loaded.patch.c);
         const float change = core::squared_change(loaded.patch.c, loaded.way);
         largest_change = fmaxf(largest_change, change);
         f.changes[place] = change;
@@ -167,7 +165,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         with_velocities(f, p.c, p.a, p.b, [&] { (void)core::relax_patch(p.c, p.goals, p.a, p.b); });
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) {
-        store_solved(slot, p.c);
+        store_impulses(slot, p.c);
         if (!may_bounce || !(p.c.surface.restitution > 0.0F)) return;
         const float own = core::fastest_bounce(p.c);
         if (!(own > 0.0F)) return;

@@ -103,8 +103,7 @@ void each_number(Patches& many, Patch& one, const Visit& visit) {
   visit(many.surface.restitution, one.surface.restitution);
   visit(many.slop_m, one.slop_m);
   visit(many.fastest_push_m_s, one.fastest_push_m_s);
-  visit(many.absorbed_j, one.absorbed_j);
-  visit(many.budget_j, one.budget_j);
+  visit(many.budget_n_s, one.budget_n_s);
   for (int k = 0; k < many.count; ++k) {
     auto& p = many.points[k];
     auto& q = one.points[k];
