@@ -27,7 +27,7 @@ SerialPipeline::SerialPipeline(const Stages& stages, std::uint64_t run) : stages
 }
 
 const char* SerialPipeline::settings() {
-  return "broad=octree,contact=conjugate,levels=C,sleep=off,solver=colored,substeps=0,sweep=off,threads=1,"
+  return "broad=octree,contact=conjugate,levels=C,sleep=off,solver=colored,substeps=0,sweep=flagged,threads=1,"
          "thresholds=scaled,variant=sound,vertex_stage=on";
 }
 
