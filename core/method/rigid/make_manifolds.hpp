@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/attributes.hpp"
+#include "core/method/rigid/box_manifold.hpp"
 #include "core/method/rigid/capsule_manifold.hpp"
 #include "core/method/rigid/contact_points.hpp"
 #include "core/method/rigid/contact_shape.hpp"
@@ -64,7 +65,7 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
     capsule_manifold<Lanes>(a, b, rounding_m, reach_m, out[0]);
   } else if (a.shape->kind == ContactKind::kBox && kind == ContactKind::kBox) {
     const SeparatingAxis axis = separating_axis_of_boxes(a, b, rounding_m, reach_m);
-    polytope_manifold(box_polytope(a), box_polytope(b), axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
+    box_manifold(box_polytope(a), box_polytope(b), axis, rounding_m, reach_m, out[0]);
   }
   return out[0].count > 0 ? 1 : 0;
 }

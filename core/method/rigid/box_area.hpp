@@ -1,0 +1,256 @@
+// What faces of two boxes have in common, seen along the normal of their contact, and which four of its corners are
+// kept.
+//
+// The incident face is a parallelogram and the reference's a rectangle, so it is cut in the plane of the rectangle, by
+// coordinates along its sides: what face_clipping.hpp does for any two faces.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/kept_loop.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/polytopes.hpp"
+
+namespace broadside::core::box_detail {
+
+// A parallelogram that a rectangle cuts has at most eight corners; and one point more that an axis shows.
+inline constexpr int kRoom = 9;
+
+// A face of a box: half sides along its two axes, which make a right-handed frame with the axis that it is across.
+struct BoxFace {
+  int face = 0;
+  int u_axis = 0;
+  int w_axis = 0;
+  bool is_upper = false;
+  Vec3 middle;
+  Vec3 u;
+  Vec3 w;
+  float half_u = 0.0F;
+  float half_w = 0.0F;
+};
+
+BROADSIDE_HD BoxFace face_of(const BoxPolytope& box, int face) {
+  BoxFace f;
+  f.face = face;
+  const int axis = face / 2;
+  f.u_axis = axis == 2 ? 0 : axis + 1;
+  f.w_axis = axis == 0 ? 2 : axis - 1;
+  f.is_upper = (face & 1) != 0;
+  f.middle = box.center + (f.is_upper ? box.half[axis] : -box.half[axis]) * box.axes[axis];
+  f.u = box.axes[f.u_axis];
+  f.w = box.axes[f.w_axis];
+  f.half_u = box.half[f.u_axis];
+  f.half_w = box.half[f.w_axis];
+  return f;
+}
+
+// In the plane of the reference's face, from its middle, seen along the normal.
+struct FlatPoint {
+  float u = 0.0F;
+  float w = 0.0F;
+  float gap_m = 0.0F;
+  // Who made it: bits 0 to 7 the point, as below; bits 8 to 15 the edge from here to the next corner.
+  std::uint32_t made_by = 0;
+};
+
+// Lines of the drawing: 0 to 3 are edges of the incident face, from its corner k on; 4 to 7 sides of the reference.
+// Points: 0 to 3 are corners of the incident face; kCut + 4 line + side is where a side cuts a line; kShown is told
+// apart.
+inline constexpr std::uint32_t kSideLine = 4;
+inline constexpr std::uint32_t kCut = 8;
+inline constexpr std::uint32_t kShown = 0xFF;
+
+// Names of the reference's corners, which are none of the incident face's.
+inline constexpr std::uint32_t kReferenceCorner = 0x20000000U;
+
+struct FlatArea {
+  int count = 0;
+  FlatPoint points[kRoom];
+};
+
+// Keeps what is at most slack_m beyond the side: of line `side`, across u or w, at `half` on its upper or lower side.
+// As clip() of face_clipping.hpp.
+BROADSIDE_HD void cut_by_side(const FlatArea& area, FlatArea& kept, bool across_u, bool is_upper, float half,
+                              std::uint32_t side, float slack_m) {
+  const auto height = [&](const FlatPoint& p) {
+    const float at = across_u ? p.u : p.w;
+    return (is_upper ? at : -at) - half;
+  };
+  kept.count = 0;
+  if (area.count == 0) return;
+  FlatPoint here = area.points[0];
+  float here_m = height(here);
+  BROADSIDE_KEPT_LOOP
+  for (int k = 0; k < area.count; ++k) {
+    const FlatPoint next = area.points[k + 1 == area.count ? 0 : k + 1];
+    const float next_m = height(next);
+    const bool is_in = here_m <= slack_m;
+    const bool is_cut = is_in != (next_m <= slack_m);
+    const float inside = is_in ? here_m : next_m;
+    const std::uint32_t leaving = here.made_by >> 8;
+    const bool makes_corner = is_cut && inside < 0.0F;
+    if (is_in && kept.count < kRoom) {
+      kept.points[kept.count] = here;
+      // A corner that lies on the side is no cut; what follows it is the side.
+      if (is_cut && !makes_corner) kept.points[kept.count].made_by = (here.made_by & 0xFFU) | ((kSideLine + side) << 8);
+      ++kept.count;
+    }
+    if (makes_corner && kept.count < kRoom) {
+      // From the corner that is kept, so that equal edges are cut alike in both directions.
+      const FlatPoint from = is_in ? here : next;
+      const FlatPoint to = is_in ? next : here;
+      const float share = inside / (inside - (is_in ? next_m : here_m));
+      const std::uint32_t line = is_in ? kSideLine + side : leaving;
+      kept.points[kept.count++] = {from.u + share * (to.u - from.u), from.w + share * (to.w - from.w),
+                                   from.gap_m + share * (to.gap_m - from.gap_m),
+                                   (kCut + 4 * leaving + side) | (line << 8)};
+    }
+    here = next;
+    here_m = next_m;
+  }
+}
+
+// What both faces have in common, seen along `outward`, a unit direction out of the reference's body that its face
+// looks along.
+struct FlatView {
+  BoxFace reference;
+  BoxFace incident;
+  Vec3 outward;
+  // Parts of outward along u and w: none where it is the face's own normal, but for rounding.
+  float out_u = 0.0F;
+  float out_w = 0.0F;
+  float out_plane = 0.0F;
+};
+
+BROADSIDE_HD FlatPoint flat(const FlatView& v, Vec3 plane, Vec3 from_middle) {
+  FlatPoint p;
+  p.gap_m = dot(plane, from_middle) / v.out_plane;
+  p.u = dot(v.reference.u, from_middle) - p.gap_m * v.out_u;
+  p.w = dot(v.reference.w, from_middle) - p.gap_m * v.out_w;
+  return p;
+}
+
+BROADSIDE_HD FlatView flat_view(const BoxPolytope& reference, int reference_face, const BoxPolytope& incident,
+                                int incident_face, Vec3 outward) {
+  FlatView v;
+  v.reference = face_of(reference, reference_face);
+  v.incident = face_of(incident, incident_face);
+  v.outward = outward;
+  v.out_u = dot(v.reference.u, outward);
+  v.out_w = dot(v.reference.w, outward);
+  v.out_plane = dot(reference.face_normal(reference_face), outward);
+  return v;
+}
+
+// deepest: the incident face's lowest corner, before anything is cut.
+BROADSIDE_HD void common_area_of(const FlatView& v, Vec3 plane, float rounding_m, FlatArea& area, FlatPoint& deepest) {
+  const FlatPoint middle = flat(v, plane, v.incident.middle - v.reference.middle);
+  const FlatPoint u = flat(v, plane, v.incident.half_u * v.incident.u);
+  const FlatPoint w = flat(v, plane, v.incident.half_w * v.incident.w);
+  area.count = 4;
+  deepest.gap_m = 3.402823e38F;
+  BROADSIDE_KEPT_LOOP
+  for (int k = 0; k < 4; ++k) {
+    // As BoxPolytope::face_corner goes around: 00, 10, 11, 01; the lower face the other way.
+    const int around = v.incident.is_upper ? k : 3 - k;
+    const float at_u = around == 1 || around == 2 ? 1.0F : -1.0F;
+    const float at_w = around >= 2 ? 1.0F : -1.0F;
+    const auto number = static_cast<std::uint32_t>(k);
+    const FlatPoint corner{middle.u + (at_u * u.u + at_w * w.u), middle.w + (at_u * u.w + at_w * w.w),
+                           middle.gap_m + (at_u * u.gap_m + at_w * w.gap_m), number | (number << 8)};
+    area.points[k] = corner;
+    if (corner.gap_m < deepest.gap_m) deepest = corner;
+  }
+  FlatArea other;
+  BROADSIDE_KEPT_LOOP
+  for (int side = 0; side < 4; ++side) {
+    const bool across_u = (side & 1) != 0;
+    // Around the upper face: lower w, upper u, upper w, lower u; the lower face: upper w, upper u, lower w, lower u.
+    const bool is_upper = across_u ? side == 1 : (side == 2) == v.reference.is_upper;
+    // Two sides are cut from one area into the other one, two back.
+    cut_by_side(across_u ? other : area, across_u ? area : other, across_u, is_upper,
+                across_u ? v.reference.half_u : v.reference.half_w, static_cast<std::uint32_t>(side), rounding_m);
+  }
+}
+
+// From corner k to the next one around a face.
+BROADSIDE_HD std::uint32_t name_of_side(const BoxPolytope& box, int face, std::uint32_t k) {
+  const int at = static_cast<int>(k);
+  return edge_name(static_cast<std::uint32_t>(box.face_corner(face, at)),
+                   static_cast<std::uint32_t>(box.face_corner(face, at == 3 ? 0 : at + 1)));
+}
+
+BROADSIDE_HD std::uint32_t key_of(const FlatView& v, const BoxPolytope& reference, const BoxPolytope& incident,
+                                  std::uint32_t made_by, bool reference_is_a) {
+  const std::uint32_t point = made_by & 0xFFU;
+  std::uint32_t name = 0;
+  if (point < kCut) {
+    name = corner_name(static_cast<std::uint32_t>(incident.face_corner(v.incident.face, static_cast<int>(point))));
+  } else {
+    const std::uint32_t line = (point - kCut) / 4;
+    const std::uint32_t side = (point - kCut) % 4;
+    if (line < kSideLine)
+      name =
+          feature_key(name_of_side(incident, v.incident.face, line), name_of_side(reference, v.reference.face, side));
+    else  // two sides of the reference meet in the corner that the later one begins at
+      name = kReferenceCorner | (side == (line - kSideLine + 1) % 4 ? side : line - kSideLine);
+  }
+  const std::uint32_t plane = face_name(static_cast<std::uint32_t>(v.reference.face));
+  return reference_is_a ? feature_key(plane, name) : feature_key(name, plane);
+}
+
+// The four that FourKept (contact_points.hpp) keeps, by numbers: the deepest, the farthest from it across the normal,
+// the one of the largest triangle with both, the one farthest outside that triangle. Of equal ones the first, in the
+// order of the area's corners. Areas are those in the plane of the face, which the normal sees all in one measure.
+BROADSIDE_HD int pick_four(const FlatArea& area, float out_u, float out_w, float reach_m, int (&picked)[4]) {
+  FlatPoint p[3];
+  float turn = 1.0F;
+  int count = 0;
+  BROADSIDE_KEPT_LOOP
+  for (int round = 0; round < 4; ++round) {
+    int best = -1;
+    float best_value = round == 0 ? -3.402823e38F : 0.0F;
+    BROADSIDE_KEPT_LOOP
+    for (int k = 0; k < area.count; ++k) {
+      const FlatPoint c = area.points[k];
+      if (!(c.gap_m <= reach_m)) continue;
+      const float u = c.u - p[0].u;
+      const float w = c.w - p[0].w;
+      float value = -c.gap_m;
+      if (round == 1) {
+        const float along = u * out_u + w * out_w;
+        value = (u * u + w * w) - along * along;
+      }
+      if (round >= 2) {
+        const float of_first = (p[1].u - p[0].u) * w - (p[1].w - p[0].w) * u;
+        value = fabsf(of_first);
+        if (round == 3) {
+          const float of_second = (p[2].u - p[1].u) * (c.w - p[1].w) - (p[2].w - p[1].w) * (c.u - p[1].u);
+          const float of_third = (p[0].u - p[2].u) * (c.w - p[2].w) - (p[0].w - p[2].w) * (c.u - p[2].u);
+          value = fmaxf(-turn * of_first, fmaxf(-turn * of_second, -turn * of_third));
+        }
+      }
+      if (!(value > best_value)) continue;
+      best_value = value;
+      best = k;
+    }
+    if (best < 0) break;
+    picked[count++] = best;
+    if (round < 3) {
+      const FlatPoint chosen = area.points[best];
+      if (round == 0) p[0] = chosen;
+      if (round == 1) p[1] = chosen;
+      if (round == 2) {
+        p[2] = chosen;
+        const float twice = (p[1].u - p[0].u) * (p[2].w - p[0].w) - (p[1].w - p[0].w) * (p[2].u - p[0].u);
+        turn = twice < 0.0F ? -1.0F : 1.0F;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace broadside::core::box_detail

@@ -1,0 +1,119 @@
+// The manifold of two boxes, once the direction in which they are farthest apart is known.
+//
+// The same points, with the same keys but for corners of the reference's face, as polytope_manifold.hpp makes of two
+// polytopes, by shorter ways (box_area.hpp, box_nearest.hpp).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/kept_loop.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/box_area.hpp"
+#include "core/method/rigid/box_nearest.hpp"
+#include "core/method/rigid/contact_points.hpp"
+#include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/manifold.hpp"
+#include "core/method/rigid/nearest_features.hpp"
+#include "core/method/rigid/polytopes.hpp"
+#include "core/method/rigid/separating_axis.hpp"
+
+namespace broadside::core {
+
+namespace box_detail {
+
+// Points in the order of their keys: the same while the same four are kept.
+BROADSIDE_HD void add_in_order(Manifold& out, const ManifoldPoint& p) {
+  int place = out.count;
+  for (; place > 0 && p.feature < out.points[place - 1].feature; --place) out.points[place] = out.points[place - 1];
+  out.points[place] = p;
+  ++out.count;
+}
+
+}  // namespace box_detail
+
+// Points whose gap is at most reach_m; the least gap is the distance.
+BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b, const SeparatingAxis& axis,
+                                      float rounding_m, float reach_m, Manifold& out) {
+  using namespace box_detail;
+  out.count = 0;
+  if (axis.kind == AxisKind::kNone || !(axis.gap_m <= reach_m)) return;
+  out.normal = axis.normal;
+  // Of two edges the face of A is the reference: none of a box's faces that looks along a direction most is steep.
+  const bool reference_is_a = axis.kind != AxisKind::kFaceOfB;
+  const BoxPolytope& reference = reference_is_a ? a : b;
+  const BoxPolytope& incident = reference_is_a ? b : a;
+  const Vec3 outward = reference_is_a ? -axis.normal : axis.normal;
+  int face = axis.kind == AxisKind::kFaceOfA ? axis.of_a : axis.of_b;
+  if (axis.kind == AxisKind::kEdges) face = reference.support_face(outward);
+  const FlatView view = flat_view(reference, face, incident, incident.support_face(-outward), outward);
+  const Vec3 plane = reference.face_normal(face);
+  FlatArea area;
+  FlatPoint deepest;
+  common_area_of(view, plane, rounding_m, area, deepest);
+  float least = 3.402823e38F;
+  BROADSIDE_KEPT_LOOP
+  for (int k = 0; k < area.count; ++k) least = fminf(least, area.points[k].gap_m);
+
+  // A point that is as deep as the axis says: then its gap is the distance.
+  ManifoldPoint witness;
+  bool has_witness = false;
+  bool is_shown = least <= axis.gap_m + 2.0F * rounding_m;
+  if (axis.kind == AxisKind::kEdges) {
+    int a0 = 0;
+    int a1 = 0;
+    int b0 = 0;
+    int b1 = 0;
+    a.edge(axis.of_a, a0, a1);
+    b.edge(axis.of_b, b0, b1);
+    const EdgeCrossing crossing = edge_crossing(a.corner(a0), a.corner(a1), b.corner(b0), b.corner(b1));
+    // Overlapping edges cross but for rounding.
+    has_witness = crossing.is_inside || axis.gap_m <= 0.0F;
+    witness = {middle_of(crossing.on_a, crossing.on_b, axis.normal, axis.gap_m, false), axis.gap_m,
+               feature_key(edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
+                           edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)))};
+  } else if (!is_shown && axis.gap_m <= 0.0F) {
+    // Overlapping, the deepest corner is over the face but for rounding.
+    has_witness = true;
+    witness = {(view.reference.middle + deepest.u * view.reference.u) +
+                   (deepest.w * view.reference.w + (0.5F * deepest.gap_m) * outward),
+               axis.gap_m, key_of(view, reference, incident, deepest.made_by, reference_is_a)};
+  }
+  is_shown |= has_witness;
+  if (!is_shown) {
+    const NearestOfBoxes near = nearest_of_boxes(a, b, rounding_m);
+    has_witness = true;
+    witness.gap_m = axis.gap_m;
+    witness.feature = feature_key(near.name_a, near.name_b);
+    // A touch whose direction would be rounding alone: the axis stays.
+    if (near.gap_m > axis.gap_m) {
+      out.normal = near.normal;
+      witness.gap_m = near.distance_m;
+      area.count = 0;
+      least = 3.402823e38F;
+    }
+    witness.point = middle_of(near.on_a, near.on_b, out.normal, witness.gap_m, false);
+  }
+  if (has_witness && area.count < kRoom && !(least <= witness.gap_m + rounding_m)) {
+    FlatPoint shown = flat(view, plane, witness.point - view.reference.middle);
+    shown.gap_m = witness.gap_m;
+    shown.made_by = kShown;
+    area.points[area.count++] = shown;
+  }
+  int picked[4];
+  const int count = pick_four(area, view.out_u, view.out_w, reach_m, picked);
+  BROADSIDE_KEPT_LOOP
+  for (int k = 0; k < count; ++k) {
+    const FlatPoint p = area.points[picked[k]];
+    if (p.made_by == kShown) {
+      add_in_order(out, witness);
+      continue;
+    }
+    const Vec3 on_face = view.reference.middle + (p.u * view.reference.u + p.w * view.reference.w);
+    add_in_order(out, {on_face + (0.5F * p.gap_m) * outward, p.gap_m,
+                       key_of(view, reference, incident, p.made_by, reference_is_a)});
+  }
+}
+
+}  // namespace broadside::core
