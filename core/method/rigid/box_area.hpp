@@ -63,7 +63,7 @@ inline constexpr std::uint32_t kSideLine = 4;
 inline constexpr std::uint32_t kCut = 8;
 inline constexpr std::uint32_t kShown = 0xFF;
 
-// Names of the reference's corners, which are none of the incident face's.
+// Marks names of the reference's corners, which are none of the incident face's.
 inline constexpr std::uint32_t kReferenceCorner = 0x20000000U;
 
 struct FlatArea {
@@ -183,6 +183,17 @@ BROADSIDE_HD std::uint32_t name_of_side(const BoxPolytope& box, int face, std::u
                    static_cast<std::uint32_t>(box.face_corner(face, at == 3 ? 0 : at + 1)));
 }
 
+// Whether an edge of one box has the name of an edge of the other one's face: both count their corners alike.
+BROADSIDE_HD bool has_side_named_as(int face, const BoxPolytope& other, int face_of_other, std::uint32_t k) {
+  const int at = static_cast<int>(k);
+  const int from = other.face_corner(face_of_other, at);
+  const int to = other.face_corner(face_of_other, at == 3 ? 0 : at + 1);
+  const int side = face & 1;
+  return ((from >> (face / 2)) & 1) == side && ((to >> (face / 2)) & 1) == side;
+}
+
+// As face_clipping.hpp names points, but for corners of the reference that would have the name of a cut: two points of
+// one name are one, and the patch would stand on three.
 BROADSIDE_HD std::uint32_t key_of(const FlatView& v, const BoxPolytope& reference, const BoxPolytope& incident,
                                   std::uint32_t made_by, bool reference_is_a) {
   const std::uint32_t point = made_by & 0xFFU;
@@ -192,11 +203,14 @@ BROADSIDE_HD std::uint32_t key_of(const FlatView& v, const BoxPolytope& referenc
   } else {
     const std::uint32_t line = (point - kCut) / 4;
     const std::uint32_t side = (point - kCut) % 4;
-    if (line < kSideLine)
-      name =
-          feature_key(name_of_side(incident, v.incident.face, line), name_of_side(reference, v.reference.face, side));
-    else  // two sides of the reference meet in the corner that the later one begins at
-      name = kReferenceCorner | (side == (line - kSideLine + 1) % 4 ? side : line - kSideLine);
+    const bool is_corner = line >= kSideLine;
+    const std::uint32_t earlier = line - kSideLine;
+    if (is_corner && has_side_named_as(v.incident.face, reference, v.reference.face, earlier))
+      name = kReferenceCorner | (4 * earlier + side);
+    else
+      name = feature_key(is_corner ? name_of_side(reference, v.reference.face, earlier)
+                                   : name_of_side(incident, v.incident.face, line),
+                         name_of_side(reference, v.reference.face, side));
   }
   const std::uint32_t plane = face_name(static_cast<std::uint32_t>(v.reference.face));
   return reference_is_a ? feature_key(plane, name) : feature_key(name, plane);

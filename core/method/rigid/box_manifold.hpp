@@ -1,7 +1,7 @@
 // The manifold of two boxes, once the direction in which they are farthest apart is known.
 //
-// The same points, with the same keys but for corners of the reference's face, as polytope_manifold.hpp makes of two
-// polytopes, by shorter ways (box_area.hpp, box_nearest.hpp).
+// The same points with the same keys as polytope_manifold.hpp makes of two polytopes, by shorter ways (box_area.hpp,
+// box_nearest.hpp). Keys are part of it: they order the points of a patch, and a response solves them in that order.
 #pragma once
 
 #include <cmath>
