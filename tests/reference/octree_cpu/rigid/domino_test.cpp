@@ -1,6 +1,7 @@
 // A row of dominoes, of which the first is tipped over.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -36,11 +37,44 @@ TEST(Dominoes, AllLieOnceTheFirstIsTipped) {
   for (const core::Vec3 v : frames.back().velocity) EXPECT_LT(core::length(v), 0.01F);
 }
 
-// Not by a push through the center, which each hands on to the next one.
-TEST(Dominoes, StandWhereTheFirstIsPushedThroughItsCenter) {
-  const auto frames = row_of_dominoes("domino:domino:20[rigid=1]", 120);
-  for (std::size_t k = 0; k + 1 < frames.back().orientation.size(); ++k)
-    EXPECT_GT(upright(frames.back().orientation[k]), 0.9F) << k;
+// A domino of height h and thickness b tips once its center, h / 2 high, has been lifted over its edge, to half of the
+// diagonal: that takes g (sqrt(h^2 + b^2) - h) / 2 for each kilogram, 0.097 J of one of 1 m by 0.2 m. A first one that
+// is pushed at 0.4 m/s has 0.08 J, and no contact brings any. So none ever leans as far as it balances, and where
+// friction has taken that energy all stand.
+TEST(Dominoes, StandWhereTheFirstHasTooLittleEnergyToTipOne) {
+  constexpr double kHeightM = 1.0;
+  constexpr double kThicknessM = 0.2;
+  constexpr double kSpeedMS = 0.4;
+  const double diagonal_m = std::sqrt(kHeightM * kHeightM + kThicknessM * kThicknessM);
+  ASSERT_LT(0.5 * kSpeedMS * kSpeedMS, 9.81 * 0.5 * (diagonal_m - kHeightM));
+  for (const char* restitution : {"1", "0.5", "0"})
+    for (const char* gap : {"0.01", "0.005", "0.002"}) {
+      const auto frames = row_of_dominoes(
+          std::string("domino:domino:20[rigid=1,speed_m_s=0.4,gap=") + gap + ",restitution=" + restitution + "]", 120);
+      float fastest_m_s = 0.0F;
+      for (const core::FrameRecord& frame : frames) {
+        fastest_m_s = std::max(fastest_m_s, frame.velocity[1].x);
+        for (const core::Quat q : frame.orientation)
+          ASSERT_GT(upright(q), kHeightM / diagonal_m) << gap << " " << restitution;
+      }
+      EXPECT_GT(fastest_m_s, 0.05F) << "the first one strikes";
+      for (const core::Quat q : frames.back().orientation) EXPECT_GT(upright(q), 0.9999F) << gap << " " << restitution;
+    }
+}
+
+// At 5 m/s the first one has 129 times that energy, and how many lean on the next one in the end is no known outcome:
+// with speeds that differ by 1 % all stand, or a row of them leans by 42 degrees, in steps of 1/60 s as in those of
+// 1 ms. In steps of 1 ms they lean with plain-rigid in float64, with ODE and with MuJoCo, too. Whatever they do, none
+// passes the next one, whose thickness parts their centers where both stand, and more where they lean.
+TEST(Dominoes, KeepTheirOrderWhereTheFirstIsPushedThroughItsCenter) {
+  for (const char* speed : {"4.95", "4.98", "5", "5.02", "5.05"}) {
+    const auto frames = row_of_dominoes(std::string("domino:domino:20[rigid=1,speed_m_s=") + speed + "]", 120);
+    const std::size_t count = frames.front().position.size();
+    for (const core::FrameRecord& frame : frames)
+      for (std::size_t k = 0; k + 1 < count; ++k)
+        ASSERT_GT(frame.position[k + 1].x - frame.position[k].x, 0.19F) << speed << " " << k;
+    EXPECT_GT(frames.back().position[1].x - frames.front().position[1].x, 0.01F) << "the first one strikes";
+  }
 }
 
 }  // namespace
