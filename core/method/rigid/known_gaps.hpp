@@ -12,7 +12,7 @@
 namespace broadside::core {
 
 struct KnownGaps {
-  HullGap start;  // exact_hull_gap
+  NearestOfHulls start;  // exact_hull_gap
   // hull_bounds for passing_by.hpp: where A is, then B
   HullBounds end_end;
   HullBounds end_start;
