@@ -107,13 +107,12 @@ struct PlacedEdge {
   Vec3 right;
 };
 
-// False: the edge is not in the layer.
 template <typename Polytope>
-BROADSIDE_HD bool place(const Polytope& p, const Layer& layer, int k, PlacedEdge& out) {
+BROADSIDE_HD PlacedEdge place(const Polytope& p, int k) {
+  PlacedEdge out;
   int from = 0;
   int to = 0;
   p.edge(k, from, to);
-  if (!reaches_into(p, layer, from, to)) return false;
   out.index = k;
   out.start = p.corner(from);
   out.along = p.corner(to) - out.start;
@@ -125,7 +124,7 @@ BROADSIDE_HD bool place(const Polytope& p, const Layer& layer, int k, PlacedEdge
     out.left = p.face_normal(left);
     out.right = p.face_normal(right);
   }
-  return true;
+  return out;
 }
 
 // The unit direction from B to A across two edges that make a face of the difference of both bodies. False: they make
@@ -186,14 +185,14 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
   }
   // Edges of B a handful at a time, so that each of A is visited once for many.
   using axes_detail::PlacedEdge;
-  typename LanesOf<PolytopeA, PolytopeB>::template Handful<PlacedEdge> of_b;
+  using Lanes = LanesOf<PolytopeA, PolytopeB>;
+  typename Lanes::template Handful<PlacedEdge> of_b;
   for (int j = 0; j < b.edge_count();) {
-    j = of_b.fill(j, b.edge_count(), [&](int k, PlacedEdge& out) { return axes_detail::place(b, near_b, k, out); });
+    j = of_b.fill_with(
+        j, b.edge_count(), [&](int k) { return axes_detail::is_in(b, near_b, k); },
+        [&](int k) { return axes_detail::place(b, k); });
     if (of_b.count == 0) continue;
-    const auto is_near = [&](int i) { return axes_detail::is_in(a, near_a, i); };
-    PolytopeA::Lanes::each_with(a.edge_count(), is_near, [&](int i) {
-      PlacedEdge edge_a;
-      (void)axes_detail::place(a, near_a, i, edge_a);
+    const auto meet_edge = [&](const PlacedEdge& edge_a) {
       Vec3 n;
       const auto makes_axis = [&](const PlacedEdge& edge_b) {
         const Vec3 between = (edge_a.start + 0.5F * edge_a.along) - (edge_b.start + 0.5F * edge_b.along);
@@ -208,13 +207,16 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
         (void)axes_detail::across(edge_a, a.face_count() > 0, edge_b, b.face_count() > 0, n);
         if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet) {
           const float back = gap_along(a, b, -n);
-          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, i, edge_b.index};
+          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, edge_a.index, edge_b.index};
         }
         if (!(dot(n, edge_a.start - edge_b.start) > edges.gap_m)) return;
         const float gap = gap_along(a, b, n);
-        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, edge_b.index};
+        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, edge_a.index, edge_b.index};
       });
-    });
+    };
+    Lanes::template each_made<PlacedEdge>(
+        a.edge_count(), [&](int k) { return axes_detail::is_in(a, near_a, k); },
+        [&](int k) { return axes_detail::place(a, k); }, meet_edge);
   }
   return edges.gap_m > best.gap_m + rounding_m ? edges : best;
 }
