@@ -63,7 +63,7 @@ struct SolveCounts {
 // Counts of one frame; all are what was demanded. The last kernel of a frame leaves zeros.
 struct RigidCounts {
   unsigned long long confirmed = 0;
-  unsigned long long near = 0;  // confirmed pairs that are not seen to pass by each other, where no shape is long
+  unsigned long long near = 0;  // confirmed pairs that are not seen to pass by each other
   unsigned long long patches = 0;
   unsigned long long listed = 0;  // places given out in the lists of bodies
   unsigned long long places = 0;  // of constraints: patches, and the gaps between colors

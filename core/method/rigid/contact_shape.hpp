@@ -93,7 +93,7 @@ struct ContactPose {
   Quat q;
 };
 
-struct HullGap;
+struct NearestOfHulls;
 
 // A shape in axes of the world, measured from the center of mass of body A. Positions are subtracted before anything
 // else, so bodies a kilometer from the origin have the contacts of bodies at the origin.
@@ -101,7 +101,8 @@ struct PlacedShape {
   const ContactShape* shape = nullptr;
   Vec3 center;
   TurnedAxes axes;
-  const HullGap* known_gap = nullptr;  // to the other one, where both are hulls and somebody has it: known_gaps.hpp
+  const NearestOfHulls* known_gap =
+      nullptr;  // to the other one, where both are hulls and somebody has it: known_gaps.hpp
 };
 
 BROADSIDE_HD PlacedShape placed_shape(const ContactShape& shape, const ContactPose& pose, Vec3 origin) {

@@ -25,23 +25,59 @@ struct HullGap {
   float overlap_m = -3.402823e38F;  // a ball of this radius fits around the origin in the difference: depth is no less
 };
 
+// The nearest points of two hulls are sums of corners with these weights, the same for both; count 0: they were not
+// found.
+struct NearestCorners {
+  int count = 0;
+  float weights[3] = {};
+  std::uint32_t of_a[3] = {};
+  std::uint32_t of_b[3] = {};
+};
+
+struct NearestOfHulls {
+  HullGap gap;
+  NearestCorners corners;
+};
+
 struct PlacedHull {
   HullView hull;
   Vec3 center;
   TurnedAxes axes;
 };
 
+namespace gap_detail {
+
+// The unit direction of x, the simplex's point nearest to the origin, which is across all of the simplex: what the sum
+// of its corners loses to rounding tilts it, the more the nearer it is.
+BROADSIDE_HD Vec3 across(const Simplex& simplex, Vec3 x, float length_of_x) {
+  const Vec3 n = (1.0F / length_of_x) * x;
+  if (simplex.count < 2) return n;
+  const Vec3 u = simplex.corners[1] - simplex.corners[0];
+  Vec3 exact = n - (dot(n, u) / dot(u, u)) * u;
+  if (simplex.count > 2) {
+    exact = cross(u, simplex.corners[2] - simplex.corners[0]);
+    if (dot(exact, n) < 0.0F) exact = -exact;
+  }
+  const float size = length(exact);
+  exact = (1.0F / size) * exact;
+  // Corners of a sliver, or of a point, say nothing.
+  return dot(exact, n) > 0.99F ? exact : n;
+}
+
+}  // namespace gap_detail
+
 // Stops where they are apart by more than stop_m, or both numbers are within `thin` of the larger one or slack_m of
 // each other. Both are hulls that have ways.
-BROADSIDE_HD_CALLED HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, float stop_m, float thin,
-                                     float slack_m) {
+BROADSIDE_HD_CALLED NearestOfHulls nearest_of_hulls(const PlacedHull& a, const PlacedHull& b, float stop_m, float thin,
+                                                    float slack_m) {
   constexpr int kMostSteps = 32;
   const HullView& hull_a = a.hull;
   const HullView& hull_b = b.hull;
   // Of B in A's axes.
   const Vec3 between = turned_back(a.axes, b.center - a.center);
   const TurnedAxes turn{turned_back(a.axes, b.axes.x), turned_back(a.axes, b.axes.y), turned_back(a.axes, b.axes.z)};
-  HullGap out;
+  NearestOfHulls nearest;
+  HullGap& out = nearest.gap;
   Vec3 n = -between;
   float distance = length(n);
   if (!(distance > 0.0F)) n = {1.0F, 0.0F, 0.0F};
@@ -64,6 +100,8 @@ BROADSIDE_HD_CALLED HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, f
     bool is_known = false;
     for (int k = 0; k < simplex.count; ++k) is_known |= simplex.corners[k] == corner;
     if (is_known) break;
+    simplex.of_a[simplex.count] = of_a;
+    simplex.of_b[simplex.count] = of_b;
     simplex.corners[simplex.count++] = corner;
     float inside_m = 0.0F;
     const Vec3 x = keep_nearest(simplex, inside_m);
@@ -73,19 +111,33 @@ BROADSIDE_HD_CALLED HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, f
       break;
     }
     const float nearer = length(x);
-    if (!(nearer < distance)) break;
+    if (!(nearer < distance)) {
+      simplex.count = 0;
+      break;
+    }
     distance = nearer;
     out.most_m = nearer;
     if (!(nearer > slack_m)) break;
-    n = (1.0F / nearer) * x;
+    n = gap_detail::across(simplex, x, nearer);
   }
   out.normal = turned(a.axes, best);
-  return out;
+  NearestCorners& corners = nearest.corners;
+  if (simplex.count < 4) corners.count = simplex.count;
+  for (int k = 0; k < corners.count; ++k) {
+    corners.weights[k] = simplex.weights[k];
+    corners.of_a[k] = simplex.of_a[k];
+    corners.of_b[k] = simplex.of_b[k];
+  }
+  return nearest;
+}
+
+BROADSIDE_HD HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, float stop_m, float thin, float slack_m) {
+  return nearest_of_hulls(a, b, stop_m, thin, slack_m).gap;
 }
 
 // As close as rounding allows.
-BROADSIDE_HD HullGap exact_hull_gap(const PlacedHull& a, const PlacedHull& b, float rounding_m) {
-  return hull_gap(a, b, 3.402823e38F, 0.0F, rounding_m);
+BROADSIDE_HD NearestOfHulls exact_hull_gap(const PlacedHull& a, const PlacedHull& b, float rounding_m) {
+  return nearest_of_hulls(a, b, 3.402823e38F, 0.0F, rounding_m);
 }
 
 }  // namespace broadside::core

@@ -1,6 +1,6 @@
-// Bounds of the distance of two hulls at all poses of a step at which their patches ask for them. Whoever makes patches
-// of many pairs, a warp a pair, has them worked out before, a lane a pair: a distance is a search that lanes cannot
-// share.
+// Bounds of the distance of two hulls at the poses of a step at which patches of most pairs ask for them. Whoever makes
+// patches of many pairs, a warp a pair, has them worked out before, a lane a pair: a distance is a search that lanes
+// cannot share.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -12,12 +12,8 @@
 namespace broadside::core {
 
 struct KnownGaps {
-  HullGap start;  // exact_hull_gap
-  // hull_bounds for passing_by.hpp: where A is, then B
-  HullBounds end_end;
-  HullBounds end_start;
-  HullBounds start_end;
-  HullBounds deep_end;  // for end_patches.hpp: both where they end
+  NearestOfHulls start;  // exact_hull_gap
+  HullBounds deep_end;   // hull_bounds for end_patches.hpp: both where they end
 };
 
 // What ends less deep than this is left to the patches of the start.
@@ -28,15 +24,12 @@ BROADSIDE_HD float unseen_m(const ContactShape& a, const ContactShape& b) {
 
 // Of hulls that have quick answers.
 BROADSIDE_HD KnownGaps known_gaps(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
-                                  const ContactPath& b, float reach_m) {
+                                  const ContactPath& b) {
   const PlacedShape start_a = placed_shape(shape_a, a.start, a.start.x);
   const PlacedShape start_b = placed_shape(shape_b, b.start, a.start.x);
   KnownGaps gaps;
   gaps.start = exact_hull_gap({shape_a.hull, start_a.center, start_a.axes},
                               {shape_b.hull, start_b.center, start_b.axes}, contact_rounding_m(start_a, start_b));
-  gaps.end_end = hull_bounds(shape_a, a.end, shape_b, b.end, seen_reach_m(reach_m));
-  gaps.end_start = hull_bounds(shape_a, a.end, shape_b, b.start, seen_reach_m(reach_m));
-  gaps.start_end = hull_bounds(shape_a, a.start, shape_b, b.end, seen_reach_m(reach_m));
   gaps.deep_end = hull_bounds(shape_a, a.end, shape_b, b.end, -unseen_m(shape_a, shape_b));
   return gaps;
 }

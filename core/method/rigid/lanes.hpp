@@ -88,7 +88,13 @@ struct OneLane {
       if (has(k)) visit(k);
   }
 
-  // The same where a visit may change which have it.
+  // visit(make(k)) for those that have it: lanes make the items.
+  template <typename Item, typename Has, typename Make, typename Visit>
+  BROADSIDE_HD static void each_made(int count, const Has& has, const Make& make, const Visit& visit) {
+    each_with(count, has, [&](int k) { visit(make(k)); });
+  }
+
+  // visit(k) where a visit may change which have it.
   template <typename Has, typename Visit>
   BROADSIDE_HD static void each_in_turn(int count, const Has& has, const Visit& visit) {
     each_with(count, has, visit);
@@ -129,6 +135,14 @@ struct OneLane {
       count = 0;
       for (; from < end && count < kMost; ++from)
         if (make(from, items[count])) ++count;
+      return from;
+    }
+    // The same by make(k) of those that have it.
+    template <typename Has, typename Make>
+    BROADSIDE_HD int fill_with(int from, int end, const Has& has, const Make& make) {
+      count = 0;
+      for (; from < end && count < kMost; ++from)
+        if (has(from)) items[count++] = make(from);
       return from;
     }
     // visit(item) for those that have it, where a visit may change which.

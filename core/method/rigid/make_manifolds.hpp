@@ -12,6 +12,7 @@
 #include "core/method/rigid/contact_points.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cylinder_manifold.hpp"
+#include "core/method/rigid/hull_manifold.hpp"
 #include "core/method/rigid/lanes.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/mesh_manifold.hpp"
@@ -45,10 +46,7 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
       return out[0].count > 0 ? 1 : 0;
     }
     if (a.shape->kind == ContactKind::kHull && kind == ContactKind::kHull) {
-      const auto hull = hull_polytope<Lanes>(a);
-      const auto other = hull_polytope<Lanes>(b);
-      const SeparatingAxis axis = separating_axis(hull, other, rounding_m, reach_m);
-      polytope_manifold(hull, other, axis, 0.0F, 0.0F, rounding_m, reach_m, out[0]);
+      hull_manifold(hull_polytope<Lanes>(a), hull_polytope<Lanes>(b), rounding_m, reach_m, out[0]);
       return out[0].count > 0 ? 1 : 0;
     }
   }
@@ -78,7 +76,7 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
                                        const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,
-                                       Manifold* out, const HullGap* known_gap = nullptr) {
+                                       Manifold* out, const NearestOfHulls* known_gap = nullptr) {
   PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
   a.known_gap = known_gap;
   const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);

@@ -35,6 +35,14 @@ inline constexpr bool kIsHull = false;
 template <typename Lanes>
 inline constexpr bool kIsHull<HullPolytopeOf<Lanes>> = true;
 
+// Of hulls that have ways.
+template <typename LanesA, typename LanesB>
+BROADSIDE_HD NearestOfHulls nearest_of(const HullPolytopeOf<LanesA>& a, const HullPolytopeOf<LanesB>& b,
+                                       float rounding_m) {
+  if (a.known_gap != nullptr) return *a.known_gap;
+  return exact_hull_gap({a.hull, a.center, a.axes}, {b.hull, b.center, b.axes}, rounding_m);
+}
+
 // Of bodies that are parted by parted_m > 0 along the unit direction.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m,
@@ -43,9 +51,7 @@ BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b,
   constexpr int kMostSteps = 24;
   constexpr float kThin = 0x1p-7F;
   if constexpr (kIsHull<PolytopeA> && kIsHull<PolytopeB>) {
-    const HullGap gap = a.known_gap != nullptr
-                            ? *a.known_gap
-                            : exact_hull_gap({a.hull, a.center, a.axes}, {b.hull, b.center, b.axes}, rounding_m);
+    const HullGap gap = nearest_of(a, b, rounding_m).gap;
     if (gap.least_m > parted_m) return {gap.normal, gap.least_m, gap.most_m};
     return {parting, parted_m, gap.most_m};
   }

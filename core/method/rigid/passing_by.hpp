@@ -4,7 +4,6 @@
 
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
-#include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
@@ -27,15 +26,14 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
 }
 
 // Whether these two, apart at the start, are apart at these poses too and on the same side: what went through the other
-// body, or is too far away to tell, is not. known: of hulls at these poses, or nothing.
+// body, or is too far away to tell, is not.
 template <typename Lanes>
 BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
-                                 const ContactShape& shape_b, const ContactPose& b, float reach_m,
-                                 const HullBounds* known) {
+                                 const ContactShape& shape_b, const ContactPose& b, float reach_m) {
   if constexpr (Lanes::kKnowsLongShapes)
-    if (known != nullptr || has_quick_answers(shape_a, shape_b)) {
-      const HullBounds bounds = known != nullptr ? *known : hull_bounds(shape_a, a, shape_b, b, reach_m);
-      const QuickAnswer quick = quickly_still_apart(start.normal, bounds, reach_m);
+    if (has_quick_answers(shape_a, shape_b)) {
+      const QuickAnswer quick =
+          quickly_still_apart(start.normal, hull_bounds(shape_a, a, shape_b, b, reach_m), reach_m);
       if (quick != QuickAnswer::kUnknown) return quick == QuickAnswer::kYes;
     }
   Manifold end[kPatchesOfPair];
@@ -46,21 +44,17 @@ BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shap
 }
 
 // Whether a patch leads to no contact in this step: neither if both bodies move freely, nor if something holds one of
-// them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests. known: of
-// these hulls, or nothing.
+// them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
-                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m,
-                            const KnownGaps* known = nullptr) {
+                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
   if (!(least_gap_m(start) > near_m)) return false;
   if (are_boxes(shape_a, shape_b) && parts_ends(start.normal, shape_a, a, shape_b, b)) return true;
   const float seen_m = seen_reach_m(reach_m);
-  const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b, const HullBounds* bounds) {
-    return is_still_apart<Lanes>(start, shape_a, at_a, shape_b, at_b, seen_m, bounds);
+  const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b) {
+    return is_still_apart<Lanes>(start, shape_a, at_a, shape_b, at_b, seen_m);
   };
-  return are_apart(a.end, b.end, known != nullptr ? &known->end_end : nullptr) &&
-         are_apart(a.end, b.start, known != nullptr ? &known->end_start : nullptr) &&
-         are_apart(a.start, b.end, known != nullptr ? &known->start_end : nullptr);
+  return are_apart(a.end, b.end) && are_apart(a.end, b.start) && are_apart(a.start, b.end);
 }
 
 }  // namespace broadside::core

@@ -98,6 +98,34 @@ BROADSIDE_HD int edges_in(const Polytope& p, const Layer& layer) {
   return Polytope::Lanes::count_of(p.edge_count(), [&](int k) { return is_in(p, layer, k); });
 }
 
+// How far a body reaches in all directions from where its mesh's origin is; 0 where that is not inside.
+template <typename Hull>
+BROADSIDE_HD float inner_radius_m(const Hull& p) {
+  const float least = Hull::Lanes::first_least(p.face_count(), [&](int k) { return p.hull.faces[k].offset_m; }).value;
+  return least > 0.0F ? least : 0.0F;
+}
+
+// How far above a body's lowest corner along the axis of the best face, which overlaps, edges may lie that make a wider
+// axis of at least -farthest_m and at most apart_m. Their points are on it, A's lower by the overlap. So of an axis
+// within a right angle of that of the face A's point is no higher than B's highest. Others are narrower than the balls
+// in both bodies overlap along them, unless both are flat.
+template <typename HullA, typename HullB>
+BROADSIDE_HD float layer_of_overlap_m(const HullA& a, const HullB& b, const SeparatingAxis& best, float farthest_m,
+                                      float apart_m) {
+  const Vec3 between = a.center - b.center;
+  const float distance = length(between);
+  float back = 1.0F;  // the largest cosine against the axis of the face
+  const float least = inner_radius_m(a) + inner_radius_m(b) - farthest_m;
+  const float height = dot(best.normal, between);
+  if (least > 0.0F && height > 0.0F && distance > 0.0F) {
+    const float cosine = fminf(least / distance, 1.0F);
+    const float of_face = fminf(height / distance, 1.0F);
+    back = sqrtf((1.0F - cosine * cosine) * (1.0F - of_face * of_face)) - cosine * of_face;
+    back = fminf(fmaxf(back + 0x1p-10F, 0.0F), 1.0F);
+  }
+  return fmaxf(apart_m, back * farthest_m) - best.gap_m;
+}
+
 struct PlacedEdge {
   int index = 0;
   Vec3 start;
@@ -107,13 +135,12 @@ struct PlacedEdge {
   Vec3 right;
 };
 
-// False: the edge is not in the layer.
 template <typename Polytope>
-BROADSIDE_HD bool place(const Polytope& p, const Layer& layer, int k, PlacedEdge& out) {
+BROADSIDE_HD PlacedEdge place(const Polytope& p, int k) {
+  PlacedEdge out;
   int from = 0;
   int to = 0;
   p.edge(k, from, to);
-  if (!reaches_into(p, layer, from, to)) return false;
   out.index = k;
   out.start = p.corner(from);
   out.along = p.corner(to) - out.start;
@@ -125,7 +152,7 @@ BROADSIDE_HD bool place(const Polytope& p, const Layer& layer, int k, PlacedEdge
     out.left = p.face_normal(left);
     out.right = p.face_normal(right);
   }
-  return true;
+  return out;
 }
 
 // The unit direction from B to A across two edges that make a face of the difference of both bodies. False: they make
@@ -166,15 +193,16 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
       // No axis is wider than the bodies are apart.
       if (!(bound.farthest_m > best.gap_m + 4.0F * rounding_m)) return best;
     }
+    farthest = bound.farthest_m + rounding_m;
+    float thickness = farthest - bound.parted_m;
     if constexpr (kIsHull<PolytopeA> && kIsHull<PolytopeB>) {
       // No axis parts them, so of those that matter the edges are no farther apart than the bodies are deep.
       if (has_many_edges(a, b) && !(best.gap_m > 0.0F)) {
-        const float apart_m = near_bound(a, b, best.normal, best.gap_m, rounding_m).farthest_m;
-        bound.farthest_m = fminf(bound.farthest_m, fmaxf(apart_m + 4.0F * rounding_m, -best.gap_m));
+        const float apart_m = near_bound(a, b, best.normal, best.gap_m, rounding_m).farthest_m + 4.0F * rounding_m;
+        farthest = fminf(bound.farthest_m, fmaxf(apart_m, -best.gap_m)) + rounding_m;
+        thickness = axes_detail::layer_of_overlap_m(a, b, best, farthest, apart_m + rounding_m);
       }
     }
-    farthest = bound.farthest_m + rounding_m;
-    float thickness = farthest - bound.parted_m;
     for (int halvings = 0; halvings < axes_detail::kMostHalvings; ++halvings) {
       near_a = layer_of(a, bound.parting, thickness);
       near_b = layer_of(b, -bound.parting, thickness);
@@ -186,14 +214,14 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
   }
   // Edges of B a handful at a time, so that each of A is visited once for many.
   using axes_detail::PlacedEdge;
-  typename LanesOf<PolytopeA, PolytopeB>::template Handful<PlacedEdge> of_b;
+  using Lanes = LanesOf<PolytopeA, PolytopeB>;
+  typename Lanes::template Handful<PlacedEdge> of_b;
   for (int j = 0; j < b.edge_count();) {
-    j = of_b.fill(j, b.edge_count(), [&](int k, PlacedEdge& out) { return axes_detail::place(b, near_b, k, out); });
+    j = of_b.fill_with(
+        j, b.edge_count(), [&](int k) { return axes_detail::is_in(b, near_b, k); },
+        [&](int k) { return axes_detail::place(b, k); });
     if (of_b.count == 0) continue;
-    const auto is_near = [&](int i) { return axes_detail::is_in(a, near_a, i); };
-    PolytopeA::Lanes::each_with(a.edge_count(), is_near, [&](int i) {
-      PlacedEdge edge_a;
-      (void)axes_detail::place(a, near_a, i, edge_a);
+    const auto meet_edge = [&](const PlacedEdge& edge_a) {
       Vec3 n;
       const auto makes_axis = [&](const PlacedEdge& edge_b) {
         const Vec3 between = (edge_a.start + 0.5F * edge_a.along) - (edge_b.start + 0.5F * edge_b.along);
@@ -208,13 +236,16 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
         (void)axes_detail::across(edge_a, a.face_count() > 0, edge_b, b.face_count() > 0, n);
         if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet) {
           const float back = gap_along(a, b, -n);
-          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, i, edge_b.index};
+          if (back > edges.gap_m) edges = {back, -n, AxisKind::kEdges, edge_a.index, edge_b.index};
         }
         if (!(dot(n, edge_a.start - edge_b.start) > edges.gap_m)) return;
         const float gap = gap_along(a, b, n);
-        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, i, edge_b.index};
+        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, edge_a.index, edge_b.index};
       });
-    });
+    };
+    Lanes::template each_made<PlacedEdge>(
+        a.edge_count(), [&](int k) { return axes_detail::is_in(a, near_a, k); },
+        [&](int k) { return axes_detail::place(a, k); }, meet_edge);
   }
   return edges.gap_m > best.gap_m + rounding_m ? edges : best;
 }

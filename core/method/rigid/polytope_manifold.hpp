@@ -31,14 +31,25 @@ BROADSIDE_HD float least_gap(const CommonArea<kRoom>& area) {
   return least;
 }
 
+// Of each body the face that looks along the axis most.
+struct FacingFaces {
+  int of_a = 0;
+  int of_b = 0;
+};
+
+template <typename PolytopeA, typename PolytopeB>
+BROADSIDE_HD FacingFaces facing_faces(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis) {
+  if (axis.has_faces) return {axis.of_a, axis.of_b};
+  return {axis.kind == AxisKind::kFaceOfA ? axis.of_a : a.support_face(-axis.normal),
+          axis.kind == AxisKind::kFaceOfB ? axis.of_b : b.support_face(axis.normal)};
+}
+
 template <typename PolytopeA, typename PolytopeB, int kRoom>
-BROADSIDE_HD_CALLED void area_of(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis, float rounding_m,
-                                 CommonArea<kRoom>& area) {
-  const int face_a = axis.kind == AxisKind::kFaceOfA ? axis.of_a : a.support_face(-axis.normal);
-  const int face_b = axis.kind == AxisKind::kFaceOfB ? axis.of_b : b.support_face(axis.normal);
+BROADSIDE_HD_CALLED void area_of(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis, FacingFaces faces,
+                                 float rounding_m, CommonArea<kRoom>& area) {
   area.count = 0;
-  if (axis.kind != AxisKind::kFaceOfB) common_area(a, face_a, b, face_b, axis.normal, true, rounding_m, area);
-  if (area.count == 0) common_area(b, face_b, a, face_a, axis.normal, false, rounding_m, area);
+  if (axis.kind != AxisKind::kFaceOfB) common_area(a, faces.of_a, b, faces.of_b, axis.normal, true, rounding_m, area);
+  if (area.count == 0) common_area(b, faces.of_b, a, faces.of_a, axis.normal, false, rounding_m, area);
 }
 
 // The corner of the other body that is deepest along the axis, where it is over (or, overlapping, but for rounding
@@ -65,20 +76,28 @@ BROADSIDE_HD bool corner_over_face(const Reference& reference, const Incident& i
 
 }  // namespace polytope_detail
 
+// Of two bodies that are apart, where somebody has them.
+struct NearestPoints {
+  Vec3 on_a;
+  Vec3 on_b;
+  std::uint32_t feature = 0;
+};
+
 // Points whose gap is at most reach_m, after the balls are counted. The distance of the deepest one is that of the
 // bodies: where two corners, or a corner and an edge, are nearest, the axis is wider than it and gives way to the
-// direction between them.
+// direction between them. nearest: their nearest points, or nothing.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis,
                                            float ball_a_m, float ball_b_m, float rounding_m, float reach_m,
-                                           Manifold& out) {
+                                           Manifold& out, const NearestPoints* nearest = nullptr) {
   const float balls_m = ball_a_m + ball_b_m;
   out.count = 0;
   if (axis.kind == AxisKind::kNone || !(axis.gap_m - balls_m <= reach_m)) return;
   out.normal = axis.normal;
   constexpr int kRoom = PolytopeA::kMostFaceCorners + PolytopeB::kMostFaceCorners + 1;
   CommonArea<kRoom> area;
-  polytope_detail::area_of(a, b, axis, rounding_m, area);
+  polytope_detail::FacingFaces faces = polytope_detail::facing_faces(a, b, axis);
+  polytope_detail::area_of(a, b, axis, faces, rounding_m, area);
   ManifoldPoint witness;
   bool has_witness = false;
   if (axis.kind == AxisKind::kEdges) {
@@ -107,7 +126,11 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
   }
   // A point as deep as the axis says: then its gap is the distance.
   const bool is_shown = has_witness || polytope_detail::least_gap(area) <= axis.gap_m + 2.0F * rounding_m;
-  if (!is_shown) {
+  if (nearest != nullptr && (!is_shown || axis.kind == AxisKind::kPoints)) {
+    has_witness = true;
+    witness = {middle_of(nearest->on_a, nearest->on_b, axis.normal, axis.gap_m, ball_a_m > ball_b_m), axis.gap_m,
+               nearest->feature};
+  } else if (!is_shown) {
     const NearestDirection near =
         nearest_direction(a, b, axis.normal, axis.gap_m, rounding_m, reach_m + balls_m + 2.0F * rounding_m);
     if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near
@@ -119,6 +142,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
       out.normal = near.normal;
       witness.gap_m = sqrtf(near.features.squared_m2);
       area.count = 0;
+      faces = {a.support_face(-out.normal), b.support_face(out.normal)};
     }
     witness.point = middle_of(near.features.on_a, near.features.on_b, out.normal, witness.gap_m, ball_a_m > ball_b_m);
   }
@@ -130,7 +154,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
   if constexpr (!PolytopeA::kIsSheet && !PolytopeB::kIsSheet) {
     if (has_many_edges(a, b)) {
       TiltedContacts more;
-      tilted_contacts(a, b, out.normal, unit_across(out.normal), rounding_m, more);
+      tilted_contacts(a, b, out.normal, unit_across(out.normal), faces.of_a, faces.of_b, rounding_m, more);
       return keep_four_by<LanesOf<PolytopeA, PolytopeB>>(
           out, area.count + more.count, reach_m, kTurnOfStep,
           [&](int k) { return at(k < area.count ? area.points[k] : more.points[k - area.count]); },

@@ -158,7 +158,7 @@ struct HullPolytopeOf {
   Vec3 center;
   TurnedAxes axes;
   HullView hull;
-  const HullGap* known_gap = nullptr;  // as in PlacedShape
+  const NearestOfHulls* known_gap = nullptr;  // as in PlacedShape
 
   BROADSIDE_HD int corner_count() const { return static_cast<int>(hull.vertex_count); }
   BROADSIDE_HD int edge_count() const { return static_cast<int>(hull.edge_count); }

@@ -87,14 +87,27 @@ BROADSIDE_HD Box pushed_box(Box box, Vec3 pushed) {
   return box;
 }
 
+// What brings two bodies together that do not move toward each other.
+struct NearReach {
+  float falls_m = 0.0F;  // of both
+  Vec3 pushed_a;
+  Vec3 pushed_b;
+};
+
 // Apart by no more than this, a patch is kept though free motion leads past it: normal points from b to a.
-BROADSIDE_HD float near_m(Vec3 normal, float fall_a_m, Vec3 pushed_a, float fall_b_m, Vec3 pushed_b) {
-  return (fall_a_m + fall_b_m) + (pushed_reach_m(pushed_a, -normal) + pushed_reach_m(pushed_b, normal));
+BROADSIDE_HD float near_m(Vec3 normal, const NearReach& near) {
+  return near.falls_m + (pushed_reach_m(near.pushed_a, -normal) + pushed_reach_m(near.pushed_b, normal));
 }
 
-// No less than near_m, whatever the normal.
-BROADSIDE_HD float near_at_most_m(float fall_a_m, Vec3 pushed_a, float fall_b_m, Vec3 pushed_b) {
-  return (1.0F + 0x1p-20F) * ((fall_a_m + fall_b_m) + (length(pushed_a) + length(pushed_b)));
+// No less than near_m of any normal that is no farther than off from this one: both are units.
+BROADSIDE_HD float near_at_most_m(Vec3 normal, float off, const NearReach& near) {
+  const float pushed_m = length(near.pushed_a) + length(near.pushed_b);
+  return (1.0F + 0x1p-20F) * (near_m(normal, near) + 0.5F * off * pushed_m);
+}
+
+// Whatever the normal.
+BROADSIDE_HD float near_at_most_m(const NearReach& near) {
+  return (1.0F + 0x1p-20F) * (near.falls_m + (length(near.pushed_a) + length(near.pushed_b)));
 }
 
 }  // namespace broadside::core

@@ -61,10 +61,10 @@ BROADSIDE_HD bool boxes_surely_pass(const ContactShape& shape_a, const ContactPa
 // Whether no patch of a pair leads to a contact in this step, told without making them.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool surely_passes(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
-                                const ContactPath& b, float reach_m, float near_m) {
-  if (are_boxes(shape_a, shape_b)) return boxes_surely_pass(shape_a, a, shape_b, b, reach_m, near_m);
+                                const ContactPath& b, float reach_m, const NearReach& near) {
+  if (are_boxes(shape_a, shape_b)) return boxes_surely_pass(shape_a, a, shape_b, b, reach_m, near_at_most_m(near));
   if constexpr (Lanes::kKnowsLongShapes)
-    return has_quick_answers(shape_a, shape_b) && surely_pass(shape_a, a, shape_b, b, reach_m, near_m);
+    return has_quick_answers(shape_a, shape_b) && surely_pass(shape_a, a, shape_b, b, reach_m, near);
   else
     return false;
 }

@@ -9,6 +9,7 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/hull_gap.hpp"
+#include "core/method/rigid/pushed_motion.hpp"
 
 namespace broadside::core {
 
@@ -41,6 +42,8 @@ inline constexpr float kClearlyApart = 64.0F;
 inline constexpr float kThin = 0x1p-6F;
 // Two normals are then each within twenty degrees of what patches say.
 inline constexpr float kSameSide = 0.77F;
+// And the difference of one and of what patches say, both of length 1, is no longer than this: of 25 degrees.
+inline constexpr float kNormalOff = 0.45F;
 
 BROADSIDE_HD bool is_clear(const HullBounds& b) {
   return b.gap.least_m > kClearlyApart * b.rounding_m && b.gap.least_m >= (1.0F - 2.0F * kThin) * b.gap.most_m;
@@ -85,17 +88,16 @@ BROADSIDE_HD float seen_reach_m(float reach_m) {
   return 2.0F * reach_m;
 }
 
-// Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near_m: no patch that is
-// farther is kept for being near, whatever its normal.
+// Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near: of near_m.
 BROADSIDE_HD_CALLED bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
-                                     const ContactPath& b, float reach_m, float near_m) {
+                                     const ContactPath& b, float reach_m, const NearReach& near) {
   using namespace quick_detail;
   const HullBounds start = hull_bounds(shape_a, a.start, shape_b, b.start, reach_m);
   const float margin_m = kMargin * start.rounding_m;
   if (start.gap.least_m > reach_m + margin_m) return true;
-  if (!is_clear(start) || !(start.gap.least_m > near_m + margin_m)) return false;
-  const float seen_m = seen_reach_m(reach_m);
   const Vec3 n = start.gap.normal;
+  if (!is_clear(start) || !(start.gap.least_m > near_at_most_m(n, kNormalOff, near) + margin_m)) return false;
+  const float seen_m = seen_reach_m(reach_m);
   const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b) {
     const HullBounds end = hull_bounds(shape_a, at_a, shape_b, at_b, seen_m);
     return quickly_still_apart(n, end, seen_m) == QuickAnswer::kYes;

@@ -11,7 +11,8 @@
 
 namespace broadside::core {
 
-enum class AxisKind { kNone, kFaceOfA, kFaceOfB, kEdges };
+// kPoints: between two points, of which one may be a corner and the other of an edge, or both corners.
+enum class AxisKind { kNone, kFaceOfA, kFaceOfB, kEdges, kPoints };
 
 struct SeparatingAxis {
   float gap_m = -3.402823e38F;  // along the normal; negative = overlap
@@ -19,6 +20,7 @@ struct SeparatingAxis {
   AxisKind kind = AxisKind::kNone;
   int of_a = 0;  // the face or edge
   int of_b = 0;
+  bool has_faces = false;  // both are the faces that look along it most
 };
 
 // Edges whose directions cross at less than this angle (16 roundings) have a cross product of rounding alone. Leaving

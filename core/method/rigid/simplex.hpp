@@ -1,6 +1,8 @@
 // The point of a simplex that is nearest to the origin, and the corners that it is made of.
 #pragma once
 
+#include <cstdint>
+
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
@@ -10,6 +12,10 @@ namespace broadside::core {
 struct Simplex {
   int count = 0;
   Vec3 corners[4];
+  float weights[3] = {};  // of the corners that were kept: shares of 1
+  // Of differences of two bodies: which corners of either.
+  std::uint32_t of_a[4] = {};
+  std::uint32_t of_b[4] = {};
 };
 
 namespace simplex_detail {
@@ -106,7 +112,12 @@ BROADSIDE_HD Vec3 keep_nearest(Simplex& s, float& inside_m) {
   const Vec3 x = point_of(s, best);
   Simplex kept;
   kept.count = best.count;
-  for (int k = 0; k < best.count; ++k) kept.corners[k] = s.corners[best.corner[k]];
+  for (int k = 0; k < best.count; ++k) {
+    kept.corners[k] = s.corners[best.corner[k]];
+    kept.weights[k] = best.weight[k];
+    kept.of_a[k] = s.of_a[best.corner[k]];
+    kept.of_b[k] = s.of_b[best.corner[k]];
+  }
   s = kept;
   return x;
 }

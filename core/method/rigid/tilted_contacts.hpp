@@ -102,14 +102,12 @@ struct TiltedContacts {
   ManifoldPoint points[2 * kTilts];
 };
 
-// normal: unit, from B to A.
+// normal: unit, from B to A. top_of_a and top_of_b: faces that look at the other body.
 template <typename PolytopeA, typename PolytopeB>
-BROADSIDE_HD_CALLED void tilted_contacts(const PolytopeA& a, const PolytopeB& b, Vec3 normal, Vec3 across,
-                                         float rounding_m, TiltedContacts& out) {
+BROADSIDE_HD_CALLED void tilted_contacts(const PolytopeA& a, const PolytopeB& b, Vec3 normal, Vec3 across, int top_of_a,
+                                         int top_of_b, float rounding_m, TiltedContacts& out) {
   out.count = 0;
   const Vec3 other = cross(normal, across);
-  const int top_of_a = a.support_face(-normal);
-  const int top_of_b = b.support_face(normal);
   // The corner of a body that is lowest along a direction, and its height above the other body.
   const auto make = [&](const auto& body, const auto& below, int top, Vec3 up, Vec3 tilted, bool is_a,
                         ManifoldPoint& made) {

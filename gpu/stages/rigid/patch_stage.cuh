@@ -34,10 +34,13 @@ __device__ inline core::ContactPath path_of(const ContactView& f, std::uint32_t 
   return {pose_of(f, body), f.free_end[body]};
 }
 
+__device__ inline core::NearReach near_reach(const ContactView& f, core::Pair pair) {
+  return {f.fall_m[pair.i] + f.fall_m[pair.j], f.pushers[pair.i].pushed.v, f.pushers[pair.j].pushed.v};
+}
+
 // Whether a patch leads to no contact in this step.
 template <typename Lanes>
-__device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found,
-                           const core::KnownGaps* known) {
+__device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found) {
   const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
   const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
   const core::ContactPath path_a = path_of(f, pair.i);
@@ -50,10 +53,8 @@ __device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Ma
       return core::misses_patch<Lanes>(found, a.contact, way_a, b.contact, way_b, f.fall_m[pair.i] + f.fall_m[pair.j],
                                        thin_m);
   }
-  const float near_m = core::near_m(found.normal, f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j],
-                                    f.pushers[pair.j].pushed.v);
   return core::passes_by<Lanes>(found, a.contact, path_a, b.contact, path_b, f.reach_m[pair.i] + f.reach_m[pair.j],
-                                near_m, known);
+                                core::near_m(found.normal, near_reach(f, pair)));
 }
 
 // Returns how many patches the pair has. known: of two hulls, or nothing.
@@ -70,7 +71,7 @@ __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifol
                                                 known != nullptr ? &known->start : nullptr);
   int kept = 0;
   for (int k = 0; k < count; ++k)
-    if (!is_passing<Lanes>(f, pair, found[k], known)) found[kept++] = found[k];
+    if (!is_passing<Lanes>(f, pair, found[k])) found[kept++] = found[k];
   const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
   return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept, known);
 }
@@ -100,19 +101,19 @@ template <typename Lanes>
 __device__ bool may_touch(const ContactView& f, core::Pair pair) {
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
-  const float near_m =
-      core::near_at_most_m(f.fall_m[pair.i], f.pushers[pair.i].pushed.v, f.fall_m[pair.j], f.pushers[pair.j].pushed.v);
   return !core::surely_passes<Lanes>(a, path_of(f, pair.i), b, path_of(f, pair.j),
-                                     f.reach_m[pair.i] + f.reach_m[pair.j], near_m);
+                                     f.reach_m[pair.i] + f.reach_m[pair.j], near_reach(f, pair));
 }
 
 // Confirmed pairs that may touch, in a list of their own: lanes of a warp that have none would wait for those that do.
-template <typename Team>
+template <typename Lanes, typename Team>
 __device__ void list_near_pairs(const Team& team, const ContactView& f) {
-  each_item_by_warps(team, f.counts->confirmed, false, [&](std::uint64_t k, bool is_item) {
+  constexpr bool kIsSpread = Lanes::kKnowsLongShapes;
+  each_item_by_warps(team, f.counts->confirmed, kIsSpread, [&](std::uint64_t k, bool is_item) {
     const core::Pair pair = is_item ? f.confirmed.items[k] : core::Pair{};
-    const bool is_near =
-        is_item && !(is_idle(f, pair.i) && is_idle(f, pair.j)) && may_touch<core::OneLaneOfShortShapes>(f, pair);
+    bool is_near = is_item && !(is_idle(f, pair.i) && is_idle(f, pair.j));
+    if (is_near && !(Lanes::kKnowsLongShapes && f.follows_ways && are_followed(f, pair)))
+      is_near = may_touch<Lanes>(f, pair);
     const std::uint64_t place = warp_append_one(is_near, &f.counts->near);
     if (is_near) f.near[place] = pair;
   });
@@ -122,7 +123,7 @@ __device__ void list_near_pairs(const Team& team, const ContactView& f) {
 template <typename Team>
 __device__ void make_short_patches(const Team& team, const ContactView& f) {
   using Lanes = core::OneLaneOfShortShapes;
-  list_near_pairs(team, f);
+  list_near_pairs<Lanes>(team, f);
   team.sync();
   const std::uint64_t near = f.counts->near;
   each_item_by_warps(team, near + f.body_count, false, [&](std::uint64_t k, bool is_item) {
@@ -154,8 +155,8 @@ __device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body)
 __device__ inline bool find_gaps(const ContactView& f, core::Pair pair, core::KnownGaps& gaps) {
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
-  if (!core::has_quick_answers(a, b) || (is_idle(f, pair.i) && is_idle(f, pair.j))) return false;
-  gaps = core::known_gaps(a, path_of(f, pair.i), b, path_of(f, pair.j), f.reach_m[pair.i] + f.reach_m[pair.j]);
+  if (!core::has_quick_answers(a, b)) return false;
+  gaps = core::known_gaps(a, path_of(f, pair.i), b, path_of(f, pair.j));
   return true;
 }
 
@@ -164,24 +165,24 @@ __device__ inline bool find_gaps(const ContactView& f, core::Pair pair, core::Kn
 // two hulls are from each other.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
-  const std::uint64_t confirmed = f.counts->confirmed;
+  list_near_pairs<core::OneLane>(team, f);
+  team.sync();
+  const std::uint64_t near = f.counts->near;
   core::Pair own;
   core::KnownGaps own_gaps;
   bool has_gaps = false;
   const auto prepare = [&](std::uint64_t k, bool is_item) {
     has_gaps = false;
     if (!is_item) return false;
-    if (k >= confirmed) return may_touch_faces(f, static_cast<std::uint32_t>(k - confirmed));
-    own = f.confirmed.items[k];
-    if (f.follows_ways && are_followed(f, own)) return true;
-    if (!may_touch<core::OneLane>(f, own)) return false;
+    if (k >= near) return may_touch_faces(f, static_cast<std::uint32_t>(k - near));
+    own = f.near[k];
     has_gaps = find_gaps(f, own, own_gaps);
     return true;
   };
-  each_item_in_step(team, confirmed + f.body_count, prepare, [&](std::uint64_t own_k, unsigned of) {
+  each_item_in_step(team, near + f.body_count, prepare, [&](std::uint64_t own_k, unsigned of) {
     const std::uint64_t k = __shfl_sync(kFullWarp, own_k, of);
     core::Manifold found[core::kPatchesOfPair];
-    if (k < confirmed) {
+    if (k < near) {
       const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
       const bool are_known = __shfl_sync(kFullWarp, has_gaps ? 1 : 0, of) != 0;
       core::KnownGaps gaps;
@@ -190,7 +191,7 @@ __device__ void make_long_patches(const Team& team, const ContactView& f) {
       add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
       return;
     }
-    const auto body = static_cast<std::uint32_t>(k - confirmed);
+    const auto body = static_cast<std::uint32_t>(k - near);
     for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
       if (!may_touch_face(f, body, face)) continue;
       const int count = touch_face<WarpLanes>(f, body, face, found);

@@ -117,6 +117,15 @@ struct WarpLanes {
     }
   }
 
+  template <typename Item, typename Has, typename Make, typename Visit>
+  __device__ static void each_made(int count, const Has& has, const Make& make, const Visit& visit) {
+    Handful<Item> some;
+    for (int from = 0; from < count;) {
+      from = some.fill_with(from, count, has, make);
+      for (int k = 0; k < some.count; ++k) visit(of_lane(some.own, static_cast<unsigned>(k)));
+    }
+  }
+
   // Lanes look at their items as if none before was visited, and behind a visit again.
   template <typename Has, typename Visit>
   __device__ static void each_in_turn(int count, const Has& has, const Visit& visit) {
@@ -211,6 +220,18 @@ struct WarpLanes {
         count += found;
         from = min(next, end);
       }
+      return from;
+    }
+
+    template <typename Has, typename Make>
+    __device__ int fill_with(int from, int end, const Has& has, const Make& make) {
+      Handful<int> numbers;
+      from = numbers.fill(from, end, [&](int k, int& number) {
+        number = k;
+        return has(k);
+      });
+      count = numbers.count;
+      if (own_lane() < count) own = make(numbers.own);
       return from;
     }
 

@@ -39,14 +39,18 @@ bool is_before(const ContactPatch& p, const ContactPatch& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
 
+core::NearReach near_reach(const core::RigidBodies& bodies, core::Pair pair) {
+  const auto [i, j] = pair;
+  return {bodies.fall_m[i] + bodies.fall_m[j], bodies.pushed[i], bodies.pushed[j]};
+}
+
 // Whether no patch of the pair leads to a contact in this step, told without making them.
 bool surely_passes(const core::RigidBodies& bodies, core::Pair pair) {
   const auto [i, j] = pair;
   const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
   const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
-  return core::surely_passes(
-      a, bodies.path(i), b, bodies.path(j), bodies.reach_m[i] + bodies.reach_m[j],
-      core::near_at_most_m(bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]));
+  return core::surely_passes(a, bodies.path(i), b, bodies.path(j), bodies.reach_m[i] + bodies.reach_m[j],
+                             near_reach(bodies, pair));
 }
 
 }  // namespace
@@ -77,8 +81,7 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
       return core::misses_patch(found, a.contact, way_a, b.contact, way_b, bodies.fall_m[i] + bodies.fall_m[j],
                                 thinner_m);
   }
-  const float near_m =
-      core::near_m(found.normal, bodies.fall_m[i], bodies.pushed[i], bodies.fall_m[j], bodies.pushed[j]);
+  const float near_m = core::near_m(found.normal, near_reach(bodies, pair));
   return core::passes_by(found, a.contact, path_a, b.contact, path_b, bodies.reach_m[i] + bodies.reach_m[j], near_m);
 }
 

@@ -97,6 +97,13 @@ TEST(WarpLanes, TakeHandfulsAlike) {
         some.each_in_turn([&](int item) { return item % 3 == 0 && (last < 0 || item > last + 6); },
                           [&](int item) { taken.push_back(last = item); });
       }
+      const auto has = [&](int k) { return is_made[static_cast<std::size_t>(k)] != 0; };
+      const auto make = [](int k) { return 1000 + k; };
+      for (int from = 0; from < 300;) {
+        from = some.fill_with(from, 300, has, make);
+        some.each_in_turn([](int) { return true; }, [&](int item) { taken.push_back(item); });
+      }
+      decltype(lanes)::template each_made<int>(300, has, make, [&](int item) { taken.push_back(item); });
       return taken;
     };
     const std::vector<int> one = taken_by(OneLane{});

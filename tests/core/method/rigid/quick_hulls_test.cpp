@@ -115,7 +115,7 @@ TEST(QuickHulls, KnownGapsChangeNoPatch) {
     const Meeting m = meeting(draw);
     const ContactShape& a = m.a.shape;
     const ContactShape& b = m.b.shape;
-    const KnownGaps gaps = known_gaps(a, m.path_a, b, m.path_b, m.reach_m);
+    const KnownGaps gaps = known_gaps(a, m.path_a, b, m.path_b);
     Manifold plain[kPatchesOfPair];
     Manifold known[kPatchesOfPair];
     const int count = make_manifolds(a, m.path_a.start, b, m.path_b.start, m.reach_m, plain);
@@ -124,7 +124,6 @@ TEST(QuickHulls, KnownGapsChangeNoPatch) {
     ++patches;
     EXPECT_TRUE(is_same(plain[0], known[0])) << trial;
     const bool passes = passes_by(plain[0], a, m.path_a, b, m.path_b, m.reach_m, 0.0F);
-    EXPECT_EQ(passes_by(plain[0], a, m.path_a, b, m.path_b, m.reach_m, 0.0F, &gaps), passes) << trial;
     passing += passes ? 1 : 0;
     const int all = add_end_patches(a, m.path_a, b, m.path_b, 1.0F, plain, count);
     ASSERT_EQ(add_end_patches(a, m.path_a, b, m.path_b, 1.0F, known, count, &gaps), all) << trial;
@@ -159,7 +158,7 @@ TEST(QuickHulls, TellWhatPatchesTell) {
     path_b.end = {path_b.start.x + draw.in_cube(0.1F), path_b.start.q};
     const float reach_m = length(path_a.end.x - path_a.start.x) + length(path_b.end.x - path_b.start.x);
     const float near_m = 0.01F * static_cast<float>(draw.below(4));
-    const bool surely = surely_pass(a.shape, path_a, b.shape, path_b, reach_m, near_m);
+    const bool surely = surely_pass(a.shape, path_a, b.shape, path_b, reach_m, {near_m, {}, {}});
     told += surely ? 1 : 0;
     Manifold start[kPatchesOfPair];
     const int count = make_manifolds(a.shape, path_a.start, b.shape, path_b.start, reach_m, start);
