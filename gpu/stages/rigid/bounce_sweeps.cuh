@@ -11,31 +11,45 @@ struct LoadedBodies {
   core::PatchConstraint c;
 };
 
+// And all of it, where it is known already that they do.
+struct LoadedStirred {
+  LoadedPatch patch;
+  bool is_whole = false;
+};
+
 // Again, the contacts of bodies that are stirred. What changes by more than `done` stirs its bodies for the next sweep.
 // Brings the largest change of a point's speed.
 __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const RigidFrameView& f,
                                               const core::SoftStep& soft, std::uint32_t sweep, float done,
                                               const TeamSums& sums) {
   float largest = 0.0F;
+  const auto is_stirred = [&](const core::PatchConstraint& c) {
+    return f.stirred[c.a] >= sweep || f.stirred[c.b] >= sweep;
+  };
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
-      [](const TileSlot& slot) {
-        LoadedBodies loaded;
-        load_bodies(slot, loaded.c);
+      [&](const TileSlot& slot) {
+        LoadedStirred loaded;
+        load_bodies(slot, loaded.patch.c);
+        loaded.is_whole = is_stirred(loaded.patch.c);
+        if (!loaded.is_whole) return loaded;
+        loaded.patch = load_patch(f, slot);
+        load_impact(slot, loaded.patch.c);
+        set_goals_after_motion(f, slot, soft, loaded.patch);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
-        if (f.stirred[loaded.c.a] < sweep && f.stirred[loaded.c.b] < sweep) return;
-        LoadedPatch p = load_patch(f, slot);
-        load_impact(slot, p.c);
-        set_goals_after_motion(f, slot, soft, p);
+      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedStirred& loaded) {
+        LoadedPatch& p = loaded.patch;
+        // An earlier color of this sweep may have stirred them since.
+        if (!loaded.is_whole) return is_stirred(p.c) ? Visit::kLoadAgain : Visit::kDone;
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
         store_impulses(slot, p.c);
         largest = fmaxf(largest, change);
-        if (!(change > done)) return;
+        if (!(change > done)) return Visit::kDone;
         stir(f, p.c.a, sweep + 1);
         stir(f, p.c.b, sweep + 1);
+        return Visit::kDone;
       },
       KeepsNothing{});
   __syncwarp();

@@ -14,6 +14,8 @@
 //   (core::note_approach): approaches and totals are read of the others alone.
 #pragma once
 
+#include <type_traits>
+
 #include "core/method/rigid/patch_constraint.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
@@ -40,6 +42,9 @@ enum class SweepBegin : std::uint8_t { kAtOnce, kWithBarrier };
 
 // What a thread waits for before it goes on with the next color.
 enum class ColorWait : std::uint8_t { kNothing, kTeam, kBlock };
+
+// What has become of a patch's turn. kLoadAgain: what was loaded ahead is not what the patch turns out to need.
+enum class Visit : std::uint8_t { kDone, kLoadAgain };
 
 // Of a sweep whose work writes all itself.
 struct KeepsNothing {
@@ -78,7 +83,13 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
     if (wait == ColorWait::kBlock) __syncthreads();
     wait = ColorWait::kNothing;
     if (turn.color == color) {
-      work(TileSlot(f.constraints, turn.place), turn.place, loaded);
+      if constexpr (std::is_void_v<decltype(work(TileSlot(f.constraints, turn.place), turn.place, loaded))>) {
+        work(TileSlot(f.constraints, turn.place), turn.place, loaded);
+      } else if (work(TileSlot(f.constraints, turn.place), turn.place, loaded) == Visit::kLoadAgain) {
+        is_loaded = false;
+      }
+    }
+    if (turn.color == color && is_loaded) {
       owes = true;
       owed = turn.place;
       turn = team.turn_after(turn);
