@@ -4,9 +4,9 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 512;
+constexpr std::uint32_t kCrossThreads = 512;
 
-__global__ void __launch_bounds__(kThreads, 2) cross_kernel(const __grid_constant__ CrossView view) {
+__global__ void __launch_bounds__(kCrossThreads, 2) cross_kernel(const __grid_constant__ CrossView view) {
   extern __shared__ __align__(16) unsigned char shared[];
   run_cross(view, shared);
 }
@@ -22,7 +22,7 @@ core::Status launch_mark(const MarkView& view, StreamHandle stream) {
 }
 
 core::Result<LaunchShape> cross_launch_shape() {
-  LaunchShape shape{kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), 0};
+  LaunchShape shape{kCrossThreads, 0, kCrossThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(cross_kernel), shape));
   return shape;
 }

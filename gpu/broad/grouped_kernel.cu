@@ -5,10 +5,10 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 512;
-constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
+constexpr std::uint32_t kGroupedThreads = 512;
+constexpr std::uint32_t kGroupedBlocksPerMultiprocessor = 2;
 
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
+__global__ void __launch_bounds__(kGroupedThreads, kGroupedBlocksPerMultiprocessor)
     grouped_pairs_kernel(const __grid_constant__ GroupedPairsView view) {
   extern __shared__ __align__(16) unsigned char shared[];
   run_grouped_pairs(view, shared);
@@ -17,7 +17,7 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
 }  // namespace
 
 core::Result<LaunchShape> grouped_pairs_launch_shape() {
-  LaunchShape shape{kThreads, 0, grouped_shared_bytes(kThreads), 0};
+  LaunchShape shape{kGroupedThreads, 0, grouped_shared_bytes(kGroupedThreads), 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(grouped_pairs_kernel), shape));
   return shape;
 }

@@ -4,9 +4,9 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 512;
+constexpr std::uint32_t kNamedThreads = 512;
 
-__global__ void __launch_bounds__(kThreads, 2) named_pairs_kernel(const __grid_constant__ NamedPairsView view) {
+__global__ void __launch_bounds__(kNamedThreads, 2) named_pairs_kernel(const __grid_constant__ NamedPairsView view) {
   extern __shared__ __align__(16) unsigned char shared[];
   run_named_pairs(view, shared);
 }
@@ -17,7 +17,7 @@ core::Result<PairsShape> named_pairs_launch_shape(std::uint32_t boxes, std::uint
   auto made = pairs_launch_shape(Start::kBulk, boxes, buckets, limits);
   if (!made.ok()) return made.error();
   PairsShape shape = made.value();
-  shape.search = {kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(BulkNotes)), 0};
+  shape.search = {kNamedThreads, 0, kNamedThreads / 32 * static_cast<std::uint32_t>(sizeof(BulkNotes)), 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(named_pairs_kernel), shape.search));
   return shape;
 }

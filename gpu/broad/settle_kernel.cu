@@ -4,9 +4,9 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 512;
+constexpr std::uint32_t kSettlingThreads = 512;
 
-__global__ void __launch_bounds__(kThreads, 2) settle_kernel(const __grid_constant__ SettleView view) {
+__global__ void __launch_bounds__(kSettlingThreads, 2) settle_kernel(const __grid_constant__ SettleView view) {
   extern __shared__ __align__(16) unsigned char shared[];
   run_settle(view, shared);
 }
@@ -14,7 +14,7 @@ __global__ void __launch_bounds__(kThreads, 2) settle_kernel(const __grid_consta
 }  // namespace
 
 core::Result<LaunchShape> settle_launch_shape() {
-  LaunchShape shape{kThreads, 0, kThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), 0};
+  LaunchShape shape{kSettlingThreads, 0, kSettlingThreads / 32 * static_cast<std::uint32_t>(sizeof(PairQueue)), 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(settle_kernel), shape));
   return shape;
 }

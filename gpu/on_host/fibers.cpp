@@ -1,7 +1,5 @@
 #include "gpu/on_host/fibers.hpp"
 
-#include <ucontext.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +7,8 @@
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "gpu/on_host/fiber_context.hpp"
 
 namespace broadside::gpu::on_host {
 namespace {
@@ -28,9 +28,10 @@ struct Barrier {
 };
 
 struct Fiber {
-  ucontext_t context;
-  std::unique_ptr<unsigned char[]> stack;
+  FiberContext context;
   Place place;
+  const Barrier* waits_at = nullptr;
+  std::uint64_t passed = 0;  // of that barrier, when the fiber came
   bool is_done = false;
 };
 
@@ -42,12 +43,15 @@ struct Grid {
   std::vector<Barrier> blocks;
   Barrier all;
   std::vector<std::vector<unsigned char>> shared;
-  ucontext_t scheduler;
+  FiberContext scheduler;
   Fiber* running = nullptr;
   std::uint64_t events = 0;
 };
 
 Grid* grid = nullptr;
+
+// Stacks are kept for the next launch: most launches are short, and new stacks would take longer than they do.
+std::vector<std::unique_ptr<unsigned char[]>> stacks;
 
 void enter() {
   Fiber& own = *grid->running;
@@ -66,7 +70,16 @@ void wait_at(Barrier& barrier) {
     ++grid->events;
     return;
   }
-  while (barrier.passed == passed) yield();
+  Fiber& own = *grid->running;
+  own.waits_at = &barrier;
+  own.passed = passed;
+  yield();
+  own.waits_at = nullptr;
+}
+
+// A fiber whose barrier has not opened would go back at once: two switches for nothing.
+bool is_held(const Fiber& fiber) {
+  return fiber.waits_at != nullptr && fiber.waits_at->passed == fiber.passed;
 }
 
 std::uint64_t scrambled(std::uint64_t& state) {
@@ -85,8 +98,9 @@ void schedule() {
       for (std::size_t k = left - 1; k > 0; --k) std::swap(order[k], order[scrambled(state) % (k + 1)]);
     const std::uint64_t before = grid->events;
     for (std::size_t k = 0; k < left; ++k) {
+      if (is_held(grid->fibers[order[k]])) continue;
       grid->running = &grid->fibers[order[k]];
-      swapcontext(&grid->scheduler, &grid->running->context);
+      FiberContext::switch_over(grid->scheduler, grid->running->context);
     }
     idle = grid->events == before ? idle + 1 : 0;
     if (idle > kMostIdleRounds) {
@@ -98,16 +112,6 @@ void schedule() {
       if (!grid->fibers[order[k]].is_done) order[kept++] = order[k];
     left = kept;
   }
-}
-
-// getcontext() may return twice as far as the compiler knows: not in a loop, whose variables it would not trust then.
-[[gnu::noinline]] void prepare(Fiber& fiber) {
-  fiber.stack = std::make_unique<unsigned char[]>(kStackBytes);
-  getcontext(&fiber.context);
-  fiber.context.uc_stack.ss_sp = fiber.stack.get();
-  fiber.context.uc_stack.ss_size = kStackBytes;
-  fiber.context.uc_link = nullptr;
-  makecontext(&fiber.context, enter, 0);
 }
 
 }  // namespace
@@ -126,10 +130,11 @@ void run(const Launch& launch, std::size_t shared_bytes, const std::function<voi
   for (Barrier& block : own.blocks) block.members = launch.block_size.x;
   own.all.members = threads;
   grid = &own;
+  while (stacks.size() < threads) stacks.push_back(std::make_unique_for_overwrite<unsigned char[]>(kStackBytes));
   for (unsigned k = 0; k < threads; ++k) {
     Fiber& fiber = own.fibers[k];
     fiber.place = {{k % launch.block_size.x}, {k / launch.block_size.x}};
-    prepare(fiber);
+    fiber.context.begin(stacks[k].get(), kStackBytes, enter);
   }
   schedule();
   grid = nullptr;
@@ -145,7 +150,7 @@ const Launch& launch() {
 
 void yield() {
   Fiber& own = *grid->running;
-  swapcontext(&own.context, &grid->scheduler);
+  FiberContext::switch_over(own.context, grid->scheduler);
 }
 
 void sync_grid() {

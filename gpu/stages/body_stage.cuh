@@ -37,7 +37,7 @@ struct BodyBefore {
   PackedVec3 v;
   core::Box local;
 
-  __device__ BodyBefore() = default;
+  BodyBefore() = default;
   __device__ BodyBefore(const FrameView& f, std::uint32_t body)
       : x(f.previous.position[body]), v(f.previous.velocity[body]), local(local_box(f, body)) {}
 

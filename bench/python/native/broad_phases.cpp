@@ -67,8 +67,10 @@ class HeldBroadPhase {
     if (taker == nullptr)
       throw Raised({"the boxes are on a GPU, and it reads the host's memory", engine_.id,
                     "take octree-gpu, or copy them yourself, such as cupy.asnumpy(x) or x.cpu()"});
+    // NOLINTBEGIN(performance-no-int-to-ptr): Python has addresses and streams as integers
     const core::DeviceBoxes boxes{reinterpret_cast<const float*>(address), count, stream.has_value(),
                                   reinterpret_cast<void*>(stream.value_or(0))};
+    // NOLINTEND(performance-no-int-to-ptr)
     const std::vector<std::uint8_t> flags = flags_of(is_static, count);
     core::DevicePairs found;
     {

@@ -119,6 +119,7 @@ py::capsule given_rows(const OwnRows& rows, int memory, int device, const py::ob
   given->strides[1] = 1;
   given->owner = owner;
   DLTensor& t = given->managed.dl_tensor;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): Python has addresses as integers
   t.data = reinterpret_cast<void*>(rows.address);
   t.device = {memory, device};
   t.ndim = 2;
