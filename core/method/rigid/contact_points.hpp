@@ -37,9 +37,11 @@ BROADSIDE_HD constexpr std::uint32_t feature_key(std::uint32_t of_a, std::uint32
 // from it, the one that makes the largest triangle with both, and the one farthest outside that triangle. Distances are
 // those across the normal. The result does not depend on the order of the candidates.
 //
-// tilt: how far round bodies may turn within a step, rad; 0 = all candidates count alike. One that only a larger turn
-// about the deepest point brings down counts for less in the same measure. Before, the four of a bunny on the floor
-// were far apart and high up, and between them it rolled into the floor by 7 cm.
+// tilt: how far round bodies may turn within a step, rad; 0 = all candidates count alike. The larger a turn about the
+// deepest point it takes to bring one down, beside that, the less it counts. At first all counted alike: the four of a
+// bunny on the floor were far apart and high up, and between them it rolled into the floor by 7 cm. Then those that a
+// turn of a step brings down did: of a card that lands flat, a corner of its upper side, farther out by a hair, was
+// kept in place of the one below it that stood on the floor, and the card rolled over that one.
 //
 // apart_m: candidates of many small faces may be many points of one line. Where this is not 0 the third and fourth are
 // those farthest from the segment and from the triangle of those before, and nothing is that is no farther than this.
@@ -84,7 +86,8 @@ class FourKept {
     if (count_ > 0 && tilt_ > 0.0F) {
       const float rise = candidate.gap_m - kept_[0].gap_m;
       const float reached = tilt_ * length(across);
-      if (rise > reached) value = value * ((reached / rise) * (reached / rise));
+      const float share = rise > 0.0F ? reached / (reached + rise) : 1.0F;
+      value = value * (share * share);
     }
     return {count_ == 0 || value > 0.0F, value, candidate.feature};
   }
