@@ -54,9 +54,9 @@ struct KeepsNothing {
 
 // work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. keep(slot, place,
 // loaded) writes what no other patch waits for, once the thread has arrived at the barrier: a barrier waits until all
-// that was written before it can be seen. load(slot) gives
-// what work needs of the constraint, and of its bodies what no sweep changes. A thread loads its next constraint right
-// after its last one, mostly some colors ahead: nobody but this thread writes it during a sweep.
+// that was written before it can be seen. load(slot) gives what work needs of the constraint, and of its bodies what no
+// sweep changes; where work returns Visit::kLoadAgain, both are called once more. A thread loads its next constraint
+// right after its last one, mostly some colors ahead: nobody but this thread writes it during a sweep.
 //
 // Both are called at one place each: they are long, and with a copy of load at every barrier the solver's code was
 // several times what a multiprocessor keeps of it, so that warps waited for instructions.
