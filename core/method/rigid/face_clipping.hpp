@@ -74,7 +74,10 @@ BROADSIDE_HD void clip(ClippedFace<kRoom>& face, Vec3 start, Vec3 out, std::uint
       kept.corners[kept.count++] = {from + (inside / (inside - outside)) * (to - from), feature_key(here.leaving, side),
                                     leaves ? side : here.leaving};
   }
-  face = kept;
+  // Not all of the room: most of it is empty.
+  face.count = kept.count;
+  BROADSIDE_KEPT_LOOP
+  for (int k = 0; k < kept.count; ++k) face.corners[k] = kept.corners[k];
 }
 
 // The incident face, cut by the sides of the reference, each as a point halfway between both surfaces. normal: unit,

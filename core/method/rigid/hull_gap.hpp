@@ -25,13 +25,13 @@ struct HullGap {
   float overlap_m = -3.402823e38F;  // a ball of this radius fits around the origin in the difference: depth is no less
 };
 
-// The nearest points of two hulls are sums of corners with these weights, the same for both; count 0: they were not
-// found.
+// The nearest points of two hulls are sums of corners with these weights, the same for both; 4: it is one point, inside
+// both; 0: they were not found.
 struct NearestCorners {
   int count = 0;
-  float weights[3] = {};
-  std::uint32_t of_a[3] = {};
-  std::uint32_t of_b[3] = {};
+  float weights[4] = {};
+  std::uint32_t of_a[4] = {};
+  std::uint32_t of_b[4] = {};
 };
 
 struct NearestOfHulls {
@@ -122,7 +122,7 @@ BROADSIDE_HD_CALLED NearestOfHulls nearest_of_hulls(const PlacedHull& a, const P
   }
   out.normal = turned(a.axes, best);
   NearestCorners& corners = nearest.corners;
-  if (simplex.count < 4) corners.count = simplex.count;
+  corners.count = simplex.count;
   for (int k = 0; k < corners.count; ++k) {
     corners.weights[k] = simplex.weights[k];
     corners.of_a[k] = simplex.of_a[k];

@@ -10,6 +10,7 @@
 #include "core/method/rigid/hull_gap.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/near_bound.hpp"
+#include "core/method/rigid/overlap_axis.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
 #include "core/method/rigid/polytopes.hpp"
@@ -68,9 +69,12 @@ BROADSIDE_HD SeparatingAxis axis_near(const Hull& a, const Hull& b, Vec3 n, floa
   const int face_b = b.support_face(n);
   const float over_a = gap_over_face(a, b, face_a);
   const float over_b = gap_over_face(b, a, face_b);
-  SeparatingAxis axis{over_a, -a.face_normal(face_a), AxisKind::kFaceOfA, face_a, face_b, true};
-  if (over_b > over_a + rounding_m) axis = {over_b, b.face_normal(face_b), AxisKind::kFaceOfB, face_a, face_b, true};
-  if (least_m > axis.gap_m + rounding_m) axis = {least_m, n, AxisKind::kPoints, face_a, face_b, true};
+  SeparatingAxis axis{over_a, -a.face_normal(face_a), AxisKind::kFaceOfA, face_a, face_b};
+  if (over_b > over_a + rounding_m) axis = {over_b, b.face_normal(face_b), AxisKind::kFaceOfB, face_a, face_b};
+  if (least_m > axis.gap_m + rounding_m) axis = {least_m, n, AxisKind::kPoints, face_a, face_b};
+  axis.has_faces = true;
+  axis.face_of_a = face_a;
+  axis.face_of_b = face_b;
   return axis;
 }
 
@@ -92,7 +96,7 @@ BROADSIDE_HD void hull_manifold(HullPolytopeOf<Lanes> a, const HullPolytopeOf<La
   if (is_near) {
     axis = hull_detail::axis_near(a, b, near.gap.normal, near.gap.least_m, rounding_m);
     points = hull_detail::points_of(a, b, near.corners);
-  } else {
+  } else if (a.known_gap == nullptr || !overlap_axis(a, b, *a.known_gap, rounding_m, axis)) {
     axis = separating_axis(a, b, rounding_m, reach_m);
   }
   polytope_manifold(a, b, axis, 0.0F, 0.0F, rounding_m, reach_m, out, is_near ? &points : nullptr);

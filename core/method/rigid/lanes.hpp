@@ -145,6 +145,12 @@ struct OneLane {
         if (has(from)) items[count++] = make(from);
       return from;
     }
+    // The place of the first item of the least value, as OneLane::first_least, and what is at a place.
+    template <typename Value>
+    BROADSIDE_HD FirstLeast first_least(const Value& value) const {
+      return OneLane::first_least(count, [&](int k) { return value(items[k]); });
+    }
+    BROADSIDE_HD Item at(int place) const { return items[place]; }
     // visit(item) for those that have it, where a visit may change which.
     template <typename Has, typename Visit>
     BROADSIDE_HD void each_in_turn(const Has& has, const Visit& visit) const {

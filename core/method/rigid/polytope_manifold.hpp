@@ -39,7 +39,7 @@ struct FacingFaces {
 
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD FacingFaces facing_faces(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis) {
-  if (axis.has_faces) return {axis.of_a, axis.of_b};
+  if (axis.has_faces) return {axis.face_of_a, axis.face_of_b};
   return {axis.kind == AxisKind::kFaceOfA ? axis.of_a : a.support_face(-axis.normal),
           axis.kind == AxisKind::kFaceOfB ? axis.of_b : b.support_face(axis.normal)};
 }
@@ -105,8 +105,15 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     int a1 = 0;
     int b0 = 0;
     int b1 = 0;
-    a.edge(axis.of_a, a0, a1);
-    b.edge(axis.of_b, b0, b1);
+    if (axis.has_ends) {
+      a0 = axis.ends_of_a[0];
+      a1 = axis.ends_of_a[1];
+      b0 = axis.ends_of_b[0];
+      b1 = axis.ends_of_b[1];
+    } else {
+      a.edge(axis.of_a, a0, a1);
+      b.edge(axis.of_b, b0, b1);
+    }
     const EdgeCrossing crossing = edge_crossing(a.corner(a0), a.corner(a1), b.corner(b0), b.corner(b1));
     bool is_crossing = crossing.is_inside;
     // Around the edge of a sheet every direction is one of its normals, so another corner may stand out farther.

@@ -20,7 +20,12 @@ struct SeparatingAxis {
   AxisKind kind = AxisKind::kNone;
   int of_a = 0;  // the face or edge
   int of_b = 0;
-  bool has_faces = false;  // both are the faces that look along it most
+  bool has_faces = false;  // these are the faces that look along it most
+  int face_of_a = 0;
+  int face_of_b = 0;
+  bool has_ends = false;  // these are the corners of both edges, which have no numbers then
+  int ends_of_a[2] = {};
+  int ends_of_b[2] = {};
 };
 
 // Edges whose directions cross at less than this angle (16 roundings) have a cross product of rounding alone. Leaving

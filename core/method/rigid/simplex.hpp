@@ -12,7 +12,7 @@ namespace broadside::core {
 struct Simplex {
   int count = 0;
   Vec3 corners[4];
-  float weights[3] = {};  // of the corners that were kept: shares of 1
+  float weights[4] = {};  // of the corners that were kept: shares of 1
   // Of differences of two bodies: which corners of either.
   std::uint32_t of_a[4] = {};
   std::uint32_t of_b[4] = {};
@@ -76,7 +76,8 @@ BROADSIDE_HD Weighed nearest_of_triangle(const Simplex& s, int p, int q, int r) 
 }  // namespace simplex_detail
 
 // Keeps the corners that the nearest point needs and returns that point. inside_m: 0, or, of four corners around the
-// origin, how far the nearest of its sides is; then all of them are kept.
+// origin, how far the nearest of its sides is; then all of them are kept, with weights that add up to 1 but for
+// rounding.
 BROADSIDE_HD Vec3 keep_nearest(Simplex& s, float& inside_m) {
   using namespace simplex_detail;
   inside_m = 0.0F;
@@ -96,6 +97,7 @@ BROADSIDE_HD Vec3 keep_nearest(Simplex& s, float& inside_m) {
       const float of_corner = dot(n, s.corners[k] - s.corners[p]);
       if (of_origin * of_corner > 0.0F) {
         nearest_side = fminf(nearest_side, fabsf(of_origin) / length(n));
+        s.weights[k] = of_origin / of_corner;
         continue;
       }
       const Weighed own = nearest_of_triangle(s, p, q, r);

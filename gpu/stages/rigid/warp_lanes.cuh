@@ -204,6 +204,10 @@ struct WarpLanes {
         Item made{};
         const int k = from + own_lane();
         unsigned with = __ballot_sync(kFullWarp, k < end && make(k, made));
+        if (with == 0) {
+          from = min(from + 32, end);
+          continue;
+        }
         const int found = min(__popc(with), 32 - count);
         // The lane's own item comes from the lane that made it.
         unsigned source = 0;
@@ -234,6 +238,12 @@ struct WarpLanes {
       if (own_lane() < count) own = make(numbers.own);
       return from;
     }
+
+    template <typename Value>
+    __device__ core::FirstLeast first_least(const Value& value) const {
+      return WarpLanes::first_least(count, [&](int) { return value(own); });
+    }
+    __device__ Item at(int place) const { return of_lane(own, static_cast<unsigned>(place)); }
 
     template <typename Has, typename Visit>
     __device__ void each_in_turn(const Has& has, const Visit& visit) const {

@@ -1,0 +1,255 @@
+// The separating axis of two finely cut hulls that overlap, from a point that both have: only what of either body is
+// near that point can make the narrowest axis.
+//
+// Along a unit direction n the overlap of A and B is the sum of how deep the point is in A and in B, each measured from
+// the highest corner toward the other body. Neither is negative, and neither is less than the point's depth under the
+// nearest face of that body. So a face of A under which the point is deeper than the best overlap so far, less the
+// least depth in B, is no better axis. Along the directions of an edge, which lie between the normals of its two faces,
+// the depth is a sine where it is positive: it is least at an end, so an edge matters only where one of its faces does.
+// Bodies at rest overlap by a hair, and three of 649 faces of a bunny are as near.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/attributes.hpp"
+#include "core/math/vec3.hpp"
+#include "core/method/rigid/contact_shape.hpp"
+#include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/hull_climb.hpp"
+#include "core/method/rigid/hull_gap.hpp"
+#include "core/method/rigid/lanes.hpp"
+#include "core/method/rigid/polytope_axes.hpp"
+#include "core/method/rigid/polytopes.hpp"
+#include "core/method/rigid/separating_axis.hpp"
+
+namespace broadside::core {
+
+namespace overlap_detail {
+
+// With more faces than this near the point the hulls are deep in each other, or flat: all faces are tried then.
+inline constexpr int kMostNearFaces = 32;
+
+// The same sum of corners in either body, and half the way between both: what the sums lost to rounding.
+struct CommonPoint {
+  Vec3 x;
+  float off_m = 0.0F;
+};
+
+template <typename Hull>
+BROADSIDE_HD Vec3 weighed(const Hull& hull, const std::uint32_t* corners, const NearestCorners& near) {
+  float sum = 0.0F;
+  Vec3 x;
+  for (int k = 0; k < near.count; ++k) {
+    sum = sum + near.weights[k];
+    x = x + near.weights[k] * hull.hull.vertices[corners[k]];
+  }
+  return hull.center + turned(hull.axes, (1.0F / sum) * x);
+}
+
+template <typename Hull>
+BROADSIDE_HD CommonPoint common_point(const Hull& a, const Hull& b, const NearestCorners& near) {
+  const Vec3 in_a = weighed(a, near.of_a, near);
+  const Vec3 in_b = weighed(b, near.of_b, near);
+  return {0.5F * (in_a + in_b), 0.5F * length(in_a - in_b)};
+}
+
+// A hull around the point.
+template <typename Hull>
+struct Around {
+  const Hull& hull;
+  Vec3 point;                // in body axes
+  std::uint32_t corner = 0;  // near the point: where searches for other corners begin
+  int nearest = 0;           // the face
+  float inside_m = 0.0F;     // along no direction is the point less deep in it
+  float most_m = 0.0F;       // faces under which the point is deeper do not matter
+
+  BROADSIDE_HD float depth(int face) const { return -hull.height_over(face, point); }
+  BROADSIDE_HD bool matters(int face) const { return depth(face) <= most_m; }
+  BROADSIDE_HD std::uint32_t lowest(Vec3 direction, std::uint32_t from) const {
+    return climb_down(hull.hull, hull.local(direction), from);
+  }
+};
+
+template <typename Hull>
+BROADSIDE_HD Around<Hull> around(const Hull& hull, const CommonPoint& p, std::uint32_t corner, float rounding_m) {
+  Around<Hull> out{hull, hull.local_point(p.x), corner};
+  const FirstLeast least = Hull::Lanes::first_least(hull.face_count(), [&](int k) { return out.depth(k); });
+  out.nearest = least.item;
+  // Near a sharp corner a point that is outside by a hair is farther from the hull than from each plane, but no farther
+  // than from the sum of corners.
+  out.inside_m = least.value > rounding_m ? least.value - rounding_m : -(p.off_m + rounding_m);
+  return out;
+}
+
+// By one lane: how far the other hull is in front of a face.
+template <typename Hull>
+BROADSIDE_HD float gap_over(const Around<Hull>& reference, const Around<Hull>& other, int face) {
+  const Vec3 out = reference.hull.face_normal(face);
+  const auto lowest = static_cast<int>(other.lowest(out, other.corner));
+  return other.hull.least_at(lowest, out) - reference.hull.face_height(face);
+}
+
+struct MeasuredFace {
+  int face = 0;
+  float gap_m = 0.0F;
+};
+
+template <typename Hull>
+using NearFaces = typename Hull::Lanes::template Handful<MeasuredFace>;
+
+// Those that matter; false: there are more than there is room for.
+template <typename Hull>
+BROADSIDE_HD_CALLED bool find_near_faces(const Around<Hull>& reference, const Around<Hull>& other,
+                                         NearFaces<Hull>& found, MeasuredFace& best) {
+  const int all = reference.hull.face_count();
+  const int end = found.fill_with(
+      0, all, [&](int k) { return reference.matters(k); },
+      [&](int k) {
+        return MeasuredFace{k, gap_over(reference, other, k)};
+      });
+  const FirstLeast least = found.first_least([](const MeasuredFace& f) { return -f.gap_m; });
+  best = found.at(least.item);
+  return found.count > 0 && end == all;
+}
+
+// Of the faces near the point the one that looks along a direction most.
+template <typename Hull>
+BROADSIDE_HD int facing(const Hull& hull, const NearFaces<Hull>& near, Vec3 direction) {
+  const Vec3 local = hull.local(direction);
+  return near
+      .at(near.first_least([&](const MeasuredFace& f) { return -dot(hull.hull.faces[f.face].normal, local); }).item)
+      .face;
+}
+
+// Edges of the faces that matter, each once, by numbers of (face, side).
+template <typename Hull>
+struct NearEdges {
+  const Around<Hull>& body;
+  int faces[kMostNearFaces];
+  int face_count = 0;
+  int sides = 0;  // of the face with the most
+
+  BROADSIDE_HD NearEdges(const Around<Hull>& around, const NearFaces<Hull>& near) : body(around) {
+    near.each_in_turn([&](const MeasuredFace& f) { return body.matters(f.face); },
+                      [&](const MeasuredFace& f) {
+                        const int own = body.hull.face_corner_count(f.face);
+                        sides = own > sides ? own : sides;
+                        faces[face_count++] = f.face;
+                      });
+  }
+  [[nodiscard]] BROADSIDE_HD int count() const { return face_count * sides; }
+  [[nodiscard]] BROADSIDE_HD bool has(int k) const {
+    const int face = faces[k / sides];
+    const int side = k % sides;
+    if (side >= body.hull.face_corner_count(face)) return false;
+    const int other = beyond(face, side);
+    return !(other < face && body.matters(other));
+  }
+  [[nodiscard]] BROADSIDE_HD axes_detail::PlacedEdge make(int k) const {
+    const int face = faces[k / sides];
+    const int side = k % sides;
+    axes_detail::PlacedEdge out;
+    int from = 0;
+    int to = 0;
+    ends(face, side, from, to);
+    out.index = k;
+    out.start = body.hull.corner(from);
+    out.along = body.hull.corner(to) - out.start;
+    out.left = body.hull.face_normal(face);
+    out.right = body.hull.face_normal(beyond(face, side));
+    return out;
+  }
+  [[nodiscard]] BROADSIDE_HD std::uint32_t start(int k) const {
+    return static_cast<std::uint32_t>(body.hull.face_corner(faces[k / sides], k % sides));
+  }
+  BROADSIDE_HD void corners(int k, int* from_to) const { ends(faces[k / sides], k % sides, from_to[0], from_to[1]); }
+
+ private:
+  [[nodiscard]] BROADSIDE_HD int beyond(int face, int side) const {
+    const HullView& hull = body.hull.hull;
+    return static_cast<int>(hull.beyond[hull.faces[face].first_corner + static_cast<std::uint32_t>(side)]);
+  }
+  BROADSIDE_HD void ends(int face, int side, int& from, int& to) const {
+    from = body.hull.face_corner(face, side);
+    to = body.hull.face_corner(face, side + 1 == body.hull.face_corner_count(face) ? 0 : side + 1);
+  }
+};
+
+template <typename Hull>
+BROADSIDE_HD_CALLED SeparatingAxis axis_of_edges(const NearEdges<Hull>& near_a, const NearEdges<Hull>& near_b) {
+  using axes_detail::PlacedEdge;
+  using Lanes = typename Hull::Lanes;
+  SeparatingAxis edges;
+  typename Lanes::template Handful<PlacedEdge> of_b;
+  for (int j = 0; j < near_b.count();) {
+    j = of_b.fill_with(
+        j, near_b.count(), [&](int k) { return near_b.has(k); }, [&](int k) { return near_b.make(k); });
+    if (of_b.count == 0) continue;
+    const auto meet_edge = [&](const PlacedEdge& edge_a) {
+      Vec3 n;
+      const auto makes_axis = [&](const PlacedEdge& edge_b) {
+        return axes_detail::across(edge_a, true, edge_b, true, n) && dot(n, edge_a.start - edge_b.start) > edges.gap_m;
+      };
+      of_b.each_in_turn(makes_axis, [&](const PlacedEdge& edge_b) {
+        (void)axes_detail::across(edge_a, true, edge_b, true, n);
+        const auto lowest_a = static_cast<int>(near_a.body.lowest(n, near_a.start(edge_a.index)));
+        const auto lowest_b = static_cast<int>(near_b.body.lowest(-n, near_b.start(edge_b.index)));
+        const float gap = near_a.body.hull.least_at(lowest_a, n) + near_b.body.hull.least_at(lowest_b, -n);
+        if (gap > edges.gap_m) edges = {gap, n, AxisKind::kEdges, edge_a.index, edge_b.index};
+      });
+    };
+    Lanes::template each_made<PlacedEdge>(
+        near_a.count(), [&](int k) { return near_a.has(k); }, [&](int k) { return near_a.make(k); }, meet_edge);
+  }
+  return edges;
+}
+
+}  // namespace overlap_detail
+
+// near: exact_hull_gap of hulls that have ways. False where it has no point that both have, or too many faces are near
+// that: then axis is not told. As separating_axis does it takes a face where that is as wide but for rounding, of A
+// before of B.
+template <typename Hull>
+BROADSIDE_HD_CALLED bool overlap_axis(const Hull& a, const Hull& b, const NearestOfHulls& near, float rounding_m,
+                                      SeparatingAxis& axis) {
+  using namespace overlap_detail;
+  if (near.corners.count == 0 || near.gap.least_m > 0.0F) return false;
+  const CommonPoint p = common_point(a, b, near.corners);
+  if (!(p.off_m < 3.0e38F)) return false;  // weights of a sliver may be anything
+  Around<Hull> in_a = around(a, p, near.corners.of_a[0], rounding_m);
+  Around<Hull> in_b = around(b, p, near.corners.of_b[0], rounding_m);
+  const auto keep_to = [&](float overlap_m) {
+    in_a.most_m = (overlap_m - in_b.inside_m) + rounding_m;
+    in_b.most_m = (overlap_m - in_a.inside_m) + rounding_m;
+  };
+  // The bodies overlap no more than along the axes that are known: of the search for the point, and of two faces.
+  const float first_m = Hull::Lanes::first_least(2, [&](int k) {
+                          return k == 0 ? -gap_over(in_a, in_b, in_a.nearest) : -gap_over(in_b, in_a, in_b.nearest);
+                        }).value;
+  keep_to(fminf(first_m, -near.gap.least_m));
+  NearFaces<Hull> faces_a;
+  NearFaces<Hull> faces_b;
+  MeasuredFace of_a;
+  MeasuredFace of_b;
+  if (!find_near_faces(in_a, in_b, faces_a, of_a) || !find_near_faces(in_b, in_a, faces_b, of_b)) return false;
+  axis = {of_a.gap_m, -a.face_normal(of_a.face), AxisKind::kFaceOfA, of_a.face, 0};
+  if (of_b.gap_m > of_a.gap_m + rounding_m)
+    axis = {of_b.gap_m, b.face_normal(of_b.face), AxisKind::kFaceOfB, 0, of_b.face};
+  keep_to(fminf(-fmaxf(of_a.gap_m, of_b.gap_m), -near.gap.least_m));
+  const NearEdges<Hull> edges_a(in_a, faces_a);
+  const NearEdges<Hull> edges_b(in_b, faces_b);
+  SeparatingAxis edges = axis_of_edges(edges_a, edges_b);
+  if (edges.gap_m > axis.gap_m + rounding_m) {
+    edges_a.corners(edges.of_a, edges.ends_of_a);
+    edges_b.corners(edges.of_b, edges.ends_of_b);
+    edges.has_ends = true;
+    axis = edges;
+  }
+  axis.has_faces = true;
+  axis.face_of_a = axis.kind == AxisKind::kFaceOfA ? of_a.face : facing(a, faces_a, -axis.normal);
+  axis.face_of_b = axis.kind == AxisKind::kFaceOfB ? of_b.face : facing(b, faces_b, axis.normal);
+  return true;
+}
+
+}  // namespace broadside::core
