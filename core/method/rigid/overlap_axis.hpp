@@ -27,7 +27,8 @@ namespace broadside::core {
 
 namespace overlap_detail {
 
-// With more faces than this near the point the hulls are deep in each other, or flat: all faces are tried then.
+// With as many faces near the point, which is all that a handful holds, the hulls are deep in each other, or flat: all
+// faces are tried then.
 inline constexpr int kMostNearFaces = 32;
 
 // The same sum of corners in either body, and half the way between both: what the sums lost to rounding.
@@ -98,19 +99,18 @@ struct MeasuredFace {
 template <typename Hull>
 using NearFaces = typename Hull::Lanes::template Handful<MeasuredFace>;
 
-// Those that matter; false: there are more than there is room for.
+// Those that matter, and the one with the widest gap; false: there may be more than there is room for.
 template <typename Hull>
 BROADSIDE_HD_CALLED bool find_near_faces(const Around<Hull>& reference, const Around<Hull>& other,
                                          NearFaces<Hull>& found, MeasuredFace& best) {
-  const int all = reference.hull.face_count();
-  const int end = found.fill_with(
-      0, all, [&](int k) { return reference.matters(k); },
+  (void)found.fill_with(
+      0, reference.hull.face_count(), [&](int k) { return reference.matters(k); },
       [&](int k) {
         return MeasuredFace{k, gap_over(reference, other, k)};
       });
   const FirstLeast least = found.first_least([](const MeasuredFace& f) { return -f.gap_m; });
   best = found.at(least.item);
-  return found.count > 0 && end == all;
+  return found.count > 0 && found.count < kMostNearFaces;
 }
 
 // Of the faces near the point the one that looks along a direction most.
