@@ -26,7 +26,7 @@ Subject cut_ellipsoid(Draw& draw, Vec3 half, int corners) {
 }
 
 // A pebble, a coin or a needle.
-Subject any_hull(Draw& draw) {
+Subject hull_of_any_form(Draw& draw) {
   const Vec3 halves[] = {{0.5F, 0.4F, 0.35F}, {0.5F, 0.45F, 0.01F}, {0.5F, 0.02F, 0.015F}};
   return cut_ellipsoid(draw, halves[draw.below(3)], 60);
 }
@@ -47,8 +47,8 @@ TEST(OverlapAxis, IsTheNarrowestOfAll) {
   int shallow = 0;
   int of_kind[4] = {};
   for (int trial = 0; trial < 150; ++trial) {
-    const Subject a = any_hull(draw);
-    Subject b = any_hull(draw);
+    const Subject a = hull_of_any_form(draw);
+    Subject b = hull_of_any_form(draw);
     b.pose.x = 1.2F * normalized(draw.in_cube(1.0F));
     float wanted_m = 0.1F;
     for (int k = trial % 10; k > 0; --k) wanted_m *= 0.25F;
@@ -85,8 +85,8 @@ TEST(OverlapAxis, IsTheNarrowestOfAll) {
 
 TEST(OverlapAxis, IsNotToldOfHullsThatAreApart) {
   Draw draw(48);
-  const Subject a = any_hull(draw);
-  Subject b = any_hull(draw);
+  const Subject a = hull_of_any_form(draw);
+  Subject b = hull_of_any_form(draw);
   b.pose.x = {3.0F, 0.0F, 0.0F};
   const PlacedShape placed_a = placed_shape(a.shape, a.pose, a.pose.x);
   const PlacedShape placed_b = placed_shape(b.shape, b.pose, a.pose.x);
