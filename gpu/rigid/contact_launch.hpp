@@ -12,9 +12,10 @@ namespace broadside::gpu {
 core::Result<LaunchShape> contact_launch_shape();
 core::Result<LaunchShape> long_contact_launch_shape();
 
-// Levels and patches of contact, behind the broad phase. Asynchronous. Does nothing where the frame has no pairs.
+// Body-octree levels and patches of contact, after the broad phase. Asynchronous. Does nothing if the frame has no
+// pairs.
 core::Status launch_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
-// The same where frame.has_long_contacts or frame.follows_ways.
+// The same, for frames with frame.has_long_contacts or frame.follows_ways.
 core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
 
 }  // namespace broadside::gpu

@@ -1,5 +1,6 @@
-// What the kernel of a frame of turning bodies that finds their contacts is given, by value: the part of RigidFrameView
-// that knows nothing of the solver, so that a change there does not compile the shapes again, which takes minutes.
+// What the kernel is given, by value, that finds the contacts of a frame of turning bodies. It is the part of
+// RigidFrameView that knows nothing of the solver; so a change of the solver does not compile the shapes again, which
+// takes minutes.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@
 
 namespace broadside::gpu {
 
-// Of a mesh and a center of mass in it; its pointers are the device's.
+// A mesh and a center of mass in it; the pointers are to device memory.
 struct RigidShapeView {
   core::ContactShape contact;
   const core::NodeBoxes* nodes = nullptr;
@@ -36,8 +37,8 @@ struct alignas(8) PatchEntry {
   std::uint32_t other = 0;  // the other body, or a face
 };
 
-// Each moved body's patches, in no order, and the impulses that the last substep left in them: what the next step
-// begins with. One of the step before, one of this step.
+// Each moved body's patches, in no order, and the impulses that the last substep left in them, with which the next step
+// begins. There are two: one of the step before, one of this step.
 struct PatchMemory {
   std::uint32_t* begin = nullptr;    // [bodies]
   std::uint32_t* count = nullptr;    // [bodies]; 0 of bodies that never move
@@ -47,7 +48,7 @@ struct PatchMemory {
   PackedVec3* impulse = nullptr;     // [4 * patches] N: friction on A, and w = along the normal
 };
 
-// What a pair needs of a body to say what it does to the other one: core::Pusher.
+// What a pair needs to know of a body to say what it does to the other one: core::Pusher.
 struct alignas(16) PackedPusher {
   PackedVec3 drift;   // w: what turning adds
   PackedVec3 pushed;  // w: who drives it, as a word
@@ -60,14 +61,15 @@ struct SolveCounts {
   std::uint32_t waits = 0;          // of all threads for each other
 };
 
-// Counts of one frame; all are what was demanded. The last kernel of a frame leaves zeros.
+// Counts of one frame. Each says how much was needed, even where there was less room. The last kernel of a frame leaves
+// zeros.
 struct RigidCounts {
   unsigned long long confirmed = 0;
   unsigned long long near = 0;  // confirmed pairs that are not seen to pass by each other
   unsigned long long patches = 0;
   unsigned long long listed = 0;  // places given out in the lists of bodies
   unsigned long long places = 0;  // of constraints: patches, and the gaps between colors
-  // Nonnegative floats, as words: they are ordered like the floats. What is not finite is above all that is.
+  // Nonnegative floats as words, which are ordered like the floats. What is not finite is above all that is.
   std::uint32_t largest_side = 0;
   std::uint32_t largest_coordinate = 0;
   std::uint32_t colors = 0;
@@ -75,15 +77,15 @@ struct RigidCounts {
   std::uint32_t fastest_m_s = 0;  // a point of a body as the step begins, as a word
   std::uint32_t mass_ratio = 0;   // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
-  // What all threads bring together, in turns (team_sums.cuh).
+  // Where all threads contribute to one number, in turns (team_sums.cuh).
   std::uint32_t largest[4][4] = {};
   unsigned long long sums[4] = {};
   SolveCounts done;
-  // Where bodies sleep. Patches of those that sleep lie behind the others and are not solved.
+  // For scenes in which bodies sleep. Patches of sleeping bodies lie behind the others and are not solved.
   unsigned long long asleep_patches = 0;
   unsigned long long asleep_bodies = 0;
   std::uint32_t woken = 0;  // 1: the frame begins again, for an island wakes
-  // The frame that was told to the host, for the launch behind it: the counts above are zero again by then.
+  // The counts that the host was told, for the launch that follows: those above are zero again by then.
   std::uint32_t told_is_aborted = 0;
   unsigned long long told_patches = 0;
 };
@@ -95,7 +97,7 @@ struct RigidOutcome {
   unsigned long long stage_end_ns[core::kStageCount] = {};
 };
 
-// Fixed during a run, but for what changes places after every step.
+// Fixed during a run, except for the pointers that are swapped after every step.
 struct ContactView {
   std::uint32_t body_count = 0;
   core::Levels levels = core::Levels::kC;
@@ -115,7 +117,7 @@ struct ContactView {
   std::uint8_t* asleep = nullptr;  // [bodies] 1: asleep; null where none ever is
 
   const core::RigidState* before = nullptr;  // at the start of the step, which is the pose of detection
-  // Of detection, as core::RigidBodies has them.
+  // At detection, as core::RigidBodies has them.
   core::ContactPose* free_end = nullptr;
   PackedPusher* pushers = nullptr;
   const unsigned long long* old_push = nullptr;  // core::PushWord, from the step before
@@ -137,7 +139,8 @@ struct ContactView {
   RigidCounts* counts = nullptr;
   unsigned long long* barrier = nullptr;
   RigidOutcome* outcome = nullptr;
-  // A box longer, or farther out, than this was not foreseen when the broad phase got its cells: the frame is repeated.
+  // A box that is longer, or farther out, than this was not foreseen when the cells of the broad phase were chosen:
+  // then the frame is repeated.
   std::uint32_t side_limit = 0;
   std::uint32_t coordinate_limit = 0;
 };

@@ -1,4 +1,4 @@
-// Many arrays of one type in one piece of device memory, for views that point into it.
+// Many arrays of one type in one allocation of device memory, for views that point into it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The kernel of a frame of turning bodies in which all shapes meet: contacts where shapes are hulls or meshes or where
-// ways are followed, and stopping fast bodies short.
+// The kernel that compiles the code of all shapes. It finds contacts where shapes are hulls or meshes or where ways are
+// followed, and it stops fast bodies short.
 #include <algorithm>
 #include <cstdint>
 
@@ -25,7 +25,8 @@ struct LongView {
   LongTask task = LongTask::kContacts;
 };
 
-// One kernel for both: the compiler makes the code of all shapes anew for every kernel that calls it, a minute each.
+// One kernel for both tasks: the compiler makes the code of all shapes again in every kernel that calls it, a minute
+// each.
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
     long_contact_kernel(const __grid_constant__ LongView launched) {
   if (launched.task == LongTask::kStopShort)

@@ -1,4 +1,5 @@
-// In how many parts a step of turning bodies is taken on the GPU, and with what numbers each is solved. As the twin's.
+// In how many parts a step of turning bodies is taken on the GPU, and with which numbers each is solved. As in the
+// twin.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +43,7 @@ class PartsChoice {
       view.substeps[k] = numbers.substeps;
       view.soft[k] = core::soft_step_of(view.solver, view.gravity_m_s2, view.dt_s, numbers);
     }
-    // A step in several parts is not calm, whatever its later parts begin with.
+    // A step in several parts counts as lively, whatever its later parts begin with.
     view.calm_m_s = count_ > 1 ? -1.0F : core::calm_speed_m_s(view.gravity_m_s2, step_s);
   }
 

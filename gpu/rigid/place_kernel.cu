@@ -1,4 +1,4 @@
-// The kernels of a frame of turning bodies that have no barrier: boxes at its begin, and its digest.
+// The kernels of a frame of turning bodies that need no barrier: boxes at its beginning, and its digest.
 #include <algorithm>
 
 #include "gpu/rigid/rigid_kernel.hpp"

@@ -7,13 +7,13 @@
 namespace broadside::gpu {
 namespace {
 
-// A heap has some seven contacts a body and a color for each of twice the most contacts of one body; a frame that has
-// more is repeated with room for all of them.
+// Room at first. A heap has some seven contacts a body, and at most twice as many colors as its busiest body has
+// contacts. A frame that has more is repeated with room for all of them.
 constexpr std::size_t kConfirmedPerBody = 8;
 constexpr std::size_t kPatchesPerBody = 6;
 constexpr std::size_t kLeast = 1024;
 constexpr std::size_t kFirstColors = 128;
-// So that a growing pile does not repeat every frame.
+// Room is made for more than is needed, so that a growing pile does not repeat every frame.
 constexpr std::size_t with_reserve(std::size_t count) {
   return count + count / 4;
 }
@@ -147,7 +147,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   return barrier_.fill_bytes(0);
 }
 
-// The two memories change places, and grow when it is their turn.
+// The two memories are swapped, and each grows when it is its turn.
 std::size_t RigidBuffers::patch_room() const {
   return std::min({may_sleep_ ? sleep_.now.capacity() : patches_.capacity(), patches_.capacity(), ranks_.capacity(),
                    patch_colors_.capacity(), impulses_.capacity() / 4, by_color_.capacity() / 2,

@@ -13,11 +13,11 @@ namespace broadside::gpu {
 class RigidBuffers {
  public:
   core::Status load(std::span<const core::RigidState> states, bool may_sleep);
-  // As if nobody had ever stood still.
+  // Forgets for how long bodies have been still.
   core::Status wake_all();
-  // Room for what the aborted frame demanded.
+  // Makes room for what the aborted frame needed.
   core::Status grow(const RigidCounts& demanded);
-  // The step is kept: what was after is before now.
+  // Keeps the step: the state after it becomes the state before the next one.
   void advance(const RigidCounts& kept);
   void fill(RigidFrameView& view) const;
   [[nodiscard]] std::uint64_t bytes() const;

@@ -15,9 +15,9 @@
 
 namespace broadside::gpu {
 
-// A frame is four launches beside its broad phase, six where bodies sleep; these are all asynchronous. Each is a kernel
-// of its own, so that none has the registers of another. One that finds that the frame is aborted does nothing, except
-// that the solver's tells the host.
+// A frame is four launches beside its broad phase, six where bodies sleep; all are asynchronous. Each is a kernel of
+// its own, so that none has the registers of another. A kernel does nothing when it finds that the frame is aborted;
+// the solver's kernel then tells the host.
 
 core::Result<LaunchShape> constraint_launch_shape();
 
@@ -40,7 +40,7 @@ core::Result<LaunchShape> sleep_launch_shape();
 core::Status launch_wake(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 core::Status launch_fall_asleep(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 
-// What the last frame left. Adds to *digest.
+// The digest of the last frame. Adds to *digest.
 struct RigidDigestView {
   std::uint32_t body_count = 0;
   std::uint64_t confirmed_count = 0;

@@ -72,17 +72,17 @@ struct RigidPipeline::Impl {
   core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
-  // The frame is kept, so what it came to is what the next one starts from.
+  // The frame is kept: the next one starts from the state that it ended in.
   [[nodiscard]] RigidLeft left() const { return {bodies, buffers, pairs, last_pairs, last}; }
   void take_frame();
 };
 
 namespace {
 
-// A cell of the broad phase is made for boxes so much larger than those seen, since boxes grow with the speed of their
-// bodies.
+// Cells of the broad phase are made for boxes this much larger than those seen so far, because boxes grow with the
+// speed of their bodies.
 constexpr float kRoomForSpeed = 1.25F;
-// Eight overlaps a body, and more when a frame finds more.
+// Room for eight overlaps a body, and more when a frame finds more.
 constexpr std::uint64_t kPairsPerBody = 8;
 
 std::uint32_t as_word(float v) {
@@ -96,7 +96,7 @@ RigidPipeline::RigidPipeline(const RigidPipelineOptions& options) : impl_(std::m
 }
 RigidPipeline::~RigidPipeline() = default;
 
-// As the twin: without level 0 there is nothing that a broad phase could start from.
+// As in the twin: without level 0 a broad phase has nothing to start from.
 bool RigidPipeline::Impl::has_broad() const {
   return options.broad != Broad::kBrute;
 }
@@ -236,8 +236,9 @@ core::Status RigidPipeline::Impl::launch_all() {
   const SolveTeamChoice solve = choose_solve_team(solve_shape, view.body_count, options.may_cluster);
   view.solve_team = solve.kind;
   BROADSIDE_TRY(launch_place(view, contact_shape, stream));
-  // Without cells, which the first frame's boxes give, a box would look for partners in billions of them. The others
-  // find that the boxes are too large, and the frame is repeated.
+  // Cells are chosen from boxes of earlier frames. The first frame has none, and with cells of no size a box would look
+  // for partners in billions of them: so there is no broad phase. The kernels behind it find that the boxes are too
+  // large for their cells, and the frame is repeated.
   const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
   if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
   BROADSIDE_TRY(launch_contacts_of_scene());
@@ -251,8 +252,8 @@ core::Status RigidPipeline::Impl::launch_all() {
   return wait_for_stream(stream, "a frame");
 }
 
-// When its room was too small it has grown, and an island that was touched is awake: the frame has to be launched again
-// from the same state.
+// After an abort there is room for what was too small, and an island that was touched is awake. So the frame is
+// launched again from the same state.
 core::Result<bool> RigidPipeline::Impl::is_kept() {
   last = outcome[0].counts;
   if (last.is_aborted == 0) return true;
@@ -305,7 +306,7 @@ core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
   const std::uint32_t parts_before = d.parts.count();
   BROADSIDE_TRY(d.parts.choose(d.bodies, d.buffers.before(), *d.scene, dt_s));
-  // What a contact gives in a part is no longer that of the last one.
+  // What sleeping contacts go on giving holds for parts of one length only, so all bodies wake.
   if (dt_s != d.dt_s || d.parts.count() != parts_before) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
   d.times = {};

@@ -22,7 +22,7 @@ struct RigidPipelineOptions {
   core::SoftSettings solver;
   bool has_fixed_thresholds = false;  // the scene's
   std::uint32_t least_for_grid = kLeastBodiesForGrid;
-  // Who stops, where it moves farther than it is thick, before it passes through others.
+  // Which bodies stop before they pass through others when they move farther than they are thick.
   core::Swept swept = core::Swept::kFlagged;
   bool sleeps = false;      // islands that stand still stop being solved
   bool may_cluster = true;  // few contacts are solved by one cluster of blocks, where the GPU has them
@@ -36,9 +36,9 @@ class RigidPipeline final : public core::Dynamics, public core::FrameOnDevice {
 
   // Refuses what the twin refuses.
   core::Status load(const core::Scene& scene) override;
-  // Five launches: boxes, candidate pairs, contacts, constraints, substeps; two more where bodies sleep; again, from
-  // the same state, when room or a cell of the broad phase turned out too small, or somebody wakes. Synchronizes. An
-  // error when a body has left the finite numbers.
+  // Five launches: boxes, candidate pairs, contacts, constraints, substeps; two more where bodies sleep. They are
+  // repeated from the same state when there was too little room, when a cell of the broad phase was too small, or when
+  // a sleeping island wakes. Synchronizes. An error when a body's numbers are no longer finite.
   core::Status step(float dt_s) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override;

@@ -11,7 +11,7 @@
 
 namespace broadside::gpu {
 
-// After the step was kept: buffers.before() has the states that it came to, buffers.after() those it began with.
+// Call after the step was kept: buffers.before() has the states that it ended in, buffers.after() those it began with.
 struct RigidLeft {
   const core::RigidBodies& bodies;
   const RigidBuffers& buffers;
@@ -20,7 +20,7 @@ struct RigidLeft {
   RigidCounts counts;
 };
 
-// The twin's sum, added up on the device. Synchronizes.
+// The digest, as the twin has it, added up on the device. Synchronizes.
 core::Result<std::uint64_t> rigid_digest_of(const RigidLeft& left, const LaunchShape& shape, StreamHandle stream);
 // Sorted as the twin's.
 core::Status read_back_rigid(const RigidLeft& left, core::FrameRecord& frame);

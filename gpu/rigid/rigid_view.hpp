@@ -15,8 +15,8 @@
 
 namespace broadside::gpu {
 
-// A patch's place among the patches of each of its bodies, in the order in which they are colored; kNotMoved for a body
-// that never moves.
+// A patch's place in the lists of each of its bodies, in the order in which they are colored; kNotMoved for a body that
+// never moves.
 struct alignas(16) PatchRank {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
@@ -26,7 +26,7 @@ struct alignas(16) PatchRank {
 constexpr std::uint32_t kNotMoved = 0xFFFFFFFFU;
 constexpr std::uint32_t kUncolored = 0xFFFFFFFFU;
 
-// What the coloring knows of a body: one word of 16 bytes, so that a reader sees all of it at one moment.
+// A body's state during coloring: one word of 16 bytes, so that a reader sees all of it at one moment.
 struct alignas(16) BodyColors {
   std::uint32_t taken_low = 0;   // bit c: color c
   std::uint32_t taken_high = 0;  // bit c: color 32 + c
@@ -34,8 +34,8 @@ struct alignas(16) BodyColors {
   std::uint32_t colored = 0;     // how many of its patches have a color
 };
 
-// core::SolverBody in words of 16 bytes; those that sweeps over patches read come first, those that they write before
-// all others: 32 bytes, which is how much memory is read at least.
+// core::SolverBody in words of 16 bytes. Words that sweeps over patches read come first, and among these the ones that
+// they also write: 32 bytes, which is the least that memory gives at once.
 struct alignas(128) PackedSolverBody {
   PackedVec3 v;  // w: inverse mass
   PackedVec3 angular_momentum;
@@ -54,10 +54,10 @@ struct alignas(32) PackedStart {
   PackedVec3 driven_angular_momentum;
 };
 
-// Whose barriers the solver's kernel has: all its blocks'. A cluster's is the fastest.
+// Which barrier the solver's kernel uses: that of the whole grid, or that of a cluster, which is the fastest.
 enum class SolveTeamKind : std::uint8_t { kGrid, kCluster };
 
-// Fixed during a run, but for what changes places after every step.
+// Fixed during a run, except for the pointers that are swapped after every step.
 struct RigidFrameView : ContactView {
   float dt_s = 0.0F;
   core::Vec3 gravity_m_s2;
@@ -82,11 +82,12 @@ struct RigidFrameView : ContactView {
   std::uint64_t place_capacity = 0;
   PackedVec3* constraints = nullptr;  // constraint_tiles.cuh
   float* changes = nullptr;           // [places] J, of the last sweep (core::squared_change)
-  // [2 * patches] In the lists of each moved body its patches' places by color: 2 * place, + 1 where it is body B.
+  // [2 * patches] The lists of moved bodies: places of a body's patches in the order of colors, each as 2 * place, + 1
+  // where the body is B.
   std::uint32_t* by_color = nullptr;
   PackedSolverBody* bodies = nullptr;  // [bodies + 1]; the last one stands for every face: it never moves
   PackedStart* starts = nullptr;       // [bodies + 1] of the substep
-  // [bodies + 1] While contacts bounce: the sweep that has to visit the body's patches, of all of the step.
+  // [bodies + 1] While contacts bounce: the latest sweep, counted over the step, that has to visit the body's patches.
   std::uint32_t* stirred = nullptr;
   core::Vec3* impulses = nullptr;  // [4 * patches] N s on A, of the whole step
   PatchMemory old_memory;          // of the step before

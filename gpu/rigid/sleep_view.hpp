@@ -1,4 +1,4 @@
-// Where the kernels of sleep (core/method/rigid/sleep.hpp) have what they know: by value, of one simulation.
+// The data of the kernels of sleep (core/method/rigid/sleep.hpp), by value, of one simulation.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// A patch of a body that sleeps, with what it gave in its last step awake.
+// A patch of a sleeping body, with the impulses of the last step in which it was awake.
 struct AsleepPatch {
   core::ContactPatch patch;
   core::Vec3 impulses[core::kManifoldPoints];         // N s on A, of the whole step

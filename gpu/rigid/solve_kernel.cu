@@ -7,11 +7,11 @@
 namespace broadside::gpu {
 namespace {
 
-// A warp for each of a multiprocessor's four schedulers, and two such blocks: 255 registers a thread, so that a patch
-// and both its bodies lie in registers.
+// Blocks of a warp for each of a multiprocessor's four schedulers, two of them resident: that leaves 255 registers a
+// thread, enough for a patch and both its bodies.
 constexpr std::uint32_t kThreads = 128;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
-// Clusters of more than 8 blocks are not on every GPU.
+// Not every GPU has clusters of more than 8 blocks.
 constexpr std::uint32_t kMostClusterBlocks = 16;
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)

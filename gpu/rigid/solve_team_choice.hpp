@@ -1,4 +1,4 @@
-// How many blocks solve a step of turning bodies, and whose barriers they have.
+// How many blocks solve a step of turning bodies, and which barrier they use.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@ struct SolveTeamChoice {
   std::uint32_t blocks = 1;
 };
 
-// A block for so many bodies as it has threads: the first color of a heap has about a patch a body, the others have
-// fewer, and more blocks have a slower barrier. A cluster's is the fastest, so its threads may have some patches of a
-// color one after the other.
+// Blocks for as many threads as there are bodies: the first color of a heap has about a patch a body, the other colors
+// have fewer, and more blocks have a slower barrier. A cluster has the fastest barrier, so it is still chosen where its
+// threads must take some patches of a color one after the other.
 inline SolveTeamChoice choose_solve_team(const SolveShape& shape, std::uint32_t body_count, bool may_cluster) {
-  // Above so many turns of a cluster's threads a larger grid is sooner done, whose barrier takes longer.
+  // With more turns than this of a cluster's threads a grid is faster, although its barrier takes longer.
   constexpr std::uint64_t kMostTurnsOfCluster = 2;
   const std::uint64_t threads = shape.grid.threads;
   const std::uint64_t wanted = (body_count + threads - 1) / threads;

@@ -15,15 +15,16 @@
 
 namespace broadside::gpu {
 
-// Its pairs are those of boxes of whole ways, so they have a search of their own; a step in which nobody moves far is
-// spared it.
+// Its pairs are those whose boxes of whole ways overlap, which needs a search of its own. A step in which no body moves
+// far skips it.
 class SweepStage {
  public:
   core::Status load(const core::RigidBodies& bodies);
-  // Behind the substeps of a frame that is kept. after: drawn back where it must. Synchronizes.
+  // Call after the substeps of a frame that is kept. after: set back along the way where a body must stop.
+  // Synchronizes.
   core::Status stop_short(const ContactView& frame, core::RigidState* after, StreamHandle stream);
 
-  // Since load: bodies that were drawn back, one for each step.
+  // How many bodies were set back since load; a body counts once for each step.
   [[nodiscard]] std::uint64_t stopped() const { return stopped_; }
   [[nodiscard]] std::uint64_t bytes() const;
 

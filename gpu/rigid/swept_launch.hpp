@@ -1,4 +1,4 @@
-// The launches that stop fast bodies short, behind the substeps: long_contact_kernel.cu implements them on CUDA,
+// The launches that stop fast bodies short, after the substeps. long_contact_kernel.cu implements them on CUDA,
 // on_host/rigid_on_host.cpp with fibers.
 #pragma once
 
@@ -13,7 +13,7 @@ core::Result<LaunchShape> swept_launch_shape();
 
 // How far each body went, and boxes of its way. Asynchronous.
 core::Status launch_ways(const SweptView& view, StreamHandle stream);
-// With the pairs of these boxes. Asynchronous.
+// Stops bodies, given the pairs whose boxes overlap. Asynchronous.
 core::Status launch_stop_short(const SweptView& view, const LaunchShape& shape, StreamHandle stream);
 
 }  // namespace broadside::gpu

@@ -51,7 +51,7 @@ core::Status ToldFrame::prepare(const RigidLeft& left) {
   return core::Done{};
 }
 
-// More than is asked for, because memory that grows by a little each step costs more than the columns.
+// Room for more than is asked for, because memory that grows a little in every step costs more than the columns.
 core::Status ToldFrame::reserve_points(std::size_t points) {
   if (points_.a.data() != nullptr && points <= points_.a.capacity()) return core::Done{};
   points += points / 2;

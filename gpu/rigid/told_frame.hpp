@@ -1,4 +1,4 @@
-// A frame of turning bodies as columns of the trace that lie on the device. Made when somebody asks.
+// A frame of turning bodies as columns of the trace in device memory. It is made when it is asked for.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ class ToldFrame {
  public:
   // Another scene was loaded.
   void forget() { is_ready_ = is_told_ = false; }
-  // Valid until the next step or load, and as long as the buffers of what was left. The first call after a step
-  // launches and waits; others of this step give the same columns.
+  // The columns are valid until the next step or load, and as long as the buffers of the simulation. The first call
+  // after a step launches and waits; later calls in the same step return the same columns.
   core::Result<core::DeviceFrame> tell(const RigidLeft& left, std::uint64_t step, StreamHandle stream);
 
  private:

@@ -1,4 +1,4 @@
-// The launch that tells states and points of a frame of turning bodies as columns of the trace, on the device.
+// The launch that writes states and points of a frame of turning bodies as columns of the trace, on the device.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace broadside::gpu {
 
-// A column each, because some libraries take packed rows alone. In the units and frame of the trace.
+// One array a column, because some libraries take packed rows alone. Units and frame are those of the trace.
 struct ToldBodies {
   core::Vec3* position = nullptr;  // of the mesh's origin
   core::Quat* orientation = nullptr;

@@ -23,13 +23,16 @@ def steps(page):
 
 
 def changed(step, text):
-    """The file's text after this step. Raises ValueError where the page names a line that is not there."""
+    """The file's text after this step. Raises ValueError where the page names a line that is not there once."""
     if step.is_file:
         return step.text
     if not step.after:
         return text + step.text
     lines = text.splitlines(keepends=True)
-    at = [line.strip() for line in lines].index(step.after.strip())
+    places = [k for k, line in enumerate(lines) if line.strip() == step.after.strip()]
+    if len(places) != 1:
+        raise ValueError(f"has {'no' if not places else 'more than one'} line '{step.after}'")
+    at = places[0]
     return "".join(lines[:at + 1]) + step.text + "".join(lines[at + 1:])
 
 
@@ -43,6 +46,6 @@ def violations(tree):
         elif there:
             try:
                 changed(step, (tree.root / step.name).read_text(encoding="utf-8"))
-            except ValueError:
-                found.append(f"{PAGE}: {step.name} has no line '{step.after}'")
+            except ValueError as error:
+                found.append(f"{PAGE}: {step.name} {error}")
     return found

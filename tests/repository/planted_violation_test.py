@@ -169,6 +169,8 @@ class PlantedViolation(unittest.TestCase):
         self.one(contributing, page("line of: core/other.inc"), "is not there")
         self.one(contributing, page("line of: core/body.hpp, after: int b;"), "has no line")
         self.assertEqual([], self.found(contributing, page("line of: core/body.hpp, after: #pragma once")))
+        twice = {**page("line of: core/twice.md, after: |---|"), "core/twice.md": "|---|\none\n|---|\ntwo\n"}
+        self.one(contributing, twice, "has more than one line")
         step = contributing.steps(page("line of: a, after: two")[contributing.PAGE])[0]
         self.assertEqual("one\n  two\nline\nthree\n", contributing.changed(step, "one\n  two\nthree\n"))
 

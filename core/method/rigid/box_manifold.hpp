@@ -1,7 +1,8 @@
-// The manifold of two boxes, once the direction in which they are farthest apart is known.
+// The manifold of two boxes, given the direction in which they are farthest apart.
 //
-// The same points with the same keys as polytope_manifold.hpp makes of two polytopes, by shorter ways (box_area.hpp,
-// box_nearest.hpp). Keys are part of it: they order the points of a patch, and a response solves them in that order.
+// The points and keys are those that polytope_manifold.hpp makes of the same boxes seen as polytopes; box_area.hpp and
+// box_nearest.hpp are shorter ways to them. The keys must be the same too, because they order the points of a patch,
+// and a response solves points in that order.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,7 @@ namespace broadside::core {
 
 namespace box_detail {
 
-// Points in the order of their keys: the same while the same four are kept.
+// Points in the order of their keys. So their order stays while the same four points are kept.
 BROADSIDE_HD void add_in_order(Manifold& out, const ManifoldPoint& p) {
   int place = out.count;
   for (; place > 0 && p.feature < out.points[place - 1].feature; --place) out.points[place] = out.points[place - 1];
@@ -40,7 +41,8 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
   out.count = 0;
   if (axis.kind == AxisKind::kNone || !(axis.gap_m <= reach_m)) return;
   out.normal = axis.normal;
-  // Of two edges the face of A is the reference: none of a box's faces that looks along a direction most is steep.
+  // Where two edges touch, a face of A is the reference: of a box's faces, the one that looks along a direction most is
+  // never steep against it.
   const bool reference_is_a = axis.kind != AxisKind::kFaceOfB;
   const BoxPolytope& reference = reference_is_a ? a : b;
   const BoxPolytope& incident = reference_is_a ? b : a;
@@ -56,7 +58,7 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
   BROADSIDE_KEPT_LOOP
   for (int k = 0; k < area.count; ++k) least = fminf(least, area.points[k].gap_m);
 
-  // A point that is as deep as the axis says: then its gap is the distance.
+  // A point that is as deep as the axis says. Such a point must exist, because its gap is the distance of the bodies.
   ManifoldPoint witness;
   bool has_witness = false;
   bool is_shown = least <= axis.gap_m + 2.0F * rounding_m;
@@ -68,13 +70,13 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
     a.edge(axis.of_a, a0, a1);
     b.edge(axis.of_b, b0, b1);
     const EdgeCrossing crossing = edge_crossing(a.corner(a0), a.corner(a1), b.corner(b0), b.corner(b1));
-    // Overlapping edges cross but for rounding.
+    // Edges of boxes that overlap cross each other, whatever rounding says.
     has_witness = crossing.is_inside || axis.gap_m <= 0.0F;
     witness = {middle_of(crossing.on_a, crossing.on_b, axis.normal, axis.gap_m, false), axis.gap_m,
                feature_key(edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
                            edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)))};
   } else if (!is_shown && axis.gap_m <= 0.0F) {
-    // Overlapping, the deepest corner is over the face but for rounding.
+    // Where boxes overlap the deepest corner is over the face, whatever rounding says.
     has_witness = true;
     witness = {(view.reference.middle + deepest.u * view.reference.u) +
                    (deepest.w * view.reference.w + (0.5F * deepest.gap_m) * outward),
@@ -86,7 +88,7 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
     has_witness = true;
     witness.gap_m = axis.gap_m;
     witness.feature = feature_key(near.name_a, near.name_b);
-    // A touch whose direction would be rounding alone: the axis stays.
+    // Where the boxes touch, the direction between their points is rounding alone: then the axis is kept.
     if (near.gap_m > axis.gap_m) {
       out.normal = near.normal;
       witness.gap_m = near.distance_m;

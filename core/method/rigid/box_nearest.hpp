@@ -1,6 +1,6 @@
-// The nearest points of two boxes that are apart, where no axis shows how far: a corner of one, and the point of the
-// other one that it is nearest to, which clamping its coordinates gives. Where two edges cross nearest to each other,
-// the axis across both shows it.
+// The nearest points of two boxes that are apart, where no axis shows their distance: a corner of one box and the point
+// of the other one that is nearest to it, found by clamping the corner's coordinates. (Where two edges are nearest to
+// each other, the axis across both shows the distance.)
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct NearestCorner {
   float squared_m2 = 3.402823e38F;
   int corner = 0;
   Vec3 nearest;  // in the axes of the other box, from its center
-  Vec3 beyond;   // from there to the corner, in the same axes: 0 along each of them in whose range the corner is
+  Vec3 beyond;   // from there to the corner, in the same axes: 0 along an axis in whose range the corner is
 };
 
 BROADSIDE_HD_CALLED NearestCorner nearest_corner(const BoxPolytope& corners, const BoxPolytope& solid) {
@@ -39,8 +39,8 @@ BROADSIDE_HD_CALLED NearestCorner nearest_corner(const BoxPolytope& corners, con
   return best;
 }
 
-// Of the point of a box that is nearest to a corner: the name of the corner, edge or face that it is on. outward: from
-// it to the corner, in the box's axes.
+// The name of the corner, edge or face of a box that its nearest point to a corner of the other box is on. outward:
+// from that point to the corner, in the box's axes.
 BROADSIDE_HD std::uint32_t name_on_box(Vec3 outward) {
   int lower = 0;
   int free_axis = -1;
@@ -59,11 +59,11 @@ BROADSIDE_HD std::uint32_t name_on_box(Vec3 outward) {
   return face_name(static_cast<std::uint32_t>(2 * across + (outward[across] > 0.0F ? 1 : 0)));
 }
 
-// Two boxes that are apart, where no axis shows by how much.
+// The nearest points of two boxes that are apart, and bounds of their distance.
 struct NearestOfBoxes {
   Vec3 normal;                  // unit, from B to A
-  float gap_m = -3.402823e38F;  // along the normal: the boxes are no nearer
-  float distance_m = 0.0F;      // of these points: nor farther apart
+  float gap_m = -3.402823e38F;  // along the normal: at most the distance
+  float distance_m = 0.0F;      // of these points: at least the distance
   Vec3 on_a;
   Vec3 on_b;
   std::uint32_t name_a = 0;
@@ -99,7 +99,7 @@ BROADSIDE_HD_CALLED NearestOfBoxes nearest_of_boxes(const BoxPolytope& a, const 
   const Vec3 outward = turned(solid.axes, near.beyond);
   Vec3 d = is_of_a ? outward : -outward;
   try_direction(a, b, d, out);
-  // A corner may be nearest where a point of its edge is nearer by less than rounding, as in nearest_direction.
+  // The corner may be nearest although a point of its edge is nearer by less than rounding: see nearest_direction.
   BROADSIDE_KEPT_LOOP
   for (int round = 0; round < 2 && out.gap_m > 0.0F && out.distance_m - out.gap_m > 2.0F * rounding_m; ++round) {
     const Vec3 u = a.corner(lowest_corner(a, out.normal)) - out.on_a;

@@ -13,14 +13,14 @@
 
 namespace broadside::core {
 
-// The points of a manifold share one normal. Where a capsule's line is more than 8 degrees (this cosine) from lying
-// across it, or the other surface's own normal is, the ends of the line are left out: as bounds of motion along the
-// common normal their gaps would be off by more than 1 %.
+// The points of a manifold share one normal. The ends of a capsule's line are left out where the line, or the other
+// surface, is tilted by more than 8 degrees (this cosine) against that normal: gaps along the common normal would then
+// be off by more than 1 %.
 inline constexpr float kSameNormal = 0.99F;
 
 namespace capsule_detail {
 
-// The end of the line of a capsule's surface that looks in a direction, beside an end of its segment.
+// The point of a capsule's surface beside an end of its segment, on the side that looks in a direction.
 BROADSIDE_HD bool line_end(const PlacedShape& capsule, int end, Vec3 towards, Vec3& out) {
   const Vec3 axis = capsule.axes[capsule.shape->axis];
   const Vec3 across = towards - dot(towards, axis) * axis;
@@ -30,7 +30,7 @@ BROADSIDE_HD bool line_end(const PlacedShape& capsule, int end, Vec3 towards, Ve
   return size >= kSameNormal;
 }
 
-// Two segments touch along a line where the ends of either lie beside the other.
+// Two capsules touch along a line where ends of one segment lie beside the other segment.
 BROADSIDE_HD void capsules(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m, Manifold& out) {
   const SegmentPolytope sa = segment_polytope(a);
   const SegmentPolytope sb = segment_polytope(b);
@@ -44,7 +44,7 @@ BROADSIDE_HD void capsules(const PlacedShape& a, const PlacedShape& b, float rou
   if (distance > rounding_m) {
     out.normal = direction.normal;
   } else {
-    // Segments that cross part along the direction across both; parallel ones across either.
+    // Segments that cross are parted along the direction across both; parallel ones along any direction across them.
     const Vec3 across = cross(sa.half, sb.half);
     const float squared = dot(across, across);
     const bool is_parallel =
@@ -75,8 +75,8 @@ BROADSIDE_HD void capsules(const PlacedShape& a, const PlacedShape& b, float rou
   keep_four(out, count, reach_m, [&](int k) { return points[k]; });
 }
 
-// The deepest point is that of the segment with its ball. Where the capsule lies along the other surface, the line of
-// its own surface is clipped by the face below, or, along an edge, has its ends: distance(p) is that of a point from
+// The deepest point is that of the segment with its ball. Where the capsule lies on a face, the line of its own surface
+// is clipped by that face; where it lies on an edge, the two ends of the line are taken. distance(p): from a point to
 // the other body.
 template <typename Polytope, typename Distance>
 BROADSIDE_HD void lying(const PlacedShape& capsule, const Polytope& other, float rounding_m, float reach_m,
@@ -100,7 +100,7 @@ BROADSIDE_HD void lying(const PlacedShape& capsule, const Polytope& other, float
     area.points[area.count++] = {ends[end] - (0.5F * from.gap_m) * from.normal, from.gap_m,
                                  feature_key(corner_name(static_cast<std::uint32_t>(end)), from.name)};
   }
-  // The deepest point may be among them.
+  // The deepest point may be one of these already.
   int count = 0;
   for (int k = 0; k < area.count; ++k) {
     const Vec3 apart = area.points[k].point - deepest.point;

@@ -1,8 +1,8 @@
 // Sweeps over contacts go on along conjugate directions: Silcowitz, Niebe and Erleben, A nonsmooth nonlinear conjugate
 // gradient method for interactive contact force problems (2010), with the rule of Fletcher and Reeves. RIGID 8.5.
 //
-// A sweep alone carries an impulse from one contact to the next; a stack of n bodies, or a mass n times its support,
-// takes some n^2 or n of them. Along conjugate directions it takes the square root of that.
+// One sweep carries an impulse from one contact to the next. A stack of n bodies takes some n^2 sweeps, and a mass n
+// times that of its support some n. Along conjugate directions it takes the square root of that.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -29,7 +29,7 @@ BROADSIDE_HD void note_impulses(const PatchOf<Number>& c, PatchWayOf<Number>& wa
   });
 }
 
-// The square of what the sweep changed, in the mobilities of the points, J.
+// The squared size of what the sweep changed, weighted with the mobilities of the points, J.
 template <typename Number>
 BROADSIDE_HD Number squared_change(const PatchOf<Number>& c, const PatchWayOf<Number>& way) {
   Number sum = 0.0F;
@@ -43,9 +43,10 @@ BROADSIDE_HD Number squared_change(const PatchOf<Number>& c, const PatchWayOf<Nu
   return sum;
 }
 
-// How much of the last direction is added, by the squared changes of the first sweep of a substep, the one before and
-// this one; those that were not yet are 0. None where changes grow, nor where they are larger than at first: friction
-// makes sweeps that do not shrink an energy, and directions may then lead on and on.
+// How much of the last direction is added (Fletcher and Reeves). The arguments are the squared changes of the first
+// sweep of a substep, of the last one and of this one; 0 where there was none. The answer is 0, which starts the
+// directions anew, where changes grow or are larger than at first: with friction a sweep need not lower an energy, and
+// a direction may lead on and on.
 BROADSIDE_HD constexpr float share_of_direction(float first_change, float last_change, float change) {
   return last_change > 0.0F && change <= last_change && change <= first_change ? change / last_change : 0.0F;
 }
@@ -63,8 +64,8 @@ BROADSIDE_HD PointStep<Number> step_along(const Number (&way)[3], float share) {
   return {share * way[0], share * way[1], share * way[2]};
 }
 
-// Goes on along the last direction by `share` of it, and turns the direction to what the sweep changed. The impulses
-// alone: what that does to the bodies is push_along's.
+// Goes on along the last direction by `share` of it, and adds to the direction what the sweep changed. This changes
+// impulses alone; push_along changes the bodies.
 template <typename Number>
 BROADSIDE_HD void follow_impulses(PatchOf<Number>& c, PatchWayOf<Number>& way, float share) {
   each_point(c, [&](int k) {
@@ -81,7 +82,7 @@ BROADSIDE_HD void follow_impulses(PatchOf<Number>& c, PatchWayOf<Number>& way, f
   });
 }
 
-// What the step along the direction does to the bodies. Before follow_impulses turns it.
+// What the step along the direction does to the bodies. Call it before follow_impulses, which changes the direction.
 template <typename Number, typename Body>
 BROADSIDE_HD void push_along(const PatchOf<Number>& c, const PatchWayOf<Number>& way, Body& a, Body& b, float share) {
   PatchPushOf<Number> given;

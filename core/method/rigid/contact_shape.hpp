@@ -14,10 +14,10 @@
 
 namespace broadside::core {
 
-// In this order shapes take the part of A: a family of pairs is written once, for the lower kind first.
+// Of two shapes the one of the lower kind takes the part of A, so that each family of pairs is written once.
 enum class ContactKind : std::uint32_t { kSphere, kCapsule, kBox, kCylinder, kHull, kMesh, kHalfSpace };
 
-// A face of a hull has at most so many corners; a face of more is stored as several faces in one plane.
+// A face of a hull has at most this many corners; a larger face is stored as several faces in one plane.
 inline constexpr int kFaceCorners = 16;
 
 struct HullFace {
@@ -39,7 +39,7 @@ struct HullView {
   const HullFace* faces = nullptr;
   const std::uint32_t* corners = nullptr;  // of faces: indices of vertices
   const HullEdge* edges = nullptr;
-  // Which corners are neighbors along edges (hull_climb.hpp); none of hulls that are made on the way.
+  // Which corners are neighbors along edges (hull_climb.hpp); null for hulls that are made while contacts are found.
   const std::uint32_t* ways = nullptr;
   // As `corners`: the face beyond the side from this corner to the next one, or the face itself where there is none.
   const std::uint32_t* beyond = nullptr;
@@ -55,8 +55,9 @@ struct TriangleNode {
   std::uint32_t first = 0;
   Vec3 max;
   std::uint32_t count = 0;  // of triangles; 0 = an inner node
-  // A cone about this unit direction has all in which surfaces of its triangles look: the cosine of its half angle, or
-  // -1 where that is not below a right angle. Johnson and Cohen, Spatialized Normal Cone Hierarchies (2001).
+  // The surfaces of the node's triangles look only in directions of a cone about this unit direction: the cosine of its
+  // half angle, or -1 where that angle is a right one or more. Johnson and Cohen, Spatialized Normal Cone Hierarchies
+  // (2001).
   Vec3 looking;
   float least_looking = -1.0F;
 };
@@ -110,10 +111,10 @@ BROADSIDE_HD PlacedShape placed_shape(const ContactShape& shape, const ContactPo
   return {&shape, (pose.x - origin) + turned(axes, shape.center), axes};
 }
 
-// How far rounding can move a gap: the unit roundoff times the lengths that went into it, times the number of roundings
-// in a row from coordinates to gaps. A corner takes three products and sums in each of two turns and two shifts; a
-// direction that is a normalized cross product takes ten; a plane's height five; the quaternion itself is a unit to
-// two.
+// How far rounding can move a gap: the unit roundoff, times the lengths from which the gap is computed, times the
+// number of roundings in a row from coordinates to gap. A corner takes three products and sums in each of two turns and
+// two shifts; a direction that is a normalized cross product takes ten; a plane's height five; a quaternion is of
+// length 1 to two roundings.
 inline constexpr float kContactRoundings = 32.0F;
 
 BROADSIDE_HD float contact_rounding_m(const PlacedShape& a, const PlacedShape& b) {

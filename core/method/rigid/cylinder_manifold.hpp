@@ -1,9 +1,11 @@
 // A cylinder against capsules, boxes, hulls and cylinders.
 //
-// The axis is searched over a prism whose corners are gathered, pass by pass, where the last pass touched; each axis is
-// measured with the reach of the round body, so no prism makes a gap too wide, and the last one is round to two
-// roundings. Points are those of the round surfaces: the ends of the line on which a lying cylinder touches, sixteen
-// corners of an end that lies on a face (they turn with the body, so they keep their names), and the deepest point,
+// The separating axis is searched with a prism in place of the cylinder. Pass by pass, the prism's corners are gathered
+// where the last pass touched. Each axis is measured with the reach of the round body, so no prism makes a gap too
+// wide, and the last prism is round to two roundings.
+//
+// The points are those of the round surfaces: the ends of the line on which a lying cylinder touches; the sixteen
+// corners of an end that lies on a face (they turn with the body, so they keep their names); and the deepest point,
 // wherever on the rim it is.
 #pragma once
 
@@ -26,7 +28,7 @@ namespace cylinder_detail {
 
 inline constexpr int kRoom = 2 * kFaceCorners + 12;
 
-// The other body, as a polytope for a pass: only another cylinder has one for each.
+// The other body as a polytope. Only another cylinder has a different one in each pass.
 BROADSIDE_HD SegmentPolytope polytope_of(const PlacedShape& p, SegmentPolytope, int, Vec3) {
   return segment_polytope(p);
 }
@@ -65,7 +67,7 @@ struct Candidates {
     add({p - (0.5F * from.gap_m) * from.normal, from.gap_m,
          is_on_a ? feature_key(name, from.name) : feature_key(from.name, name)});
   }
-  // Where the point that is meant is one of several equally deep ones, not every one is over the other body.
+  // Where several points are equally deep, the one that was found need not be over the other body.
   BROADSIDE_HD_CALLED void add_if_on_both(Vec3 middle, float gap_m, std::uint32_t key, const PlacedShape& a,
                                           const PlacedShape& b) {
     const Vec3 half = (0.5F * gap_m) * normal;
@@ -250,7 +252,7 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
       polytope = polytope_of(other, kind, pass, crosses ? crossing.on_b - other.center : n);
     }
     const SeparatingAxis found = separating_axis(prism, polytope, rounding_m, reach_m + ball);
-    // As wide but for rounding, a later pass knows better where its edges are.
+    // Of two gaps that differ by rounding alone the later pass is taken, because it knows better where its edges are.
     if (found.kind == AxisKind::kEdges && !(found.gap_m < axis.gap_m - rounding_m))
       crossing = crossing_of(prism, polytope, found);
     if (axis.kind == AxisKind::kNone || found.gap_m > axis.gap_m) axis = found;
@@ -279,14 +281,14 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
   }
   const std::uint32_t rim_key = feature_key(edge_name(0, upright > 0.0F ? 1 : 2), edge_name(0, 0));
   if (points.least_gap() > shown && axis.kind == AxisKind::kEdges) {
-    // Chords far from where the last rims are fine may seem to cross.
+    // Where the last rims are coarse, chords may cross although the rims do not.
     const Vec3 error = crossing.on_a - crossing.on_b - axis.gap_m * n;
     if (dot(error, error) <= 16.0F * rounding_m * rounding_m) {
       const Vec3 middle = middle_of(crossing.on_a, crossing.on_b, n, axis.gap_m, false);
       points.add(polytope_detail::with_balls({middle, axis.gap_m, rim_key}, n, 0.0F, ball));
     }
   }
-  // Overlapping, the deepest corner is over the face whose normal it is, but for rounding.
+  // Where the bodies overlap the deepest corner is over the face whose normal it is, whatever rounding says.
   const float gap = axis.gap_m - ball;
   if (points.least_gap() > shown && gap <= 0.0F) {
     const int lowest = lowest_corner(polytope, -n);
@@ -304,9 +306,10 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
     points.add(polytope_detail::with_balls(last, n, 0.0F, ball));
   }
   if (points.least_gap() > shown) {
-    // Apart, corner to corner or corner to rim: the direction between nearest points, on finer and finer rims.
+    // Apart, from corner to corner or from corner to rim: the direction between nearest points, on finer and finer
+    // rims.
     NearestDirection near;
-    // Each fineness twice: the nearest points of two rims move along both as either gets finer.
+    // Each fineness twice, because the nearest points of two rims move along both as either gets finer.
     for (int pass = 0; pass < 2 * kRimPasses - 1; ++pass) {
       const int fineness = (pass + 1) / 2;
       prism = cylinder_polytope(cylinder, fineness, pass == 0 ? -n : near.features.on_a - cylinder.center);

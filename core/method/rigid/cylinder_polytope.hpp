@@ -15,8 +15,9 @@ namespace broadside::core {
 
 inline constexpr int kRimCorners = 16;
 
-// Passes of gathering: 0 is the even prism, each later one is finer about the given direction than the one before is
-// coarse. After the last one a chord is off the rim by the radius times (0.001 rad)^2 / 8, which is two roundings.
+// Passes of gathering corners. Pass 0 is the even prism. In each later pass the corners that lie close together, about
+// the given direction, span the gap between two corners of the pass before. After the last one a chord is off the rim
+// by the radius times (0.001 rad)^2 / 8, which is two roundings.
 inline constexpr int kRimPasses = 4;
 
 namespace rim_detail {

@@ -1,9 +1,9 @@
 // Patches that only the end of a step shows: where a body that turns comes down on the other one.
 //
 // Contacts are detected at the start of a step. A corner that turns into the other body within the step is on no patch
-// there: a bunny that lands rolled into the floor by 7 cm, and small cubes that spin under large ones ended a tenth of
-// their side deep. So bodies that turn are looked at a second time, where they end if they touch nothing; what overlaps
-// there is taken back, with each body, to the start.
+// there. Before, a bunny that lands rolled into the floor by 7 cm, and small cubes that spin under large ones ended a
+// tenth of their side deep. So bodies that turn are looked at a second time, where they end if they touch nothing. An
+// overlap that is found there is moved back, with each body, to the start of the step.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -18,7 +18,7 @@ namespace broadside::core {
 
 namespace end_detail {
 
-// Of an end's arm from the center of mass, the same at the start, and back.
+// An arm from the center of mass at the end of the step, as it was at the start; and the other way round.
 BROADSIDE_HD Vec3 at_start(const ContactPath& path, Vec3 arm) {
   return turned(turned_axes(path.start.q), turned_back(turned_axes(path.end.q), arm));
 }
@@ -26,7 +26,7 @@ BROADSIDE_HD Vec3 at_end(const ContactPath& path, Vec3 arm) {
   return turned(turned_axes(path.end.q), turned_back(turned_axes(path.start.q), arm));
 }
 
-// What the gap of a point of the start is at the end.
+// The gap that a point of the start has at the end.
 BROADSIDE_HD float gap_at_end(const Manifold& m, const ManifoldPoint& p, const ContactPath& a, const ContactPath& b) {
   const Vec3 arm_b = p.point + (a.start.x - b.start.x);
   const Vec3 moved_a = (a.end.x - a.start.x) + (at_end(a, p.point) - p.point);
@@ -34,7 +34,7 @@ BROADSIDE_HD float gap_at_end(const Manifold& m, const ManifoldPoint& p, const C
   return p.gap_m + dot(m.normal, moved_a - moved_b);
 }
 
-// Whether a patch of the start has a point near this one that comes as deep.
+// Whether a patch of the start has a point that is near this one and comes as deep.
 BROADSIDE_HD bool is_foreseen(const ManifoldPoint& p, float end_gap_m, const Manifold* found, int count,
                               const ContactPath& a, const ContactPath& b, float near_m, float slack_m) {
   for (int k = 0; k < count; ++k)
@@ -48,14 +48,14 @@ BROADSIDE_HD bool is_foreseen(const ManifoldPoint& p, float end_gap_m, const Man
 
 }  // namespace end_detail
 
-// Adds to the patches of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most.
-// swing_m: by how much turning moves points of both. known: of these hulls, or nothing.
+// Adds patches to those of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most.
+// swing_m: how far turning moves points of both bodies. known: bounds of these two hulls, or null.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                         const ContactPath& b, float swing_m, Manifold* found, int count,
                                         const KnownGaps* known = nullptr) {
-  // In sizes of the smaller body: points nearer to each other than this are one; what ends deeper is too deep to tell
-  // from which side it came.
+  // In sizes of the smaller body. Points nearer to each other than kNear count as one. Of a point deeper than kDeepest
+  // nobody can tell from which side it came, so it is left out.
   constexpr float kNear = 0x1p-3F;
   constexpr float kDeepest = 0x1p-2F;
   const bool is_plane = shape_b.kind == ContactKind::kHalfSpace;
@@ -87,7 +87,8 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
       const Vec3 half = (0.5F * p.gap_m) * m.normal;
       const Vec3 on_a = end_detail::at_start(a, p.point + half);
       const Vec3 on_b = end_detail::at_start(b, (p.point - half) + (a.end.x - b.end.x)) + (b.start.x - a.start.x);
-      // Along this normal the bodies may be deeper than they are. A plane is met where the body is, wherever it slides.
+      // At the start the bodies may overlap more along this normal than they do: the gap is bounded below. A plane has
+      // no end, so its point is where the body is.
       const float gap = dot(m.normal, on_a - on_b);
       const Vec3 middle = is_plane ? on_a - (0.5F * gap) * m.normal : 0.5F * (on_a + on_b);
       const ManifoldPoint back{middle, fmaxf(gap, least_m), p.feature};

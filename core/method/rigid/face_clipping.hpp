@@ -15,8 +15,8 @@
 
 namespace broadside::core {
 
-// A face that is steeper than 60 degrees against the normal is no reference: heights over it would be off by more than
-// twice the rounding of the points they belong to.
+// A face that is steeper than 60 degrees against the normal is not taken as the reference: heights over it would be off
+// by more than twice the rounding of the points.
 inline constexpr float kSteepestReference = 0.5F;
 
 struct ClippedCorner {
@@ -63,7 +63,7 @@ BROADSIDE_HD void clip(ClippedFace<kRoom>& face, ClippedFace<kRoom>& kept, Vec3 
     const float next_height = dot(out, next.point - start);
     if ((height <= slack) == (next_height <= slack)) continue;
     const bool leaves = height <= slack;
-    // From the corner that is kept, so that equal edges are cut alike in both directions.
+    // Cut from the corner that is kept, so that equal edges are cut alike in both directions.
     const float inside = leaves ? height : next_height;
     const float outside = leaves ? next_height : height;
     if (!(inside < 0.0F)) {  // the corner that is kept lies on the side
@@ -82,9 +82,9 @@ BROADSIDE_HD void clip(ClippedFace<kRoom>& face, ClippedFace<kRoom>& kept, Vec3 
   for (int k = 0; k < kept.count; ++k) face.corners[k] = kept.corners[k];
 }
 
-// The incident face, cut by the sides of the reference, each as a point halfway between both surfaces. normal: unit,
-// from B to A; reference_is_a says whose face the reference is. count 0: nothing in common, or the reference is too
-// steep.
+// The incident face, cut by the sides of the reference; each corner of the result is a point halfway between both
+// surfaces. normal: unit, from B to A. reference_is_a: the reference is A's face. A count of 0 says that the faces have
+// nothing in common, or that the reference is too steep.
 template <int kRoom>
 struct CommonArea {
   int count = 0;

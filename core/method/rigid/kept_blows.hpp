@@ -1,9 +1,11 @@
-// A blow is no load. A substep begins with the impulses that the one before ended with: of what rests these are right,
-// of what was just stopped they push it off again, and sweeps have to take that back. Where masses are far apart they
-// cannot: 61 N s that stopped 8 kg through a cube of 16 g, between the floor and it, are taken back by 0.1 N s a sweep.
-// So patches of bodies that a bounce reached begin the next substep without an impulse there.
+// Impacts are not carried to the next substep. A substep begins with the impulses that the one before ended with. For a
+// body at rest these are right. A body that an impact has just stopped is pushed off again by them, and sweeps have to
+// take that back. Where masses are far apart they cannot: 61 N s that stopped 8 kg through a cube of 16 g on the floor
+// are taken back by 0.1 N s a sweep. So patches of bodies that a bounce reached begin the next substep without an
+// impulse.
 //
-// Before, what bounced was dropped and the floor's push below it kept: 8 kg that had come to rest left with 2 m/s.
+// Before, only the patches that bounced were dropped, and the floor's push below was kept: 8 kg that had come to rest
+// left with 2 m/s.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,7 @@ BROADSIDE_HD constexpr bool forgets_blows(SolveKind kind) {
   return kind == SolveKind::kUneven;
 }
 
-// What the patch gave in the substep counts, and is not kept for the next one.
+// Adds what the patch gave in the substep to its totals, and keeps none of it for the next substep.
 BROADSIDE_HD void drop_impulses(PatchConstraint& c) {
   each_point(c, [&](int k) {
     PatchPoint& p = c.points[k];

@@ -1,6 +1,6 @@
-// Bounds of the distance of two hulls at the poses of a step at which patches of most pairs ask for them. Whoever makes
-// patches of many pairs, a warp a pair, has them worked out before, a lane a pair: a distance is a search that lanes
-// cannot share.
+// Distances of two hulls at those poses of a step for which the patches of most pairs need them. On a GPU the lanes of
+// a warp share the work of one pair's patches, but cannot share the search for a distance. So a lane finds the
+// distances of a pair first, for as many pairs at once as there are lanes, and hands them on.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -16,7 +16,7 @@ struct KnownGaps {
   HullBounds deep_end;   // hull_bounds for end_patches.hpp: both where they end
 };
 
-// What ends less deep than this is left to the patches of the start.
+// End patches less deep than this are not looked for: the patches of the start suffice.
 BROADSIDE_HD float unseen_m(const ContactShape& a, const ContactShape& b) {
   constexpr float kUnseen = 0x1p-7F;
   return kUnseen * (b.kind == ContactKind::kHalfSpace ? a.size_m : fminf(a.size_m, b.size_m));

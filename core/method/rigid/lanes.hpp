@@ -1,6 +1,6 @@
-// Who goes through the long loops of contacts: corners, edges and faces of hulls, triangles of meshes. On the host it
-// is one lane, one item after the other. On a GPU the lanes of a warp share them (gpu/stages/rigid/warp_lanes.cuh) and
-// come to the same bits, because what each of these loops gives is a function of the items and their order alone.
+// Who runs the long loops of contacts: over corners, edges and faces of hulls, and over triangles of meshes. On the
+// host it is one lane, item by item. On a GPU the lanes of a warp share the items (gpu/stages/rigid/warp_lanes.cuh).
+// The bits are the same, because the result of each loop is a function of the items and their order alone.
 #pragma once
 
 #include <cstdint>
@@ -34,9 +34,9 @@ struct NodePair {
   std::uint32_t b = 0;
 };
 
-// What OneLane and its like have. Lanes see the same values in everything but these loops, whose functions value, rate,
-// has, make, open, items and measure are called by single lanes: none of them may begin such a loop. has may be called
-// more than once for an item.
+// What OneLane and its like provide. Outside these loops all lanes have the same values. The functions that are passed
+// in (value, rate, has, make, open, items and measure) are called by single lanes, so they must not begin such a loop.
+// has may be called more than once for an item.
 struct OneLane {
   static constexpr bool kKnowsLongShapes = true;  // hulls and meshes
 
@@ -52,7 +52,7 @@ struct OneLane {
     return least;
   }
 
-  // The first of the best, by is_better, of those that count; -1: none does. rate(k): as Rated.
+  // The first of the best items by is_better; -1 if none counts. rate(k) gives a Rated.
   template <typename Rate>
   BROADSIDE_HD static int first_best(int count, const Rate& rate) {
     int best = -1;
@@ -67,10 +67,10 @@ struct OneLane {
     return best;
   }
 
-  // The least that a lane has.
+  // The least of the lanes' values.
   BROADSIDE_HD static float least_of_lanes(float own) { return own; }
 
-  // How many have it.
+  // For how many items has(k) is true.
   template <typename Has>
   BROADSIDE_HD static int count_of(int count, const Has& has) {
     int with = 0;
@@ -80,7 +80,7 @@ struct OneLane {
     return with;
   }
 
-  // visit(k) for those that have it; what is visited does not change which.
+  // visit(k) for items with has(k); a visit must not change which items have it.
   template <typename Has, typename Visit>
   BROADSIDE_HD static void each_with(int count, const Has& has, const Visit& visit) {
     BROADSIDE_KEPT_LOOP
@@ -88,21 +88,21 @@ struct OneLane {
       if (has(k)) visit(k);
   }
 
-  // visit(make(k)) for those that have it: lanes make the items.
+  // visit(make(k)) for items with has(k): lanes make the items.
   template <typename Item, typename Has, typename Make, typename Visit>
   BROADSIDE_HD static void each_made(int count, const Has& has, const Make& make, const Visit& visit) {
     each_with(count, has, [&](int k) { visit(make(k)); });
   }
 
-  // visit(k) where a visit may change which have it.
+  // visit(k) for items with has(k), where a visit may change which items have it.
   template <typename Has, typename Visit>
   BROADSIDE_HD static void each_in_turn(int count, const Has& has, const Visit& visit) {
     each_with(count, has, visit);
   }
 
-  // Goes down from nodes {0, 0}, in the order of a stack. open(pair, below) gives how many pairs to go on with, at most
-  // two, or kLeaf: then measure(pair, item) for each of its items(pair) gives something with a count, and take(it) gets
-  // those of more than 0.
+  // Goes down two trees from nodes {0, 0}, in the order of a stack. open(pair, below) returns how many pairs to go on
+  // with, at most two, or kLeaf. Of a leaf, measure(pair, item) gives something with a count for each of its
+  // items(pair), and take(it) gets those whose count is above 0.
   static constexpr int kLeaf = -1;
   template <typename Open, typename Items, typename Measure, typename Take>
   BROADSIDE_HD static void walk(const Open& open, const Items& items, const Measure& measure, const Take& take) {
@@ -129,7 +129,7 @@ struct OneLane {
     int count = 0;
     Item items[kMost];
 
-    // Those from item `from` on that make(k, item) makes, as many as there is room for. Returns where it stopped.
+    // The items from `from` on that make(k, item) makes, as many as there is room for. Returns where it stopped.
     template <typename Make>
     BROADSIDE_HD int fill(int from, int end, const Make& make) {
       count = 0;
@@ -137,7 +137,7 @@ struct OneLane {
         if (make(from, items[count])) ++count;
       return from;
     }
-    // The same by make(k) of those that have it.
+    // The same by make(k), for items with has(k).
     template <typename Has, typename Make>
     BROADSIDE_HD int fill_with(int from, int end, const Has& has, const Make& make) {
       count = 0;
@@ -151,7 +151,7 @@ struct OneLane {
       return OneLane::first_least(count, [&](int k) { return value(items[k]); });
     }
     BROADSIDE_HD Item at(int place) const { return items[place]; }
-    // visit(item) for those that have it, where a visit may change which.
+    // visit(item) for items with has, where a visit may change which items have it.
     template <typename Has, typename Visit>
     BROADSIDE_HD void each_in_turn(const Has& has, const Visit& visit) const {
       BROADSIDE_KEPT_LOOP
@@ -161,12 +161,12 @@ struct OneLane {
   };
 };
 
-// One lane where no shape is a hull or a mesh: their code is left out.
+// One lane, for scenes without hulls and meshes: their code is left out.
 struct OneLaneOfShortShapes : OneLane {
   static constexpr bool kKnowsLongShapes = false;
 };
 
-// Of two shapes: that of the one whose loops are shared, if any is.
+// For a pair of shapes: the lanes of the shape whose loops are shared, if there is one.
 template <typename PolytopeA, typename PolytopeB>
 using LanesOf = std::conditional_t<std::is_same_v<typename PolytopeA::Lanes, OneLane>, typename PolytopeB::Lanes,
                                    typename PolytopeA::Lanes>;

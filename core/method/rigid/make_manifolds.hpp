@@ -1,9 +1,9 @@
 // The contacts of two bodies: one entry for every pair of shapes. RIGID 8.4.
 //
-// What it promises: normals are units and point from B to A; a point's gap is at most reach_m; the deepest point of a
-// convex pair has the signed distance of the bodies to contact_rounding_m; the four points of a patch do not depend on
-// the order in which they were found; turned, moved, tiny or huge shapes give finite numbers. float32, + - * / and
-// square root alone, no allocation: the same bits on host and device.
+// The contract. Normals are units and point from B to A. A point's gap is at most reach_m. The deepest point of a
+// convex pair has the signed distance of the bodies to contact_rounding_m. The four points of a patch do not depend on
+// the order in which they were found. Turned, moved, tiny or huge shapes give finite numbers. float32, + - * / and
+// square root alone, no allocation: so the bits are the same on host and device.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -71,8 +71,8 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
 }  // namespace manifold_detail
 
 // Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
-// apart by up to this much are given too, so that a solver may stop bodies before they touch. Lanes: all of them call
-// it together (lanes.hpp). known_gap: exact_hull_gap of two hulls at these poses, or nothing.
+// apart by up to this much count too, so that a solver can stop bodies before they touch. Lanes (lanes.hpp): all of
+// them make this call together. known_gap: exact_hull_gap of the two hulls at these poses, or null.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
                                        const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,

@@ -1,10 +1,10 @@
 // Whether a point is inside a closed mesh, and which point of the surface is nearest to it; by one lane.
 //
-// Inside is where a ray crosses the surface an odd number of times. Which triangles it crosses is decided without
-// rounding: coordinates are float32, so in float64 their differences and products are exact, and a sum of two of them
-// has the right sign; what lies on an edge counts for one of its two triangles, whatever their order. A ray thus never
-// slips between triangles. Where along the ray a triangle lies is rounded: that matters to points on the surface alone,
-// whose depth is none.
+// A point is inside where a ray from it crosses the surface an odd number of times. Which triangles the ray crosses is
+// decided without rounding: coordinates are float32, so in float64 their differences and products are exact, and a sum
+// of two of them has the right sign. What lies on an edge counts for one of its two triangles, whatever their order, so
+// a ray never slips between triangles. Where along the ray a triangle lies is rounded; that matters only to points on
+// the surface, whose depth is 0.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,8 @@ namespace inside_detail {
 
 inline constexpr int kOpenOfTree = 72;
 
-// Whether the edge passes the point p on the side of larger y, seen along x. The same whichever end comes first.
+// Whether the edge passes the point p on the side of larger y, seen along x. The answer is the same whichever end comes
+// first.
 BROADSIDE_HD bool passes_beside(Vec3 p, Vec3 a, Vec3 b) {
   if ((a.z > p.z) == (b.z > p.z)) return false;
   const Vec3 low = a.z > p.z ? b : a;
@@ -96,7 +97,8 @@ BROADSIDE_HD float squared_to_box(Vec3 p, Vec3 low, Vec3 high) {
 
 }  // namespace inside_detail
 
-// No farther than within_m; else the distance stays the greatest number. Of triangles that are equally near the first.
+// Looks no farther than within_m; where nothing is that near the distance stays the largest number. Of triangles that
+// are equally near it takes the first.
 BROADSIDE_HD_CALLED NearestOfMesh nearest_of_mesh(const MeshView& mesh, Vec3 p, float within_m) {
   NearestOfMesh best;
   float limit = within_m * within_m;

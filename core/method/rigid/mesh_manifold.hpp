@@ -1,11 +1,10 @@
 // Meshes that are not convex, against each other, convex shapes and planes.
 //
-// A tree over the triangles finds those that are near; each of them is a sheet of two faces and is treated as any
-// polytope. What is kept of a pair of triangles are contacts in front of both: the normal lies between a triangle's
-// own and those beyond its convex edges, so that the inner edges of a smooth surface make no contacts of their own.
-// Sheets tell nothing of closed meshes that are deeper in each other than their triangles are large: there, vertices
-// inside the other mesh are points, with the shortest way out.
-// Points are merged into patches by normal, the deepest first.
+// A tree over the triangles finds those that are near. Each triangle is a sheet with two faces and is treated like any
+// polytope. Of a pair of triangles only contacts in front of both are kept: the normal must lie between a triangle's
+// own normal and those beyond its convex edges, so that the inner edges of a smooth surface make no contacts. Where
+// closed meshes overlap by more than their triangles are large, sheets no longer show it: there the vertices inside the
+// other mesh are points, with the shortest way out. Points are merged into patches by normal, the deepest first.
 #pragma once
 
 #include <cmath>
@@ -38,20 +37,21 @@ BROADSIDE_HD TrianglePolytope triangle_polytope(const PlacedShape& mesh, std::ui
   return out;
 }
 
-// The least cosine between a triangle's normal and a direction in which its surface looks, of MeshView::least_facing.
-// Rounding of normals counts as looking.
+// The least cosine between a triangle's normal and a direction in which its surface looks, from MeshView::least_facing.
+// Directions that are off by the rounding of normals count.
 BROADSIDE_HD float least_looking(float least_facing) {
   return fmaxf(least_facing - (1.0F - kSameNormal), 0.0F);
 }
 
-// Does a triangle's surface look that way?
+// Whether a triangle's surface looks in this direction.
 BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, Vec3 direction) {
   return dot(normal, direction) >= mesh.shape->mesh.least_facing[t] - (1.0F - kSameNormal) &&
          dot(normal, direction) > 0.0F;
 }
 
-// Whether there is a direction in which b looks and against which a looks: the angle between one normal and the other
-// turned over is no more than both may look aside. Normals are units but for far less than the last term.
+// Whether there is a direction in which b looks and against which a looks. There is one when the angle between one
+// normal and the opposite of the other is at most the sum of how far both surfaces look aside. The last term is far
+// more than normals are off from length 1.
 BROADSIDE_HD bool may_look_at_each_other(float least_a, Vec3 normal_a, float least_b, Vec3 normal_b) {
   const float aside = sqrtf((1.0F - least_a * least_a) * (1.0F - least_b * least_b));
   return -dot(normal_a, normal_b) >= least_a * least_b - aside - 0x1p-14F;
@@ -65,8 +65,8 @@ BROADSIDE_HD bool may_look_at_each_other(const PlacedShape& a, const TriangleNod
                                 turned(b.axes, of_b.looking));
 }
 
-// Boxes of two nodes, one in the axes of the other body: apart along an axis of either by more than reach_m? Not all
-// fifteen axes: a pair too many costs time alone.
+// Whether boxes of two nodes are apart by more than reach_m along an axis of either body. Six of the fifteen axes are
+// enough: a pair too many costs time and nothing else.
 BROADSIDE_HD bool are_apart(const PlacedShape& a, Vec3 center_a, Vec3 half_a, const PlacedShape& b, Vec3 center_b,
                             Vec3 half_b, float reach_m) {
   const Vec3 d = (a.center + turned(a.axes, center_a)) - (b.center + turned(b.axes, center_b));
@@ -105,7 +105,8 @@ BROADSIDE_HD_CALLED void against_triangle(const Polytope& a, float ball_m, const
   keep_if_seen(m, mesh, t, triangle.normal);
 }
 
-// A cylinder (A) and one triangle, which is a hull of two faces to it: so the surface is round here too.
+// A cylinder (A) and one triangle. The triangle is treated as a hull of two faces, so that the cylinder is round here
+// too.
 BROADSIDE_HD_CALLED void cylinder_against_triangle(const PlacedShape& a, const PlacedShape& mesh, std::uint32_t t,
                                                    float rounding_m, float reach_m, Manifold& m) {
   const TrianglePolytope triangle = triangle_polytope(mesh, t);
@@ -213,7 +214,8 @@ BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, 
   for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(key_in_mesh(m.points[k].feature, i), j);
 }
 
-// Of triangles that are no farther apart than ahead_m, or than the points that are kept, once there is no more place.
+// Triangles that are no farther apart than ahead_m. Once there is no more room, also none that are farther apart than
+// all points that are kept.
 template <typename Lanes>
 BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                       float ahead_m, Touches& out) {
@@ -246,8 +248,8 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
-// A vertex of one mesh that is inside the other one, and how it comes out: triangles are sheets, so two of them that
-// are behind each other touch nowhere. is_a: the vertex is A's.
+// A vertex of one mesh that is inside the other one, and its shortest way out. Sheets do not find it: two triangles
+// that are behind each other touch nowhere. is_a: the vertex is A's.
 BROADSIDE_HD bool vertex_inside(const PlacedShape& of_vertex, std::uint32_t vertex, const PlacedShape& solid, bool is_a,
                                 float rounding_m, Manifold& out) {
   const Vec3 x = of_vertex.center + turned(of_vertex.axes, of_vertex.shape->mesh.vertices[vertex]);
@@ -255,7 +257,7 @@ BROADSIDE_HD bool vertex_inside(const PlacedShape& of_vertex, std::uint32_t vert
   if (!is_inside(solid.shape->mesh, local)) return false;
   const NearestOfMesh nearest = nearest_of_mesh(solid.shape->mesh, local, solid.shape->size_m);
   const float depth = sqrtf(nearest.squared_m2);
-  // Nearer to the surface than rounding, sheets tell it.
+  // A vertex within rounding of the surface is found by the sheets.
   if (!(nearest.squared_m2 < 3.0e38F) || !(depth > 4.0F * rounding_m)) return false;
   const Vec3 way_out = turned(solid.axes, (1.0F / depth) * (nearest.point - local));
   out.normal = is_a ? way_out : -way_out;
@@ -266,7 +268,7 @@ BROADSIDE_HD bool vertex_inside(const PlacedShape& of_vertex, std::uint32_t vert
   return true;
 }
 
-// Those of all vertices, where one is deeper than what sheets tell.
+// Adds all vertices inside the other mesh, if one of them is deeper than every point that the sheets found.
 template <typename Lanes>
 BROADSIDE_HD_CALLED void add_vertices_inside(const PlacedShape& a, const PlacedShape& b, float rounding_m,
                                              Touches& out) {
@@ -299,8 +301,8 @@ BROADSIDE_HD_CALLED void add_vertices_inside(const PlacedShape& a, const PlacedS
     }
 }
 
-// What overlaps first, then from near to far: what has no place any more beside the points that are kept is not looked
-// at. The points are the same whatever the order.
+// First what overlaps, then from near to far. Triangles farther away than the points that are kept are not looked at
+// once there is no more room. The points do not depend on the order.
 template <typename Lanes>
 BROADSIDE_HD void meshes_touch(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                Touches& out) {

@@ -14,13 +14,13 @@
 
 namespace broadside::core {
 
-// A pair of bodies has at most so many patches: a convex pair one, meshes the four deepest of different normals.
+// The most patches of a pair of bodies. A convex pair has one; meshes have the four deepest of different normals.
 inline constexpr int kPatchesOfPair = 4;
 
-// Normals within 26 degrees of that of its deepest point (this cosine) are one patch.
+// Points whose normals are within 26 degrees (this cosine) of that of the deepest one are one patch.
 inline constexpr float kSamePatch = 0.9F;
 
-// So many points of a pair of meshes are looked at when patches are made, the deepest ones.
+// When patches are made, this many points of a pair of meshes are looked at, the deepest ones.
 inline constexpr int kMeshPoints = 48;
 
 namespace mesh_detail {
@@ -32,14 +32,14 @@ struct Touch {
 
 struct Touches {
   int count = 0;
-  float shallowest_m = 3.402823e38F;  // with no place left, of the least deep one: no point less deep gets one
+  float shallowest_m = 3.402823e38F;  // with no room left, the gap of the least deep point
   Touch all[kMeshPoints];
 
-  // Keeps the deepest ones, whatever their order. A point that several triangles share comes once, with the normal of
-  // the deepest or, of equal ones, the lowest key.
+  // Keeps the deepest points; the order of calls does not matter. A point that several triangles share is kept once,
+  // with the normal of the deepest of them, or, of equally deep ones, of the lowest key.
   template <typename Lanes>
   BROADSIDE_HD void add(const Touch& t, float rounding_m) {
-    // The last one that is the same.
+    // The last point that is the same one.
     const FirstLeast same = Lanes::first_least(count, [&](int k) {
       const Vec3 apart = t.point.point - all[k].point.point;
       const bool is_same =
@@ -56,8 +56,8 @@ struct Touches {
       shallowest_m = -Lanes::first_least(count, [&](int k) { return -all[k].point.gap_m; }).value;
   }
 
-  // How far apart nodes are looked into: farther ones only have points that get no place. Points are no nearer than
-  // what they are on, but for 3 roundings, and boxes are off by one: twice that is allowed.
+  // Nodes that are farther apart than this have only points that find no room. A point is at most 3 roundings nearer
+  // than the surface that it is on, and boxes are off by one: twice that is allowed for.
   BROADSIDE_HD float seen_m(float reach_m, float rounding_m) const {
     return fminf(reach_m, fmaxf(shallowest_m, 0.0F) + 8.0F * rounding_m);
   }
@@ -71,7 +71,7 @@ BROADSIDE_HD void take_all(const Manifold& m, float rounding_m, Touches& out) {
   for (int k = 0; k < m.count; ++k) out.add<Lanes>({m.normal, m.points[k]}, rounding_m);
 }
 
-// The deepest point that is left begins a patch, and takes along what shares its normal.
+// The deepest point that has no patch yet begins one, and takes along all points that share its normal.
 template <typename Lanes>
 BROADSIDE_HD int patches_of(Touches& touches, float rounding_m, float reach_m, Manifold* out) {
   int patches = 0;

@@ -22,14 +22,14 @@ struct ShapeBalls {
 struct FreeMotion {
   Vec3 drift;            // of the center by its velocity alone, m
   Vec3 fall;             // what the gained velocity adds to it, at most, m
-  float swing_m = 0.0F;  // what turning adds: no point of the shape leaves the moved shape by more
+  float swing_m = 0.0F;  // what turning adds: the farthest that a point leaves the moved shape
 
-  // However the bodies are pushed: how far ahead contacts are looked for.
+  // How far ahead contacts are looked for, in whatever direction the body is pushed.
   BROADSIDE_HD float reach_m() const { return (length(drift) + length(fall)) + swing_m; }
 };
 
-// Turned by whatever angle, the shape stays between its two balls, so a sphere adds nothing however fast it spins. What
-// an impulse of this step makes of the motion is seen in the next one.
+// Turned by whatever angle, the shape stays between its two balls; so a sphere adds nothing, however fast it spins.
+// What an impulse of this step adds to the motion counts from the next step on.
 BROADSIDE_HD FreeMotion free_motion(const RigidState& s, const RigidMass& mass, ShapeBalls balls, Vec3 gravity_m_s2,
                                     const RigidWrench& wrench, float dt_s) {
   FreeMotion m;
@@ -41,9 +41,9 @@ BROADSIDE_HD FreeMotion free_motion(const RigidState& s, const RigidMass& mass, 
   return m;
 }
 
-// The box of all that a shape with this box may fill within this step and the next: where it is, drifts to and falls
-// to. The next one too, so that who is going to be struck is known in time (pushed_motion.hpp). Grown by more than the
-// sums round.
+// The box of all that a shape with this box may fill within this step and the next: where it is, and where it drifts
+// and falls to. It covers the next step too, so that a body that is going to be struck is known in time
+// (pushed_motion.hpp). It is grown by more than the rounding of these sums.
 BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m) {
   Box swept;
   for (int k = 0; k < 3; ++k) {

@@ -1,7 +1,7 @@
 // The nearest points of two polytopes that are apart, by their corners and edges.
 //
-// A corner over a face is found by separating axes. What is left are two edges, a corner and an edge, and two corners:
-// all of them are tried, of large hulls those alone that near_bound.hpp leaves.
+// Separating axes find a corner over a face. The other cases are two edges, a corner and an edge, and two corners. All
+// of them are tried; of large hulls, those that near_bound.hpp leaves.
 #pragma once
 
 #include <cmath>
@@ -80,8 +80,8 @@ BROADSIDE_HD void corners_against_edges(const Points& points, const Layer& near_
 
 }  // namespace nearest_detail
 
-// Nearest points of the lines of two edges, moved to the edges' ends where they lie beyond. Parallel edges have no
-// crossing: their nearest points include a corner.
+// Nearest points of the lines of two edges; a point beyond an end of its edge is moved to that end. For parallel edges
+// this has no answer: their nearest points include a corner.
 struct EdgeCrossing {
   Vec3 on_a;
   Vec3 on_b;
@@ -156,8 +156,8 @@ BROADSIDE_HD NearestFeatures nearest_edges(const PolytopeA& a, const Layer& near
   return best;
 }
 
-// The part of d across an edge. Where the edge is long, a difference of points is off by the rounding of where they are
-// along it, and the gap by that times its length.
+// The part of d across an edge. A difference of two points is off by the rounding of where they are along the edge, and
+// that error, times the edge's length, would be an error of the gap.
 BROADSIDE_HD Vec3 without(Vec3 d, Vec3 along) {
   const float squared = dot(along, along);
   return squared > 0.0F ? d - (dot(d, along) / squared) * along : d;
@@ -181,9 +181,9 @@ struct NearestDirection {
   NearestFeatures features;
 };
 
-// Only features that may be nearer than reach_m, given a direction that parts the bodies by parted_m; where there are
-// none, the gap stays -infinity. Of two pairs of features that are equally near but for rounding, and of two ways to
-// compute the direction between them, the one along which the bodies are farther apart is the better one.
+// Tries only features that may be nearer than reach_m, given a direction that parts the bodies by parted_m; if there
+// are none the gap stays -infinity. Where two pairs of features are equally near but for rounding, or two ways to
+// compute the direction differ, the direction along which the bodies are farther apart is taken.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b, Vec3 parting,
                                                        float parted_m, float rounding_m, float reach_m) {
@@ -212,8 +212,9 @@ BROADSIDE_HD_CALLED NearestDirection nearest_direction(const PolytopeA& a, const
   best.features = edges.squared_m2 < corner.squared_m2 ? edges : corner;
   if (corner.squared_m2 < 3.0e38F) attempt(without(without(corner.on_a - corner.on_b, corner.along_a), corner.along_b));
   if (edges.squared_m2 < 3.0e38F) attempt(across_edges(edges.along_a, edges.along_b, edges.on_a - edges.on_b));
-  // A corner may be nearest where a point of its edge is nearer by less than rounding. Then a far end of that edge
-  // stands out along the direction, by the first power of what the distance shows only in the second.
+  // A corner may be found although a point of its edge is nearer, by less than rounding. Then a far end of that edge is
+  // lower along the direction than the corner. This shows the error to first order; the distance shows it only to
+  // second order.
   for (int round = 0; round < 2 && best.gap_m > 0.0F; ++round) {
     const NearestFeatures& near = best.features;
     const Vec3 n = best.normal;
@@ -227,8 +228,8 @@ BROADSIDE_HD_CALLED NearestDirection nearest_direction(const PolytopeA& a, const
   return best;
 }
 
-// Halfway between the nearest points, on the line along the normal through one of them: through that of the smaller
-// body, because a large ball around the other is as near everywhere beside it.
+// Halfway between the nearest points, on the line along the normal through one of them. That one is the smaller body's,
+// because beside a large ball many points are equally near.
 BROADSIDE_HD Vec3 middle_of(Vec3 on_a, Vec3 on_b, Vec3 normal, float gap_m, bool through_b) {
   return through_b ? on_b + (0.5F * gap_m) * normal : on_a - (0.5F * gap_m) * normal;
 }

@@ -1,8 +1,9 @@
 // The body octrees of turned bodies against each other, RIGID 8.3: nodes are boxes in body axes, tested by separating
 // axes at the levels of core/method/levels.hpp.
 //
-// Rounding never separates boxes that meet, and never separates parents whose children it does not: each level is grown
-// by a slack of its own, so A, B and C agree bit for bit, and all that they confirm passes level1 and flat.
+// Rounding never separates boxes that overlap, and never separates parents when it does not separate their children:
+// each level is grown by a slack of its own. So A, B and C agree bit for bit, and all that they confirm passes level1
+// and flat.
 #pragma once
 
 #include <cmath>
@@ -24,10 +25,10 @@ struct RelativePose {
   float slack_m = 0.0F;  // more than rounding moves a gap by
 };
 
-// Roundings of a gap along any of the 15 axes, in units of 2^-24 of the lengths that went into it: quaternions to axes
-// 12, their products 24 in each of two turns, sums 6, and twice that where an axis is a cross product: below 128. Twice
-// that once more: a slack is two errors, so a level that is grown by one slack more separates nothing that the next one
-// does not.
+// Roundings of a gap along any of the 15 axes, in units of 2^-24 of the lengths from which it is computed. Quaternions
+// to axes are 12, their products 24 in each of two turns, sums 6, and all of that twice where an axis is a cross
+// product: below 128. A slack is two such errors, 256: then a level that is grown by one slack more separates nothing
+// that the next one does not.
 inline constexpr float kGapRoundings = 256.0F;
 
 // Nodes are boxes from the center of mass. size: no corner of a node is farther from there.
@@ -60,7 +61,7 @@ BROADSIDE_HD bool are_apart(const Box& a, const Box& b, const RelativePose& p, f
     const float ra = (m[0][j] * ha.x + m[1][j] * ha.y) + m[2][j] * ha.z;
     if (fabsf(dot(t, p.turn[j])) > (ra + hb[j]) + grow_m) return true;
   }
-  // A cross product of two axes is at most 1 long: what it scales down separates less, never more.
+  // A cross product of two axes is at most 1 long. A shorter one separates less, never more.
   for (int i = 0; i < 3; ++i) {
     const int i1 = i == 2 ? 0 : i + 1;
     const int i2 = i == 0 ? 2 : i - 1;
@@ -75,7 +76,7 @@ BROADSIDE_HD bool are_apart(const Box& a, const Box& b, const RelativePose& p, f
   return false;
 }
 
-// By level: the last one by one slack, each above it by one more.
+// How much each level is grown: the last one by one slack, each level above by one slack more.
 BROADSIDE_HD constexpr float level_grow_m(const RelativePose& p, int level) {
   return p.grow_m + (level == 2 ? 1.0F : (level == 1 ? 2.0F : 3.0F)) * p.slack_m;
 }
@@ -127,7 +128,7 @@ BROADSIDE_HD bool oriented_descent_overlaps(const NodeBoxes& a, const NodeBoxes&
   return false;
 }
 
-// True when nodes of this setting's last level are not apart somewhere.
+// Whether some pair of nodes of this setting's last level overlaps.
 template <typename Tests>
 BROADSIDE_HD bool is_confirmed(Levels levels, const NodeBoxes& a, const NodeBoxes& b, const RelativePose& pose,
                                Tests& tests) {

@@ -1,5 +1,5 @@
-// Patches of bodies that will not meet: contacts are looked for as far ahead as bodies can come, in every direction,
-// and a body that flies past a corner must not be stopped by the plane through it.
+// Patches of bodies that pass by each other. Contacts are looked for in every direction as far ahead as bodies can
+// come. But a body that flies past a corner must not be stopped by the plane through that corner.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -25,8 +25,8 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
   return least;
 }
 
-// Whether these two, apart at the start, are apart at these poses too and on the same side: what went through the other
-// body, or is too far away to tell, is not.
+// Whether two bodies that are apart at the start are apart at these poses too, on the same side. The answer is no where
+// one went through the other, and where they are too far apart to tell.
 template <typename Lanes>
 BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
                                  const ContactShape& shape_b, const ContactPose& b, float reach_m) {
@@ -43,8 +43,8 @@ BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shap
   return count > 0;
 }
 
-// Whether a patch leads to no contact in this step: neither if both bodies move freely, nor if something holds one of
-// them where it is. Patches nearer than near_m are kept in any case: so near, what rests on something rests.
+// Whether a patch leads to no contact in this step, whether both bodies move freely or something holds one of them
+// where it is. A patch nearer than near_m is kept in any case, because so near it may carry what rests on it.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
                             const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {

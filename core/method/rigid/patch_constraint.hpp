@@ -139,7 +139,7 @@ BROADSIDE_HD TwistMobilityOf<Number> mobility_of(const PatchOf<Number>& c, const
   return m;
 }
 
-// How much of an impulse each point takes to change its speed.
+// The effective masses: how much impulse changes a point's speed by 1 m/s.
 template <typename Number>
 BROADSIDE_HD void set_masses(const TwistMobilityOf<Number>& m, PatchPointOf<Number>& p) {
   const TwistOf<Number> by_1 = gain_by_tangent_1(m, p.lever);
@@ -148,7 +148,7 @@ BROADSIDE_HD void set_masses(const TwistMobilityOf<Number>& m, PatchPointOf<Numb
   const Number k11 = tangent_1_speed(by_1, p.lever);
   const Number k22 = tangent_2_speed(by_2, p.lever);
   const Number k12 = tangent_1_speed(by_2, p.lever);
-  // The mobility is at least the inverse masses' sum in every direction, so its determinant is positive.
+  // In every direction the mobility is at least the sum of the inverse masses, so its determinant is positive.
   const Number inverse = 1.0F / (k11 * k22 - k12 * k12);
   p.stick_mass_11 = inverse * k22;
   p.stick_mass_22 = inverse * k11;
@@ -164,7 +164,7 @@ BROADSIDE_HD void set_mobility(PatchOf<Number>& c, const Body& a, const Body& b)
   each_point(c, [&](int k) { set_masses(c.mobility, c.points[k]); });
 }
 
-// The same where it is asked for.
+// The same, for those lanes for which it is asked.
 template <typename Number, typename Body>
 BROADSIDE_HD void set_mobility_where(TruthOf<Number> is_asked, PatchOf<Number>& c, const Body& a, const Body& b) {
   const TwistMobilityOf<Number> now = mobility_of(c, a, b);
@@ -181,16 +181,17 @@ BROADSIDE_HD void set_mobility_where(TruthOf<Number> is_asked, PatchOf<Number>& 
   });
 }
 
-// Whether a body has turned so far in the step that these are no longer those of its start, rad: a slender one that
-// turns across itself is as much lighter to a point as it is longer than thick, and a sweep with masses twice too large
-// does not converge. A needle that struck a plate at 100 m/s ended at no number.
+// Whether a body has turned so far in the step, in rad, that the masses of its start no longer hold. A slender body
+// that turns across itself becomes as much lighter to a point as it is longer than thick, and a sweep does not converge
+// with masses that are twice too large. Before, a needle that struck a plate at 100 m/s ended with numbers that are not
+// finite.
 template <typename Body>
 BROADSIDE_HD auto has_turned_far(const Body& body) {
   constexpr float kFar_rad = 0x1p-8F;
   return dot(body.turned, body.turned) > kFar_rad * kFar_rad;
 }
 
-// center_b_from_a: from A's center of mass to B's, at the start of the step; of no matter where B is a face or static.
+// center_b_from_a: from A's center of mass to B's, at the start of the step; not used where B is a face or static.
 BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const SolverBody& a, const SolverBody& b,
                                              Vec3 center_b_from_a, const Material& surface) {
   PatchConstraint c;
@@ -212,7 +213,7 @@ BROADSIDE_HD PatchConstraint make_constraint(const Manifold& manifold, const Sol
   return c;
 }
 
-// Impulses at points of a patch, on A, together: their sum and its moment about the patch's center, in its axes.
+// The sum of impulses on A at points of a patch, and of their moments about the patch's center, in the patch's axes.
 template <typename Number>
 struct PatchPushOf {
   VectorOf<Number> push;    // N s
@@ -232,7 +233,7 @@ struct PatchPushOf {
   }
 };
 
-// Static bodies are shared by patches of one color: they are not written.
+// Static bodies are shared by patches of one color, so they are never written.
 template <typename Body>
 BROADSIDE_HD void store(Body& body, const VectorOf<typename Body::Number>& v,
                         const VectorOf<typename Body::Number>& gain) {
@@ -241,7 +242,7 @@ BROADSIDE_HD void store(Body& body, const VectorOf<typename Body::Number>& v,
   body.angular_momentum = pick(is_moved(body), body.angular_momentum + gain, body.angular_momentum);
 }
 
-// What such impulses do to each body.
+// Gives such impulses to each body.
 template <typename Number, typename Body>
 BROADSIDE_HD void give_to_a(const PatchOf<Number>& c, const PatchPushOf<Number>& given, Body& a) {
   const VectorOf<Number> impulse = in_world<Number>(c, given.push.x, given.push.y, given.push.z);
@@ -256,7 +257,7 @@ BROADSIDE_HD void give_to_b(const PatchOf<Number>& c, const PatchPushOf<Number>&
   store(b, b.v - b.inverse_mass * impulse, none - (cross(c.center_b, impulse) + moment));
 }
 
-// The two bodies of a patch while it is solved: how they move now, and what they were given for it.
+// The two bodies of a patch while it is solved: their relative motion, and the impulses that they got so far.
 template <typename Number>
 struct PatchMotionOf {
   TwistOf<Number> twist;
@@ -296,10 +297,10 @@ BROADSIDE_HD VectorOf<Number> impulse_of(const PatchOf<Number>& c, Number normal
   return in_world<Number>(c, normal, tangent_1, tangent_2);
 }
 
-// How far the end of an arm went while its body turned by this vector, rad: sine and 1 - cosine by their series, which
-// are off by a hundredth at 2.4 rad and are not followed farther. A thousandth of a radian is small enough for the
-// first order. Without the second one a corner that swings past the lowest point of its circle went on down: small
-// cubes that spin under heavy ones were pushed into the floor, and out of it again with energy.
+// How far the end of an arm went while its body turned by this vector, rad. Sine and 1 - cosine come from their series,
+// which are off by a hundredth at 2.4 rad and are not used beyond. Below a thousandth of a radian the first order is
+// enough. Before there was a second order, a corner that swings past the lowest point of its circle went on down: small
+// cubes that spin under heavy ones were pushed into the floor, and came out of it with energy.
 template <typename Vector>
 BROADSIDE_HD auto swings_far(const Vector& turned) {
   return dot(turned, turned) > 0x1p-20F;
@@ -316,7 +317,7 @@ BROADSIDE_HD Vector swung(const Vector& turned, const Vector& arm) {
   return pick(is_far, sine * first + versine * cross(turned, first), first);
 }
 
-// The gaps of a patch's points now: those of the start, and how far the bodies moved along the normal since.
+// The present gaps of a patch's points: those of the start, and how far the bodies have moved along the normal since.
 template <typename Number, typename Body>
 class PatchGaps {
  public:
@@ -329,7 +330,7 @@ class PatchGaps {
     turned_2_ = dot(c.tangent_2, turned);
   }
 
-  // Of point k. The first order in the patch's axes, as its speeds are; where a body turned far, along the arcs.
+  // Of point k. To first order in the patch's axes, like the point's speeds; along the arcs where a body turned far.
   BROADSIDE_HD Number operator()(int k) const {
     const PatchPointOf<Number>& p = c_.points[k];
     const Number near = p.gap_m + (moved_ + (turned_1_ * p.lever.z - turned_2_ * p.lever.y));

@@ -1,7 +1,7 @@
 // How the two bodies of a patch move against each other while the patch is solved: six numbers in the patch's axes,
-// which are its normal (x) and its two tangents (y, z). Every point's speed follows from them by two products, and an
-// impulse at a point changes them by a column that is known beforehand. So a sweep looks at its bodies once as it
-// begins and once as it ends, and what lies between two points of it is short.
+// which are its normal (x) and its two tangents (y, z). Two products give a point's speed, and an impulse at a point
+// adds a column that is known beforehand. So a sweep reads its bodies once as it begins and writes them once as it
+// ends, and little is computed between two points.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -57,8 +57,8 @@ struct SymmetricOf {
   BROADSIDE_HD VectorOf<Number> z() const { return {xz, yz, zz}; }
 };
 
-// How a twist changes: by an impulse of 1 N s on A, and as much against it on B, at the patch's center, and by a moment
-// of 1 N m s about an axis. The turn that an impulse gives is the transposed of the speed that a moment gives.
+// How a twist changes: by an impulse of 1 N s on A at the patch's center, and as much against it on B; and by a moment
+// of 1 N m s about an axis. The turn that an impulse gives is the transpose of the speed that a moment gives.
 template <typename Number>
 struct TwistMobilityOf {
   SymmetricOf<Number> speed_by_push;   // 1/kg
@@ -68,7 +68,7 @@ struct TwistMobilityOf {
   SymmetricOf<Number> turn_by_moment;  // 1/(kg m^2)
 };
 
-// What an impulse of 1 N s along an axis, at a point, does to the twist: at `lever` its moment is lever x axis.
+// What an impulse of 1 N s along an axis does to the twist. Acting at `lever` it has the moment lever x axis.
 template <typename Number, typename Vector>
 BROADSIDE_HD TwistOf<Number> gain_by_normal(const TwistMobilityOf<Number>& m, const Vector& lever) {
   const VectorOf<Number> turn_by_push = {m.speed_by_moment_x.x, m.speed_by_moment_y.x, m.speed_by_moment_z.x};
@@ -125,7 +125,7 @@ BROADSIDE_HD void add_mobility(TwistMobilityOf<Number>& m, const Body& body, con
   turn.zz = turn.zz + turn_z.z;
 }
 
-// visit(number of one, the same number of the other) for every number of two mobilities.
+// visit(x, y) for each number x of one mobility and the same number y of the other.
 template <typename One, typename Other, typename Visit>
 BROADSIDE_HD void each_of_mobilities(One& one, Other& other, const Visit& visit) {
   const auto symmetric = [&](auto& m, auto& n) {

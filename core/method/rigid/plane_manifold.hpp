@@ -14,8 +14,7 @@
 
 namespace broadside::core {
 
-// Face k (0..5 for -x +x -y +y -z +z) of the domain as the surface of a solid around it, and the pose that goes with
-// it.
+// Face k (0..5 for -x +x -y +y -z +z) of the domain, as the surface of a solid around the domain, and its pose.
 BROADSIDE_HD ContactShape domain_face_shape(int face) {
   ContactShape out;
   out.kind = ContactKind::kHalfSpace;
@@ -36,8 +35,8 @@ BROADSIDE_HD ManifoldPoint over_plane(Vec3 on_surface, Vec3 normal, Vec3 on_plan
   return {on_surface - (0.5F * gap) * normal, gap, feature_key(name, face_name(0))};
 }
 
-// Corner k of eight around the lower (first) or upper end of a cylinder, in the directions of the body's axes and
-// between them.
+// Corner k of eight around the lower (first) or upper end of a cylinder: along the body's axes, and halfway between
+// them.
 BROADSIDE_HD Vec3 rim_corner(const PlacedShape& c, bool is_upper, int k) {
   constexpr float kDiagonal = 0.70710678F;
   const int axis = c.shape->axis;
@@ -48,9 +47,9 @@ BROADSIDE_HD Vec3 rim_corner(const PlacedShape& c, bool is_upper, int k) {
   return c.center + (is_upper ? half : -half) * c.axes[axis] + c.shape->radius_m * out;
 }
 
-// A cylinder that lies rolls on the two ends of its lowest line. One that stands has the eight corners of its lower
-// end, which turn with it, so that they keep their names; and, where that end is tilted out of reach on the other side,
-// its true lowest point: it tips over the round rim.
+// A lying cylinder rolls on the two ends of its lowest line. A standing one has the eight corners of its lower end,
+// which turn with it, so that they keep their names. Where that end is tilted so far that its other side is out of
+// reach, its true lowest point is added, because it tips over the round rim.
 BROADSIDE_HD void cylinder_over_plane(const PlacedShape& c, Vec3 n, Vec3 on_plane, float reach_m, Manifold& out) {
   const int axis = c.shape->axis;
   const Vec3 along = c.axes[axis];

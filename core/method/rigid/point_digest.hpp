@@ -1,4 +1,4 @@
-// A point's part of a frame's digest, of engines whose digests cover the totals of their points of contact.
+// A point's part of a frame's digest, for engines whose digests cover the totals of their points of contact.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace broadside::core {
 
-// How such a trace names its digests, /provenance/notes@digest.
+// The name of this digest in a trace: /provenance/notes@digest.
 inline constexpr std::string_view kDigestWithPoints = "bodies, pairs, contacts and points";
 
 BROADSIDE_HD constexpr std::uint64_t point_digest(const ContactPoint& p) {

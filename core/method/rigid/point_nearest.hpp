@@ -1,4 +1,4 @@
-// The surface point of a solid nearest to a given point, inside or out: what a sphere meets.
+// The point of a solid's surface that is nearest to a given point, inside or outside; this is where a sphere touches.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct PointDistance {
   std::uint32_t name = 0;  // of the part of the surface
 };
 
-// Of a point: any direction where the two are one within rounding.
+// Any direction will do where the point is on the surface within rounding.
 BROADSIDE_HD PointDistance point_to_point(Vec3 from, float rounding_m, std::uint32_t name) {
   const float distance = length(from);
   if (!(distance > rounding_m)) return {distance, {0.0F, 1.0F, 0.0F}, name};
@@ -32,8 +32,8 @@ BROADSIDE_HD float within(float x, float limit) {
   return x < -limit ? -limit : (x > limit ? limit : x);
 }
 
-// Closer to the surface than rounding, the nearest face's normal stands for the direction between two points that are
-// nearly one.
+// Within rounding of the surface the direction between the two points is noise; the nearest face's normal takes its
+// place.
 BROADSIDE_HD PointDistance point_to_box(const PlacedShape& box, Vec3 p, float rounding_m) {
   const Vec3 half = box.shape->half;
   const Vec3 local = turned_back(box.axes, p - box.center);
@@ -60,7 +60,7 @@ BROADSIDE_HD PointDistance point_to_box(const PlacedShape& box, Vec3 p, float ro
   return {gap, is_upper ? box.axes[axis] : -box.axes[axis], face_name(name)};
 }
 
-// Of a capsule's segment, without its ball. A point on the segment is parted from it across it.
+// Of a capsule's segment, without its ball. From a point on the segment the way out is across it.
 BROADSIDE_HD PointDistance point_to_segment(const PlacedShape& capsule, Vec3 p, float rounding_m) {
   const int axis = capsule.shape->axis;
   const Vec3 local = turned_back(capsule.axes, p - capsule.center);
@@ -95,7 +95,7 @@ BROADSIDE_HD PointDistance point_to_cylinder(const PlacedShape& cylinder, Vec3 p
     }
   }
   if (over_end >= over_side || !(from_axis > rounding_m)) {
-    // On the axis of a cylinder that is longer than thick the way out across it has no direction: any will do.
+    // On the axis of a cylinder that is longer than thick all directions across it are equally short: any will do.
     if (over_end >= over_side) return {over_end, end, end_name};
     return {over_side, cylinder.axes[axis == 0 ? 1 : 0], face_name(2)};
   }
@@ -117,8 +117,8 @@ BROADSIDE_HD bool is_over(const HullView& hull, std::uint32_t f, Vec3 p) {
 
 }  // namespace hull_detail
 
-// Behind all planes, the highest of them is the shortest way out. In front of one, the nearest point is on a face that
-// the point is over, or on an edge.
+// Where the point is behind all planes, the highest plane is the shortest way out. Where it is in front of one, the
+// nearest point is on a face that the point is over, or on an edge.
 BROADSIDE_HD PointDistance point_to_hull(const PlacedShape& placed, Vec3 p, float rounding_m) {
   const HullView& hull = placed.shape->hull;
   const Vec3 local = turned_back(placed.axes, p - placed.center);

@@ -44,7 +44,7 @@ struct BoxPolytope {
   BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + half[k / 2]; }
   BROADSIDE_HD Vec3 local_point(Vec3 x) const { return x; }
   BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(face_normal(k), x) - face_height(k); }
-  // Heights of corners along a direction that local() has prepared; of one body among each other.
+  // Heights of one body's corners along a direction that local() has prepared, to be compared with each other.
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return direction; }
   BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, corner(k)); }
   BROADSIDE_HD int face_corner_count(int) const { return 4; }
@@ -174,10 +174,10 @@ struct HullPolytopeOf {
   }
   BROADSIDE_HD Vec3 face_normal(int k) const { return turned(axes, hull.faces[k].normal); }
   BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + hull.faces[k].offset_m; }
-  // Heights over faces of points that local_point() has prepared: as exact, and cheaper where points are few.
+  // Heights over faces, of points that local_point() has prepared: as exact, and cheaper where points are few.
   BROADSIDE_HD Vec3 local_point(Vec3 x) const { return turned_back(axes, x - center); }
   BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(hull.faces[k].normal, x) - hull.faces[k].offset_m; }
-  // In body axes, from the hull's own center: differences of heights of one hull alone.
+  // In body axes, from the hull's own center. Only differences of heights of one hull have a meaning.
   BROADSIDE_HD Vec3 local(Vec3 direction) const { return turned_back(axes, direction); }
   BROADSIDE_HD float height(int k, Vec3 direction) const { return dot(direction, hull.vertices[k]); }
   BROADSIDE_HD int face_corner_count(int k) const { return static_cast<int>(hull.faces[k].corner_count); }

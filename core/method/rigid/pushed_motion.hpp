@@ -1,8 +1,8 @@
-// Where a body may be driven within a step by what strikes it: contacts are looked for there too. RIGID 8.7.
+// Where a body may be driven within a step by what strikes it; contacts are looked for there too. RIGID 8.7.
 //
-// A body that is struck moves on within the same step, and may meet in it what its own motion never led to. So each
-// pair of a step's candidates, whose boxes are swept over two steps, tells the next step who comes toward whom. Before,
-// a cube at rest that was struck at 3 m/s ended 5 cm deep in the one below it.
+// A body that is struck moves on within the same step, and may then meet what its own motion never led to. So each pair
+// of a step's candidates, whose boxes are swept over two steps, tells the next step which body comes toward which.
+// Before, a cube at rest that was struck at 3 m/s ended 5 cm deep in the one below it.
 #pragma once
 
 #include <bit>
@@ -16,9 +16,9 @@
 
 namespace broadside::core {
 
-// The strongest push that a body may be given, as one word that is larger for a stronger one: how far it drives the
-// body in a step (m, the bits of a float from 0 on) and below that the body that comes. The largest of several depends
-// on no order. 0 = none.
+// The strongest push that a body may be given, as one word: the upper half is how far it drives the body in a step (m,
+// the bits of a nonnegative float), the lower half the body that comes. So a stronger push is a larger word, and the
+// largest of several does not depend on their order. 0 = none.
 using PushWord = std::uint64_t;
 
 BROADSIDE_HD constexpr float push_m(PushWord push) {
@@ -28,50 +28,50 @@ BROADSIDE_HD constexpr std::uint32_t pusher_of(PushWord push) {
   return static_cast<std::uint32_t>(push);
 }
 
-// Of the speed at which b comes toward it, a takes over this share where both stick together after the impact, and up
-// to twice that where they bounce.
+// The share of b's speed toward a that a takes over: what it has if both stick together after the impact, and up to
+// twice that if they bounce.
 BROADSIDE_HD constexpr float share_of_push(float inverse_mass_a, float inverse_mass_b, float restitution) {
   if (!(inverse_mass_a > 0.0F)) return 0.0F;
   return (1.0F + restitution) * (inverse_mass_a / (inverse_mass_a + inverse_mass_b));
 }
 
-// A body of a pair as the other one may feel it.
+// What a pair needs to know of one of its bodies to say what that body does to the other.
 struct Pusher {
   Vec3 x;                     // of the center of mass, m
   Vec3 drift;                 // by its velocity, of a step, m
-  Vec3 pushed;                // as it is driven itself, m
+  Vec3 pushed;                // by what drives this body, m
   float swing_m = 0.0F;       // what turning adds
   float inverse_mass = 0.0F;  // 1/kg
   std::uint32_t body = 0;
-  std::uint32_t pusher = 0;  // that drives it
+  std::uint32_t pusher = 0;  // the body that drives it
 };
 
-// What b does to a in the next step: by its own motion, or by that which it is about to be given, unless a gives it.
-// Before, a body that fell on another was told of its own push, which leads nowhere, in place of the one that came from
-// above: cubes of a heap that were struck again ended up to 46 mm in those that they had just left. Bodies that go
-// apart push nothing.
+// What b does to a in the next step: by b's own motion, or by the motion that something is about to give b, unless that
+// something is a. Bodies that move apart push nothing. Before, a body that fell on another was told of its own push,
+// which leads nowhere, in place of the one that came from above: in a heap, cubes that were struck again ended up to 46
+// mm deep in those that they had just left.
 BROADSIDE_HD PushWord push_by(const Pusher& a, const Pusher& b, float restitution) {
   const float share = share_of_push(a.inverse_mass, b.inverse_mass, restitution);
   const Vec3 own = b.drift - a.drift;
   const float toward = dot(own, a.x - b.x);
   const float own_m = (toward > 0.0F ? length(own) : 0.0F) + b.swing_m;
   const float given_m = length(b.pushed);
-  // What a itself gave comes back as nothing.
+  // A push that came from a does not count for a.
   const bool is_given = given_m > own_m && b.pusher != a.body;
   const float strength = share * (is_given ? given_m : own_m);
   if (!(strength > 0.0F)) return 0;
   return (static_cast<PushWord>(std::bit_cast<std::uint32_t>(strength)) << 32) | (is_given ? b.pusher : b.body);
 }
 
-// A push in the direction in which the pusher now moves against the body, m. drift: of each in a step.
+// The push, m, in the direction in which the pusher now moves against the body. drift: of each, in a step.
 BROADSIDE_HD Vec3 pushed_way(PushWord push, Vec3 drift, Vec3 drift_of_pusher) {
   const Vec3 way = drift_of_pusher - drift;
   const float size = length(way);
   return size > 0.0F ? (push_m(push) / size) * way : Vec3{};
 }
 
-// A body that is struck without friction moves along the normal of the contact, which may be any that faces the pusher:
-// it ends in the ball whose diameter is the push. How far that ball reaches along a direction, of length 1.
+// How far the push may take a body along a direction of length 1. Without friction a body that is struck moves along
+// the normal of the contact, which may be any that faces the pusher; so it ends in the ball whose diameter is the push.
 BROADSIDE_HD float pushed_reach_m(Vec3 pushed, Vec3 direction) {
   return 0.5F * (length(pushed) + dot(pushed, direction));
 }
@@ -87,25 +87,25 @@ BROADSIDE_HD Box pushed_box(Box box, Vec3 pushed) {
   return box;
 }
 
-// What brings two bodies together that do not move toward each other.
+// How near two bodies may come that do not move toward each other: by gravity, and by pushes of others.
 struct NearReach {
   float falls_m = 0.0F;  // of both
   Vec3 pushed_a;
   Vec3 pushed_b;
 };
 
-// Apart by no more than this, a patch is kept though free motion leads past it: normal points from b to a.
+// A patch whose gap is at most this is kept though free motion leads past it. normal: from b to a.
 BROADSIDE_HD float near_m(Vec3 normal, const NearReach& near) {
   return near.falls_m + (pushed_reach_m(near.pushed_a, -normal) + pushed_reach_m(near.pushed_b, normal));
 }
 
-// No less than near_m of any normal that is no farther than off from this one: both are units.
+// At least near_m of every unit normal that differs from this one by a vector no longer than `off`.
 BROADSIDE_HD float near_at_most_m(Vec3 normal, float off, const NearReach& near) {
   const float pushed_m = length(near.pushed_a) + length(near.pushed_b);
   return (1.0F + 0x1p-20F) * (near_m(normal, near) + 0.5F * off * pushed_m);
 }
 
-// Whatever the normal.
+// At least near_m of every normal.
 BROADSIDE_HD float near_at_most_m(const NearReach& near) {
   return (1.0F + 0x1p-20F) * (near.falls_m + (length(near.pushed_a) + length(near.pushed_b)));
 }

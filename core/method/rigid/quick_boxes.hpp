@@ -1,7 +1,8 @@
-// What one direction tells of two boxes: most pairs that may meet within a step do not, and need no patches to see it.
+// What one direction tells of two boxes. Most pairs that may meet within a step do not, and one plane shows it without
+// making their patches.
 //
-// A plane that parts two boxes at the start, and where they end, and where one of them ends and the other stays, parts
-// them on every way between that does not turn: they pass by each other, each on its own side of it.
+// The plane must part the boxes at the start, where both end, and where one of them ends and the other stays. Then it
+// parts them on every way between these poses that does not turn: each body passes by on its own side.
 #pragma once
 
 #include <cmath>
@@ -22,7 +23,7 @@ BROADSIDE_HD bool are_boxes(const ContactShape& a, const ContactShape& b) {
 
 namespace quick_detail {
 
-// Half of how far a box reaches along a direction.
+// How far a box reaches from its center along a direction.
 BROADSIDE_HD float half_along(const TurnedAxes& axes, Vec3 half, Vec3 n) {
   const Vec3 d = turned_back(axes, n);
   return (fabsf(d.x) * half.x + fabsf(d.y) * half.y) + fabsf(d.z) * half.z;
@@ -39,7 +40,7 @@ BROADSIDE_HD float gap_of_boxes(const ContactShape& shape_a, const ContactPose& 
   return dot(n, d) - (quick_detail::half_along(a, shape_a.half, n) + quick_detail::half_along(b, shape_b.half, n));
 }
 
-// Whether the direction parts two boxes where both end, and where one of them does.
+// Whether the plane across n parts two boxes where both end, and where one of them ends and the other stays.
 BROADSIDE_HD bool parts_ends(Vec3 n, const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                              const ContactPath& b) {
   return gap_of_boxes(shape_a, a.end, shape_b, b.end, n) > 0.0F &&
@@ -47,8 +48,8 @@ BROADSIDE_HD bool parts_ends(Vec3 n, const ContactShape& shape_a, const ContactP
          gap_of_boxes(shape_a, a.start, shape_b, b.end, n) > 0.0F;
 }
 
-// Whether two boxes have no patch at the start of a step, or one that leads to no contact. near_m: no patch that is
-// farther is kept for being near, whatever its normal.
+// Whether two boxes have no patch at the start of a step, or only one that leads to no contact. near_m: a patch
+// that is farther apart than this is not kept for being near, whatever its normal.
 BROADSIDE_HD bool boxes_surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                     const ContactPath& b, float reach_m, float near_m) {
   const PlacedShape start_a = placed_shape(shape_a, a.start, a.start.x);
@@ -58,7 +59,7 @@ BROADSIDE_HD bool boxes_surely_pass(const ContactShape& shape_a, const ContactPa
   return axis.gap_m > near_m && axis.gap_m > 0.0F && parts_ends(axis.normal, shape_a, a, shape_b, b);
 }
 
-// Whether no patch of a pair leads to a contact in this step, told without making them.
+// Whether no patch of a pair leads to a contact in this step; found out without making the patches.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool surely_passes(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                 const ContactPath& b, float reach_m, const NearReach& near) {

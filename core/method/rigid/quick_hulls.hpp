@@ -1,6 +1,6 @@
-// What bounds of the distance of two finely cut hulls tell of them: most pairs that may meet within a step do not, and
-// need no patches to see it. Nothing is decided that patches would decide otherwise: where bounds are nearer to a limit
-// than rounding, the answer is that they do not know.
+// What bounds of the distance tell of two finely cut hulls. Most pairs that may meet within a step do not, and bounds
+// show it without making their patches. Bounds never decide otherwise than patches would: within rounding of a limit
+// the answer is kUnknown.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct ContactPath {
   ContactPose end;  // if it touches nothing
 };
 
-// With fewer pairs of edges their patches cost no more than bounds.
+// Hulls with fewer pairs of edges are left out: their patches cost no more than bounds.
 BROADSIDE_HD bool has_quick_answers(const ContactShape& a, const ContactShape& b) {
   constexpr std::uint32_t kManyEdgePairs = 4096;
   return a.kind == ContactKind::kHull && b.kind == ContactKind::kHull && a.hull.ways != nullptr &&
@@ -32,17 +32,18 @@ struct HullBounds {
 
 namespace quick_detail {
 
-// Bounds are sums of a dozen roundings of the same lengths as a gap, whose own allowance this is four times.
+// Bounds are sums of a dozen roundings of the same lengths as a gap. This is four times what a gap itself is allowed.
 inline constexpr float kMargin = 4.0F;
-// Nearer than so many allowances the normal of a patch and the direction between nearest points may differ by more than
-// ten degrees: a gap is off by an allowance, a direction by the root of twice that over the distance.
+// Where the distance is below this many allowances, the normal of a patch and the direction between nearest points may
+// differ by more than ten degrees: a gap is off by one allowance, and a direction by the root of twice that over the
+// distance.
 inline constexpr float kClearlyApart = 64.0F;
-// Directions along which the lower bound is all but this of the upper one are within ten degrees of that between
-// nearest points.
+// Where the lower bound along a direction is nearer to the upper one than this share, the direction is within ten
+// degrees of that between the nearest points.
 inline constexpr float kThin = 0x1p-6F;
-// Two normals are then each within twenty degrees of what patches say.
+// Each of two such normals is then within twenty degrees of the normal of a patch.
 inline constexpr float kSameSide = 0.77F;
-// And the difference of one and of what patches say, both of length 1, is no longer than this: of 25 degrees.
+// The longest difference between such a normal and that of a patch, both of length 1: that of 25 degrees.
 inline constexpr float kNormalOff = 0.45F;
 
 BROADSIDE_HD bool is_clear(const HullBounds& b) {
@@ -51,7 +52,7 @@ BROADSIDE_HD bool is_clear(const HullBounds& b) {
 
 }  // namespace quick_detail
 
-// Of two hulls, as close as answers need it; how far they are apart beyond stop_m is not looked for.
+// Bounds of two hulls, as close as the answers below need them; a distance beyond stop_m is not refined.
 BROADSIDE_HD HullBounds hull_bounds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
                                     const ContactPose& pose_b, float stop_m) {
   const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
@@ -65,8 +66,8 @@ BROADSIDE_HD HullBounds hull_bounds(const ContactShape& shape_a, const ContactPo
 
 enum class QuickAnswer { kUnknown, kNo, kYes };
 
-// is_still_apart (passing_by.hpp) of two hulls, whose patch of the start has this normal. end: hull_bounds of these
-// poses, with reach_m.
+// Answers is_still_apart (passing_by.hpp) for two hulls, whose patch at the start has this normal. end: hull_bounds of
+// the later poses, with reach_m.
 BROADSIDE_HD QuickAnswer quickly_still_apart(Vec3 start_normal, const HullBounds& end, float reach_m) {
   using namespace quick_detail;
   const float margin_m = kMargin * end.rounding_m;
@@ -77,18 +78,19 @@ BROADSIDE_HD QuickAnswer quickly_still_apart(Vec3 start_normal, const HullBounds
   return same_side <= -kSameSide ? QuickAnswer::kNo : QuickAnswer::kUnknown;
 }
 
-// Whether no point of two hulls has a gap of reach_m or less; that may be negative. bounds: hull_bounds with reach_m.
+// Whether no point of two hulls has a gap of reach_m or less; reach_m may be negative. bounds: hull_bounds with
+// reach_m.
 BROADSIDE_HD bool surely_apart(const HullBounds& bounds, float reach_m) {
   return bounds.gap.least_m > reach_m + quick_detail::kMargin * bounds.rounding_m;
 }
 
-// How far patches of other poses than the start are looked for: two bodies that go apart by all of their reach are
-// still seen.
+// How far apart patches at later poses are looked for: far enough that two bodies are still seen that move apart by all
+// of their reach.
 BROADSIDE_HD float seen_reach_m(float reach_m) {
   return 2.0F * reach_m;
 }
 
-// Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near: of near_m.
+// Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near: as for near_m.
 BROADSIDE_HD_CALLED bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                      const ContactPath& b, float reach_m, const NearReach& near) {
   using namespace quick_detail;

@@ -9,10 +9,11 @@
 
 namespace broadside::core {
 
-// Of the steps of this scene. twin_of: empty, or the engine whose bits it repeats.
+// What holds in the steps of this scene. twin_of: empty, or the engine whose bits this one repeats.
 Declaration rigid_declaration(const SoftSettings& solver, const Scene& scene, std::string_view twin_of = {});
 
-// The same where bodies sleep (core/method/rigid/sleep.hpp): what stands below this speed may be stopped. 0 = nobody.
+// The same where bodies sleep (core/method/rigid/sleep.hpp): a body slower than this may be stopped. 0 = bodies never
+// sleep.
 Declaration with_sleep(const Declaration& declaration, float sleep_speed_m_s);
 
 }  // namespace broadside::core

@@ -22,8 +22,8 @@ struct RigidWrench {
 
 // A part of a step turns a body by at most this much, rad: the error of one part is then below (1/2)^5 / 120.
 inline constexpr float kLargestTurnOfPart = 1.0F;
-// A body that turns by more than so many parts a step is integrated no better, only slower: no law can tell how often
-// it went around.
+// A body that turns by more than so many parts a step is integrated no better: no law could tell how often it went
+// around.
 inline constexpr int kMostTurnParts = 64;
 
 // Gravity and wrenches. Body axes are those at the start. A static body is returned unchanged.
@@ -37,9 +37,9 @@ BROADSIDE_HD RigidState accelerated(RigidState s, const RigidMass& mass, Vec3 gr
   return s;
 }
 
-// An upper bound of the angular speed that the body can come to while it turns freely, rad/s. Twice its energy is w . L
-// and stays, and is least where it is all about the axis of the smallest moment; the trace of the inverse inertia is at
-// least the largest eigenvalue. So a needle that tumbles is as fast as its slenderness allows and no faster.
+// An upper bound of the angular speed, rad/s, that a body can reach while it turns freely. Twice its energy is w . L,
+// which stays, and |w|^2 is at most that times the largest eigenvalue of the inverse inertia, of which the trace is a
+// bound. So a needle that tumbles is taken to be as fast as its slenderness allows and no faster.
 BROADSIDE_HD float fastest_spin_rad_s(const RigidMass& mass, Quat q, Vec3 angular_momentum) {
   const float trace = (mass.inverse_inertia.xx + mass.inverse_inertia.yy) + mass.inverse_inertia.zz;
   const float twice_energy = dot(turned_inverse_inertia(mass, q, angular_momentum), angular_momentum);
@@ -79,8 +79,8 @@ BROADSIDE_HD constexpr float sum_with_rest(float a, float b, float& rest) {
 }
 
 // The sum of q and dq, of length 1. The change is computed whole before it is added, and what the addition rounds away
-// is kept: so a step's error is that of the change, far below an ulp of q. Errors of the length alone turn nothing, so
-// 1 / sqrt(1 + e) to second order will do; e is the fifth order of the turn.
+// is kept; so the error of a step is that of the change, far below an ulp of q. An error of the length alone turns
+// nothing, so 1 / sqrt(1 + e) to second order is enough; e is the fifth order of the turn.
 BROADSIDE_HD constexpr RestedQuat moved_on_sphere(RestedQuat s, Quat dq) {
   const float e = (dot(s.q, s.q) - 1.0F) + (2.0F * dot(s.q, dq) + dot(dq, dq));
   const float shrink = e * (0.375F * e - 0.5F);

@@ -11,7 +11,7 @@
 
 namespace broadside::core {
 
-// Of "contact" and "substeps".
+// Reads the settings "contact" and "substeps".
 inline SoftSettings soft_settings_of(const Settings& settings) {
   constexpr unsigned long kMostSubsteps = 1024;  // more are below the rounding of a step
   const std::string_view contact = settings.text("contact");
@@ -22,7 +22,8 @@ inline SoftSettings soft_settings_of(const Settings& settings) {
   return substeps > 0 ? with_substeps(soft, static_cast<std::uint32_t>(substeps)) : soft;
 }
 
-// "thresholds=fixed": the scene's, in place of those that scale with bodies, gravity and step.
+// Whether "thresholds=fixed" is set: the scene's thresholds, in place of those that scale with bodies, gravity and
+// step.
 inline SoftSettings with_fixed_thresholds(SoftSettings soft, const Scene& scene) {
   soft.limits.fixed_slop_m = scene.parameters.delta_m;
   soft.fixed_bounce_from_m_s = scene.parameters.v_threshold_m_s;

@@ -16,7 +16,7 @@ struct RigidState {
   Quat q;                 // world from body (the mesh's axes)
   Vec3 v;                 // of the center of mass, m/s
   Vec3 angular_momentum;  // about the center of mass, kg m^2/s: constant, bit for bit, while no torque acts
-  // What q lost to rounding so far, added at the next turn. Half an ulp a step puts a free brick that tumbles by 5
+  // What q lost to rounding so far; it is added at the next turn. Half an ulp a step turns a tumbling free brick by 5
   // degrees in 10 s at 1 ms.
   Quat q_rest{0.0F, 0.0F, 0.0F, 0.0F};
 

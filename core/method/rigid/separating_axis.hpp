@@ -11,7 +11,7 @@
 
 namespace broadside::core {
 
-// kPoints: between two points, of which one may be a corner and the other of an edge, or both corners.
+// kPoints: the direction between two points; one of them is a corner, the other a corner or a point of an edge.
 enum class AxisKind { kNone, kFaceOfA, kFaceOfB, kEdges, kPoints };
 
 struct SeparatingAxis {
@@ -28,9 +28,9 @@ struct SeparatingAxis {
   int ends_of_b[2] = {};
 };
 
-// Edges whose directions cross at less than this angle (16 roundings) have a cross product of rounding alone. Leaving
-// them out costs a gap no more than 16 roundings of the size of the bodies: the direction that they share is across
-// faces of both, but for that angle.
+// Edges whose directions cross at less than this angle (16 roundings) are left out, because their cross product is
+// rounding alone. That costs a gap at most 16 roundings of the size of the bodies: the direction that both edges share
+// is, but for that angle, across faces of both bodies.
 inline constexpr float kParallelSine = 16.0F * 0x1p-24F;
 
 // Of two boxes: all fifteen axes (Gottschalk, Lin and Manocha, OBBTree, 1996). Unlike there, each gap is taken along
@@ -66,9 +66,10 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis_of_boxes(const PlacedShape& a
   }
   if (other.gap_m > best.gap_m + rounding_m) best = other;
   if (best.gap_m > reach_m) return best;
-  // Edges by their products' parts in the axes of either box, which are the cosines that are there already: which of
-  // the nine may be wider than the best face by more than rounding. A cosine is off by twelve roundings, and each of
-  // the two lengths that it counts for is part of those of rounding_m: together by 17 of 32.
+  // Edge axes are first rated by their products' parts in the axes of either box, which are the cosines that are known
+  // already: only an axis is computed whose gap may exceed that of the best face by more than rounding. A cosine is off
+  // by twelve roundings, and each of the two lengths that it multiplies is part of those of rounding_m: together 17 of
+  // 32.
   const Vec3 apart = turned_back(a.axes, d);
   const float least_m = best.gap_m + rounding_m;
   const float slack_m = 0.75F * rounding_m;
@@ -104,7 +105,7 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis_of_boxes(const PlacedShape& a
     if (gap > other.gap_m) other = {gap, t > 0.0F ? n : -n, AxisKind::kEdges, i, j};
   }
   if (!(other.gap_m > best.gap_m + rounding_m)) return best;
-  // The edge of A is on its side towards B, that of B towards A: numbers as in BoxPolytope.
+  // The edge of A is on the side of A that faces B, and the other way round. Numbers as in BoxPolytope.
   const int i = other.of_a;
   const int j = other.of_b;
   other.of_a = 4 * i;

@@ -75,8 +75,8 @@ BROADSIDE_HD Weighed nearest_of_triangle(const Simplex& s, int p, int q, int r) 
 
 }  // namespace simplex_detail
 
-// Keeps the corners that the nearest point needs and returns that point. inside_m: 0, or, of four corners around the
-// origin, how far the nearest of its sides is; then all of them are kept, with weights that add up to 1 but for
+// Keeps the corners that the nearest point needs and returns that point. inside_m: 0; but where four corners surround
+// the origin, the distance of the nearest side, and then all of them are kept, with weights that add up to 1 but for
 // rounding.
 BROADSIDE_HD Vec3 keep_nearest(Simplex& s, float& inside_m) {
   using namespace simplex_detail;

@@ -1,9 +1,10 @@
 // When a body that stands still stops being solved: RIGID 8.8.
 //
-// A body is still while no point of it moves faster than a sixteenth of what gravity gives in a step: nothing that
-// falls is as slow for two steps. An island, bodies that touch each other directly or through others, sleeps when each
-// of its bodies has been still long enough, and wakes as one when something that is awake comes to touch it. Asleep a
-// body has no velocity, and its contacts give it, step by step, what they gave it in its last step awake.
+// A body is still while no point of it moves faster than a sixteenth of what gravity gives in a step; nothing that
+// falls is as slow for two steps. An island is a set of bodies that touch each other directly or through others. It
+// sleeps when each of its bodies has been still long enough, and wakes as one when something that is awake touches it.
+// While it sleeps, a body has no velocity, and its contacts give it in every step what they gave it in its last step
+// awake.
 #pragma once
 
 #include <cmath>
@@ -16,20 +17,20 @@
 
 namespace broadside::core {
 
-// 0 without gravity: there nothing says how slow is slow, and nobody sleeps.
+// 0 without gravity: then nothing says how slow is slow, and bodies never sleep.
 BROADSIDE_HD float sleep_speed_m_s(Vec3 gravity_m_s2, float dt_s) {
   constexpr float kShare = 1.0F / 16.0F;
   return kShare * length(gravity_m_s2) * dt_s;
 }
 
-// No point of a body that reaches outer_m from its center of mass moves faster.
+// A bound of the speed of all points of a body that reaches outer_m from its center of mass.
 BROADSIDE_HD float fastest_of_body_m_s(const RigidState& s, const RigidMass& mass, float outer_m) {
   return length(s.v) + length(angular_velocity(mass, s)) * outer_m;
 }
 
-// Steps for which a body is still before it sleeps: a second of a body of a meter, for others as long as they take to
-// fall a fixed number of their sizes, since a body that stands on its edge takes the longer to tip the larger it is.
-// At least so many that an impulse has gone through a pile.
+// How many steps a body is still before it sleeps. It is the time of a fixed number of falls of the body's own size, a
+// second for a body of a meter, because the larger a body is the longer it takes to tip when it stands on its edge.
+// There are at least as many steps as an impulse takes through a pile.
 BROADSIDE_HD std::uint32_t still_steps_to_sleep(float outer_m, Vec3 gravity_m_s2, float dt_s) {
   constexpr float kLeastSteps = 32.0F;
   constexpr float kMostSteps = 65536.0F;

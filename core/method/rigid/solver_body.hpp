@@ -21,7 +21,7 @@ struct SolverBody {
   float inverse_mass = 0.0F;
   // Since the start of the step: positions are added once, so that they do not round at every substep.
   Vec3 moved;   // of the center of mass, m
-  Vec3 turned;  // sum of h w, rad: what the gaps of the step are followed with, to first order
+  Vec3 turned;  // sum of h w, rad: the gaps of the step follow it
   RestedQuat orientation;
 };
 

@@ -1,8 +1,8 @@
 // A step that is taken in several equal parts, each of which detects anew, as one frame of a trace: RIGID 8.4.
 //
-// Where masses are far apart (UnevenStep), light bodies that are struck move and turn within a step to where no
-// contact of its start is. The frame tells bodies as the last part left them, what detection saw at the start of the
-// step, and the points of all parts: of one contact that lasts, one in each part, with what it gave there.
+// Where masses are far apart (UnevenStep), light bodies that are struck move and turn within a step to where no contact
+// of its start is. The frame has the bodies as the last part left them, what detection saw at the start of the step,
+// and the points of all parts. A contact that lasts has one point in each part, with the impulse that it gave there.
 #pragma once
 
 #include <utility>
@@ -14,15 +14,15 @@
 
 namespace broadside::core {
 
-// Of bodies that move, the heaviest over the lightest; at least 1.
+// The mass of the heaviest body that moves over that of the lightest; at least 1.
 float largest_mass_ratio(const Scene& scene);
 
 class StepInParts {
  public:
   void begin() { earlier_.clear(); }
-  // In order, all but the last one: what was read back in full behind it.
+  // Call for all parts but the last one, in order. part: as read back in full after it.
   void add(FrameRecord part) { earlier_.push_back(std::move(part)); }
-  // last: as read back in full. It becomes the frame of the step at this level, with the digest of that.
+  // last: the last part, as read back in full. It becomes the frame of the step at this level, with its digest.
   void join(FrameRecord& last, RecordLevel level) const;
 
  private:

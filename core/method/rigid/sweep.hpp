@@ -1,9 +1,9 @@
 // How far two bodies can go along what a step moved them by before they are in each other: RIGID 8.7.
 //
 // Contacts of a step are those that its start foretells. Bodies that move farther than they are thick may meet others
-// in ways that nothing foretold: these stop short, at a pose on their way, and keep their velocities, which the next
-// step's contacts see to. Conservative advancement (Mirtich, 1996): no part of a way is skipped that the distance, and
-// how fast it can shrink, do not clear.
+// that nothing foretold. These bodies stop on their way and keep their velocities; the contacts of the next step act on
+// them. The method is conservative advancement (Mirtich, 1996): it advances by no more than the distance, and the speed
+// at which that can shrink, allow.
 #pragma once
 
 #include <cmath>
@@ -18,41 +18,42 @@
 
 namespace broadside::core {
 
-// A body's way is cut into so many equal parts, and a body stops after a whole number of them. So a body that others
+// A body's way is cut into this many equal parts, and a body stops after a whole number of them. So a body that others
 // stop again and again has finitely many places to stop at, and the stage ends.
 inline constexpr std::uint32_t kPartsOfWay = 256;
 
-// After so many rounds, which a pile of bodies that stop each other one after another may need, what still meets stays
-// at the start.
+// The most rounds; a pile of bodies that stop each other one after another may need many. After them, what still meets
+// stays at its start.
 inline constexpr std::uint32_t kMostSweepRounds = 64;
 
-// Of the thinner body's half thickness, what two bodies may be in each other beyond how deep they are at the start.
+// How much deeper two bodies may get than they are at the start, as a share of the thinner one's half thickness.
 inline constexpr float kSweptDepthShare = 0.25F;
 
-// A way that is not cleared after so many advances ends where it is clear up to.
+// A way that is not cleared after this many advances ends where it is clear up to.
 inline constexpr int kMostAdvances = 64;
 
 // What one body did in a step.
 struct SweptWay {
   ContactPose start;
   ContactPose end;
-  float swing_m = 0.0F;  // turning from start to end moves no point of the shape by more
+  float swing_m = 0.0F;  // the farthest that turning from start to end moves a point of the shape
 };
 
-// The shorter of the two ways from one orientation to the other.
+// Orientations go the shorter of the two ways from one to the other.
 BROADSIDE_HD constexpr Quat nearer_end(Quat start, Quat end) {
   return dot(start, end) < 0.0F ? -1.0F * end : end;
 }
 
-// On the chord between two orientations q turns fastest in the middle, where the chord of at most a quarter turn of the
-// 4-sphere is 1 / sqrt(2) from its center; a turn of q by x turns the body by 2 x.
+// The farthest that turning moves a point of a body that reaches outer_m from its center, m. The orientation goes along
+// the chord and turns fastest in its middle, where the chord of at most a quarter turn of the 4-sphere is 1 / sqrt(2)
+// from its center; a turn of q by x turns the body by 2 x.
 BROADSIDE_HD float swing_of(ContactPose start, ContactPose end, float outer_m) {
   constexpr float kFastest = 2.8285F;
   const Quat d = nearer_end(start.q, end.q) + -1.0F * start.q;
   return kFastest * sqrtf(dot(d, d)) * outer_m;
 }
 
-// No point of the body moves by more, m.
+// No point of the body moves by more than this, m.
 BROADSIDE_HD float length_of(const SweptWay& way) {
   return length(way.end.x - way.start.x) + way.swing_m;
 }
@@ -61,7 +62,7 @@ BROADSIDE_HD SweptWay free_way(const ContactPath& path, float outer_m) {
   return {path.start, path.end, swing_of(path.start, path.end, outer_m)};
 }
 
-// After a share of the way, 0 to 1.
+// The pose after a share of the way, 0 to 1.
 BROADSIDE_HD ContactPose pose_at(const SweptWay& way, float share) {
   const Quat end = nearer_end(way.start.q, way.end.q);
   const Quat q = (1.0F - share) * way.start.q + share * end;
@@ -88,9 +89,9 @@ BROADSIDE_HD_CALLED NearestPatch nearest_patch(const ContactShape& a, ContactPos
   return nearest;
 }
 
-// The share of both ways, gone at the same time, up to which the bodies are in each other by no more than allowed_m,
-// or than they are at the start; it stops where less than done_m of that is left. Of two convex shapes a plane that
-// parts them, or the direction of least depth, tells: along it alone they come nearer.
+// The share of both ways, gone at the same time, up to which the bodies are in each other by no more than allowed_m or
+// than they are at the start. It stops where less than done_m is left. For two convex shapes it follows the direction
+// that parts them, or in which they overlap least, because only along it can they come nearer.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED float clear_share(const ContactShape& a, const SweptWay& way_a, const ContactShape& b,
                                       const SweptWay& way_b, float allowed_m, float done_m) {
@@ -114,8 +115,8 @@ BROADSIDE_HD_CALLED float clear_share(const ContactShape& a, const SweptWay& way
   return share;
 }
 
-// What two bodies may be in each other beyond how deep they are at the start, and how near to that is near enough, m.
-// thinner_m: half of the least thickness of the thinner one.
+// How much deeper two bodies may get than they are at the start, and how near to that the search stops, m. thinner_m:
+// half of the least thickness of the thinner one.
 BROADSIDE_HD constexpr float swept_depth_m(float thinner_m) {
   return kSweptDepthShare * thinner_m;
 }
@@ -123,7 +124,7 @@ BROADSIDE_HD constexpr float swept_done_m(float thinner_m) {
   return 0.125F * swept_depth_m(thinner_m);
 }
 
-// Whether two bodies that go their free ways do not touch: neither if both go, nor if something holds one of them.
+// Whether two bodies do not touch on their free ways: neither if both move, nor if something holds one of them.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool misses(const ContactShape& a, const SweptWay& way_a, const ContactShape& b, const SweptWay& way_b,
                          float thinner_m) {
@@ -135,20 +136,20 @@ BROADSIDE_HD bool misses(const ContactShape& a, const SweptWay& way_a, const Con
          clear_share<Lanes>(a, held_a, b, way_b, 0.0F, done_m) == 1.0F;
 }
 
-// Whether bodies that go these ways may pass through each other.
+// Whether bodies move so far that they may pass through each other.
 BROADSIDE_HD bool moves_far(float way_a_m, float way_b_m, float thinner_m) {
   return way_a_m + way_b_m > swept_depth_m(thinner_m);
 }
 
-// Whether a patch of two bodies that move far leads to no contact in the step. The planes of patches far away mislead;
-// what a push makes of such a way, the sweep after the response sees. fall_m: of both.
+// Whether a patch of two bodies that move far leads to no contact in the step. It is asked because planes of patches
+// that are far away mislead. What a push makes of such a way is left to the sweep after the response. fall_m: of both.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED bool misses_patch(const Manifold& found, const ContactShape& a, const SweptWay& way_a,
                                       const ContactShape& b, const SweptWay& way_b, float fall_m, float thinner_m) {
   return least_gap_m(found) > fall_m + thinner_m && misses<Lanes>(a, way_a, b, way_b, thinner_m);
 }
 
-// The way up to so many of its parts.
+// The first `parts` of the way's kPartsOfWay parts.
 BROADSIDE_HD SweptWay part_of_way(SweptWay way, std::uint32_t parts) {
   if (parts == kPartsOfWay) return way;
   const float share = static_cast<float>(parts) / static_cast<float>(kPartsOfWay);
@@ -157,7 +158,8 @@ BROADSIDE_HD SweptWay part_of_way(SweptWay way, std::uint32_t parts) {
   return way;
 }
 
-// Contains the body on all of its way: there a point is off the line between its two ends by less than the swing.
+// A box that contains the body on all of its way: on it a point leaves the line between its two ends by less than
+// swing_m.
 BROADSIDE_HD Box box_of_way(const Box& start, const Box& end, float swing_m) {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {

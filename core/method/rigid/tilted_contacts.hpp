@@ -1,9 +1,9 @@
 // Where two round polytopes would touch next if they tilted a little: more points for their manifold.
 //
 // Faces of a finely cut hull are small, so what two of them have in common is a spot. Bodies that roll over each other
-// within a step leave it, and meet half their size away, where no point was: bunnies in a heap ended 8 cm deep in each
-// other. Bullet tilts a body and detects again (btConvexConvexAlgorithm, its perturbed manifold); here the corners that
-// are lowest along tilted directions are looked up, with their gaps as the bodies stand.
+// leave it within a step, and meet half their size away, where no point was: before, bunnies in a heap ended 8 cm deep
+// in each other. Bullet tilts a body and detects again (btConvexConvexAlgorithm, its perturbed manifold). Here the
+// corners that are lowest along tilted directions are looked up, with their gaps as the bodies stand.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,8 @@
 
 namespace broadside::core {
 
-// In four directions across the normal, by each of two tangents of angles: the larger is that of half a radian.
+// Tilts go in four directions across the normal, by two angles each, given as tangents; the larger is that of half a
+// radian.
 inline constexpr int kTilts = 8;
 inline constexpr float kLargestTilt = 0.5F;
 
@@ -37,9 +38,9 @@ BROADSIDE_HD int lowest_of(const HullPolytopeOf<Lanes>& p, Vec3 direction) {
   return static_cast<int>(climb_down(p.hull, local, climb_start(p.hull, local)));
 }
 
-// The face that the line through x along `up` leaves the body by on its way up; -1: it misses the body. From face
-// `from` on, over the sides that the line passes: seen along `up` each step leads to where the body is less high, so no
-// face comes twice. rounding_m: within it a line counts as over a face.
+// The face through which the line through x along `up` leaves the body on its way up; -1: the line misses the body. The
+// search begins at face `from` and crosses the sides that the line passes. Seen along `up` each crossing leads to where
+// the body is less high, so no face comes twice. Within rounding_m a line counts as over a face.
 template <typename Lanes>
 BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m) {
   const HullView& hull = p.hull;
@@ -64,7 +65,7 @@ BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Ve
   }
   return -1;
 }
-// Of few faces all are looked at.
+// Where faces are few all are looked at.
 template <typename Polytope>
 BROADSIDE_HD int face_below(const Polytope& p, int, Vec3 x, Vec3 up, float rounding_m) {
   int entered = -1;
@@ -85,8 +86,8 @@ BROADSIDE_HD int face_below(const Polytope& p, int, Vec3 x, Vec3 up, float round
 
 }  // namespace tilt_detail
 
-// How far x, a point of the other body, is above this one along the unit direction up; negative inside. False where the
-// line through x misses the body, or meets a face too steep for the height to be a gap. top: a face that looks up.
+// The height of x, a point of the other body, above this one along the unit direction up; negative inside. False where
+// the line through x misses the body, or meets a face too steep for the height to be a gap. top: a face that looks up.
 template <typename Polytope>
 BROADSIDE_HD bool height_above(const Polytope& body, int top, Vec3 x, Vec3 up, float rounding_m, float& height_m) {
   const int face = tilt_detail::face_below(body, top, x, up, rounding_m);

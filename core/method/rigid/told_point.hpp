@@ -1,4 +1,4 @@
-// Which points of a patch a step tells of, and how.
+// Which points of a patch a step records, and how.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -7,8 +7,8 @@
 
 namespace broadside::core {
 
-// What touched or was pushed; false for a point that was near and felt nothing. impulse: N s on A, of the whole step.
-// center_a: A's center of mass at detection.
+// Records a point that touched or was pushed; false for one that was near and felt nothing. impulse: N s on A, of the
+// whole step. center_a: A's center of mass at detection.
 BROADSIDE_HD constexpr bool told_point(const ContactPatch& patch, int k, Vec3 impulse, Vec3 center_a,
                                        ContactPoint& told) {
   const ManifoldPoint& p = patch.manifold.points[k];

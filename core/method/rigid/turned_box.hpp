@@ -23,8 +23,8 @@ struct VertexTreeView {
   const Vec3* vertices = nullptr;
 };
 
-// No point of the box is farther along the direction: products and sums round monotonically, so that holds for rounded
-// numbers too.
+// An upper bound of how far any point of the box is along the direction. Products and sums round monotonically, so the
+// bound holds for the rounded coordinates too.
 BROADSIDE_HD constexpr float box_support(const Box& box, Vec3 d) {
   return (d.x * (d.x < 0.0F ? box.min.x : box.max.x) + d.y * (d.y < 0.0F ? box.min.y : box.max.y)) +
          d.z * (d.z < 0.0F ? box.min.z : box.max.z);
@@ -38,8 +38,8 @@ BROADSIDE_HD constexpr float leaf_support(const VertexTreeView& tree, std::uint3
   return best;
 }
 
-// The largest coordinate of the vertices along the direction. A largest one depends on no order, so it is that of a
-// loop over all vertices, bit for bit.
+// The largest coordinate of the vertices along the direction. A maximum does not depend on any order, so this one is
+// that of a loop over all vertices, bit for bit.
 BROADSIDE_HD float vertex_support(const VertexTreeView& tree, Vec3 d) {
   const auto is_empty = [&tree](std::uint32_t leaf) { return tree.leaf_begin[leaf] == tree.leaf_begin[leaf + 1]; };
   // The most promising leaf first: then few others are opened.
@@ -71,7 +71,7 @@ BROADSIDE_HD float shape_support(const ContactShape& s, const VertexTreeView& tr
     case ContactKind::kCapsule:
       return s.radius_m + s.half_length_m * fabsf(d[s.axis]);
     case ContactKind::kCylinder: {
-      // Not sqrt(1 - d^2), which is off by the root of a rounding where the axis lies along the direction.
+      // Not sqrt(1 - d^2): where the axis lies along the direction that is off by the root of a rounding.
       const float p = d[s.axis == 0 ? 1 : 0];
       const float q = d[s.axis == 2 ? 1 : 2];
       return s.half_length_m * fabsf(d[s.axis]) + s.radius_m * sqrtf(p * p + q * q);
@@ -85,8 +85,8 @@ BROADSIDE_HD float shape_support(const ContactShape& s, const VertexTreeView& tr
   return INFINITY;
 }
 
-// Roundings, in units of 2^-24: four of the quaternion, eight from it to a direction, four to a coordinate along it;
-// all of lengths up to the shape's reach. Then two sums at the size of the position, and one of the recorded origin.
+// Roundings in units of 2^-24: four of the quaternion, eight from it to a direction, four to a coordinate along it, all
+// of lengths up to the shape's reach; then two sums at the size of the position, and one of the recorded origin.
 inline constexpr float kBoxRoundingsOfReach = 32.0F;
 inline constexpr float kBoxRoundingsOfPosition = 4.0F;
 

@@ -1,7 +1,7 @@
-// Bodies that a step left without an impulse, though its sweeps gave them some and took them back. What is added to a
-// velocity and subtracted again leaves rounding, of which no point tells: such a body has the velocities of one that
-// nothing touched, to the last bit. Before, a card that stood still behind others that a bullet struck went on with
-// 0.24 micrometers a second.
+// Bodies that a step left without an impulse, although its sweeps gave them some and took them back. An impulse that is
+// added to a velocity and subtracted again leaves rounding, which no point of the trace explains. Such a body gets the
+// velocities of one that nothing touched, to the last bit. Before, a card at rest behind others that a bullet struck
+// went on with 0.24 micrometers a second.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ BROADSIDE_HD bool has_pushed(const PatchConstraint& c) {
   return has;
 }
 
-// Of gravity and the scene's wrench alone, in so many substeps. What is constant in a body's axes turns with it, and
-// where it turned is what nothing told too: such a body is left as it is.
+// The velocities that gravity and the scene's wrench alone give in so many substeps. A wrench in body axes turns with
+// the body, whose orientation the sweeps have changed too: such a body is left as it is.
 BROADSIDE_HD void forget_pushes(SolverBody& body, const RigidState& before, Vec3 gravity_m_s2,
                                 const RigidWrench* wrench, float substep_s, std::uint32_t substeps) {
   if (!is_moved(body)) return;

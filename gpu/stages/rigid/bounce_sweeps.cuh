@@ -1,4 +1,4 @@
-// What contacts that bounce do beside the sweeps of all: core/method/rigid/soft_contact.hpp.
+// The sweeps over contacts that bounce: core/method/rigid/soft_contact.hpp.
 #pragma once
 
 #include "core/method/rigid/kept_blows.hpp"
@@ -6,19 +6,19 @@
 
 namespace broadside::gpu {
 
-// What these sweeps load of a patch before they know whether they visit it.
+// What a sweep loads of a patch before it knows whether the patch is visited.
 struct LoadedBodies {
   core::PatchConstraint c;
 };
 
-// And all of it, where it is known already that they do.
+// The whole patch, where it is known already that it is visited.
 struct LoadedStirred {
   LoadedPatch patch;
   bool is_whole = false;
 };
 
-// Again, the contacts of bodies that are stirred. What changes by more than `done` stirs its bodies for the next sweep.
-// Brings the largest change of a point's speed.
+// Relaxes the contacts of stirred bodies again. A change of more than `done` stirs the patch's bodies for the next
+// sweep. Contributes the largest change of a point's speed.
 __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const RigidFrameView& f,
                                               const core::SoftStep& soft, std::uint32_t sweep, float done,
                                               const TeamSums& sums) {
@@ -40,7 +40,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedStirred& loaded) {
         LoadedPatch& p = loaded.patch;
-        // An earlier color of this sweep may have stirred them since.
+        // An earlier color of this sweep may have stirred its bodies since it was loaded.
         if (!loaded.is_whole) return is_stirred(p.c) ? Visit::kLoadAgain : Visit::kDone;
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
@@ -56,7 +56,8 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
-// What came fast leaves. is_first: how far each point may push is noted. Brings the largest change of a point's speed.
+// Points that came fast leave. is_first: notes how much impulse each patch may give. Contributes the largest change of
+// a point's speed.
 __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f, bool is_first,
                                                float done, const TeamSums& sums) {
   float largest = 0.0F;
@@ -91,8 +92,8 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
-// The end of such a substep: core::drop_impacts; and of patches of bodies that were stirred since this sweep,
-// core::drop_impulses. What is left is added to the totals where all other impulses are.
+// The end of a substep with impacts: core::drop_impacts for all, core::drop_impulses for patches of bodies that were
+// stirred since sweep `since`. The impulses that are left are added to the totals where all others are.
 __device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f, std::uint32_t since) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;

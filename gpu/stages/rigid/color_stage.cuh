@@ -1,6 +1,6 @@
-// Colors of patches: those of one color share no moved body. The same function of the set of patches as the twin's
-// (reference/octree_cpu/rigid/patch_coloring.hpp): in the order of their priorities each patch takes the lowest color
-// that no earlier patch of its moved bodies has.
+// Colors patches, so that patches of one color share no moved body. In the order of their priorities each patch takes
+// the lowest color that no earlier patch of its moved bodies has. It is the same function of the set of patches as the
+// twin's (reference/octree_cpu/rigid/patch_coloring.hpp).
 #pragma once
 
 #include "core/method/coloring.hpp"
@@ -10,12 +10,12 @@
 
 namespace broadside::gpu {
 
-// The patches of those that sleep lie behind these, and have no color.
+// Patches of sleeping bodies lie behind these, and have no color.
 __device__ inline std::uint64_t solved_patches(const RigidFrameView& f) {
   return f.counts->patches - f.counts->asleep_patches;
 }
 
-// The number of this body's patches that come before.
+// How many of this body's patches come before this one.
 __device__ inline std::uint32_t rank_among(const RigidFrameView& f, std::uint32_t body, std::uint32_t patch,
                                            std::uint64_t priority) {
   if (!is_moved(f, body)) return kNotMoved;
@@ -68,7 +68,7 @@ __device__ inline void take_color(const RigidFrameView& f, std::uint32_t body, s
   GridWords::store_whole(reinterpret_cast<uint4*>(f.coloring + body), colors);
 }
 
-// Its color if its turn has come, else kUncolored.
+// The patch's color if its turn has come, else kUncolored.
 __device__ inline std::uint32_t try_color(const RigidFrameView& f, const PatchRank& own) {
   const uint4 of_a = colors_of(f, own.body_a, own.a);
   const uint4 of_b = colors_of(f, own.body_b, own.b);
@@ -87,8 +87,8 @@ __device__ inline std::uint32_t try_color(const RigidFrameView& f, const PatchRa
   return color;
 }
 
-// A patch waits for the earlier ones of its bodies alone: what a body's word says is of one moment, so there is no
-// barrier. All blocks are resident, and the first patch of all waits for none: so all get a color.
+// A patch waits only for the earlier patches of its bodies. A body's word is read as of one moment, so there is no
+// barrier. All blocks are resident, and the first patch of all waits for none; so every patch gets a color.
 template <typename Team>
 __device__ void color_patches(const Team& team, const RigidFrameView& f) {
   const std::uint64_t patches = solved_patches(f);
@@ -111,8 +111,8 @@ __device__ void color_patches(const Team& team, const RigidFrameView& f) {
   if (lane() == 0 && colors != 0) atomicMax(&f.counts->colors, colors);
 }
 
-// work(color, lanes) for each color that lanes of a warp have, called by all lanes. A lane
-// without a patch has kUncolored.
+// Calls work(color, lanes) once for each color that some lanes of a warp have. All lanes make the call; a lane without
+// a patch has kUncolored.
 template <typename Work>
 __device__ void each_color_of_warp(std::uint32_t color, const Work& work) {
   unsigned left = __ballot_sync(kFullWarp, color != kUncolored);
@@ -124,7 +124,7 @@ __device__ void each_color_of_warp(std::uint32_t color, const Work& work) {
   }
 }
 
-// Behind a barrier: how many patches each color has.
+// Counts the patches of each color. Call after a barrier.
 template <typename Team>
 __device__ void count_colors(const Team& team, const RigidFrameView& f) {
   const std::uint64_t patches = solved_patches(f);
@@ -136,7 +136,7 @@ __device__ void count_colors(const Team& team, const RigidFrameView& f) {
   }
 }
 
-// By one thread. A color's places begin at a multiple of 32, so that a warp's constraints lie together.
+// By one thread. A color's places begin at a multiple of 32, so that the constraints of a warp lie together.
 __device__ inline void place_colors(const RigidFrameView& f) {
   std::uint32_t next = 0;
   for (std::uint32_t color = 0; color < f.counts->colors; ++color) {
@@ -148,8 +148,8 @@ __device__ inline void place_colors(const RigidFrameView& f) {
   f.counts->places = next;
 }
 
-// Enters a patch's place in the list of one of its bodies, which is in the order of colors: no two of a body's patches
-// have the same.
+// Enters a patch's place in the list of one of its bodies. The list is in the order of colors, and no two of a body's
+// patches have the same color.
 __device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body, std::uint32_t color,
                                      std::uint32_t place, std::uint32_t side) {
   if (!is_moved(f, body)) return;

@@ -1,4 +1,4 @@
-// A frame of turning bodies from its patches of contact to constraints in the order of their colors.
+// The part of a frame of turning bodies that makes constraints of its patches, in the order of their colors.
 #pragma once
 
 #include "gpu/rigid/rigid_view.hpp"

@@ -1,5 +1,5 @@
-// Where the numbers of constraints are: in words of 16 bytes, in tiles of 32 constraints, word by word. So the lanes of
-// a warp load neighboring words, and a sweep loads what it reads and no more.
+// Where the numbers of constraints lie: in words of 16 bytes, in tiles of 32 constraints, word by word. So the lanes of
+// a warp load neighboring words, and a sweep loads only what it reads.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ enum ConstraintWord : std::uint32_t {
 constexpr std::uint32_t kTile = 32;
 constexpr std::uint32_t kWordBytes = 16;
 
-// A body's index and the number of points share 4 bytes.
+// The number of points shares 4 bytes with a body's index.
 constexpr std::uint32_t kCountShift = 29;
 static_assert(core::kManifoldPoints == 4, "the points of a patch are the four parts of a word");
 

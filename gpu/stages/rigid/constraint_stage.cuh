@@ -1,5 +1,5 @@
-// Before and after the substeps: constraints of patches, with the impulses that the step before left; and what the step
-// leaves. The same as reference/octree_cpu/rigid/step_constraints.cpp.
+// Before and after the substeps: makes constraints of patches, with the impulses that the step before left, and keeps
+// what the step leaves. The same as reference/octree_cpu/rigid/step_constraints.cpp.
 #pragma once
 
 #include "core/method/rigid/patch_constraint.hpp"
@@ -13,7 +13,7 @@
 
 namespace broadside::gpu {
 
-// Where these bodies' points of the step before have this feature: the first of them, patch by patch; or nowhere.
+// The first point with this feature that these bodies had in the step before, patch by patch; or none.
 constexpr std::uint32_t kForgotten = 0xFFFFFFFFU;
 __device__ inline std::uint32_t remembered_at(const RigidFrameView& f, std::uint32_t a, std::uint32_t b,
                                               std::uint32_t feature) {
@@ -43,7 +43,7 @@ __device__ inline void recall(const RigidFrameView& f, const core::SoftStep& sof
   }
 }
 
-// What the step is solved with.
+// The numbers with which the step is solved.
 __device__ inline int step_kind(const RigidFrameView& f) {
   const bool is_calm = __uint_as_float(f.counts->fastest_m_s) <= f.calm_m_s;
   const float ratio = __uint_as_float(f.counts->mass_ratio);
@@ -75,7 +75,7 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
   if (__any_sync(kFullWarp, bounces) && lane() == 0) atomicMax(&f.counts->bounces, 1U);
 }
 
-// With the impulses of the last substep, which are not in the totals yet.
+// Includes the impulses of the last substep, which are not in the totals yet.
 __device__ inline void load_given(const TileSlot& slot, core::PatchConstraint& c) {
   load_bodies(slot, c);
   load_directions(slot, c);
@@ -84,7 +84,7 @@ __device__ inline void load_given(const TileSlot& slot, core::PatchConstraint& c
   core::add_to_totals(c);
 }
 
-// Whether a patch of the body gave it something in this step.
+// Whether a patch of the body gave it an impulse in this step.
 __device__ inline bool is_pushed_body(const RigidFrameView& f, std::uint32_t i) {
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
   for (std::uint32_t k = 0; k < f.memory.count[i]; ++k) {
@@ -101,7 +101,7 @@ __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
   for (std::uint64_t k = team.spread_rank(); k < f.body_count; k += team.size()) {
     const auto i = static_cast<std::uint32_t>(k);
     core::SolverBody body = load_body(f.bodies[i]);
-    // Who sleeps is not moved, and has other patches.
+    // A sleeping body is not moved, and its patches are others.
     if (core::is_moved(body) && !is_pushed_body(f, i))
       core::forget_pushes(body, f.before[i], f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i,
                           f.soft[kind].dt_s, f.substeps[kind]);
@@ -109,7 +109,7 @@ __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
   }
 }
 
-// Impulses of the step for those who read it, those of the last substep for the next step.
+// Writes the impulses of the step for the trace, and those of the last substep for the next step.
 template <typename Team>
 __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
   const core::SoftStep soft = f.soft[step_kind(f)];

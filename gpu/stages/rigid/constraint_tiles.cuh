@@ -1,5 +1,5 @@
-// Constraints of patches in memory, part by part. All four points are loaded, whether the patch has them or not: a load
-// that waits for the number of points comes later than one too many.
+// Loads and stores constraints of patches, part by part. All four points are loaded, whether the patch has them or not,
+// because a load that waits for the number of points costs more than one too many.
 #pragma once
 
 #include "core/method/rigid/conjugate_directions.hpp"
@@ -20,7 +20,7 @@ class TileSlot {
       : first_(constraints + place / kTile * (kTile * kConstraintWords) + place % kTile) {}
 
   __device__ PackedVec3& at(std::uint32_t word) const { return first_[word * kTile]; }
-  // One of four numbers that lie in a word of their own.
+  // One number of a word whose four numbers are used one by one.
   __device__ void load_each(std::uint32_t word, float (&numbers)[kFourPoints]) const {
     const PackedVec3 w = at(word);
     numbers[0] = w.v.x;
@@ -47,7 +47,7 @@ __device__ __forceinline__ void load_bodies(const TileSlot& slot, core::PatchCon
   c.fastest_push_m_s = bodies.w;
 }
 
-// Directions, and the surface that lies in the same words.
+// The directions, and the surface, which lies in the same words.
 __device__ __forceinline__ core::Vec3 load_directions(const TileSlot& slot, core::PatchConstraint& c) {
   const PackedVec3 normal = slot.at(kNormal);
   const PackedVec3 tangent = slot.at(kTangent);
@@ -68,13 +68,14 @@ __device__ __forceinline__ void load_levers(const TileSlot& slot, core::PatchCon
   }
 }
 
-// across: from load_directions. B's arm is the same difference as when the constraint was made.
+// across: from load_directions. B's arm is the same difference as when the constraint was made, so it has the same
+// bits.
 __device__ __forceinline__ void set_centers(core::Vec3 center_a, core::Vec3 across, core::PatchConstraint& c) {
   c.center_a = center_a;
   c.center_b = center_a - across;
 }
 
-// Where the patch is, and nothing else of these words.
+// The arms alone, without the other numbers of these words.
 constexpr std::uint32_t kMobilityNumbers = 21;
 constexpr std::uint32_t kMobilityWords = kImpulses - kMobility;
 static_assert(kMobilityNumbers + 3 == 4 * kMobilityWords, "the mobility and the center fill their words");
@@ -131,7 +132,7 @@ __device__ __forceinline__ void store_masses(const TileSlot& slot, const core::P
   });
 }
 
-// A point that slides has the sign of its slide mass, which is positive, turned over.
+// The slide mass is positive; it is stored with the opposite sign where the point slides.
 __device__ __forceinline__ void load_impulses(const TileSlot& slot, core::PatchConstraint& c) {
 #pragma unroll
   for (std::uint32_t k = 0; k < kFourPoints; ++k) {
@@ -202,8 +203,8 @@ __device__ __forceinline__ void store_totals(const TileSlot& slot, const core::P
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, all[i]);
 }
 
-// What tells whether a point bounces, of a patch that may: none else has restitution in this step. After
-// load_directions.
+// What tells whether a point bounces, for a patch that may; a patch that may not has no restitution in this step. Call
+// after load_directions.
 __device__ __forceinline__ void load_impact(const TileSlot& slot, core::PatchConstraint& c) {
   if (!(c.surface.restitution > 0.0F)) return;
   load_approach(slot, c);
@@ -231,7 +232,7 @@ __device__ __forceinline__ void store_triples(const TileSlot& slot, std::uint32_
   }
 }
 
-// Of a patch that is pushed apart, its impulses before that; of no other one anything.
+// For a patch that is pushed apart: its impulses before the push. Nothing for others.
 __device__ __forceinline__ void store_before_push(const TileSlot& slot, const core::PatchConstraint& c,
                                                   bool is_pushed) {
   if (!is_pushed) {
@@ -241,13 +242,13 @@ __device__ __forceinline__ void store_before_push(const TileSlot& slot, const co
   store_triples(slot, kPushed, core::impulses_before(c).of);
 }
 
-// Whether it is.
+// Whether the patch is pushed apart.
 __device__ __forceinline__ bool load_before_push(const TileSlot& slot, core::PatchImpulsesBefore& before) {
   load_triples(slot, kPushed, before.of);
   return !(before.of[0][0] < 0.0F);
 }
 
-// All of it, when it was made. Points that the patch does not have are zeros.
+// The whole constraint, when it was made. Points that the patch does not have are zeros.
 __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstraint& c, core::Vec3 across) {
   for (int k = c.count; k < core::kManifoldPoints; ++k) c.points[k] = {};
   const std::uint32_t packed = c.a | static_cast<std::uint32_t>(c.count) << kCountShift;

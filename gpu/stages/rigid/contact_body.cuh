@@ -1,4 +1,4 @@
-// What stages ask of a turning body.
+// Facts of a turning body that several stages ask for.
 #pragma once
 
 #include "core/contact.hpp"
@@ -19,12 +19,12 @@ __device__ inline bool is_asleep(const ContactView& f, std::uint32_t body) {
   return f.asleep != nullptr && !core::is_face(body) && f.asleep[body] != 0;
 }
 
-// Nothing begins to move it but a touch of a body that is not idle.
+// Whether the body is idle: only a touch of a body that is not idle can move it.
 __device__ inline bool is_idle(const ContactView& f, std::uint32_t body) {
   return !is_moved(f, body) || is_asleep(f, body);
 }
 
-// Whether two bodies are kept from passing through each other: core::RigidBodies. Where f.follows_ways.
+// Whether the sweep keeps two bodies from passing through each other (core::RigidBodies). Only where f.follows_ways.
 __device__ inline bool are_followed(const ContactView& f, core::Pair pair) {
   return f.is_swept[pair.i] != 0 || f.is_swept[pair.j] != 0;
 }

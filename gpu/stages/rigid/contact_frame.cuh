@@ -1,4 +1,4 @@
-// A frame of turning bodies behind its boxes and candidate pairs, up to its patches of contact. RIGID 8; the twin is
+// The part of a frame of turning bodies from its candidate pairs to its patches of contact. RIGID 8; the twin is
 // reference/octree_cpu/rigid/rigid_pipeline.cpp.
 #pragma once
 

@@ -7,15 +7,16 @@
 
 namespace broadside::gpu {
 
-// The frame stops: a count is above its room, or who slept wakes. Counts of kernels to come are zero.
+// Whether the frame is aborted: a count is above its room, or a sleeping island wakes. Counts of kernels that have not
+// run yet are zero.
 __device__ inline bool lacks_room(const RigidFrameView& f) {
   return lacks_pairs(f) || f.counts->woken != 0 || f.counts->confirmed > f.confirmed.capacity ||
          f.counts->patches > f.patches.capacity || f.counts->colors > f.color_capacity ||
          f.counts->places > f.place_capacity;
 }
 
-// By one thread, when no other reads the counts any more. Of an aborted frame they say what it needed. Leaves zeros for
-// the next frame.
+// By one thread, when no other reads the counts any more. Of an aborted frame the counts say what it needed. Leaves
+// zeros for the next frame.
 __device__ inline void tell_host(const RigidFrameView& f, bool is_aborted) {
   RigidCounts counts = *f.counts;
   counts.is_aborted = is_aborted ? 1 : 0;

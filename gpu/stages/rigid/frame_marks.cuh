@@ -10,7 +10,7 @@ __device__ inline void mark(const ContactView& f, bool is_first, core::Stage end
   if (is_first) f.outcome->stage_end_ns[static_cast<std::size_t>(ended)] = now_ns();
 }
 
-// The broad phase aborted, or its cells were made for smaller boxes.
+// Whether the frame has no pairs: the broad phase aborted, or its cells were made for smaller boxes.
 __device__ inline bool lacks_pairs(const ContactView& f) {
   return f.counts->largest_side > f.side_limit || f.counts->largest_coordinate > f.coordinate_limit ||
          (f.has_broad && f.broad_counters->is_aborted != 0);

@@ -1,6 +1,6 @@
-// What impulses that are known beforehand do to the bodies: a thread a body, which takes its patches in the order of
-// their colors. The bits are those of a sweep color by color, because such impulses do not depend on velocities, and a
-// body has no two patches of one color; but there is no barrier.
+// Applies impulses that are known beforehand to the bodies: a thread a body, which goes through its patches in the
+// order of their colors, without a barrier. The bits are those of a sweep color by color, because such impulses do not
+// depend on velocities and no two patches of a body have one color.
 #pragma once
 
 #include "core/method/rigid/conjugate_directions.hpp"
@@ -9,14 +9,14 @@
 
 namespace broadside::gpu {
 
-// A patch that one of its bodies is to be told of.
+// A patch and which of its bodies this thread works for.
 struct KnownPatch {
   core::PatchConstraint c;
   float changes[kFourPoints][3] = {};
   bool is_b = false;  // the body is the patch's B
 };
 
-// triples(slot, out): how far normal and tangent impulses of the four points change.
+// triples(slot, out) gives the changes of the normal and tangent impulses of the four points.
 template <typename Triples>
 __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                     const Triples& triples) {
@@ -32,7 +32,7 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
     triples(slot, known.changes);
     return known;
   };
-  // A patch is asked for one round before it is used, and its place one round before that.
+  // A patch is loaded one round before it is used, and its place one round before that.
   KnownPatch ahead;
   std::uint32_t next = count > 0 ? places[0] : 0;
   for (std::uint32_t k = 0; k <= count; ++k) {
@@ -53,7 +53,7 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
   }
 }
 
-// Those of the substep before: core::warm_start.
+// The impulses of the substep before: core::warm_start.
 __device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body) {
   give_known_impulses(f, i, body, [](const TileSlot& slot, float(&out)[kFourPoints][3]) {
 #pragma unroll

@@ -7,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// Room in the lists, and no color taken.
+// Makes room in the lists; no color is taken yet.
 template <typename Team>
 __device__ void begin_lists(const Team& team, const RigidFrameView& f) {
   for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {

@@ -1,4 +1,4 @@
-// Which candidate pairs have body-octree nodes that meet, in body axes; a thread a pair. RIGID 8.3.
+// Candidate pairs whose body-octree nodes overlap, in body axes; a thread a pair. RIGID 8.3.
 #pragma once
 
 #include "core/method/rigid/oriented_levels.hpp"
@@ -24,7 +24,7 @@ __device__ inline core::Pusher pusher_of(const ContactView& f, std::uint32_t bod
           __float_as_uint(p.pushed.w)};
 }
 
-// What candidates may do to each other in the next step.
+// Notes what the candidates may do to each other in the next step.
 __device__ inline void note_pushes(const ContactView& f, core::Pair pair) {
   const core::Pusher a = pusher_of(f, pair.i);
   const core::Pusher b = pusher_of(f, pair.j);
@@ -33,10 +33,10 @@ __device__ inline void note_pushes(const ContactView& f, core::Pair pair) {
   if (const unsigned long long push = core::push_by(b, a, restitution); push != 0) atomicMax(&f.push[pair.j], push);
 }
 
-// Of all n^2 ordered pairs, where no broad phase came before: false for what is no pair.
+// Takes one of all n^2 ordered pairs, where no broad phase came before; false if it is no pair.
 __device__ inline bool pair_of_all(const ContactView& f, std::uint64_t k, core::Pair& pair) {
   pair = {static_cast<std::uint32_t>(k / f.body_count), static_cast<std::uint32_t>(k % f.body_count)};
-  // Boxes of the whole step that do not meet are no pair.
+  // Bodies whose boxes of the whole step do not overlap are no pair.
   return pair.i < pair.j && core::overlaps(unpack(f.boxes[pair.i]), unpack(f.boxes[pair.j])) &&
          (f.mass[pair.i].inverse_mass > 0.0F || f.mass[pair.j].inverse_mass > 0.0F);
 }

@@ -19,8 +19,8 @@
 
 namespace broadside::gpu {
 
-// Those of one pair follow each other, in the order in which they were made. By a whole warp: one atomic for all of its
-// lanes.
+// Appends the patches of a pair, one after the other, in the order in which they were made. Called by a whole warp: one
+// atomic serves all of its lanes.
 __device__ inline void add_patches(const ContactView& f, std::uint32_t a, std::uint32_t b, const core::Manifold* found,
                                    int count) {
   const unsigned long long first = warp_append(static_cast<unsigned>(count), &f.counts->patches);
@@ -57,7 +57,7 @@ __device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Ma
                                 core::near_m(found.normal, near_reach(f, pair)));
 }
 
-// Returns how many patches the pair has. known: of two hulls, or nothing.
+// Returns how many patches the pair has. known: gaps of two hulls, or null.
 template <typename Lanes>
 __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found,
                             const core::KnownGaps* known = nullptr) {
@@ -76,7 +76,7 @@ __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifol
   return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept, known);
 }
 
-// A body at rest may be driven into a face as fast as its fastest neighbor comes.
+// How far a face is looked for. A body at rest may be driven into it as fast as its fastest neighbor comes.
 __device__ inline float reach_to_face_m(const ContactView& f, std::uint32_t body) {
   return __uint_as_float(f.pushed_m[body]) + f.reach_m[body];
 }
@@ -96,7 +96,7 @@ __device__ int touch_face(const ContactView& f, std::uint32_t body, std::uint32_
                                       count);
 }
 
-// By one lane: what few bounds tell is left out, so that warps make patches of no pair that has none.
+// By one lane: drops pairs that a few bounds decide, so that no warp makes patches of a pair that has none.
 template <typename Lanes>
 __device__ bool may_touch(const ContactView& f, core::Pair pair) {
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
@@ -105,7 +105,8 @@ __device__ bool may_touch(const ContactView& f, core::Pair pair) {
                                      f.reach_m[pair.i] + f.reach_m[pair.j], near_reach(f, pair));
 }
 
-// Confirmed pairs that may touch, in a list of their own: lanes of a warp that have none would wait for those that do.
+// Confirmed pairs that may touch get a list of their own; otherwise lanes whose pairs do not touch would wait for the
+// others.
 template <typename Lanes, typename Team>
 __device__ void list_near_pairs(const Team& team, const ContactView& f) {
   constexpr bool kIsSpread = Lanes::kKnowsLongShapes;
@@ -151,7 +152,7 @@ __device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body)
   return may;
 }
 
-// By one lane, too: lanes cannot share a search for a distance, but each can do one.
+// By one lane: lanes cannot share a search for a distance, but each can do one.
 __device__ inline bool find_gaps(const ContactView& f, core::Pair pair, core::KnownGaps& gaps) {
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
@@ -160,9 +161,9 @@ __device__ inline bool find_gaps(const ContactView& f, core::Pair pair, core::Kn
   return true;
 }
 
-// The same of any shapes, a warp a pair: the loops over corners, edges, faces and triangles are shared by its lanes,
-// and its code is fetched once for all. Before, each lane looks whether an item of its own has any patches, and how far
-// two hulls are from each other.
+// The same for any shapes, a warp a pair. Its lanes share the loops over corners, edges, faces and triangles, and the
+// code is fetched once for all of them. First each lane finds out, for an item of its own, whether it has any patches,
+// and how far apart two hulls are.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
   list_near_pairs<core::OneLane>(team, f);

@@ -1,5 +1,5 @@
-// Boxes of turned bodies, swept over what each can fill within the step, and all else that a step begins with.
-// RIGID 8.2 and 8.7.
+// Swept boxes of turned bodies, which contain all that each body can fill within the step, and everything else that
+// begins a step. RIGID 8.2 and 8.7.
 #pragma once
 
 #include "core/method/rigid/motion_reach.hpp"
@@ -13,7 +13,7 @@
 
 namespace broadside::gpu {
 
-// As a word, a float from 0 on is ordered like the float; one below 0, or none, is above all of them.
+// A nonnegative float as a word is ordered like the float; a negative one, or NaN, is above all of them.
 __device__ inline std::uint32_t as_ordered(float v) {
   return __float_as_uint(v);
 }

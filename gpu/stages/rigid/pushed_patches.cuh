@@ -1,4 +1,4 @@
-// What pushed patches apart within a substep is taken back: core/method/rigid/pushed_apart.hpp.
+// Takes back what pushed patches apart within a substep: core/method/rigid/pushed_apart.hpp.
 #pragma once
 
 #include "core/method/rigid/pushed_apart.hpp"
@@ -7,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// Patches that are pushed have the impulses that the substep began with, and stir their bodies for `sweep`.
+// Patches that are pushed return to the impulses with which the substep began, and stir their bodies for sweep `sweep`.
 __device__ __forceinline__ void take_back_impulses(const SolveTeam& team, const RigidFrameView& f,
                                                    std::uint32_t sweep) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
@@ -23,7 +23,7 @@ __device__ __forceinline__ void take_back_impulses(const SolveTeam& team, const 
   });
 }
 
-// A body that has moved goes on from the velocity that the substep gave it before any impulse. Behind a barrier.
+// A body that moved returns to the velocity that it had in the substep before any impulse. Call after a barrier.
 __device__ __forceinline__ void go_back_to_start(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body) {
   const PackedStart& start = f.starts[i];
   if (core::is_moved(body)) {
@@ -33,7 +33,7 @@ __device__ __forceinline__ void go_back_to_start(const RigidFrameView& f, std::u
   give_kept_impulses(f, i, body);
 }
 
-// After these have relaxed: what bounces stirs its bodies for `sweep`. Brings the fastest approach of what bounces.
+// Call after relaxation: patches that bounce stir their bodies for sweep `sweep`. Contributes their fastest approach.
 __device__ __forceinline__ void stir_what_bounces(const SolveTeam& team, const RigidFrameView& f, std::uint32_t sweep,
                                                   const TeamSums& sums) {
   float fastest = 0.0F;

@@ -14,7 +14,7 @@ __device__ inline bool is_patch_asleep(const ContactView& f, const core::Contact
   return is_asleep(f, patch.a) || is_asleep(f, patch.b);
 }
 
-// Of `count` patches, how many from the k-th on are of its pair; 0 if it is not the first one of them.
+// If the k-th patch is the first one of its pair: how many patches of `count` belong to that pair. Otherwise 0.
 template <typename PatchAt>
 __device__ std::uint32_t patches_of_pair(std::uint64_t k, std::uint64_t count, const PatchAt& patch_at) {
   const core::ContactPatch& first = patch_at(k);
@@ -42,7 +42,7 @@ __device__ void wake_islands(const Team& team, const RigidFrameView& f) {
   }
 }
 
-// Bodies that sleep have the patches that they had, behind those that are solved.
+// Sleeping bodies keep their patches, which are stored behind those that are solved.
 template <typename Team>
 __device__ void keep_asleep_patches(const Team& team, const RigidFrameView& f) {
   const std::uint64_t count = f.sleep.old_count;
@@ -69,8 +69,8 @@ __device__ void keep_asleep_patches(const Team& team, const RigidFrameView& f) {
   }
 }
 
-// Behind the patches of those that are awake. Who wakes may touch others that sleep, so where one wakes the frame is
-// aborted, and begins again from the same state with that island awake.
+// Wakes islands; it runs after the patches of awake bodies are known. A body that wakes may touch others that sleep. So
+// the frame is aborted when an island wakes, and begins again from the same state with that island awake.
 __device__ inline void run_wake(const RigidFrameView& f) {
   const GridTeam grid(f.barrier);
   if (lacks_pairs(f) || f.counts->confirmed > f.confirmed.capacity || f.counts->patches > f.patches.capacity) return;
@@ -87,7 +87,8 @@ __device__ inline void run_wake(const RigidFrameView& f) {
     keep_asleep_patches(grid, f);
 }
 
-// The lowest body of an island is its root. A body's parent is never above it, and only falls while islands grow.
+// Union-find: the lowest body of an island is its root. A body's parent is never above the body, and only falls while
+// islands grow.
 __device__ inline std::uint32_t root_of(const RigidFrameView& f, std::uint32_t body) {
   const volatile std::uint32_t* parent = f.sleep.parent;
   for (std::uint32_t above = parent[body]; above != body; above = parent[body]) body = above;
@@ -113,7 +114,8 @@ __device__ void join_touching(const Team& team, const RigidFrameView& f, std::ui
   }
 }
 
-// Counts for how long bodies have been still. Those that move, or not for long enough, keep their island awake.
+// Counts for how long bodies have been still. A body that moves, or has not been still for long enough, keeps its
+// island awake.
 template <typename Team>
 __device__ void find_restless(const Team& team, const RigidFrameView& f) {
   std::uint32_t asleep = 0;
@@ -167,7 +169,7 @@ __device__ void note_asleep_patches(const Team& team, const RigidFrameView& f, s
   }
 }
 
-// Behind the solver's launch, which left the counts of the frame that it told.
+// Call after the solver's launch, which left the counts that it told the host.
 __device__ inline void run_fall_asleep(const RigidFrameView& f) {
   const GridTeam grid(f.barrier);
   if (f.counts->told_is_aborted != 0) return;

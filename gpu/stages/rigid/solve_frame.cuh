@@ -21,7 +21,7 @@ __device__ __forceinline__ void run_solve(const RigidFrameView& f, ColorTable& t
   }
   team.sync();
   if (!is_first) return;
-  // Faces were touched, and are solved, with all other contacts.
+  // Contacts with faces are solved together with all others.
   mark(f, true, core::Stage::kResponse);
   mark(f, true, core::Stage::kFaces);
   tell_host(f, is_aborted);

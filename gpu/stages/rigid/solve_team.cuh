@@ -16,7 +16,7 @@ struct ColorTurn {
   std::uint32_t end = 0;  // of the color's places
 };
 
-// One class for both, because the sweeps are long to compile.
+// One class for both kinds of launch, because the sweeps take long to compile.
 class SolveTeam : public GridPlaces {
  public:
   // table: in the block's shared memory. By all threads.
@@ -35,11 +35,11 @@ class SolveTeam : public GridPlaces {
   }
 
   [[nodiscard]] __device__ std::uint32_t colors() const { return colors_; }
-  // The last colors, from this one on, have a patch for each thread of the first block or fewer: it solves them alone.
-  // Most colors of a loose heap are such.
+  // From this color on each color has at most as many patches as the first block has threads, and that block solves
+  // them alone. In a loose heap most colors are such.
   [[nodiscard]] __device__ std::uint32_t alone_from() const { return alone_from_; }
 
-  // This thread's first place of all colors from this one on. Every sweep deals places out alike.
+  // This thread's first place in this color or a later one. Every sweep gives the same places to the same threads.
   [[nodiscard]] __device__ __forceinline__ ColorTurn turn_from(std::uint32_t color) const {
     for (; color < colors_; ++color) {
       const bool is_alone = color >= alone_from_;
@@ -64,7 +64,7 @@ class SolveTeam : public GridPlaces {
     arrive();
     wait();
   }
-  // The barrier in two parts: what a thread reads between them, no other thread has written.
+  // The barrier in two parts. Between them a thread may read only what no other thread has written.
   __device__ void arrive() const {
     if (kind_ == SolveTeamKind::kCluster)
       ClusterBarrier::arrive();
@@ -78,7 +78,7 @@ class SolveTeam : public GridPlaces {
       barrier_.wait();
     ++waits_;
   }
-  // How often.
+  // How often this thread has waited.
   [[nodiscard]] __device__ std::uint32_t waits() const { return waits_; }
 
  private:

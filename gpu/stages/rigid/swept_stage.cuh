@@ -46,7 +46,7 @@ __device__ inline void run_ways(const SweptView& s) {
   if (lane() == 0 && longest != 0) atomicMax(&s.counts->longest, longest);
 }
 
-// By a whole warp, as what follows.
+// By a whole warp, like the functions below.
 __device__ inline void lower_parts(const SweptView& s, std::uint32_t body, float share) {
   if (lane() != 0 || !(share < 1.0F)) return;
   atomicMin(&s.next_parts[body], static_cast<std::uint32_t>(share * static_cast<float>(s.parts[body])));
@@ -81,7 +81,7 @@ __device__ inline void shorten_at_faces(const SweptView& s, std::uint32_t body) 
   }
 }
 
-// What a body keeps of its way is the least that its pairs leave it.
+// A body goes the shortest way that any of its pairs allows.
 template <typename Team>
 __device__ void take_round(const Team& team, const SweptView& s, std::uint32_t round) {
   bool has_changed = false;
@@ -108,8 +108,8 @@ __device__ void draw_back(const Team& team, const SweptView& s) {
   }
 }
 
-// Rounds over all pairs, a warp a pair, until nothing changes: the result is a function of the poses, whatever the
-// order.
+// Rounds over all pairs, a warp a pair, until nothing changes. The result is a function of the poses and does not
+// depend on any order.
 __device__ inline void run_stop_short(const SweptView& s) {
   const ContactView& f = s.bodies;
   const GridTeam grid(f.barrier);
@@ -120,7 +120,7 @@ __device__ inline void run_stop_short(const SweptView& s) {
       else
         shorten_at_faces(s, static_cast<std::uint32_t>(k - s.pair_count));
     }
-    // Nobody reads it any more: the round that did lies two barriers back.
+    // No thread reads it any more: the round that did was two barriers ago.
     if (grid.rank() == 0) s.counts->has_changed[(round + 1) % 3] = 0;
     grid.sync();
     take_round(grid, s, round);
@@ -129,7 +129,7 @@ __device__ inline void run_stop_short(const SweptView& s) {
   }
   draw_back(grid, s);
   grid.sync();
-  // It is the end of the response, in which faces are touched with all else.
+  // The response ends here; it includes contacts with faces.
   mark(f, grid.rank() == 0, core::Stage::kResponse);
   mark(f, grid.rank() == 0, core::Stage::kFaces);
 }

@@ -1,4 +1,4 @@
-// What all threads of a team bring together: the largest of their numbers, or a sum that no order shows in.
+// Numbers to which all threads of a team contribute: a maximum, or a sum that does not depend on any order.
 #pragma once
 
 #include "gpu/rigid/rigid_view.hpp"
@@ -7,18 +7,18 @@
 
 namespace broadside::gpu {
 
-// A turn: threads bring their numbers, by whole warps; a barrier of the team; all read what came together; all end the
-// turn. Words are used in turns of four: after the barrier of one turn its words are read, those of the next may be
-// written by threads that go on, and those of the one after are cleared, which nobody reads or writes before the next
-// barrier.
+// A turn has four parts: threads contribute their numbers, by whole warps; a barrier of the team; all read the result;
+// all end the turn. There are words for four turns. After the barrier of a turn its own words are read, those of the
+// next turn may be written by threads that go on, and those of the turn after that are cleared; nobody reads or writes
+// these before the next barrier.
 class TeamSums {
  public:
-  // Four numbers can be brought in one turn.
+  // Up to four numbers can be contributed in one turn.
   enum Which : std::uint32_t { kFirst, kSecond, kThird, kFourth };
 
   __device__ explicit TeamSums(RigidCounts* counts) : counts_(counts) {}
 
-  // Nonnegative numbers.
+  // For nonnegative numbers.
   __device__ void bring_largest(Which which, float own) const {
     const std::uint32_t word = warp_max(__float_as_uint(own));
     if (lane() == 0 && word != 0) atomicMax(&counts_->largest[turn_ % 4][which], word);
@@ -28,7 +28,7 @@ class TeamSums {
     if (lane() == 0 && units != 0) atomicAdd(&counts_->sums[turn_ % 4], units);
   }
 
-  // Behind the barrier.
+  // To be read after the barrier.
   [[nodiscard]] __device__ float largest(Which which) const {
     return __uint_as_float(load_fresh_if(true, &counts_->largest[turn_ % 4][which]));
   }

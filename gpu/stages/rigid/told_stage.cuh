@@ -1,5 +1,5 @@
-// States and points as the trace has them, written beside the frame by a launch without barriers. Points come in the
-// order in which threads find a place.
+// Writes states and points as the trace has them, beside the frame, in a launch without barriers. Points are in the
+// order in which threads find a place for them.
 #pragma once
 
 #include "core/contact_point.hpp"

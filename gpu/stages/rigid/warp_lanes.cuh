@@ -11,7 +11,7 @@
 
 namespace broadside::gpu {
 
-// What lane `from` has; lanes may ask different ones.
+// The value that lane `from` has; lanes may ask different lanes.
 template <typename T>
 __device__ __forceinline__ T of_lane(const T& own, unsigned from) {
   static_assert(sizeof(T) % sizeof(unsigned) == 0);
@@ -37,8 +37,8 @@ struct LaneShares {
     }
     all = __shfl_sync(kFullWarp, end, 31);
   }
-  // Whose share place `at` is, and which of it. By all lanes, each with a place of its own; any lane's where it is
-  // none.
+  // Which lane's share place `at` is in, and which item of that share it is. Called by all lanes, each with a place of
+  // its own; beyond the last place the answer means nothing.
   __device__ unsigned owner(unsigned at, unsigned& within) const {
     unsigned found = 0;
     for (unsigned step = 16; step > 0; step /= 2)
@@ -64,7 +64,7 @@ struct WarpLanes {
                                    __shfl_xor_sync(kFullWarp, least.value, step)};
       if (other.value < least.value || (other.value == least.value && other.item < least.item)) least = other;
     }
-    // A lane without an item below the greatest number says item 0.
+    // If no item of a lane is below the largest number, the lane answers item 0.
     return least;
   }
 
@@ -89,7 +89,7 @@ struct WarpLanes {
       best = other;
       of_best = {true, value, key};
     }
-    // Of what is not a number, lanes may think differently.
+    // Lanes may disagree about NaN.
     return __shfl_sync(kFullWarp, best, 0);
   }
 
@@ -126,7 +126,7 @@ struct WarpLanes {
     }
   }
 
-  // Lanes look at their items as if none before was visited, and behind a visit again.
+  // Lanes look at their items as if no earlier one had been visited, and look again after each visit.
   template <typename Has, typename Visit>
   __device__ static void each_in_turn(int count, const Has& has, const Visit& visit) {
     for (int first = 0; first < count; first += 32) {
@@ -140,18 +140,18 @@ struct WarpLanes {
     }
   }
 
-  // The lanes hold the top of the stack and look into it at once. What they find takes its place in order; leaves wait
-  // until nothing is left before them.
+  // The lanes hold the top of the stack and open its entries at once. What they find replaces the entries, in order.
+  // Leaves wait until nothing is left before them.
   template <typename Open, typename Items, typename Measure, typename Take>
   __device__ static void walk(const Open& open, const Items& items, const Measure& measure, const Take& take) {
-    // Entry e of the stack is lane e % 32's.
+    // Entry e of the stack is held by lane e % 32.
     constexpr unsigned kSlots = 64;
     constexpr unsigned kRoom = 32 * kSlots;
     constexpr std::uint32_t kIsLeaf = 0x80000000U;
     core::NodePair slots[kSlots];
     slots[0] = {};
     for (unsigned count = 1; count > 0;) {
-      // Fewer at once where room is scarce: one alone leaves at most one more a level.
+      // Fewer at once where room is scarce: an entry that is opened alone leaves at most one more a level.
       const unsigned at_once = min(min(32U, count), max(1U, (kRoom - count) / 64U));
       const unsigned holder = (count - 1 - lane()) % 32;  // of the entry that is lane() below the top
       const unsigned below_top = holder;                  // the same both ways: of the entry that this lane holds
@@ -191,7 +191,7 @@ struct WarpLanes {
     }
   }
 
-  // A lane has one of the items.
+  // Each lane holds one of the items.
   template <typename Item>
   struct Handful {
     int count = 0;
@@ -209,7 +209,7 @@ struct WarpLanes {
           continue;
         }
         const int found = min(__popc(with), 32 - count);
-        // The lane's own item comes from the lane that made it.
+        // The item of this lane comes from the lane that made it.
         unsigned source = 0;
         int next = from + 32;
         for (int nth = 0; with != 0; ++nth, with &= with - 1) {

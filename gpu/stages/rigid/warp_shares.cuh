@@ -1,4 +1,5 @@
-// How warps share items of which each takes long, and each another way: lanes of a warp then wait for each other.
+// How warps share items that each take long and branch differently. Lanes of a warp that take different branches wait
+// for each other.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +8,9 @@
 
 namespace broadside::gpu {
 
-// work(k, is_item) by whole warps for all items; k is none where is_item is false. is_spread: as few lanes of a warp as
-// can be have one, so that few items are spread over all warps. Where items are short, the code that more warps then
-// fetch takes longer than the wait.
+// Calls work(k, is_item) by whole warps, for all items; where is_item is false k is no item. is_spread: each warp gets
+// as few items as can be, so that few items are spread over all warps. Not for short items: more warps then fetch the
+// code, which takes longer than the wait.
 template <typename Team, typename Work>
 __device__ __forceinline__ void each_item_by_warps(const Team& team, std::uint64_t items, bool is_spread,
                                                    const Work& work) {
@@ -21,9 +22,9 @@ __device__ __forceinline__ void each_item_by_warps(const Team& team, std::uint64
   }
 }
 
-// The same where all items are spread and long, each a warp's: all warps of a block begin together, so that code which
-// one of them fetches is there for the others. prepare(k, is_item) by whole warps: whether the lane has an item; then
-// work(lane that has it) for one after the other.
+// The same for items that are all long, a warp each. All warps of a block begin together, so that code that one of them
+// fetches is there for the others. prepare(k, is_item), by whole warps, says whether the lane has an item; then
+// work(lane that has it) is called for one after the other.
 template <typename Team, typename Prepare, typename Work>
 __device__ __forceinline__ void each_item_in_step(const Team& team, std::uint64_t items, const Prepare& prepare,
                                                   const Work& work) {

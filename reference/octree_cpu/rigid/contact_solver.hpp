@@ -1,4 +1,4 @@
-// What a solver of the turning candidate does: states go over one step, with gravity, wrenches and contact. RIGID 8.5.
+// A solver of the turning candidate: it takes states over one step, with gravity, wrenches and contact. RIGID 8.5.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ struct RigidStep {
   core::Material face_material;
   core::Vec3 gravity_m_s2;
   float dt_s = 0.0F;
-  // By body, or none: 1 = asleep. Its patches are those of the step before, and give what they gave; nobody else has
-  // one with it.
+  // By body, or empty: 1 = asleep. The patches of a sleeping body are those of the step before, and give the same
+  // impulses again. No awake body has a patch with it.
   std::span<const std::uint8_t> asleep;
   bool is_calm = false;  // as the step began: core::are_calm
 };
@@ -34,7 +34,7 @@ struct RigidStep {
 // Of one patch, by point: N s on A, of the whole step.
 using PatchImpulses = std::array<core::Vec3, core::kManifoldPoints>;
 
-// Sweeps over all patches so far, for who measures.
+// Sweeps over all patches so far, for measurements.
 struct SolverSweeps {
   std::uint64_t solving = 0;   // before the bodies move
   std::uint64_t bouncing = 0;  // while contacts bounce
@@ -44,17 +44,17 @@ class ContactSolver {
  public:
   virtual ~ContactSolver() = default;
 
-  // states: by body, at the pose of detection. patches: sorted by (a, b), those of one pair in an order that is a
-  // function of the pair. The result is a function of the arguments and of the calls before: not of the number of
-  // threads. Called inside the oneTBB arena that it may use.
+  // states: by body, at the pose of detection. patches: sorted by (a, b); those of one pair in an order that is a
+  // function of the pair. The result is a function of the arguments and of the calls before, not of the number of
+  // threads. Call it inside the oneTBB arena that it may use.
   virtual void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                        const RigidStep& step) = 0;
 
-  // In how many equal parts, each with its own call of advance, it wants a step of a scene whose masses are so many
-  // times apart. is_calm: as the step begins.
+  // Into how many equal parts, each with its own call of advance, it wants a step to be cut in a scene whose masses are
+  // this many times apart. is_calm: as the step begins.
   [[nodiscard]] virtual std::uint32_t parts_of_step(float largest_mass_ratio, bool is_calm) const = 0;
 
-  // Of the last step, by patch.
+  // The impulses of the last step, by patch.
   [[nodiscard]] virtual std::span<const PatchImpulses> impulses() const = 0;
 
   [[nodiscard]] virtual SolverSweeps sweeps_done() const = 0;
@@ -73,7 +73,7 @@ std::string_view solver_name(SolverKind kind);
 struct ContactSolverOptions {
   SolverKind kind = SolverKind::kConjugate;
   std::uint32_t substeps = 0;  // 0 = the kind's own
-  // Thresholds of a scene in place of those that scale with bodies, gravity and step; 0 = they scale.
+  // Fixed thresholds of the scene, in place of those that scale with bodies, gravity and step; 0 = they scale.
   float fixed_slop_m = 0.0F;
   float fixed_bounce_from_m_s = 0.0F;
 };

@@ -1,4 +1,4 @@
-// The impulses of the last substep by bodies and feature: what the next step begins with (warm starting).
+// The impulses of the last substep by pair of bodies and feature, with which the next step begins (warm start).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct RememberedPoint {
 
 class ImpulseMemory {
  public:
-  // The points of this pair; none when it did not touch.
+  // The points of this pair; empty if it did not touch.
   [[nodiscard]] std::span<const RememberedPoint> of(std::uint32_t a, std::uint32_t b) const;
   void forget();
   // The place of the first patch of this pair.
@@ -31,7 +31,7 @@ class ImpulseMemory {
     return std::span(points_).subspan(4 * static_cast<std::size_t>(patch), 4);
   }
 
-  // A new memory in place of the old: first the patches, sorted by (a, b); then their points, in any order.
+  // Replaces the memory: first the patches, sorted by (a, b); then their points, in any order.
   void begin(std::span<const core::ContactPatch> patches);
   void keep(std::uint32_t patch, int point, const RememberedPoint& remembered) {
     points_[4 * static_cast<std::size_t>(patch) + static_cast<std::size_t>(point)] = remembered;

@@ -1,4 +1,4 @@
-// A loop whose turns write to slots of their own, on the threads of the arena that it is called in.
+// A loop whose iterations write to slots of their own, run by the threads of the arena in which it is called.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@ namespace broadside::reference {
 // Below twice this many, handing work to threads costs more than doing it: a patch or a body takes some hundred
 // nanoseconds, waking a worker some microseconds.
 inline constexpr std::size_t kTurnsPerTask = 64;
-// Of tiles of patches, which take as long as two or three patches one by one.
+// The same for tiles of patches; a tile takes as long as two or three patches one by one.
 inline constexpr std::size_t kTilesPerTask = 16;
 
-// work(first, last) for parts of the range of `grain` turns, from several threads at once.
+// work(first, last) for parts of the range, of `grain` iterations each, from several threads at once.
 void parts_in_parallel(std::size_t grain, std::size_t first, std::size_t last,
                        const std::function<void(std::size_t, std::size_t)>& work);
 

@@ -1,4 +1,4 @@
-// Which pairs of turned bodies have body-octree nodes that meet at the last level of the chosen setting: RIGID 8.3.
+// Pairs of turned bodies whose body-octree nodes overlap at the last level of the chosen setting: RIGID 8.3.
 #pragma once
 
 #include <atomic>
@@ -19,11 +19,11 @@ class OrientedLevelStage {
   void confirm(core::RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
                std::vector<core::Pair>& confirmed);
 
-  // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair, and neither are
-  // two whose boxes of the whole step do not meet.
+  // The published start: every pair of bodies, without a broad phase before it. Two static bodies are no pair, nor are
+  // two bodies whose boxes of the whole step do not overlap.
   void confirm_all(core::RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
 
-  // Since reset_counts(). Sums of integers, so no thread order shows in them.
+  // Counts since reset_counts(). They are sums of integers, so no order of threads shows in them.
   [[nodiscard]] std::uint64_t pairs_tested() const { return pairs_tested_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t box_tests() const { return box_tests_.load(std::memory_order_relaxed); }
   void reset_counts() { pairs_tested_ = box_tests_ = 0; }

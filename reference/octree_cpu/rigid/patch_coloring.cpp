@@ -18,7 +18,7 @@ void PatchColoring::color(std::span<const core::ContactPatch> patches, std::span
   by_priority_.resize(patches.size());
   for (std::uint32_t k = 0; k < patches.size(); ++k)
     by_priority_[k] = {core::color_priority({patches[k].a, patches[k].b}), k};
-  // A pair of meshes may have several patches: those have one priority, and follow by index.
+  // The patches of a pair of meshes have one priority; among them the index decides.
   std::sort(by_priority_.begin(), by_priority_.end(), [](const Ranked& p, const Ranked& q) {
     return p.priority != q.priority ? p.priority < q.priority : p.patch < q.patch;
   });

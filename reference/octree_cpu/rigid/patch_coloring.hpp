@@ -10,11 +10,12 @@
 
 namespace broadside::reference {
 
-// In the order of core::color_priority each patch takes the lowest color that no earlier patch of its moved bodies has:
-// one fixed function of the list of patches, which waits for earlier neighbors alone (Jones and Plassmann, 1993).
+// In the order of core::color_priority each patch takes the lowest color that no earlier patch of its moved bodies has.
+// The result is a function of the list of patches; a patch waits only for its earlier neighbors (Jones and Plassmann,
+// 1993).
 class PatchColoring {
  public:
-  // Bodies of inverse mass 0 and faces conflict with nothing.
+  // Bodies of inverse mass 0 and faces are in conflict with nothing.
   void color(std::span<const core::ContactPatch> patches, std::span<const core::RigidMass> masses);
 
   // Indices of patches by color, by index within a color.

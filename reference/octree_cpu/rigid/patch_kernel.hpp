@@ -1,4 +1,4 @@
-// The text of the kernels over tiles of patches, which is compiled for each instruction set.
+// The kernels over tiles of patches, as text that is compiled once for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace broadside::reference::tiles {
 
-// core::Symmetric3, of several side by side.
+// core::Symmetric3 of several patches, side by side.
 template <typename Lanes>
 struct LaneSymmetric3 {
   Lanes xx, yy, zz, xy, xz, yz;
@@ -53,7 +53,7 @@ struct LaneBody {
     Lanes::load_words(at, 12, inverse_mass, moved.x, moved.y, moved.z);
     Lanes::load_words(at, 16, turned.x, turned.y, turned.z, ignored);
   }
-  // Velocities, of bodies that move.
+  // Writes the velocities of bodies that move.
   void store(core::SolverBody* bodies, const std::uint32_t (&ids)[kTileLanes]) const {
     float* at[kTileLanes];
     for (std::uint32_t lane = 0; lane < kTileLanes; ++lane) at[lane] = reinterpret_cast<float*>(bodies + ids[lane]);
@@ -84,7 +84,7 @@ void clear(std::byte* tiles, std::size_t tile, std::uint32_t still) {
   for (core::PatchPointOf<Lanes>& p : t.patch.points) p.normal_mass = p.slide_mass = 1.0F;  // others divide by them
 }
 
-// visit(of a tile's patch, of one patch) for every number of a patch.
+// visit(x, y) for every number x of a tile's patch and the same number y of one patch.
 template <typename Patches, typename Patch, typename Visit>
 void each_number(Patches& many, Patch& one, const Visit& visit) {
   const auto vector = [&](auto& of_many, auto& of_one) {
@@ -145,7 +145,7 @@ core::PatchConstraint get(const std::byte* tiles, std::size_t tile, std::uint32_
   return c;
 }
 
-// work(tile, a, b) reads bodies alone.
+// work(tile, a, b) only reads its bodies.
 template <typename Lanes, typename Work>
 void each_tile(const TileRange& range, const Work& work) {
   for (std::size_t k = range.first; k < range.last; ++k) {
@@ -154,7 +154,7 @@ void each_tile(const TileRange& range, const Work& work) {
   }
 }
 
-// work(tile, a, b) changes their velocities.
+// work(tile, a, b) changes the velocities of its bodies.
 template <typename Lanes, typename Work>
 void each_tile_moving(const TileRange& range, const Work& work) {
   for (std::size_t k = range.first; k < range.last; ++k) {

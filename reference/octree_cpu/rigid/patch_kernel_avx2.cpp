@@ -43,7 +43,7 @@ struct Lanes {
     return _mm256_blendv_ps(second.v, first.v, is_first.bits);
   }
   friend Lanes square_root(Lanes a) { return _mm256_sqrt_ps(a.v); }
-  // Of lanes that are numbers; 0 at least.
+  // Over lanes that are not NaN; at least 0.
   friend float largest_of(Lanes a) {
     float lanes[kTileLanes];
     a.store(lanes);
@@ -75,7 +75,7 @@ struct Lanes {
     z.v = m[2];
     w.v = m[3];
   }
-  // Of lanes whose bit is set.
+  // For lanes whose bit is set.
   static void store_words(float* const (&to)[kTileLanes], int first, unsigned which, Lanes x, Lanes y, Lanes z,
                           Lanes w) {
     __m256 m[4] = {x.v, y.v, z.v, w.v};

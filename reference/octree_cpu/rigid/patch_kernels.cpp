@@ -1,4 +1,4 @@
-// Eight floats in two vectors of four, which compilers have on every machine.
+// Eight floats in two vectors of four, which every machine's compiler supports.
 #include "reference/octree_cpu/rigid/patch_kernels.hpp"
 
 #include <cmath>
@@ -72,7 +72,7 @@ struct Lanes {
     return {chosen(is_first.low, first.low, second.low), chosen(is_first.high, first.high, second.high)};
   }
   friend Lanes square_root(const Lanes& a) { return {root(a.low), root(a.high)}; }
-  // Of lanes that are numbers; 0 at least.
+  // Over lanes that are not NaN; at least 0.
   friend float largest_of(const Lanes& a) {
     float largest = 0.0F;
     for (std::uint32_t k = 0; k < kTileLanes; ++k) largest = a.get(k) > largest ? a.get(k) : largest;
@@ -101,7 +101,7 @@ struct Lanes {
     z = load(columns[2]);
     w = load(columns[3]);
   }
-  // Of lanes whose bit is set.
+  // For lanes whose bit is set.
   static void store_words(float* const (&to)[kTileLanes], int first, unsigned which, const Lanes& x, const Lanes& y,
                           const Lanes& z, const Lanes& w) {
     float columns[4][kTileLanes];

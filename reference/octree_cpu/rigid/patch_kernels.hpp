@@ -1,6 +1,6 @@
-// Contacts are solved eight patches at a time, one in each lane of a vector register. Patches of a tile share no moved
-// body, and every lane does what core/method/rigid/soft_contact.hpp does to a float: the same bits as one by one, with
-// any instruction set.
+// Contacts are solved eight patches at a time, one in each lane of a vector register. The patches of a tile share no
+// moved body, and every lane does what core/method/rigid/soft_contact.hpp does to a float. So the bits are those of one
+// patch at a time, with any instruction set.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct TileRange {
   core::SolverBody* bodies = nullptr;
 };
 
-// What a sweep along conjugate directions needs and gives.
+// What a sweep along conjugate directions reads and writes.
 struct SweepWay {
   bool is_one_of_many = true;  // else there are no directions
   bool is_first = true;        // of its substep: there is no direction yet
@@ -32,11 +32,11 @@ struct SweepWay {
   float* changes = nullptr;    // [tiles][kTileLanes] core::squared_change
 };
 
-// One instruction set's functions over tiles. A tile's memory is known to them alone.
+// The functions over tiles for one instruction set. They alone know how a tile lies in memory.
 struct PatchKernels {
   const char* name;
   std::size_t tile_bytes;
-  // A tile without patches: what stands in its lanes touches the body `still`, which never moves, and no other.
+  // Makes a tile without patches, whose lanes touch only the body `still`, which never moves.
   void (*clear)(std::byte* tiles, std::size_t tile, std::uint32_t still);
   void (*put)(std::byte* tiles, std::size_t tile, std::uint32_t lane, const core::PatchConstraint& c);
   core::PatchConstraint (*get)(const std::byte* tiles, std::size_t tile, std::uint32_t lane);
@@ -51,7 +51,7 @@ struct PatchKernels {
   void (*end_substep)(const TileRange& range);
 };
 
-// Those that this machine has; the first is the fastest.
+// The instruction sets that this machine has; the first is the fastest.
 std::span<const PatchKernels* const> all_patch_kernels();
 inline const PatchKernels& patch_kernels() {
   return *all_patch_kernels().front();

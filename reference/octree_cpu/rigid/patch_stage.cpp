@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kPairsOfBlock = 64;
 constexpr std::size_t kBodiesOfBlock = 256;
 
-// Calls make(k, block) for each k below count; afterwards `joined` has what all blocks were given, in order.
+// Calls make(k, block) for each k below count. Afterwards `joined` has what all blocks were given, in order.
 template <typename Make>
 void fill_in_order(std::size_t count, std::size_t of_block, std::vector<std::vector<ContactPatch>>& blocks,
                    std::vector<ContactPatch>& joined, const Make& make) {
@@ -44,7 +44,7 @@ core::NearReach near_reach(const core::RigidBodies& bodies, core::Pair pair) {
   return {bodies.fall_m[i] + bodies.fall_m[j], bodies.pushed[i], bodies.pushed[j]};
 }
 
-// Whether no patch of the pair leads to a contact in this step, told without making them.
+// Whether no patch of the pair leads to a contact in this step; found out without making the patches.
 bool surely_passes(const core::RigidBodies& bodies, core::Pair pair) {
   const auto [i, j] = pair;
   const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
@@ -106,8 +106,8 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
   });
 }
 
-// A body that is at rest may be driven into a face within the step, as fast as its fastest neighbor comes. A face has
-// no end that a body could pass by, so looking too far costs nothing but time.
+// How far a face is looked for: a body at rest may be driven into it as fast as its fastest neighbor comes. A face has
+// no end that a body could pass by, so looking too far costs time and nothing else.
 void PatchStage::find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
   pushed_reach_m_.assign(bodies.count(), 0.0F);
   for (const auto [i, j] : confirmed) {

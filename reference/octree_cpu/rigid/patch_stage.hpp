@@ -19,11 +19,11 @@ namespace broadside::reference {
 class PatchStage {
  public:
   void load(const core::Scene& scene);
-  // confirmed: sorted pairs. asleep: by body; pairs that nobody awake is in are left out.
+  // confirmed: sorted pairs. asleep: by body; pairs without an awake body are left out.
   void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                     std::span<const std::uint8_t> asleep);
-  // After touch_bodies. patches: of both stages, sorted by (a, b): of a body first those with bodies, then those with
-  // faces. Static bodies touch no face, and who sleeps is left out.
+  // Call after touch_bodies. patches: of both stages, sorted by (a, b), so that a body's patches with bodies come
+  // before those with faces. Static bodies touch no face, and sleeping ones are left out.
   void touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                    std::span<const std::uint8_t> asleep, std::vector<core::ContactPatch>& patches);
   // Of pairs, after touch_bodies.
@@ -41,7 +41,7 @@ class PatchStage {
   core::Box domain_;
   std::array<core::ContactShape, core::kFaceCount> face_shapes_;
   std::array<core::ContactPose, core::kFaceCount> face_poses_;
-  // One for so many pairs or bodies in a row, each filled by one thread: joined in order they are sorted.
+  // One list for each run of pairs or bodies, filled by one thread. Joined in order they are sorted.
   std::vector<Block> pair_blocks_;
   std::vector<Block> face_blocks_;
   std::vector<core::ContactPatch> of_pairs_;

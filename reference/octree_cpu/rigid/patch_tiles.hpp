@@ -1,5 +1,5 @@
-// The patches of a step in tiles: color by color, and in a color by their number of points, so that the lanes of a tile
-// share no moved body and have as many points.
+// The patches of a step in tiles: color by color, and within a color by their number of points. So the lanes of a tile
+// share no moved body and have equally many points.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ class PatchTiles {
 
   explicit PatchTiles(const PatchKernels& kernels) : kernels_(&kernels) {}
 
-  // Room for these patches. Lanes that are left over touch the body `still`, which never moves.
+  // Makes room for these patches. Lanes without one touch the body `still`, which never moves.
   void arrange(std::span<const core::ContactPatch> patches, const PatchColoring& coloring, std::uint32_t still);
 
   [[nodiscard]] const PatchKernels& kernels() const { return *kernels_; }

@@ -12,7 +12,7 @@ namespace broadside::reference {
 
 core::Declaration rigid_declaration(const ContactSolverOptions& solver, const core::Scene& scene);
 
-// Of a scene whose bodies turn; empty where they translate, which is what METHOD describes.
+// For a scene whose bodies turn; empty where they translate, since METHOD describes those.
 core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSettings& solver, bool sleeps,
                                  std::string build, int threads);
 

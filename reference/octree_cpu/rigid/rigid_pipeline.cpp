@@ -71,7 +71,7 @@ core::Status RigidPipeline::step(float dt_s) {
   const std::uint32_t parts_before = parts_;
   is_calm_ = core::are_calm(bodies_, bodies_.state, scene_->gravity_m_s2, dt_s);
   parts_ = solver_->parts_of_step(mass_ratio_, is_calm_);
-  // What a contact gives in a part is no longer that of the last one.
+  // What sleeping contacts go on giving holds for parts of one length only, so all bodies wake.
   if (dt_s != dt_s_ || parts_ != parts_before) sleepers_.wake_all();
   const float part_s = dt_s / static_cast<float>(parts_);
   times_ = {};
@@ -112,7 +112,7 @@ core::Status RigidPipeline::run_stages(float dt_s) {
   return core::Done{};
 }
 
-// The pose of detection, how far each body can come from there, and boxes that contain all of it.
+// Notes the pose of detection, how far each body can come from there, and a box that contains all of that.
 void RigidPipeline::place(float dt_s) {
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies_.count(), 256), [&](const auto& range) {
     for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
@@ -162,7 +162,7 @@ void RigidPipeline::touch_faces() {
   if (sleepers_.is_anybody_asleep()) keep_sleeping_patches();
 }
 
-// Who wakes may touch others that sleep.
+// A body that wakes may touch others that sleep.
 void RigidPipeline::wake() {
   while (sleepers_.wake_touched(patch_stage_.of_bodies())) touch_bodies();
 }
@@ -171,7 +171,7 @@ void RigidPipeline::fall_asleep(float dt_s) {
   sleepers_.fall_asleep(bodies_, patches_, scene_->gravity_m_s2, dt_s);
 }
 
-// Bodies that sleep have the patches that they had.
+// Sleeping bodies keep their patches.
 void RigidPipeline::keep_sleeping_patches() {
   const auto asleep = sleepers_.asleep();
   const auto is_asleep = [&](const core::ContactPatch& p) {
@@ -196,7 +196,7 @@ core::Status RigidPipeline::stop_short() {
   return sweep_stage_.stop_short(bodies_);
 }
 
-// Of what touched or was pushed. Patches are sorted, so the points are.
+// Points that touched or were pushed. Patches are sorted, so points are too.
 void RigidPipeline::tell_points() {
   points_.clear();
   const auto impulses = solver_->impulses();

@@ -33,15 +33,15 @@ struct RigidPipelineOptions {
   core::Levels levels = core::Levels::kC;
   std::function<std::unique_ptr<ContactSolver>(const core::Scene&)> make_solver;
   std::function<core::Declaration(const core::Scene&)> declare;  // of these stages with this solver
-  // Who stops, where it moves farther than it is thick, before it passes through others.
+  // Which bodies stop before they pass through others when they move farther than they are thick.
   core::Swept swept = core::Swept::kFlagged;
   bool sleeps = false;  // islands that stand still stop being solved
   int threads = 0;      // 0 = all
 };
 
-// A step detects at its start, as far ahead as bodies can come within it, and moves bodies last; where masses are far
-// apart it does so part by part. Bit-identical for any number of threads: every parallel loop writes to slots of its
-// own, and what depends on an order is done in a fixed one.
+// A step detects contacts at its start, as far ahead as bodies can come within it, and moves bodies last. Where masses
+// are far apart it does so part by part. The bits are the same for any number of threads: every parallel loop writes to
+// slots of its own, and what depends on an order is done in a fixed one.
 class RigidPipeline : public core::Dynamics {
  public:
   explicit RigidPipeline(RigidPipelineOptions options);
@@ -54,7 +54,7 @@ class RigidPipeline : public core::Dynamics {
   [[nodiscard]] std::uint32_t groups() const override;
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override { return times_; }
   [[nodiscard]] std::vector<core::Counter> counters() const override;
-  // What sleep is depends on the scene.
+  // Whether a body counts as still depends on the scene.
   [[nodiscard]] core::Declaration declaration_for(const core::Scene& scene) const;
 
  protected:
@@ -71,7 +71,7 @@ class RigidPipeline : public core::Dynamics {
   // Where fast bodies are swept.
   virtual core::Status stop_short();
   virtual void tell_points();
-  // The last word on what is recorded.
+  // The last stage: it may change what is recorded.
   virtual void record(core::FrameRecord&) {}
 
   const core::Scene* scene_ = nullptr;

@@ -49,7 +49,7 @@ bool Sleepers::wake_touched(std::span<const ContactPatch> patches) {
   return true;
 }
 
-// Paths are halved as they are gone.
+// Paths are halved while they are followed.
 std::uint32_t Sleepers::root(std::uint32_t body) {
   while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
   return body;

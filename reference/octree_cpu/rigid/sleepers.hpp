@@ -11,10 +11,11 @@
 
 namespace broadside::reference {
 
-// A function of the states and patches that it is shown, in whatever order bodies came to touch.
+// The result is a function of the states and patches that it is shown, and not of the order in which bodies came to
+// touch.
 class Sleepers {
  public:
-  // Everybody is awake.
+  // Wakes all bodies.
   void load(const core::RigidBodies& bodies);
   void wake_all();
 
@@ -24,9 +25,9 @@ class Sleepers {
   // Bodies asleep, summed over the steps since load.
   [[nodiscard]] std::uint64_t steps_slept() const { return steps_slept_; }
 
-  // Before the response: whom the patches of awake bodies reach wakes, with its island. Whether anybody did.
+  // Call before the response. Wakes each island that a patch of an awake body touches. Returns whether one woke.
   bool wake_touched(std::span<const core::ContactPatch> patches);
-  // After the response: islands of the patches whose bodies have all been still for long enough are stopped, and sleep.
+  // Call after the response. Stops islands of the patches whose bodies have all been still for long enough: they sleep.
   void fall_asleep(core::RigidBodies& bodies, std::span<const core::ContactPatch> patches, core::Vec3 gravity_m_s2,
                    float dt_s);
 

@@ -30,7 +30,7 @@ void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c
   }
 }
 
-// Those that are to be solved; notes what the others go on with.
+// The patches that are to be solved. Notes the impulses that the others go on with.
 std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const core::ContactPatch> patches,
                                                               std::span<const std::uint8_t> asleep) {
   awake_patches_.clear();
@@ -39,12 +39,12 @@ std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const co
   if (std::find(asleep.begin(), asleep.end(), 1) == asleep.end()) return patches;
   for (std::uint32_t k = 0; k < patches.size(); ++k) {
     const core::ContactPatch& patch = patches[k];
-    // Of a pair's patches this is as many after the first one as it was.
+    // How far behind the first patch of its pair this one is: the same as when it was remembered.
     std::uint32_t nth = 0;
     while (nth < k && patches[k - nth - 1].a == patch.a && patches[k - nth - 1].b == patch.b) ++nth;
     const bool is_awake = asleep[patch.a] == 0 && (core::is_face(patch.b) || asleep[patch.b] == 0);
     const std::uint32_t last = is_awake ? 0 : memory_.index_of(patch.a, patch.b) + nth;
-    // What nobody remembers is solved, against a body that does not move.
+    // A patch that is not remembered is solved, against a body that does not move.
     if (is_awake || !memory_.has_patch(last, patch.a, patch.b)) {
       awake_.push_back(k);
       awake_patches_.push_back(patch);
@@ -136,8 +136,8 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
   });
 }
 
-// Patches of one color, and patches in any order, may stir the same body that never moves, and bodies that bounce may
-// be stirred by several threads at once with the same number.
+// Patches of one color, and patches in any order, may stir the same body that never moves; and several threads may stir
+// a body that bounces at once, all with the same number.
 void StepConstraints::stir(std::size_t place, std::uint32_t sweep) {
   for (const std::uint32_t body : {touched_[place].a, touched_[place].b})
     if (core::is_moved(bodies_[body])) std::atomic_ref(stirred_[body]).store(sweep, std::memory_order_relaxed);
@@ -251,7 +251,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers, bool forgets_blows) 
   const float fastest = stir_what_bounces();
   const float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
-  // A share of what stopped them is given back, so that is to be known well.
+  // A share of the impulse that stopped them is given back, so that impulse must be known well.
   float largest = fastest;
   for (std::uint32_t k = 0; k < numbers.most_stop_sweeps && largest > done; ++k) {
     largest = relax_stirred(numbers, done);

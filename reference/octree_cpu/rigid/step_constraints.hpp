@@ -39,12 +39,12 @@ class StepConstraints {
   void each_body(const Work& work) {
     in_parallel(0, bodies_.size() - 1, work);
   }
-  // work(range of tiles), in any order: it reads bodies alone.
+  // work(range of tiles), in any order: it only reads bodies.
   template <typename Work>
   void each_range(const Work& work) {
     ranges_in_parallel(0, tiles_.count(), work);
   }
-  // The same color by color: it may write the moved bodies of its tiles.
+  // The same, color by color: it may write the moved bodies of its tiles.
   template <typename Work>
   void each_range_by_color(const Work& work) {
     const auto begin = tiles_.color_begin();
@@ -52,22 +52,23 @@ class StepConstraints {
       ranges_in_parallel(begin[color], begin[color + 1], work);
   }
 
-  // Before the sweeps of a substep: which patches are pushed apart, by place as core::fastest_push says, and with what
-  // impulses these and with what velocities the bodies begin.
+  // Call before the sweeps of a substep. Notes which patches are pushed apart (by place, as core::fastest_push says),
+  // and the impulses and velocities with which these patches and all bodies begin.
   void note_pushed(std::span<const float> pushes, const core::SoftStep& numbers);
   [[nodiscard]] bool is_pushed() const { return fastest_push_m_s_ > 0.0F; }
-  // After the bodies moved: these patches have those impulses again, and bodies the velocities without any impulse.
+  // Call after the bodies moved. Gives these patches those impulses again, and bodies the velocities that they had
+  // without any impulse.
   void take_back_impulses();
-  // And after one sweep of relaxation over all: more of them, where it is not done. Returns how many.
+  // Call after one sweep of relaxation over all patches. Adds sweeps while needed, and returns how many.
   std::uint32_t relax_pushed(const core::SoftStep& numbers);
 
   // Sweeps of bounces since it was made.
   [[nodiscard]] std::uint64_t bounce_sweeps() const { return bounce_sweeps_; }
 
-  // Points that came fast and are met first leave with their share of that speed: sweeps until one changes no speed
-  // by more than 2^-10 of the fastest approach. They visit patches whose bodies bounce or have just been changed by
-  // more than that. forgets_blows: patches of bodies that it reached keep no impulse
-  // (core/method/rigid/kept_blows.hpp).
+  // Points that came fast, and meet something for the first time, leave with their share of that speed. Sweeps go on
+  // until one changes no speed by more than 2^-10 of the fastest approach; they visit patches whose bodies bounce or
+  // have just been changed by more than that. forgets_blows: patches of bodies that these sweeps reached keep no
+  // impulse (core/method/rigid/kept_blows.hpp).
   void bounce(const core::SoftStep& numbers, bool forgets_blows);
 
  private:
@@ -79,29 +80,29 @@ class StepConstraints {
   [[nodiscard]] std::span<const core::ContactPatch> awake_of(std::span<const core::ContactPatch> patches,
                                                              std::span<const std::uint8_t> asleep);
   void recall(const core::ContactPatch& patch, core::PatchConstraint& c) const;
-  // work(index) for the indices of each color, which end where the next one's begin.
+  // work(index) for the indices of each color; a color's indices end where those of the next begin.
   template <typename Work>
   void visit_by_color(const std::vector<std::uint32_t>& begin, const Work& work);
-  // work(patch, a, b), of one patch alone. Returns what the work does.
+  // work(patch, a, b) for one patch. Returns what the work returns.
   template <typename Work>
   float change(std::size_t place, const Work& work);
-  // One sweep of relaxation over patches whose bodies are stirred; bodies that change by more than done_m_s are stirred
-  // for the next one. Returns the largest change of a point's speed.
+  // One sweep of relaxation over patches whose bodies are stirred. Bodies that it changes by more than done_m_s are
+  // stirred for the next one. Returns the largest change of a point's speed.
   float relax_stirred(const core::SoftStep& numbers, float done_m_s);
   // Patches of bodies that were stirred by this sweep or a later one keep no impulse.
   void drop_blows(std::uint32_t since);
   // Places of patches with a point that came fast enough to bounce.
   void list_fast();
-  // The fastest approach of what bounces, whose bodies are stirred.
+  // The fastest approach of patches that bounce. Stirs their bodies.
   float stir_what_bounces();
   void stir(std::size_t place, std::uint32_t sweep);
   [[nodiscard]] bool is_stirred(std::size_t place) const;
   [[nodiscard]] float largest_of_places() const;
 
-  // Of patches as given, those of bodies that are awake: all, where nobody sleeps.
+  // Patches, as given, of bodies that are awake: all patches where no body sleeps.
   std::vector<core::ContactPatch> awake_patches_;
   std::vector<std::uint32_t> awake_;  // their indices
-  // The others: what those gave in the step before, and left for the next one.
+  // The other patches: the impulses that they gave in the step before, and what they left.
   struct AsleepPatch {
     std::uint32_t patch;
     PatchImpulses given;
@@ -112,13 +113,13 @@ class StepConstraints {
   ImpulseMemory memory_;
   std::vector<core::SolverBody> bodies_;  // the last one stands for every face: it never moves
   PatchTiles tiles_;
-  // By place: its bodies. What the tiles know too, for who asks often.
+  // By place: its bodies. Tiles know them too; this copy is for code that asks often.
   struct Bodies {
     std::uint32_t a;
     std::uint32_t b;
   };
   std::vector<Bodies> touched_;
-  // What a push is taken back to.
+  // What a push is taken back to: impulses and velocities.
   struct PushedPatch {
     std::size_t place;
     core::PatchImpulsesBefore before;

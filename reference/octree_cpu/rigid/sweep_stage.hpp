@@ -18,18 +18,18 @@
 
 namespace broadside::reference {
 
-// The result is a function of the poses: rounds over all pairs, in each of which a body keeps the least of what its
-// pairs leave it.
+// The result is a function of the poses: in each round over all pairs a body goes the shortest way that any of its
+// pairs allows.
 class SweepStage {
  public:
   using MakeBroadPhase = std::function<std::unique_ptr<core::BroadPhase>(const core::Scene&)>;
 
   // make_broad_phase: empty = every pair is looked at.
   void load(const core::Scene& scene, const core::RigidBodies& bodies, const MakeBroadPhase& make_broad_phase);
-  // From bodies.detected to bodies.state, which is drawn back where it must.
+  // From bodies.detected to bodies.state, which is set back along the way where a body must stop.
   core::Status stop_short(core::RigidBodies& bodies);
 
-  // Since load: bodies that were drawn back, one for each step.
+  // How many bodies were set back since load; a body counts once for each step.
   [[nodiscard]] std::uint64_t stopped() const { return stopped_; }
 
  private:
