@@ -1,4 +1,4 @@
-// What faces of two boxes have in common, seen along the normal of their contact, and which four of its corners are
+// The area that faces of two boxes share, seen along the normal of their contact, and the four of its corners that are
 // kept.
 //
 // The incident face is a parallelogram and the reference's a rectangle, so it is cut in the plane of the rectangle, by
@@ -192,8 +192,8 @@ BROADSIDE_HD bool has_side_named_as(int face, const BoxPolytope& other, int face
   return ((from >> (face / 2)) & 1) == side && ((to >> (face / 2)) & 1) == side;
 }
 
-// As face_clipping.hpp names points, but for corners of the reference that would have the name of a cut: two points of
-// one name are one, and the patch would stand on three.
+// Names points like face_clipping.hpp, except corners of the reference whose name would be that of a cut: two points of
+// one name count as one, and the patch would stand on three.
 BROADSIDE_HD std::uint32_t key_of(const FlatView& v, const BoxPolytope& reference, const BoxPolytope& incident,
                                   std::uint32_t made_by, bool reference_is_a) {
   const std::uint32_t point = made_by & 0xFFU;
@@ -218,7 +218,8 @@ BROADSIDE_HD std::uint32_t key_of(const FlatView& v, const BoxPolytope& referenc
 
 // The four that FourKept (contact_points.hpp) keeps, by numbers: the deepest, the farthest from it across the normal,
 // the one of the largest triangle with both, the one farthest outside that triangle. Of equal ones the first, in the
-// order of the area's corners. Areas are those in the plane of the face, which the normal sees all in one measure.
+// order of the area's corners. Areas are measured in the plane of the face; seen along the normal
+// all shrink by the same factor.
 BROADSIDE_HD int pick_four(const FlatArea& area, float out_u, float out_w, float reach_m, int (&picked)[4]) {
   FlatPoint p[3];
   float turn = 1.0F;

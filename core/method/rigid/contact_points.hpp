@@ -38,21 +38,22 @@ BROADSIDE_HD constexpr std::uint32_t feature_key(std::uint32_t of_a, std::uint32
 // those across the normal. The result does not depend on the order of the candidates.
 //
 // tilt: how far round bodies may turn within a step, rad; 0 = all candidates count alike. The larger a turn about the
-// deepest point it takes to bring one down, beside that, the less it counts. At first all counted alike: the four of a
-// bunny on the floor were far apart and high up, and between them it rolled into the floor by 7 cm. Then those that a
-// turn of a step brings down did: of a card that lands flat, a corner of its upper side, farther out by a hair, was
-// kept in place of the one below it that stood on the floor, and the card rolled over that one.
+// deepest point it takes to bring one down, beside that, the less it counts. Two simpler rules failed. With
+// all candidates counted alike, the four points of a bunny on the floor were far apart and high up, and between them it
+// rolled 7 cm into the floor. With those counted alike that a turn of the step brings down, a card that landed flat
+// kept a corner of its upper side, farther out by a hair, in place of the one below that stood on the floor, and rolled
+// over that one.
 //
-// apart_m: candidates of many small faces may be many points of one line. Where this is not 0 the third and fourth are
-// those farthest from the segment and from the triangle of those before, and nothing is that is no farther than this.
-// Areas prefer points a little beside a line to its far end: a cylinder that lay on a floor of triangles had its
+// apart_m: candidates of many small faces may lie on one line. If this is not 0, the third and fourth point are those
+// farthest from the segment and from the triangle of those before, and a point that is not farther than this is left
+// out. Areas prefer points a little beside a line to its far end: a cylinder that lay on a floor of triangles had its
 // deepest point, which rounding chose, one end, and two more between them. It stood on half its line.
 class FourKept {
  public:
   BROADSIDE_HD FourKept(Vec3 normal, float reach_m, float tilt, float apart_m = 0.0F)
       : n_(normal), reach_m_(reach_m), tilt_(tilt), apart_m_(apart_m) {}
 
-  // What it is worth in the round that comes next.
+  // The candidate's score in the next round.
   [[nodiscard]] BROADSIDE_HD Rated rate(const ManifoldPoint& candidate) const {
     Rated rated;
     if (!(candidate.gap_m <= reach_m_)) return rated;

@@ -1,5 +1,5 @@
-// The corner of a hull that is lowest along a direction, found by going down its edges: a hull of hundreds of corners
-// has one or two dozen on the way.
+// The corner of a hull that is lowest along a direction, found by going down its edges. On the way it looks at one or
+// two dozen of a hull's hundreds of corners.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace broadside::core {
 // last one, where in the table its neighbors begin; then the neighbors.
 inline constexpr std::uint32_t kHullEnds = 6;
 
-// The corner that stands out along the axis on which the direction is largest.
+// The corner from which the search begins: the farthest one along the axis on which the direction is largest.
 BROADSIDE_HD std::uint32_t climb_start(const HullView& hull, Vec3 direction) {
   const Vec3 size{fabsf(direction.x), fabsf(direction.y), fabsf(direction.z)};
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);

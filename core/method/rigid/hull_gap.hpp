@@ -1,8 +1,8 @@
-// Between which two numbers the distance of two hulls is, and how deep in each other they are at least; by one lane.
+// A lower and an upper bound of the distance of two hulls, and a lower bound of their overlap; by one lane.
 //
 // Gilbert, Johnson and Keerthi, A fast procedure for computing the distance between complex objects in
 // three-dimensional space (1988): a simplex of the difference of both hulls moves toward the origin. Both numbers hold
-// after every step, however well its arithmetic did: the lower one is the gap along a direction, the upper one the
+// after every step, whatever rounding did before: the lower one is the gap along a direction, the upper one the
 // length of a sum of differences of corners whose weights are shares of 1.
 #pragma once
 
@@ -47,8 +47,8 @@ struct PlacedHull {
 
 namespace gap_detail {
 
-// The unit direction of x, the simplex's point nearest to the origin, which is across all of the simplex: what the sum
-// of its corners loses to rounding tilts it, the more the nearer it is.
+// The unit direction of x, the point of the simplex nearest to the origin. It must be across the whole simplex;
+// rounding in the sum of the corners tilts it, the more the nearer x is to the origin.
 BROADSIDE_HD Vec3 across(const Simplex& simplex, Vec3 x, float length_of_x) {
   const Vec3 n = (1.0F / length_of_x) * x;
   if (simplex.count < 2) return n;
@@ -60,7 +60,7 @@ BROADSIDE_HD Vec3 across(const Simplex& simplex, Vec3 x, float length_of_x) {
   }
   const float size = length(exact);
   exact = (1.0F / size) * exact;
-  // Corners of a sliver, or of a point, say nothing.
+  // The corners of a sliver, or of a point, give no direction.
   return dot(exact, n) > 0.99F ? exact : n;
 }
 

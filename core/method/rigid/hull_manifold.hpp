@@ -1,5 +1,5 @@
-// The manifold of two hulls. Where they are clearly apart, the search for their nearest points has the direction in
-// which they are farthest apart already: no face or edge is tried but the two faces that look along it.
+// The manifold of two hulls. Where they are clearly apart, the search for their nearest points has found the direction
+// in which they are farthest apart already, so only the two faces that look along it are tried.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ BROADSIDE_HD Vec3 sum_of(const Hull& hull, const std::uint32_t* corners, const N
   return x;
 }
 
-// Of the corner, the edge or the face that these are corners of, in whatever order.
+// The name of the corner, edge or face that has these corners, in whatever order they come.
 BROADSIDE_HD std::uint32_t name_of(const std::uint32_t* corners, int count) {
   const std::uint32_t p = corners[0];
   std::uint32_t q = p;
@@ -61,8 +61,8 @@ BROADSIDE_HD float gap_over_face(const Hull& reference, const Hull& other, int f
   return other.least_at(lowest_corner(other, out), out) - reference.face_height(face);
 }
 
-// Of hulls that are apart by least_m along n, and by hardly more along any direction. As separating_axis does it takes
-// a face where that is as wide but for rounding.
+// The axis of hulls that are apart by least_m along n, and hardly farther along any other direction. Like
+// separating_axis it prefers a face whose gap is as wide but for rounding.
 template <typename Hull>
 BROADSIDE_HD SeparatingAxis axis_near(const Hull& a, const Hull& b, Vec3 n, float least_m, float rounding_m) {
   const int face_a = a.support_face(-n);
@@ -87,7 +87,7 @@ BROADSIDE_HD void hull_manifold(HullPolytopeOf<Lanes> a, const HullPolytopeOf<La
   NearestOfHulls near;
   NearestPoints points;
   bool is_near = false;
-  // What overlaps by a depth that is asked for has no such points.
+  // Hulls whose depth is asked for overlap, and have no nearest points.
   if (has_many_edges(a, b) && reach_m > 0.0F) {
     near = nearest_of(a, b, rounding_m);
     a.known_gap = &near;

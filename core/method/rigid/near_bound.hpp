@@ -1,4 +1,4 @@
-// Between which two numbers the distance of two polytopes is: what is farther than the larger one need not be looked
+// A lower and an upper bound of the distance of two polytopes. What is farther than the upper one need not be looked
 // at.
 //
 // Gilbert, An iterative procedure for computing the minimum of a quadratic form on a convex set (1966): a point of the
@@ -27,7 +27,7 @@ BROADSIDE_HD bool has_many_edges(const PolytopeA& a, const PolytopeB& b) {
 struct NearBound {
   Vec3 parting;             // unit, from B to A
   float parted_m = 0.0F;    // the bodies are apart by at least this much along it
-  float farthest_m = 0.0F;  // and nowhere need be farther apart than this
+  float farthest_m = 0.0F;  // and their distance is at most this
 };
 
 template <typename Polytope>
@@ -47,7 +47,7 @@ BROADSIDE_HD NearestOfHulls nearest_of(const HullPolytopeOf<LanesA>& a, const Hu
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m,
                                          float rounding_m) {
-  // More steps thin the layer that is searched by less than they cost: each looks at all corners.
+  // Further steps cost more than they save, because each looks at all corners.
   constexpr int kMostSteps = 24;
   constexpr float kThin = 0x1p-7F;
   if constexpr (kIsHull<PolytopeA> && kIsHull<PolytopeB>) {

@@ -31,7 +31,7 @@ BROADSIDE_HD float least_gap(const CommonArea<kRoom>& area) {
   return least;
 }
 
-// Of each body the face that looks along the axis most.
+// The face of each body that looks along the axis most.
 struct FacingFaces {
   int of_a = 0;
   int of_b = 0;
@@ -52,8 +52,8 @@ BROADSIDE_HD_CALLED void area_of(const PolytopeA& a, const PolytopeB& b, const S
   if (area.count == 0) common_area(b, faces.of_b, a, faces.of_a, axis.normal, false, rounding_m, area);
 }
 
-// The corner of the other body that is deepest along the axis, where it is over (or, overlapping, but for rounding
-// over) the reference's face. The incident face need not have it where a hull's faces are many.
+// The corner of the other body that is deepest along the axis, if it is over the reference's face (where bodies
+// overlap: but for rounding). The incident face may lack it where a hull has many faces.
 template <typename Reference, typename Incident>
 BROADSIDE_HD bool corner_over_face(const Reference& reference, const Incident& incident, const SeparatingAxis& axis,
                                    int face, bool reference_is_a, float rounding_m, ManifoldPoint& out) {
@@ -76,7 +76,7 @@ BROADSIDE_HD bool corner_over_face(const Reference& reference, const Incident& i
 
 }  // namespace polytope_detail
 
-// Of two bodies that are apart, where somebody has them.
+// The nearest points of two bodies that are apart, if they are known already.
 struct NearestPoints {
   Vec3 on_a;
   Vec3 on_b;
@@ -116,7 +116,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     }
     const EdgeCrossing crossing = edge_crossing(a.corner(a0), a.corner(a1), b.corner(b0), b.corner(b1));
     bool is_crossing = crossing.is_inside;
-    // Around the edge of a sheet every direction is one of its normals, so another corner may stand out farther.
+    // Every direction around the edge of a sheet is one of its normals, so another corner may be deeper.
     if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet)
       is_crossing &= dot(axis.normal, crossing.on_a - crossing.on_b) <= axis.gap_m + 2.0F * rounding_m;
     // Overlapping edges cross but for rounding.
@@ -144,7 +144,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     has_witness = true;
     witness.gap_m = axis.gap_m;
     witness.feature = feature_key(near.features.name_a, near.features.name_b);
-    // An overlap, or a touch whose direction would be rounding alone: the axis stays.
+    // Where bodies overlap, or touch so that the direction would be rounding alone, the axis is kept.
     if (axis.gap_m > 0.0F && near.gap_m > axis.gap_m) {
       out.normal = near.normal;
       witness.gap_m = sqrtf(near.features.squared_m2);

@@ -1,7 +1,7 @@
-// Patches that overlap by more than their load explains, and are pushed apart within a substep. That moves their bodies
-// and is not to stay as speed: once the bodies have moved, these patches go on with the impulses that the substep began
-// with, and the bodies with the velocities that follow. Where nothing else happened nothing is left, to the last bit;
-// else relaxation finds the rest.
+// Patches that overlap by more than their load explains are pushed apart within a substep. The push moves their bodies,
+// but must not stay as speed. So once the bodies have moved, these patches return to the impulses that the substep
+// began with, and the bodies to the velocities that follow. If nothing else happened nothing is left, to the last bit;
+// otherwise relaxation finds the rest.
 //
 // Before, one sweep of relaxation took back what pushed, and that is what one contact can see of it: ten cubes at rest
 // in a row, each 4 cm deep in the next, parted with 8.1 J.
@@ -21,7 +21,7 @@ inline constexpr int kMostRelaxSweeps = 32;
 // One that changes no speed by more than this share of the fastest push is the last.
 inline constexpr float kRelaxDone = 0x1p-10F;
 
-// How fast the points of a patch are pushed, beside twice what their springs yield to the impulses that they begin
+// How fast the points of a patch are pushed, beyond twice what their springs yield to the impulses that they begin
 // with: the largest, m/s; 0 = none is. Twice, because where a light body bears a heavy one the load itself is not known
 // to a few percent, and what is taken back from it makes it sway. gap_m(k): of a point, at the start of the substep.
 template <typename Number, typename Gap>

@@ -73,8 +73,8 @@ BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPoin
   return gives_back & is_fast;
 }
 
-// And has not been met in a substep that is over: who bounced leaves, and whom neighbors drive back to it comes at
-// another speed.
+// And was not met in an earlier substep: a body that bounced leaves, and if neighbors drive it back it comes at another
+// speed.
 template <typename Number>
 BROADSIDE_HD TruthOf<Number> may_bounce(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
   const TruthOf<Number> was_met = p.normal_total > 0.0F;
@@ -298,7 +298,7 @@ BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
     PatchPointOf<Number>& p = c.points[k];
     const Number speed = normal_speed(m.twist, p.lever);
     const Number wish = -p.normal_mass * (speed + goals.allowed_m_s[k]);
-    // Where it is not met, nothing changes.
+    // Nothing changes while the point is not met.
     const PatchMotionOf<Number> before = m;
     const Number size = add_normal_impulse<Number>(c, p, m, pick(is_met, wish, 0.0F));
     m = pick<Number>(is_met, m, before);

@@ -40,25 +40,26 @@ struct UnevenStep {
 
 // core/method/rigid/SOLVERS.md has the measurements that the defaults were chosen by.
 struct SoftSettings {
-  // A sweep that changes points by no more than a share of gravity is the last one, because where all rests, the
-  // fastest is no faster than that, and one point of a thousand kept everybody sweeping.
+  // Where everything rests the fastest point is slow itself, and one point of a thousand kept all others sweeping. So a
+  // change below a share of gravity ends the sweeps too.
   SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F};
   float even_masses = 64.0F;
-  // A contact of a light body bears what a heavy one needs to stop: as stiff as the light one alone allows, 8 kg at
-  // 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts, because light
-  // bodies that are struck turn by half a radian within a step, and meet in points that its start does not show.
+  // A contact of a light body bears what a heavy one needs to stop. With a contact as stiff as the light body alone
+  // allows, 8 kg at 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts,
+  // because light bodies that are struck turn by half a radian within a step, and meet in points that its start does
+  // not show.
   UnevenStep lively{4, {4, 1000, 1e-4F, 0x1p-5F, 200.0F}};
   // The same where nothing moves fast (core/scene/calm_bodies.hpp). What is solved less well sways.
   UnevenStep calm{1, {4, 500, 0x1p-8F, 0x1p-5F, 200.0F}};
-  // A step in which nothing moves fast and so few patches touch: what stands by little is small, an arch of 25 stones
-  // has 26 joints, and contacts that yield less, solved farther, cost it little.
+  // For a calm step of few patches. What stands by a small margin has few contacts (an arch of 25 stones has 26
+  // joints), so stiffer contacts and more sweeps cost little there.
   SolveNumbers few{4, 100, 0x1p-10F, 0x1p-5F, 20.0F};
   std::uint32_t few_patches = 128;
   float damping = 1.0F;
   PatchLimits limits{0x1p-16F, 0.0F};
-  // While something bounces, sweeps over all patches, at most: of three balls that meet at once two pairs share one,
+  // Sweeps over all patches while something bounces, at most: when three balls meet at once, two pairs share a ball,
   // and what the second pair does changes the first. A heap that lands would take hundreds. First what came fast is
-  // stopped, which takes more of them: with 8 a heap of 10,000 cubes gains energy. Then it bounces.
+  // stopped, which takes more of them: with 8 + 4 a heap of 30,000 cubes ends four times as deep. Then it bounces.
   std::uint32_t stop_sweeps = 32;
   std::uint32_t bounce_sweeps = 8;
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
@@ -120,7 +121,7 @@ constexpr bool is_uneven(const SoftSettings& settings, float largest_mass_ratio)
   return largest_mass_ratio > settings.even_masses;
 }
 
-// A solver whose cost is known ahead keeps what pushes.
+// Whether pushes are taken back. soft-step keeps them, because its cost must be known ahead.
 constexpr bool takes_back_pushes(const SoftSettings& settings) {
   return settings.even.sweeps > 1;
 }
@@ -183,7 +184,7 @@ BROADSIDE_HD constexpr float mass_ratio(float inverse_mass_a, float inverse_mass
 // dt_s: of the step.
 BROADSIDE_HD void set_limits(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const PatchLimits& limits,
                              float dt_s) {
-  // Without gravity nothing says how fast is fast but the step.
+  // Without gravity only the step says what is fast.
   constexpr float kPushShare = 1.0F / 64.0F;
   const float reach = reach_of(c, a, b);
   c.slop_m = limits.fixed_slop_m > 0.0F ? limits.fixed_slop_m : limits.slop_share * reach;

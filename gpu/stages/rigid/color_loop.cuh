@@ -43,7 +43,7 @@ enum class SweepBegin : std::uint8_t { kAtOnce, kWithBarrier };
 // What a thread waits for before it goes on with the next color.
 enum class ColorWait : std::uint8_t { kNothing, kTeam, kBlock };
 
-// What has become of a patch's turn. kLoadAgain: what was loaded ahead is not what the patch turns out to need.
+// What a visit to a patch asks for next. kLoadAgain: what was loaded ahead is not what the patch needs after all.
 enum class Visit : std::uint8_t { kDone, kLoadAgain };
 
 // Of a sweep whose work writes all itself.
@@ -73,7 +73,7 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
   for (std::uint32_t color = 0;;) {
     if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
     owes = false;
-    // Not before it arrives at the barrier behind its last turn of a color.
+    // Not before the thread arrives at the barrier after its last turn of a color.
     const bool loads = wait != ColorWait::kNothing || turn.color == color;
     if (loads && !is_loaded && turn.color != kNoColor) {
       loaded = load(TileSlot(f.constraints, turn.place));

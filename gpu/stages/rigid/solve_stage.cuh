@@ -115,7 +115,7 @@ __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFra
 // The same as StepConstraints::relax_pushed and bounce of the twin. Begins behind a barrier and ends with one.
 __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                             bool is_pushed, float fastest_push) {
-  std::uint32_t since = 0xFFFFFFFFU;  // no sweep: nobody forgets
+  std::uint32_t since = 0xFFFFFFFFU;  // no sweep: no patch forgets its impulses
   for (Stirred of = is_pushed ? Stirred::kPushed : Stirred::kBouncing;; of = Stirred::kBouncing) {
     float fastest = 0.0F;
     float done = 0.0F;

@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// A patch, its bodies but for their velocities, and what follows from these two.
+// A patch, its bodies without their velocities, and what follows from both.
 struct LoadedPatch {
   core::PatchConstraint c;
   core::SolverBody a;
