@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <vector>
 
-#include "core/exact/convex_hull.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "tests/core/method/rigid/manifold_cases.hpp"
 
@@ -15,14 +13,7 @@ namespace {
 
 Subject pebble(Draw& draw, int corners) {
   const Vec3 half{draw.between(0.35F, 0.5F), draw.between(0.35F, 0.5F), draw.between(0.35F, 0.5F)};
-  std::vector<Vec3> points;
-  for (int k = 0; k < corners; ++k) {
-    const Vec3 p = normalized(draw.in_cube(1.0F));
-    points.push_back({half.x * p.x, half.y * p.y, half.z * p.z});
-  }
-  Subject out = hull(*exact::convex_hull(points));
-  out.pose.q = draw.turn();
-  return out;
+  return cut_ellipsoid(draw, half, corners);
 }
 
 HullPolytope polytope_of(const Subject& s, Vec3 origin) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/exact/convex_core.hpp"
+#include "core/exact/convex_hull.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/scene/hull_faces.hpp"
 #include "core/scene/mesh.hpp"
@@ -119,6 +120,18 @@ class Draw {
  private:
   std::mt19937_64 random_;
 };
+
+// The hull of so many points of an ellipsoid, turned anyhow.
+inline Subject cut_ellipsoid(Draw& draw, Vec3 half, int corners) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < corners; ++k) {
+    const Vec3 p = normalized(draw.in_cube(1.0F));
+    points.push_back({half.x * p.x, half.y * p.y, half.z * p.z});
+  }
+  Subject out = hull(*exact::convex_hull(points));
+  out.pose.q = draw.turn();
+  return out;
+}
 
 // Rounding of gaps, from the lengths that go into them: kContactRoundings of 2^-24, by its own count here.
 inline double rounding_of(const Subject& a, const Subject& b) {

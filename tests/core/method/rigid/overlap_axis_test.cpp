@@ -5,25 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
-#include "core/exact/convex_hull.hpp"
 #include "core/method/rigid/near_bound.hpp"
 #include "tests/core/method/rigid/manifold_cases.hpp"
 
 namespace broadside::core {
 namespace {
-
-Subject cut_ellipsoid(Draw& draw, Vec3 half, int corners) {
-  std::vector<Vec3> points;
-  for (int k = 0; k < corners; ++k) {
-    const Vec3 p = normalized(draw.in_cube(1.0F));
-    points.push_back({half.x * p.x, half.y * p.y, half.z * p.z});
-  }
-  Subject out = hull(*exact::convex_hull(points));
-  out.pose.q = draw.turn();
-  return out;
-}
 
 // A pebble, a coin or a needle.
 Subject hull_of_any_form(Draw& draw) {
