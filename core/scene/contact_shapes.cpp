@@ -72,6 +72,7 @@ class Builder {
     std::size_t corner = 0;
     std::size_t edge = 0;
     std::size_t ways = 0;
+    std::size_t guide = 0;
     ContactShape shape;
   };
   struct MeshPlace {
@@ -120,13 +121,19 @@ class Builder {
 
   ContactShape add_hull(std::uint32_t index, const Mesh& convex) {
     const HullTables tables = hull_tables(convex);
-    HullPlace place{out_.hull_vertices.size(), out_.hull_faces.size(), out_.hull_corners.size(),
-                    out_.hull_edges.size(),    out_.hull_ways.size(),  {}};
+    HullPlace place{out_.hull_vertices.size(),
+                    out_.hull_faces.size(),
+                    out_.hull_corners.size(),
+                    out_.hull_edges.size(),
+                    out_.hull_ways.size(),
+                    out_.hull_guides.size(),
+                    {}};
     append(out_.hull_vertices, tables.vertices);
     append(out_.hull_faces, tables.faces);
     append(out_.hull_corners, tables.corners);
     append(out_.hull_edges, tables.edges);
     append(out_.hull_ways, tables.ways);
+    append(out_.hull_guides, tables.guide);
     append(out_.hull_beyond, tables.beyond);
     place.shape.kind = ContactKind::kHull;
     place.shape.size_m = farthest_m(tables.vertices);
@@ -156,6 +163,7 @@ class Builder {
       hull.corners = out_.hull_corners.data() + place.corner;
       hull.edges = out_.hull_edges.data() + place.edge;
       hull.ways = out_.hull_ways.data() + place.ways;
+      hull.guide = out_.hull_guides.data() + place.guide;
       hull.beyond = out_.hull_beyond.data() + place.corner;
     }
   }

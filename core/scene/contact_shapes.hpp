@@ -24,7 +24,8 @@ struct ContactShapes {
   std::vector<HullFace> hull_faces;
   std::vector<std::uint32_t> hull_corners;
   std::vector<HullEdge> hull_edges;
-  std::vector<std::uint32_t> hull_ways;
+  std::vector<HullWay> hull_ways;
+  std::vector<std::uint32_t> hull_guides;
   std::vector<std::uint32_t> hull_beyond;
 
   std::vector<Vec3> mesh_vertices;

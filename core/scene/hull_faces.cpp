@@ -147,19 +147,19 @@ class Faces {
       neighbors[edge.from].push_back(edge.to);
       neighbors[edge.to].push_back(edge.from);
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] = std::minmax_element(out_.vertices.begin(), out_.vertices.end(),
-                                                   [&](Vec3 p, Vec3 q) { return p[axis] < q[axis]; });
-      out_.ways.push_back(static_cast<std::uint32_t>(low - out_.vertices.begin()));
-      out_.ways.push_back(static_cast<std::uint32_t>(high - out_.vertices.begin()));
+    for (std::uint32_t cell = 0; cell < kGuideStarts; ++cell)
+      out_.guide.push_back(lowest_along(middle_of_guide_cell(cell)));
+    for (std::uint32_t from = 0; from < neighbors.size(); ++from) {
+      out_.guide.push_back(static_cast<std::uint32_t>(out_.ways.size()));
+      for (const std::uint32_t to : neighbors[from]) out_.ways.push_back({out_.vertices[to] - out_.vertices[from], to});
     }
-    auto begin = static_cast<std::uint32_t>(kHullEnds + neighbors.size() + 1);
-    for (const auto& of_corner : neighbors) {
-      out_.ways.push_back(begin);
-      begin += static_cast<std::uint32_t>(of_corner.size());
-    }
-    out_.ways.push_back(begin);
-    for (const auto& of_corner : neighbors) out_.ways.insert(out_.ways.end(), of_corner.begin(), of_corner.end());
+    out_.guide.push_back(static_cast<std::uint32_t>(out_.ways.size()));
+  }
+
+  [[nodiscard]] std::uint32_t lowest_along(Vec3 direction) const {
+    const auto lowest = std::min_element(out_.vertices.begin(), out_.vertices.end(),
+                                         [&](Vec3 p, Vec3 q) { return dot(direction, p) < dot(direction, q); });
+    return static_cast<std::uint32_t>(lowest - out_.vertices.begin());
   }
 
   void add_beyond() {

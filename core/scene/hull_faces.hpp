@@ -14,7 +14,8 @@ struct HullTables {
   std::vector<HullFace> faces;
   std::vector<std::uint32_t> corners;
   std::vector<HullEdge> edges;
-  std::vector<std::uint32_t> ways;  // as HullView has them
+  std::vector<HullWay> ways;  // as HullView has them
+  std::vector<std::uint32_t> guide;
   std::vector<std::uint32_t> beyond;
 };
 

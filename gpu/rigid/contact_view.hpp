@@ -20,6 +20,10 @@
 #include "gpu/broad/broad_view.hpp"
 #include "gpu/scene/packed_box.hpp"
 
+namespace broadside::core {
+struct KnownGaps;
+}
+
 namespace broadside::gpu {
 
 // A mesh and a center of mass in it; the pointers are to device memory.
@@ -65,7 +69,10 @@ struct SolveCounts {
 // zeros.
 struct RigidCounts {
   unsigned long long confirmed = 0;
-  unsigned long long near = 0;  // confirmed pairs that are not seen to pass by each other
+  // Confirmed pairs that are not seen to pass by each other: in ContactView::near, and of finely cut hulls.
+  unsigned long long near = 0;
+  unsigned long long near_hulls = 0;
+  unsigned long long apart_hulls = 0;  // those that are clearly apart
   unsigned long long patches = 0;
   unsigned long long listed = 0;  // places given out in the lists of bodies
   unsigned long long places = 0;  // of constraints: patches, and the gaps between colors
@@ -96,6 +103,13 @@ struct RigidOutcome {
   unsigned long long begin_ns = 0;
   unsigned long long stage_end_ns[core::kStageCount] = {};
 };
+
+// A pair whose patches are made. gaps: the place in ContactView::hull_gaps, or kNoGaps.
+struct NearPair {
+  core::Pair pair;
+  std::uint32_t gaps = 0;
+};
+inline constexpr std::uint32_t kNoGaps = 0xFFFFFFFFU;
 
 // Fixed during a run, except for the pointers that are swapped after every step.
 struct ContactView {
@@ -132,7 +146,11 @@ struct ContactView {
   std::uint64_t pair_capacity = 0;
   const Counters* broad_counters = nullptr;
   AppendView<core::Pair> confirmed;
-  core::Pair* near = nullptr;              // [confirmed.capacity]
+  NearPair* near = nullptr;  // [confirmed.capacity]
+  // Of two finely cut hulls each, [confirmed.capacity]; those that are clearly apart from the end on. Null where no
+  // shape is a hull.
+  core::Pair* hulls = nullptr;
+  core::KnownGaps* hull_gaps = nullptr;
   AppendView<core::ContactPatch> patches;  // those of one pair follow each other
   PatchMemory memory;                      // of this step
 

@@ -83,6 +83,10 @@ core::Status RigidBuffers::wake_all() {
 
 core::Status RigidBuffers::reserve_confirmed(std::size_t pairs) {
   BROADSIDE_TRY(confirmed_.reserve(pairs, "pairs"));
+  if (has_hulls_) {
+    BROADSIDE_TRY(hulls_.reserve(confirmed_.capacity(), "pairs"));
+    BROADSIDE_TRY(hull_gaps_.reserve(confirmed_.capacity(), "pairs"));
+  }
   return near_.reserve(confirmed_.capacity(), "pairs");
 }
 
@@ -110,9 +114,10 @@ core::Status RigidBuffers::reserve_colors(std::size_t colors) {
   return color_count_.fill_bytes(0);
 }
 
-core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool may_sleep) {
+core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool may_sleep, bool has_hulls) {
   const std::size_t n = states.size();
   may_sleep_ = may_sleep;
+  has_hulls_ = has_hulls;
   if (may_sleep) {
     BROADSIDE_TRY(sleep_.reserve_bodies(n));
     BROADSIDE_TRY(wake_all());
@@ -184,6 +189,8 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.boxes = boxes_.data();
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.near = near_.data();
+  view.hulls = has_hulls_ ? hulls_.data() : nullptr;
+  view.hull_gaps = has_hulls_ ? hull_gaps_.data() : nullptr;
   view.patches = {patches_.data(), patch_room()};
   view.ranks = ranks_.data();
   view.colors = patch_colors_.data();
@@ -211,11 +218,11 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 std::uint64_t RigidBuffers::bytes() const {
   return before_.bytes() + after_.bytes() + free_end_.bytes() + pushers_.bytes() + old_push_.bytes() + push_.bytes() +
          reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() + shape_boxes_.bytes() + boxes_.bytes() +
-         confirmed_.bytes() + near_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() +
-         coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
-         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + starts_.bytes() +
-         stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() + sleep_.bytes() +
-         counts_.bytes() + barrier_.bytes();
+         confirmed_.bytes() + near_.bytes() + hulls_.bytes() + hull_gaps_.bytes() + patches_.bytes() + ranks_.bytes() +
+         patch_colors_.bytes() + coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() +
+         color_cursor_.bytes() + patch_at_.bytes() + constraints_.bytes() + changes_.bytes() + by_color_.bytes() +
+         bodies_.bytes() + starts_.bytes() + stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() +
+         memory_.bytes() + sleep_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

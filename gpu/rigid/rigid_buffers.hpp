@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/runtime/device_buffer.hpp"
@@ -12,7 +13,7 @@ namespace broadside::gpu {
 
 class RigidBuffers {
  public:
-  core::Status load(std::span<const core::RigidState> states, bool may_sleep);
+  core::Status load(std::span<const core::RigidState> states, bool may_sleep, bool has_hulls);
   // Forgets for how long bodies have been still.
   core::Status wake_all();
   // Makes room for what the aborted frame needed.
@@ -76,7 +77,9 @@ class RigidBuffers {
   DeviceBuffer<core::Box> shape_boxes_;
   DeviceBuffer<PackedBox> boxes_;
   DeviceBuffer<core::Pair> confirmed_;
-  DeviceBuffer<core::Pair> near_;
+  DeviceBuffer<NearPair> near_;
+  DeviceBuffer<core::Pair> hulls_;  // empty unless there are hulls
+  DeviceBuffer<core::KnownGaps> hull_gaps_;
   DeviceBuffer<core::ContactPatch> patches_;
   DeviceBuffer<PatchRank> ranks_;
   DeviceBuffer<std::uint32_t> patch_colors_;
@@ -95,6 +98,7 @@ class RigidBuffers {
   Memory old_memory_;
   Memory memory_;
   bool may_sleep_ = false;
+  bool has_hulls_ = false;
   Sleep sleep_;  // empty unless bodies may sleep
   DeviceBuffer<RigidCounts> counts_;
   DeviceBuffer<unsigned long long> barrier_;

@@ -157,7 +157,11 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.stream = stream.value();
   BROADSIDE_TRY(wait_for_stream(d.stream, "the end of the scene before"));
   BROADSIDE_TRY(d.device_scene.load(scene, d.bodies));
-  BROADSIDE_TRY(d.buffers.load(d.bodies.state, d.options.sleeps));
+  const auto some_are = [&](core::ContactKind kind) {
+    return std::ranges::any_of(d.bodies.shapes, [&](const core::RigidShape& s) { return s.contact.kind == kind; });
+  };
+  const bool has_hulls = some_are(core::ContactKind::kHull);
+  BROADSIDE_TRY(d.buffers.load(d.bodies.state, d.options.sleeps, has_hulls));
   BROADSIDE_TRY(d.outcome.allocate());
   BROADSIDE_TRY(d.broad_outcome.allocate());
   BROADSIDE_TRY(d.broad_counters.reserve(1, "counters"));
@@ -166,9 +170,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.broad_barrier.fill_bytes(0));
   const std::size_t n = d.bodies.state.size();
   BROADSIDE_TRY(d.pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBody * n), "pairs"));
-  d.view.has_long_contacts = std::ranges::any_of(d.bodies.shapes, [](const core::RigidShape& s) {
-    return s.contact.kind == core::ContactKind::kHull || s.contact.kind == core::ContactKind::kMesh;
-  });
+  d.view.has_long_contacts = has_hulls || some_are(core::ContactKind::kMesh);
   d.view.follows_ways = !d.bodies.is_swept.empty();
   auto contact_shape =
       d.view.has_long_contacts || d.view.follows_ways ? long_contact_launch_shape() : contact_launch_shape();

@@ -29,7 +29,11 @@ RigidScene::Places RigidScene::add_tables(const core::RigidShape& shape) {
   at.faces = faces_.add({hull.faces, hull.face_count});
   at.corners = indices_.add({hull.corners, corners_of(hull)});
   at.edges = edges_.add({hull.edges, hull.edge_count});
-  at.ways = indices_.add({hull.ways, hull.ways == nullptr ? 0 : hull.ways[core::kHullEnds + hull.vertex_count]});
+  if (hull.ways != nullptr) {
+    const std::uint32_t guide_size = core::kGuideStarts + hull.vertex_count + 1;
+    at.ways = ways_.add({hull.ways, hull.guide[guide_size - 1]});
+    at.guide = indices_.add({hull.guide, guide_size});
+  }
   at.beyond = indices_.add({hull.beyond, hull.beyond == nullptr ? 0 : corners_of(hull)});
   at.triangles = indices_.add({mesh.triangles, 3 * std::size_t{mesh.triangle_count}});
   at.normals = vectors_.add({mesh.normals, mesh.triangle_count});
@@ -48,6 +52,7 @@ core::Status RigidScene::upload_tables() {
   BROADSIDE_TRY(numbers_.upload("shapes"));
   BROADSIDE_TRY(faces_.upload("shapes"));
   BROADSIDE_TRY(edges_.upload("shapes"));
+  BROADSIDE_TRY(ways_.upload("shapes"));
   BROADSIDE_TRY(nodes_.upload("shapes"));
   BROADSIDE_TRY(boxes_.upload("shapes"));
   return levels_.upload("shapes");
@@ -61,7 +66,8 @@ RigidShapeView RigidScene::view_of(const core::RigidShape& shape, const Places& 
   hull.faces = faces_.at(at.faces);
   hull.corners = indices_.at(at.corners);
   hull.edges = edges_.at(at.edges);
-  if (hull.ways != nullptr) hull.ways = indices_.at(at.ways);
+  if (hull.ways != nullptr) hull.ways = ways_.at(at.ways);
+  if (hull.guide != nullptr) hull.guide = indices_.at(at.guide);
   if (hull.beyond != nullptr) hull.beyond = indices_.at(at.beyond);
   core::MeshView& mesh = view.contact.mesh;
   mesh.vertices = vectors_.at(at.vertices);
@@ -83,6 +89,7 @@ core::Status RigidScene::load(const core::Scene& scene, const core::RigidBodies&
   numbers_.clear();
   faces_.clear();
   edges_.clear();
+  ways_.clear();
   nodes_.clear();
   boxes_.clear();
   levels_.clear();
@@ -120,9 +127,10 @@ void RigidScene::fill(RigidFrameView& view) const {
 }
 
 std::uint64_t RigidScene::bytes() const {
-  return vectors_.bytes() + indices_.bytes() + numbers_.bytes() + faces_.bytes() + edges_.bytes() + nodes_.bytes() +
-         boxes_.bytes() + levels_.bytes() + shapes_.bytes() + shape_of_body_.bytes() + is_swept_.bytes() +
-         mass_.bytes() + material_.bytes() + wrench_.bytes() + face_shapes_.bytes() + face_poses_.bytes();
+  return vectors_.bytes() + indices_.bytes() + numbers_.bytes() + faces_.bytes() + edges_.bytes() + ways_.bytes() +
+         nodes_.bytes() + boxes_.bytes() + levels_.bytes() + shapes_.bytes() + shape_of_body_.bytes() +
+         is_swept_.bytes() + mass_.bytes() + material_.bytes() + wrench_.bytes() + face_shapes_.bytes() +
+         face_poses_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -26,6 +26,7 @@ class RigidScene {
     std::size_t corners = 0;
     std::size_t edges = 0;
     std::size_t ways = 0;
+    std::size_t guide = 0;
     std::size_t beyond = 0;
     std::size_t triangles = 0;
     std::size_t normals = 0;
@@ -45,6 +46,7 @@ class RigidScene {
   DeviceTable<float> numbers_;
   DeviceTable<core::HullFace> faces_;
   DeviceTable<core::HullEdge> edges_;
+  DeviceTable<core::HullWay> ways_;
   DeviceTable<core::TriangleNode> nodes_;
   DeviceTable<core::Box> boxes_;
   DeviceTable<core::NodeBoxes> levels_;

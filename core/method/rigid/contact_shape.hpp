@@ -34,13 +34,21 @@ struct HullEdge {
   std::uint32_t right = 0;
 };
 
+// From a corner of a hull along an edge to a neighbor.
+struct alignas(16) HullWay {
+  Vec3 along;
+  std::uint32_t to = 0;
+};
+
 struct HullView {
   const Vec3* vertices = nullptr;  // mesh coordinates, m; those on the hull
   const HullFace* faces = nullptr;
   const std::uint32_t* corners = nullptr;  // of faces: indices of vertices
   const HullEdge* edges = nullptr;
-  // Which corners are neighbors along edges (hull_climb.hpp); null for hulls that are made while contacts are found.
-  const std::uint32_t* ways = nullptr;
+  // The ways from each corner, corner by corner, and where to find them (hull_climb.hpp). Both are null for hulls that
+  // are made while contacts are found.
+  const HullWay* ways = nullptr;
+  const std::uint32_t* guide = nullptr;
   // As `corners`: the face beyond the side from this corner to the next one, or the face itself where there is none.
   const std::uint32_t* beyond = nullptr;
   std::uint32_t vertex_count = 0;
@@ -92,6 +100,12 @@ struct ContactShape {
 struct ContactPose {
   Vec3 x;
   Quat q;
+};
+
+// Within a step.
+struct ContactPath {
+  ContactPose start;
+  ContactPose end;  // if it touches nothing
 };
 
 struct NearestOfHulls;

@@ -48,8 +48,9 @@ BROADSIDE_HD bool is_foreseen(const ManifoldPoint& p, float end_gap_m, const Man
 
 }  // namespace end_detail
 
-// Adds patches to those of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most.
-// swing_m: how far turning moves points of both bodies. known: bounds of these two hulls, or null.
+// Adds patches to those of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most;
+// kLeft where these lanes leave the pair.
+// swing_m: how far turning moves points of both bodies. known: what surely_passes told, or null.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                         const ContactPath& b, float swing_m, Manifold* found, int count,
@@ -67,7 +68,7 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
   if constexpr (Lanes::kKnowsLongShapes)
     if (known != nullptr || has_quick_answers(shape_a, shape_b)) {
       const HullBounds bounds =
-          known != nullptr ? known->deep_end : hull_bounds(shape_a, a.end, shape_b, b.end, -unseen);
+          known != nullptr ? known->deep_end : hull_bounds(shape_a, a.end, shape_b, b.end, -unseen, found[0].normal);
       if (surely_apart(bounds, -unseen)) return count;
     }
   float least_m = least_gap_m(found[0]);
@@ -75,6 +76,7 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
   least_m = fminf(least_m, 0.0F);
   Manifold end[kPatchesOfPair];
   const int ends = make_manifolds<Lanes>(shape_a, a.end, shape_b, b.end, -unseen, end);
+  if (ends == kLeft) return kLeft;
   const int at_start = count;
   for (int k = 0; k < ends && count < kPatchesOfPair; ++k) {
     const Manifold& m = end[k];

@@ -66,78 +66,121 @@ BROADSIDE_HD Vec3 across(const Simplex& simplex, Vec3 x, float length_of_x) {
 
 }  // namespace gap_detail
 
-// Stops where they are apart by more than stop_m, or both numbers are within `thin` of the larger one or slack_m of
-// each other. Both are hulls that have ways.
-BROADSIDE_HD_CALLED NearestOfHulls nearest_of_hulls(const PlacedHull& a, const PlacedHull& b, float stop_m, float thin,
-                                                    float slack_m) {
-  constexpr int kMostSteps = 32;
-  const HullView& hull_a = a.hull;
-  const HullView& hull_b = b.hull;
-  // Of B in A's axes.
-  const Vec3 between = turned_back(a.axes, b.center - a.center);
-  const TurnedAxes turn{turned_back(a.axes, b.axes.x), turned_back(a.axes, b.axes.y), turned_back(a.axes, b.axes.z)};
-  NearestOfHulls nearest;
-  HullGap& out = nearest.gap;
-  Vec3 n = -between;
-  float distance = length(n);
-  if (!(distance > 0.0F)) n = {1.0F, 0.0F, 0.0F};
-  n = (distance > 0.0F ? 1.0F / distance : 1.0F) * n;
-  std::uint32_t of_a = climb_start(hull_a, n);
-  std::uint32_t of_b = climb_start(hull_b, turned_back(turn, -n));
+// A search for the nearest points of two hulls that have ways. It may stop at a bound and go on later, to the same end.
+struct HullSearch {
+  Vec3 between;     // from A's center to B's, in A's axes, as all below
+  TurnedAxes turn;  // of B
+  Vec3 n;           // unit: the direction in which it looks
+  std::uint32_t of_a = 0;
+  std::uint32_t of_b = 0;
   Simplex simplex;
-  Vec3 best = n;
-  distance = 3.402823e38F;
-  for (int step = 0; step < kMostSteps; ++step) {
-    of_a = climb_down(hull_a, n, of_a);
-    of_b = climb_down(hull_b, turned_back(turn, -n), of_b);
-    const Vec3 corner = hull_a.vertices[of_a] - (between + turned(turn, hull_b.vertices[of_b]));
-    const float gap = dot(n, corner);
-    if (gap > out.least_m) {
-      out.least_m = gap;
-      best = n;
-    }
-    if (out.least_m > stop_m || out.most_m - out.least_m <= fmaxf(thin * out.most_m, slack_m)) break;
-    bool is_known = false;
-    for (int k = 0; k < simplex.count; ++k) is_known |= simplex.corners[k] == corner;
-    if (is_known) break;
-    simplex.of_a[simplex.count] = of_a;
-    simplex.of_b[simplex.count] = of_b;
-    simplex.corners[simplex.count++] = corner;
-    float inside_m = 0.0F;
-    const Vec3 x = keep_nearest(simplex, inside_m);
-    if (inside_m > 0.0F) {
-      out.overlap_m = inside_m;
-      out.most_m = 0.0F;
-      break;
-    }
-    const float nearer = length(x);
-    if (!(nearer < distance)) {
-      simplex.count = 0;
-      break;
-    }
-    distance = nearer;
-    out.most_m = nearer;
-    if (!(nearer > slack_m)) break;
-    n = gap_detail::across(simplex, x, nearer);
+  float distance = 3.402823e38F;  // of the simplex
+  Vec3 best;                      // the direction of gap.least_m
+  HullGap gap;
+  int steps = 0;
+  bool has_ended = false;
+};
+
+// toward: from B to A, axes of the world, of any length: where the search looks first. Zero: along the centers.
+BROADSIDE_HD HullSearch begin_search(const PlacedHull& a, const PlacedHull& b, Vec3 toward) {
+  HullSearch s;
+  s.between = turned_back(a.axes, b.center - a.center);
+  s.turn = {turned_back(a.axes, b.axes.x), turned_back(a.axes, b.axes.y), turned_back(a.axes, b.axes.z)};
+  s.n = turned_back(a.axes, toward);
+  float size = length(s.n);
+  if (!(size > 0.0F)) {
+    s.n = -s.between;
+    size = length(s.n);
   }
-  out.normal = turned(a.axes, best);
+  if (!(size > 0.0F)) s.n = {1.0F, 0.0F, 0.0F};
+  s.n = (size > 0.0F ? 1.0F / size : 1.0F) * s.n;
+  s.best = s.n;
+  return s;
+}
+
+namespace gap_detail {
+
+// Whether the simplex came nearer to the origin with this corner.
+BROADSIDE_HD bool move_nearer(HullSearch& s, Vec3 corner, float slack_m) {
+  for (int k = 0; k < s.simplex.count; ++k)
+    if (s.simplex.corners[k] == corner) return false;
+  s.simplex.of_a[s.simplex.count] = s.of_a;
+  s.simplex.of_b[s.simplex.count] = s.of_b;
+  s.simplex.corners[s.simplex.count++] = corner;
+  float inside_m = 0.0F;
+  const Vec3 x = keep_nearest(s.simplex, inside_m);
+  if (inside_m > 0.0F) {
+    s.gap.overlap_m = inside_m;
+    s.gap.most_m = 0.0F;
+    return false;
+  }
+  const float nearer = length(x);
+  if (!(nearer < s.distance)) {
+    s.simplex.count = 0;
+    return false;
+  }
+  s.distance = nearer;
+  s.gap.most_m = nearer;
+  if (!(nearer > slack_m)) return false;
+  s.n = across(s.simplex, x, nearer);
+  return true;
+}
+
+}  // namespace gap_detail
+
+// Stops where they are apart by more than stop_m, or both numbers are within `thin` of the larger one or slack_m of
+// each other.
+BROADSIDE_HD_CALLED void search_on(const HullView& hull_a, const HullView& hull_b, HullSearch& search, float stop_m,
+                                   float thin, float slack_m) {
+  constexpr int kMostSteps = 32;
+  HullSearch s = search;
+  for (; s.steps < kMostSteps && !s.has_ended; ++s.steps) {
+    s.of_a = lowest_along(hull_a, s.n);
+    s.of_b = lowest_along(hull_b, turned_back(s.turn, -s.n));
+    const Vec3 corner = hull_a.vertices[s.of_a] - (s.between + turned(s.turn, hull_b.vertices[s.of_b]));
+    const float gap = dot(s.n, corner);
+    if (gap > s.gap.least_m) {
+      s.gap.least_m = gap;
+      s.best = s.n;
+    }
+    if (s.gap.least_m > stop_m || s.gap.most_m - s.gap.least_m <= fmaxf(thin * s.gap.most_m, slack_m)) break;
+    s.has_ended = !gap_detail::move_nearer(s, corner, slack_m);
+  }
+  search = s;
+}
+
+BROADSIDE_HD HullGap gap_of(const HullSearch& search, const PlacedHull& a) {
+  HullGap gap = search.gap;
+  gap.normal = turned(a.axes, search.best);
+  return gap;
+}
+
+BROADSIDE_HD HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, float stop_m, float thin, float slack_m,
+                              Vec3 toward = {}) {
+  HullSearch search = begin_search(a, b, toward);
+  search_on(a.hull, b.hull, search, stop_m, thin, slack_m);
+  return gap_of(search, a);
+}
+
+// As close as rounding allows, from where the search has come to.
+BROADSIDE_HD NearestOfHulls exact_hull_gap(const PlacedHull& a, const PlacedHull& b, HullSearch& search,
+                                           float rounding_m) {
+  search_on(a.hull, b.hull, search, 3.402823e38F, 0.0F, rounding_m);
+  NearestOfHulls nearest;
+  nearest.gap = gap_of(search, a);
   NearestCorners& corners = nearest.corners;
-  corners.count = simplex.count;
+  corners.count = search.simplex.count;
   for (int k = 0; k < corners.count; ++k) {
-    corners.weights[k] = simplex.weights[k];
-    corners.of_a[k] = simplex.of_a[k];
-    corners.of_b[k] = simplex.of_b[k];
+    corners.weights[k] = search.simplex.weights[k];
+    corners.of_a[k] = search.simplex.of_a[k];
+    corners.of_b[k] = search.simplex.of_b[k];
   }
   return nearest;
 }
 
-BROADSIDE_HD HullGap hull_gap(const PlacedHull& a, const PlacedHull& b, float stop_m, float thin, float slack_m) {
-  return nearest_of_hulls(a, b, stop_m, thin, slack_m).gap;
-}
-
-// As close as rounding allows.
 BROADSIDE_HD NearestOfHulls exact_hull_gap(const PlacedHull& a, const PlacedHull& b, float rounding_m) {
-  return nearest_of_hulls(a, b, 3.402823e38F, 0.0F, rounding_m);
+  HullSearch search = begin_search(a, b, {});
+  return exact_hull_gap(a, b, search, rounding_m);
 }
 
 }  // namespace broadside::core

@@ -80,6 +80,7 @@ BROADSIDE_HD SeparatingAxis axis_near(const Hull& a, const Hull& b, Vec3 n, floa
 
 }  // namespace hull_detail
 
+// out.count is kLeft where these lanes leave the pair.
 template <typename Lanes>
 BROADSIDE_HD void hull_manifold(HullPolytopeOf<Lanes> a, const HullPolytopeOf<Lanes>& b, float rounding_m,
                                 float reach_m, Manifold& out) {
@@ -97,6 +98,10 @@ BROADSIDE_HD void hull_manifold(HullPolytopeOf<Lanes> a, const HullPolytopeOf<La
     axis = hull_detail::axis_near(a, b, near.gap.normal, near.gap.least_m, rounding_m);
     points = hull_detail::points_of(a, b, near.corners);
   } else if (a.known_gap == nullptr || !overlap_axis(a, b, *a.known_gap, rounding_m, axis)) {
+    if constexpr (Lanes::kLeavesHardPairs) {
+      out.count = kLeft;
+      return;
+    }
     axis = separating_axis(a, b, rounding_m, reach_m);
   }
   polytope_manifold(a, b, axis, 0.0F, 0.0F, rounding_m, reach_m, out, is_near ? &points : nullptr);

@@ -39,6 +39,7 @@ struct NodePair {
 // has may be called more than once for an item.
 struct OneLane {
   static constexpr bool kKnowsLongShapes = true;  // hulls and meshes
+  static constexpr bool kLeavesHardPairs = false;
 
   // value(k): of item k.
   template <typename Value>
@@ -165,6 +166,15 @@ struct OneLane {
 struct OneLaneOfShortShapes : OneLane {
   static constexpr bool kKnowsLongShapes = false;
 };
+
+// One lane of many, each with a pair of hulls. Where loops over all edges are asked for, it leaves the pair to lanes that
+// share them: the others would wait for it.
+struct OneLaneOfHulls : OneLane {
+  static constexpr bool kLeavesHardPairs = true;
+};
+
+// In place of a count: the pair was left.
+inline constexpr int kLeft = -1;
 
 // For a pair of shapes: the lanes of the shape whose loops are shared, if there is one.
 template <typename PolytopeA, typename PolytopeB>

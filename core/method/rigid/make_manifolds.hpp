@@ -31,6 +31,10 @@ template <typename Lanes>
 BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                 Manifold* out) {
   out[0].count = 0;
+  if constexpr (Lanes::kLeavesHardPairs) {
+    hull_manifold(hull_polytope<Lanes>(a), hull_polytope<Lanes>(b), rounding_m, reach_m, out[0]);
+    return out[0].count > 0 ? 1 : out[0].count;
+  }
   const ContactKind kind = b.shape->kind;
   if constexpr (Lanes::kKnowsLongShapes) {
     if (kind == ContactKind::kMesh) return mesh_manifolds<Lanes>(a, b, rounding_m, reach_m, out);
@@ -72,7 +76,8 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
 
 // Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
 // apart by up to this much count too, so that a solver can stop bodies before they touch. Lanes (lanes.hpp): all of
-// them make this call together. known_gap: exact_hull_gap of the two hulls at these poses, or null.
+// them make this call together; kLeft where they leave the pair. known_gap: exact_hull_gap of the two hulls at these
+// poses, or null.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
                                        const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,

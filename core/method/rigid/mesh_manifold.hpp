@@ -118,7 +118,7 @@ BROADSIDE_HD_CALLED void cylinder_against_triangle(const PlacedShape& a, const P
   const HullFace faces[2] = {{triangle.normal, offset_m, 0, 3}, {-triangle.normal, -offset_m, 3, 3}};
   ContactShape sheet;
   sheet.kind = ContactKind::kHull;
-  sheet.hull = {vertices, faces, corners, edges, nullptr, nullptr, 3, 2, 3};
+  sheet.hull = {vertices, faces, corners, edges, nullptr, nullptr, nullptr, 3, 2, 3};
   const PlacedShape placed{&sheet, triangle.center, turned_axes({})};
   cylinder_manifold<OneLane>(a, placed, rounding_m, reach_m, m);
   keep_if_seen(m, mesh, t, triangle.normal);

@@ -26,35 +26,47 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
 }
 
 // Whether two bodies that are apart at the start are apart at these poses too, on the same side. The answer is no where
-// one went through the other, and where they are too far apart to tell.
+// one went through the other, and where they are too far apart to tell. Unknown where these lanes leave the pair.
 template <typename Lanes>
-BROADSIDE_HD bool is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
+BROADSIDE_HD QuickAnswer is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
                                  const ContactShape& shape_b, const ContactPose& b, float reach_m) {
   if constexpr (Lanes::kKnowsLongShapes)
     if (has_quick_answers(shape_a, shape_b)) {
       const QuickAnswer quick =
-          quickly_still_apart(start.normal, hull_bounds(shape_a, a, shape_b, b, reach_m), reach_m);
-      if (quick != QuickAnswer::kUnknown) return quick == QuickAnswer::kYes;
+          quickly_still_apart(start.normal, hull_bounds(shape_a, a, shape_b, b, reach_m, start.normal), reach_m);
+      if (quick != QuickAnswer::kUnknown) return quick;
     }
   Manifold end[kPatchesOfPair];
   const int count = make_manifolds<Lanes>(shape_a, a, shape_b, b, reach_m, end);
+  if (count == kLeft) return QuickAnswer::kUnknown;
   for (int k = 0; k < count; ++k)
-    if (!(least_gap_m(end[k]) > 0.0F && dot(start.normal, end[k].normal) > 0.0F)) return false;
-  return count > 0;
+    if (!(least_gap_m(end[k]) > 0.0F && dot(start.normal, end[k].normal) > 0.0F)) return QuickAnswer::kNo;
+  return count > 0 ? QuickAnswer::kYes : QuickAnswer::kNo;
 }
 
 // Whether a patch leads to no contact in this step, whether both bodies move freely or something holds one of them
-// where it is. A patch nearer than near_m is kept in any case, because so near it may carry what rests on it.
-template <typename Lanes = OneLane>
-BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
+// where it is. A patch nearer than near_m is kept in any case, because so near it may carry what rests on it. Unknown
+// where these lanes leave the pair.
+template <typename Lanes>
+BROADSIDE_HD QuickAnswer whether_passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
                             const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
-  if (!(least_gap_m(start) > near_m)) return false;
-  if (are_boxes(shape_a, shape_b) && parts_ends(start.normal, shape_a, a, shape_b, b)) return true;
+  if (!(least_gap_m(start) > near_m)) return QuickAnswer::kNo;
+  if (are_boxes(shape_a, shape_b) && parts_ends(start.normal, shape_a, a, shape_b, b)) return QuickAnswer::kYes;
   const float seen_m = seen_reach_m(reach_m);
   const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b) {
     return is_still_apart<Lanes>(start, shape_a, at_a, shape_b, at_b, seen_m);
   };
-  return are_apart(a.end, b.end) && are_apart(a.end, b.start) && are_apart(a.start, b.end);
+  QuickAnswer answer = are_apart(a.end, b.end);
+  if (answer == QuickAnswer::kYes) answer = are_apart(a.end, b.start);
+  if (answer == QuickAnswer::kYes) answer = are_apart(a.start, b.end);
+  return answer;
+}
+
+// The same of lanes that leave no pair.
+template <typename Lanes = OneLane>
+BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
+                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
+  return whether_passes_by<Lanes>(start, shape_a, a, shape_b, b, reach_m, near_m) == QuickAnswer::kYes;
 }
 
 }  // namespace broadside::core

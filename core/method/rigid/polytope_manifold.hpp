@@ -138,6 +138,10 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     witness = {middle_of(nearest->on_a, nearest->on_b, axis.normal, axis.gap_m, ball_a_m > ball_b_m), axis.gap_m,
                nearest->feature};
   } else if (!is_shown) {
+    if constexpr (LanesOf<PolytopeA, PolytopeB>::kLeavesHardPairs) {
+      out.count = kLeft;
+      return;
+    }
     const NearestDirection near =
         nearest_direction(a, b, axis.normal, axis.gap_m, rounding_m, reach_m + balls_m + 2.0F * rounding_m);
     if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near

@@ -11,8 +11,6 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cross.hpp"
-#include "core/method/rigid/lanes.hpp"
-#include "core/method/rigid/quick_hulls.hpp"
 #include "core/method/rigid/separating_axis.hpp"
 
 namespace broadside::core {
@@ -57,17 +55,6 @@ BROADSIDE_HD bool boxes_surely_pass(const ContactShape& shape_a, const ContactPa
   const SeparatingAxis axis = separating_axis_of_boxes(start_a, start_b, contact_rounding_m(start_a, start_b), reach_m);
   if (axis.gap_m > reach_m) return true;
   return axis.gap_m > near_m && axis.gap_m > 0.0F && parts_ends(axis.normal, shape_a, a, shape_b, b);
-}
-
-// Whether no patch of a pair leads to a contact in this step; found out without making the patches.
-template <typename Lanes = OneLane>
-BROADSIDE_HD bool surely_passes(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
-                                const ContactPath& b, float reach_m, const NearReach& near) {
-  if (are_boxes(shape_a, shape_b)) return boxes_surely_pass(shape_a, a, shape_b, b, reach_m, near_at_most_m(near));
-  if constexpr (Lanes::kKnowsLongShapes)
-    return has_quick_answers(shape_a, shape_b) && surely_pass(shape_a, a, shape_b, b, reach_m, near);
-  else
-    return false;
 }
 
 }  // namespace broadside::core

@@ -13,11 +13,6 @@
 
 namespace broadside::core {
 
-struct ContactPath {
-  ContactPose start;
-  ContactPose end;  // if it touches nothing
-};
-
 // Hulls with fewer pairs of edges are left out: their patches cost no more than bounds.
 BROADSIDE_HD bool has_quick_answers(const ContactShape& a, const ContactShape& b) {
   constexpr std::uint32_t kManyEdgePairs = 4096;
@@ -52,16 +47,32 @@ BROADSIDE_HD bool is_clear(const HullBounds& b) {
 
 }  // namespace quick_detail
 
-// Bounds of two hulls, as close as the answers below need them; a distance beyond stop_m is not refined.
-BROADSIDE_HD HullBounds hull_bounds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
-                                    const ContactPose& pose_b, float stop_m) {
+// Two hulls at given poses.
+struct HullPair {
+  PlacedHull a;
+  PlacedHull b;
+  float rounding_m = 0.0F;
+};
+BROADSIDE_HD HullPair hull_pair(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
+                                const ContactPose& pose_b) {
   const PlacedShape a = placed_shape(shape_a, pose_a, pose_a.x);
   const PlacedShape b = placed_shape(shape_b, pose_b, pose_a.x);
-  HullBounds out;
-  out.rounding_m = contact_rounding_m(a, b);
-  out.gap = hull_gap({a.shape->hull, a.center, a.axes}, {b.shape->hull, b.center, b.axes},
-                     stop_m + quick_detail::kMargin * out.rounding_m, quick_detail::kThin, out.rounding_m);
-  return out;
+  return {{shape_a.hull, a.center, a.axes}, {shape_b.hull, b.center, b.axes}, contact_rounding_m(a, b)};
+}
+
+// Bounds as close as the answers below need them; a distance beyond stop_m is not refined.
+BROADSIDE_HD HullBounds hull_bounds(const HullPair& pair, HullSearch& search, float stop_m) {
+  search_on(pair.a.hull, pair.b.hull, search, stop_m + quick_detail::kMargin * pair.rounding_m, quick_detail::kThin,
+            pair.rounding_m);
+  return {gap_of(search, pair.a), pair.rounding_m};
+}
+
+// toward: where the search begins, as for begin_search.
+BROADSIDE_HD HullBounds hull_bounds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
+                                    const ContactPose& pose_b, float stop_m, Vec3 toward = {}) {
+  const HullPair pair = hull_pair(shape_a, pose_a, shape_b, pose_b);
+  HullSearch search = begin_search(pair.a, pair.b, toward);
+  return hull_bounds(pair, search, stop_m);
 }
 
 enum class QuickAnswer { kUnknown, kNo, kYes };
@@ -90,18 +101,20 @@ BROADSIDE_HD float seen_reach_m(float reach_m) {
   return 2.0F * reach_m;
 }
 
-// Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near: as for near_m.
-BROADSIDE_HD_CALLED bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
-                                     const ContactPath& b, float reach_m, const NearReach& near) {
+// Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near: as for near_m. pair
+// and search: of their start; the search is left as far as it came.
+BROADSIDE_HD bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
+                              const ContactPath& b, const HullPair& pair, HullSearch& search, float reach_m,
+                              const NearReach& near) {
   using namespace quick_detail;
-  const HullBounds start = hull_bounds(shape_a, a.start, shape_b, b.start, reach_m);
+  const HullBounds start = hull_bounds(pair, search, reach_m);
   const float margin_m = kMargin * start.rounding_m;
   if (start.gap.least_m > reach_m + margin_m) return true;
   const Vec3 n = start.gap.normal;
   if (!is_clear(start) || !(start.gap.least_m > near_at_most_m(n, kNormalOff, near) + margin_m)) return false;
   const float seen_m = seen_reach_m(reach_m);
   const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b) {
-    const HullBounds end = hull_bounds(shape_a, at_a, shape_b, at_b, seen_m);
+    const HullBounds end = hull_bounds(shape_a, at_a, shape_b, at_b, seen_m, n);
     return quickly_still_apart(n, end, seen_m) == QuickAnswer::kYes;
   };
   return are_apart(a.end, b.end) && are_apart(a.end, b.start) && are_apart(a.start, b.end);

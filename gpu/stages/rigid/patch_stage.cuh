@@ -4,12 +4,12 @@
 
 #include "core/contact.hpp"
 #include "core/method/rigid/end_patches.hpp"
+#include "core/method/rigid/hull_manifold.hpp"
+#include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "core/method/rigid/pushed_motion.hpp"
-#include "core/method/rigid/quick_boxes.hpp"
-#include "core/method/rigid/quick_hulls.hpp"
 #include "core/method/rigid/sweep.hpp"
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
@@ -38,26 +38,29 @@ __device__ inline core::NearReach near_reach(const ContactView& f, core::Pair pa
   return {f.fall_m[pair.i] + f.fall_m[pair.j], f.pushers[pair.i].pushed.v, f.pushers[pair.j].pushed.v};
 }
 
-// Whether a patch leads to no contact in this step.
+// Whether a patch leads to no contact in this step. Unknown where these lanes leave the pair.
 template <typename Lanes>
-__device__ bool is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found) {
+__device__ core::QuickAnswer is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found) {
   const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
   const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
   const core::ContactPath path_a = path_of(f, pair.i);
   const core::ContactPath path_b = path_of(f, pair.j);
-  if (Lanes::kKnowsLongShapes && f.follows_ways && are_followed(f, pair)) {
+  if (Lanes::kKnowsLongShapes && !Lanes::kLeavesHardPairs && f.follows_ways && are_followed(f, pair)) {
     const core::SweptWay way_a = core::free_way(path_a, a.balls.outer_m);
     const core::SweptWay way_b = core::free_way(path_b, b.balls.outer_m);
     const float thin_m = thinner_m(f, pair);
     if (core::moves_far(core::length_of(way_a), core::length_of(way_b), thin_m))
       return core::misses_patch<Lanes>(found, a.contact, way_a, b.contact, way_b, f.fall_m[pair.i] + f.fall_m[pair.j],
-                                       thin_m);
+                                       thin_m)
+                 ? core::QuickAnswer::kYes
+                 : core::QuickAnswer::kNo;
   }
-  return core::passes_by<Lanes>(found, a.contact, path_a, b.contact, path_b, f.reach_m[pair.i] + f.reach_m[pair.j],
-                                core::near_m(found.normal, near_reach(f, pair)));
+  return core::whether_passes_by<Lanes>(found, a.contact, path_a, b.contact, path_b,
+                                        f.reach_m[pair.i] + f.reach_m[pair.j],
+                                        core::near_m(found.normal, near_reach(f, pair)));
 }
 
-// Returns how many patches the pair has. known: gaps of two hulls, or null.
+// Returns how many patches the pair has; kLeft where these lanes leave it. known: gaps of two hulls, or null.
 template <typename Lanes>
 __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found,
                             const core::KnownGaps* known = nullptr) {
@@ -69,9 +72,13 @@ __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifol
   const float reach_m = f.reach_m[pair.i] + f.reach_m[pair.j];
   const int count = core::make_manifolds<Lanes>(a, path_a.start, b, path_b.start, reach_m, found,
                                                 known != nullptr ? &known->start : nullptr);
+  if (count == core::kLeft) return core::kLeft;
   int kept = 0;
-  for (int k = 0; k < count; ++k)
-    if (!is_passing<Lanes>(f, pair, found[k])) found[kept++] = found[k];
+  for (int k = 0; k < count; ++k) {
+    const core::QuickAnswer passes = is_passing<Lanes>(f, pair, found[k]);
+    if (passes == core::QuickAnswer::kUnknown) return core::kLeft;
+    if (passes == core::QuickAnswer::kNo) found[kept++] = found[k];
+  }
   const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
   return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept, known);
 }
@@ -96,27 +103,40 @@ __device__ int touch_face(const ContactView& f, std::uint32_t body, std::uint32_
                                       count);
 }
 
-// By one lane: drops pairs that a few bounds decide, so that no warp makes patches of a pair that has none.
+// By one lane: drops pairs that a few bounds decide, so that nobody makes patches of a pair that has none. gaps: what
+// is known of those that stay.
 template <typename Lanes>
-__device__ bool may_touch(const ContactView& f, core::Pair pair) {
+__device__ bool may_touch(const ContactView& f, core::Pair pair, core::KnownGaps& gaps) {
+  if (is_idle(f, pair.i) && is_idle(f, pair.j)) return false;
+  if (Lanes::kKnowsLongShapes && f.follows_ways && are_followed(f, pair)) return true;
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
-  return !core::surely_passes<Lanes>(a, path_of(f, pair.i), b, path_of(f, pair.j),
-                                     f.reach_m[pair.i] + f.reach_m[pair.j], near_reach(f, pair));
+  const core::PairAhead ahead{f.reach_m[pair.i] + f.reach_m[pair.j], near_reach(f, pair),
+                              f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w, true};
+  return !core::surely_passes<Lanes>(a, path_of(f, pair.i), b, path_of(f, pair.j), ahead, gaps);
 }
 
-// Confirmed pairs that may touch get a list of their own; otherwise lanes whose pairs do not touch would wait for the
-// others.
+// Confirmed pairs that may touch get lists of their own; otherwise lanes whose pairs do not touch would wait for the
+// others. Hulls that are clearly apart take another way than those that overlap, so they lie apart.
 template <typename Lanes, typename Team>
 __device__ void list_near_pairs(const Team& team, const ContactView& f) {
   constexpr bool kIsSpread = Lanes::kKnowsLongShapes;
   each_item_by_warps(team, f.counts->confirmed, kIsSpread, [&](std::uint64_t k, bool is_item) {
     const core::Pair pair = is_item ? f.confirmed.items[k] : core::Pair{};
-    bool is_near = is_item && !(is_idle(f, pair.i) && is_idle(f, pair.j));
-    if (is_near && !(Lanes::kKnowsLongShapes && f.follows_ways && are_followed(f, pair)))
-      is_near = may_touch<Lanes>(f, pair);
-    const std::uint64_t place = warp_append_one(is_near, &f.counts->near);
-    if (is_near) f.near[place] = pair;
+    core::KnownGaps gaps;
+    const bool is_near = is_item && may_touch<Lanes>(f, pair, gaps);
+    const bool are_hulls = Lanes::kKnowsLongShapes && is_near && gaps.are_known;
+    const std::uint64_t place = warp_append_one(is_near && !are_hulls, &f.counts->near);
+    if (is_near && !are_hulls) f.near[place] = {pair, kNoGaps};
+    if constexpr (Lanes::kKnowsLongShapes) {
+      const bool are_apart = are_hulls && gaps.start.gap.least_m > 0.0F;
+      const std::uint64_t from_begin = warp_append_one(are_hulls && !are_apart, &f.counts->near_hulls);
+      const std::uint64_t from_end = warp_append_one(are_apart, &f.counts->apart_hulls);
+      if (!are_hulls) return;
+      const std::uint64_t at = are_apart ? f.confirmed.capacity - 1 - from_end : from_begin;
+      f.hulls[at] = pair;
+      f.hull_gaps[at] = gaps;
+    }
   });
 }
 
@@ -131,7 +151,7 @@ __device__ void make_short_patches(const Team& team, const ContactView& f) {
     core::Manifold found[core::kPatchesOfPair];
     const bool is_pair = is_item && k < near;
     if (__any_sync(kFullWarp, is_pair)) {
-      const core::Pair pair = is_pair ? f.near[k] : core::Pair{};
+      const core::Pair pair = is_pair ? f.near[k].pair : core::Pair{};
       add_patches(f, pair.i, pair.j, found, is_pair ? touch_bodies<Lanes>(f, pair, found) : 0);
     }
     const bool is_body = is_item && !is_pair;
@@ -152,44 +172,47 @@ __device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body)
   return may;
 }
 
-// By one lane: lanes cannot share a search for a distance, but each can do one.
-__device__ inline bool find_gaps(const ContactView& f, core::Pair pair, core::KnownGaps& gaps) {
-  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
-  const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
-  if (!core::has_quick_answers(a, b)) return false;
-  gaps = core::known_gaps(a, path_of(f, pair.i), b, path_of(f, pair.j));
-  return true;
+// Patches of pairs of hulls, a lane a pair; what lanes leave is added to the other near pairs.
+template <typename Team>
+__device__ void make_hull_patches(const Team& team, const ContactView& f) {
+  const std::uint64_t near = f.counts->near_hulls;
+  each_item_by_warps(team, near + f.counts->apart_hulls, true, [&](std::uint64_t k, bool is_item) {
+    const std::uint64_t at = k < near ? k : f.confirmed.capacity - 1 - (k - near);
+    core::Pair pair;
+    core::Manifold found[core::kPatchesOfPair];
+    int count = 0;
+    if (is_item) {
+      pair = f.hulls[at];
+      count = touch_bodies<core::OneLaneOfHulls>(f, pair, found, &f.hull_gaps[at]);
+    }
+    const bool is_left = count == core::kLeft;
+    const std::uint64_t place = warp_append_one(is_left, &f.counts->near);
+    if (is_left) f.near[place] = {pair, static_cast<std::uint32_t>(at)};
+    add_patches(f, pair.i, pair.j, found, is_left ? 0 : count);
+  });
 }
 
-// The same for any shapes, a warp a pair. Its lanes share the loops over corners, edges, faces and triangles, and the
-// code is fetched once for all of them. First each lane finds out, for an item of its own, whether it has any patches,
-// and how far apart two hulls are.
+// The same for any shapes. Of finely cut hulls each lane makes the patches of a pair. Of what is left a warp makes
+// those of one pair, or of one body at faces: its lanes share the loops over corners, edges, faces and triangles, and
+// the code is fetched once for all of them.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
   list_near_pairs<core::OneLane>(team, f);
   team.sync();
+  make_hull_patches(team, f);
+  team.sync();
   const std::uint64_t near = f.counts->near;
-  core::Pair own;
-  core::KnownGaps own_gaps;
-  bool has_gaps = false;
   const auto prepare = [&](std::uint64_t k, bool is_item) {
-    has_gaps = false;
-    if (!is_item) return false;
-    if (k >= near) return may_touch_faces(f, static_cast<std::uint32_t>(k - near));
-    own = f.near[k];
-    has_gaps = find_gaps(f, own, own_gaps);
-    return true;
+    return is_item && (k < near || may_touch_faces(f, static_cast<std::uint32_t>(k - near)));
   };
   each_item_in_step(team, near + f.body_count, prepare, [&](std::uint64_t own_k, unsigned of) {
     const std::uint64_t k = __shfl_sync(kFullWarp, own_k, of);
     core::Manifold found[core::kPatchesOfPair];
     if (k < near) {
-      const core::Pair pair{__shfl_sync(kFullWarp, own.i, of), __shfl_sync(kFullWarp, own.j, of)};
-      const bool are_known = __shfl_sync(kFullWarp, has_gaps ? 1 : 0, of) != 0;
-      core::KnownGaps gaps;
-      if (are_known) gaps = of_lane(own_gaps, of);
-      const int count = touch_bodies<WarpLanes>(f, pair, found, are_known ? &gaps : nullptr);
-      add_patches(f, pair.i, pair.j, found, lane() == 0 ? count : 0);
+      const NearPair own = f.near[k];
+      const int count =
+          touch_bodies<WarpLanes>(f, own.pair, found, own.gaps == kNoGaps ? nullptr : &f.hull_gaps[own.gaps]);
+      add_patches(f, own.pair.i, own.pair.j, found, lane() == 0 ? count : 0);
       return;
     }
     const auto body = static_cast<std::uint32_t>(k - near);

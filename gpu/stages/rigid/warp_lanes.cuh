@@ -50,6 +50,7 @@ struct LaneShares {
 
 struct WarpLanes {
   static constexpr bool kKnowsLongShapes = true;
+  static constexpr bool kLeavesHardPairs = false;
   static constexpr int kLeaf = core::OneLane::kLeaf;
 
   template <typename Value>

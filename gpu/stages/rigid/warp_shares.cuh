@@ -8,6 +8,12 @@
 
 namespace broadside::gpu {
 
+// How many items each warp takes at once, 32 at most, so that all warps have as many in as few rounds as can be.
+__device__ inline std::uint64_t even_share(std::uint64_t items, std::uint64_t warps) {
+  const std::uint64_t rounds = max((items + 32 * warps - 1) / (32 * warps), std::uint64_t{1});
+  return (items + rounds * warps - 1) / (rounds * warps);
+}
+
 // Calls work(k, is_item) by whole warps, for all items; where is_item is false k is no item. is_spread: each warp gets
 // as few items as can be, so that few items are spread over all warps. Not for short items: more warps then fetch the
 // code, which takes longer than the wait.
@@ -15,7 +21,7 @@ template <typename Team, typename Work>
 __device__ __forceinline__ void each_item_by_warps(const Team& team, std::uint64_t items, bool is_spread,
                                                    const Work& work) {
   const std::uint64_t warps = team.size() / 32;
-  const std::uint64_t at_once = is_spread ? min((items + warps - 1) / warps, std::uint64_t{32}) : 32;
+  const std::uint64_t at_once = is_spread ? even_share(items, warps) : 32;
   for (std::uint64_t first = team.spread_rank() / 32 * at_once; first < items; first += warps * at_once) {
     const std::uint64_t k = first + lane();
     work(k, lane() < at_once && k < items);
@@ -29,7 +35,7 @@ template <typename Team, typename Prepare, typename Work>
 __device__ __forceinline__ void each_item_in_step(const Team& team, std::uint64_t items, const Prepare& prepare,
                                                   const Work& work) {
   const std::uint64_t warps = team.size() / 32;
-  const std::uint64_t at_once = min((items + warps - 1) / warps, std::uint64_t{32});
+  const std::uint64_t at_once = even_share(items, warps);
   for (std::uint64_t round = 0; round * warps * at_once < items; ++round) {
     const std::uint64_t k = (round * warps + team.spread_rank() / 32) * at_once + lane();
     unsigned with = __ballot_sync(kFullWarp, prepare(k, lane() < at_once && k < items));

@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "core/method/rigid/end_patches.hpp"
+#include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
-#include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/sweep.hpp"
 
 namespace broadside::reference {
@@ -44,13 +44,10 @@ core::NearReach near_reach(const core::RigidBodies& bodies, core::Pair pair) {
   return {bodies.fall_m[i] + bodies.fall_m[j], bodies.pushed[i], bodies.pushed[j]};
 }
 
-// Whether no patch of the pair leads to a contact in this step; found out without making the patches.
-bool surely_passes(const core::RigidBodies& bodies, core::Pair pair) {
+core::PairAhead ahead_of(const core::RigidBodies& bodies, core::Pair pair) {
   const auto [i, j] = pair;
-  const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
-  const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
-  return core::surely_passes(a, bodies.path(i), b, bodies.path(j), bodies.reach_m[i] + bodies.reach_m[j],
-                             near_reach(bodies, pair));
+  return {bodies.reach_m[i] + bodies.reach_m[j], near_reach(bodies, pair), bodies.swing_m[i] + bodies.swing_m[j],
+          !bodies.are_followed(pair)};
 }
 
 }  // namespace
@@ -91,17 +88,19 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
   fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
     const auto [i, j] = confirmed[k];
     if (is_idle(i) && is_idle(j)) return;
-    if (!bodies.are_followed(confirmed[k]) && surely_passes(bodies, confirmed[k])) return;
     core::Manifold found[core::kPatchesOfPair];
     const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
     const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
-    const int count =
-        core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), bodies.reach_m[i] + bodies.reach_m[j], found);
+    const core::PairAhead ahead = ahead_of(bodies, confirmed[k]);
+    core::KnownGaps gaps;
+    if (core::surely_passes(a, bodies.path(i), b, bodies.path(j), ahead, gaps)) return;
+    const core::KnownGaps* const known = gaps.are_known ? &gaps : nullptr;
+    const int count = core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), ahead.reach_m, found,
+                                           known != nullptr ? &known->start : nullptr);
     int kept = 0;
     for (int n = 0; n < count; ++n)
       if (!is_passing(bodies, confirmed[k], found[n])) found[kept++] = found[n];
-    kept =
-        core::add_end_patches(a, bodies.path(i), b, bodies.path(j), bodies.swing_m[i] + bodies.swing_m[j], found, kept);
+    kept = core::add_end_patches(a, bodies.path(i), b, bodies.path(j), ahead.swing_m, found, kept, known);
     for (int n = 0; n < kept; ++n) block.push_back({i, j, found[n]});
   });
 }

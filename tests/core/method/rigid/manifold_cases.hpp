@@ -86,6 +86,7 @@ inline Subject hull(const Mesh& mesh) {
                     tables->corners.data(),
                     tables->edges.data(),
                     tables->ways.data(),
+                    tables->guide.data(),
                     tables->beyond.data(),
                     static_cast<std::uint32_t>(tables->vertices.size()),
                     static_cast<std::uint32_t>(tables->faces.size()),

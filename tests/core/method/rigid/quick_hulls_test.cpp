@@ -115,7 +115,10 @@ TEST(QuickHulls, KnownGapsChangeNoPatch) {
     const Meeting m = meeting(draw);
     const ContactShape& a = m.a.shape;
     const ContactShape& b = m.b.shape;
-    const KnownGaps gaps = known_gaps(a, m.path_a, b, m.path_b);
+    KnownGaps gaps;
+    const PairAhead ahead{.reach_m = m.reach_m, .near = {}, .swing_m = 1.0F, .may_pass = false};
+    ASSERT_FALSE(surely_passes(a, m.path_a, b, m.path_b, ahead, gaps));
+    ASSERT_TRUE(gaps.are_known);
     Manifold plain[kPatchesOfPair];
     Manifold known[kPatchesOfPair];
     const int count = make_manifolds(a, m.path_a.start, b, m.path_b.start, m.reach_m, plain);
@@ -158,7 +161,9 @@ TEST(QuickHulls, TellWhatPatchesTell) {
     path_b.end = {path_b.start.x + draw.in_cube(0.1F), path_b.start.q};
     const float reach_m = length(path_a.end.x - path_a.start.x) + length(path_b.end.x - path_b.start.x);
     const float near_m = 0.01F * static_cast<float>(draw.below(4));
-    const bool surely = surely_pass(a.shape, path_a, b.shape, path_b, reach_m, {near_m, {}, {}});
+    const PairAhead ahead{.reach_m = reach_m, .near = {near_m, {}, {}}, .swing_m = 0.0F};
+    KnownGaps gaps;
+    const bool surely = surely_passes(a.shape, path_a, b.shape, path_b, ahead, gaps);
     told += surely ? 1 : 0;
     Manifold start[kPatchesOfPair];
     const int count = make_manifolds(a.shape, path_a.start, b.shape, path_b.start, reach_m, start);
