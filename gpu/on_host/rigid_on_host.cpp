@@ -24,6 +24,10 @@ core::Result<LaunchShape> contact_launch_shape() {
   return LaunchShape{kThreads, kBlocks, 0, kBlocks};
 }
 
+core::Result<LaunchShape> near_contact_launch_shape() {
+  return contact_launch_shape();
+}
+
 core::Result<LaunchShape> long_contact_launch_shape() {
   return contact_launch_shape();
 }
@@ -42,12 +46,17 @@ core::Status launch_place(const RigidFrameView& frame, const LaunchShape& /*shap
 }
 
 core::Status launch_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_contacts<false>(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_short_contacts(frame); });
+  return core::Done{};
+}
+
+core::Status launch_near_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_near_contacts(frame); });
   return core::Done{};
 }
 
 core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& /*shape*/, StreamHandle /*stream*/) {
-  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_contacts<true>(frame); });
+  on_host::run({{kBlocks}, {kThreads}, on_host::order_seed()}, 0, [&](unsigned char*) { run_long_contacts(frame); });
   return core::Done{};
 }
 

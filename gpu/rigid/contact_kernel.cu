@@ -13,7 +13,7 @@ constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
     contact_kernel(const __grid_constant__ ContactView frame) {
-  run_contacts<false>(frame);
+  run_short_contacts(frame);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The launches that find the contacts of turning bodies: contact_kernel.cu and
+// The launches that find the contacts of turning bodies: contact_kernel.cu, near_contact_kernel.cu and
 // long_contact_kernel.cu implement them on CUDA, on_host/rigid_on_host.cpp with fibers.
 #pragma once
 
@@ -10,12 +10,14 @@
 namespace broadside::gpu {
 
 core::Result<LaunchShape> contact_launch_shape();
+core::Result<LaunchShape> near_contact_launch_shape();
 core::Result<LaunchShape> long_contact_launch_shape();
 
 // Body-octree levels and patches of contact, after the broad phase. Asynchronous. Does nothing if the frame has no
 // pairs.
 core::Status launch_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
-// The same, for frames with frame.has_long_contacts or frame.follows_ways.
+// The same in two launches, for frames with frame.has_long_contacts or frame.follows_ways.
+core::Status launch_near_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
 core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
 
 }  // namespace broadside::gpu

@@ -1,5 +1,5 @@
-// The kernel that compiles the code of all shapes. It finds contacts where shapes are hulls or meshes or where ways are
-// followed, and it stops fast bodies short.
+// The kernel that compiles the code of all shapes. It finds the contacts that near_contact_kernel.cu leaves, and it
+// stops fast bodies short.
 #include <algorithm>
 #include <cstdint>
 
@@ -32,7 +32,7 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
   if (launched.task == LongTask::kStopShort)
     run_stop_short(launched.view);
   else
-    run_contacts<true>(launched.view.bodies);
+    run_long_contacts(launched.view.bodies);
 }
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)

@@ -15,9 +15,10 @@
 
 namespace broadside::gpu {
 
-// A frame is four launches beside its broad phase, six where bodies sleep; all are asynchronous. Each is a kernel of
-// its own, so that none has the registers of another. A kernel does nothing when it finds that the frame is aborted;
-// the solver's kernel then tells the host.
+// A frame is four launches beside its broad phase, one more where shapes are hulls or meshes or where ways are
+// followed, two more where bodies sleep; all are asynchronous. Each is a kernel of its own, so that none has the
+// registers of another. A kernel does nothing when it finds that the frame is aborted; the solver's kernel then tells
+// the host.
 
 core::Result<LaunchShape> constraint_launch_shape();
 

@@ -39,6 +39,7 @@ struct RigidPipeline::Impl {
   Mapped<RigidOutcome, 1> outcome;
   PairsShape pairs_launch;
   LaunchShape contact_shape;
+  LaunchShape near_contact_shape;
   LaunchShape constraint_shape;
   SolveShape solve_shape;
   LaunchShape sleep_shape;
@@ -69,6 +70,7 @@ struct RigidPipeline::Impl {
   core::Status refit(const RigidCounts& counts);
   void fill();
   core::Status run_part();
+  [[nodiscard]] bool has_two_contact_launches() const { return view.has_long_contacts || view.follows_ways; }
   core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
@@ -172,10 +174,12 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBody * n), "pairs"));
   d.view.has_long_contacts = has_hulls || some_are(core::ContactKind::kMesh);
   d.view.follows_ways = !d.bodies.is_swept.empty();
-  auto contact_shape =
-      d.view.has_long_contacts || d.view.follows_ways ? long_contact_launch_shape() : contact_launch_shape();
+  auto contact_shape = d.has_two_contact_launches() ? long_contact_launch_shape() : contact_launch_shape();
   if (!contact_shape.ok()) return contact_shape.error();
   d.contact_shape = contact_shape.value();
+  auto near_contact_shape = near_contact_launch_shape();
+  if (!near_contact_shape.ok()) return near_contact_shape.error();
+  d.near_contact_shape = near_contact_shape.value();
   auto constraint_shape = constraint_launch_shape();
   if (!constraint_shape.ok()) return constraint_shape.error();
   d.constraint_shape = constraint_shape.value();
@@ -229,8 +233,10 @@ void RigidPipeline::Impl::fill() {
 }
 
 core::Status RigidPipeline::Impl::launch_contacts_of_scene() {
-  if (view.has_long_contacts || view.follows_ways) return launch_long_contacts(view, contact_shape, stream);
-  return launch_contacts(view, contact_shape, stream);
+  if (!has_two_contact_launches()) return launch_contacts(view, contact_shape, stream);
+  ++launches;
+  BROADSIDE_TRY(launch_near_contacts(view, near_contact_shape, stream));
+  return launch_long_contacts(view, contact_shape, stream);
 }
 
 core::Status RigidPipeline::Impl::launch_all() {

@@ -20,7 +20,7 @@ enum class ContactKind : std::uint32_t { kSphere, kCapsule, kBox, kCylinder, kHu
 // A face of a hull has at most this many corners; a larger face is stored as several faces in one plane.
 inline constexpr int kFaceCorners = 16;
 
-struct HullFace {
+struct alignas(16) HullFace {
   Vec3 normal;            // unit, outward, body axes
   float offset_m = 0.0F;  // of the plane, from the mesh's origin along the normal
   std::uint32_t first_corner = 0;

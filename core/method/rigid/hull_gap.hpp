@@ -39,6 +39,9 @@ struct NearestOfHulls {
   NearestCorners corners;
 };
 
+// Nearer than so many allowances for rounding a direction between points may be mostly rounding.
+inline constexpr float kClearlyApartRoundings = 4.0F;
+
 struct PlacedHull {
   HullView hull;
   Vec3 center;

@@ -20,11 +20,8 @@ namespace broadside::core {
 
 namespace hull_detail {
 
-// Nearer than so many allowances for rounding a direction between points may be mostly rounding.
-inline constexpr float kClearlyApart = 4.0F;
-
 BROADSIDE_HD bool are_clearly_apart(const NearestOfHulls& near, float rounding_m) {
-  return near.corners.count > 0 && near.gap.least_m > kClearlyApart * rounding_m &&
+  return near.corners.count > 0 && near.gap.least_m > kClearlyApartRoundings * rounding_m &&
          near.gap.most_m - near.gap.least_m <= rounding_m;
 }
 
@@ -58,7 +55,8 @@ BROADSIDE_HD NearestPoints points_of(const Hull& a, const Hull& b, const Nearest
 template <typename Hull>
 BROADSIDE_HD float gap_over_face(const Hull& reference, const Hull& other, int face) {
   const Vec3 out = reference.face_normal(face);
-  return other.least_at(lowest_corner(other, out), out) - reference.face_height(face);
+  const auto lowest = static_cast<int>(lowest_along(other.hull, other.local(out)));
+  return other.least_at(lowest, out) - reference.face_height(face);
 }
 
 // The axis of hulls that are apart by least_m along n, and hardly farther along any other direction. Like
@@ -88,8 +86,7 @@ BROADSIDE_HD void hull_manifold(HullPolytopeOf<Lanes> a, const HullPolytopeOf<La
   NearestOfHulls near;
   NearestPoints points;
   bool is_near = false;
-  // Hulls whose depth is asked for overlap, and have no nearest points.
-  if (has_many_edges(a, b) && reach_m > 0.0F) {
+  if (has_many_edges(a, b)) {
     near = nearest_of(a, b, rounding_m);
     a.known_gap = &near;
     is_near = hull_detail::are_clearly_apart(near, rounding_m);

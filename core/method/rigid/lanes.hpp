@@ -146,6 +146,12 @@ struct OneLane {
         if (has(from)) items[count++] = make(from);
       return from;
     }
+    // Each lane calls change(item) for those that it holds.
+    template <typename Change>
+    BROADSIDE_HD void each_own(const Change& change) {
+      BROADSIDE_KEPT_LOOP
+      for (int k = 0; k < count; ++k) change(items[k]);
+    }
     // The place of the first item of the least value, as OneLane::first_least, and what is at a place.
     template <typename Value>
     BROADSIDE_HD FirstLeast first_least(const Value& value) const {
@@ -167,8 +173,8 @@ struct OneLaneOfShortShapes : OneLane {
   static constexpr bool kKnowsLongShapes = false;
 };
 
-// One lane of many, each with a pair of hulls. Where loops over all edges are asked for, it leaves the pair to lanes that
-// share them: the others would wait for it.
+// One lane of many, each with a pair of hulls. Where loops over all edges are asked for, it leaves the pair to lanes
+// that share them: the others would wait for it.
 struct OneLaneOfHulls : OneLane {
   static constexpr bool kLeavesHardPairs = true;
 };

@@ -66,21 +66,49 @@ struct Around {
   float most_m = 0.0F;       // faces under which the point is deeper do not matter
 
   BROADSIDE_HD float depth(int face) const { return -hull.height_over(face, point); }
-  BROADSIDE_HD bool matters(int face) const { return depth(face) <= most_m; }
   BROADSIDE_HD std::uint32_t lowest(Vec3 direction, std::uint32_t from) const {
     return climb_down(hull.hull, hull.local(direction), from);
   }
 };
 
+struct NearFace {
+  int face = 0;
+  float depth_m = 0.0F;         // of the point under it
+  float gap_m = -3.402823e38F;  // to the other hull, once it is measured
+};
+
 template <typename Hull>
-BROADSIDE_HD Around<Hull> around(const Hull& hull, const CommonPoint& p, std::uint32_t corner, float rounding_m) {
-  Around<Hull> out{hull, hull.local_point(p.x), corner};
-  const FirstLeast least = Hull::Lanes::first_least(hull.face_count(), [&](int k) { return out.depth(k); });
-  out.nearest = least.item;
+using NearFaces = typename Hull::Lanes::template Handful<NearFace>;
+
+// The faces under which the point is no deeper than most_m; false: there is none, or may be more than there is room
+// for.
+template <typename Hull>
+BROADSIDE_HD_CALLED bool find_near_faces(const Around<Hull>& body, float most_m, NearFaces<Hull>& found) {
+  (void)found.fill_with(
+      0, body.hull.face_count(), [&](int k) { return body.depth(k) <= most_m; },
+      [&](int k) {
+        return NearFace{k, body.depth(k)};
+      });
+  return found.count > 0 && found.count < kMostNearFaces;
+}
+
+template <typename Hull>
+BROADSIDE_HD void note_nearest(Around<Hull>& body, NearFace nearest, float off_m, float rounding_m) {
+  body.nearest = nearest.face;
   // Near a sharp corner a point that is outside by a hair is farther from the hull than from each plane, but no farther
   // than from the sum of corners.
-  out.inside_m = least.value > rounding_m ? least.value - rounding_m : -(p.off_m + rounding_m);
-  return out;
+  body.inside_m = nearest.depth_m > rounding_m ? nearest.depth_m - rounding_m : -(off_m + rounding_m);
+}
+
+template <typename Hull>
+BROADSIDE_HD NearFace nearest_of(const NearFaces<Hull>& near) {
+  return near.at(near.first_least([](const NearFace& f) { return f.depth_m; }).item);
+}
+
+template <typename Hull>
+BROADSIDE_HD NearFace nearest_of_all(const Around<Hull>& body) {
+  const FirstLeast least = Hull::Lanes::first_least(body.hull.face_count(), [&](int k) { return body.depth(k); });
+  return {least.item, least.value};
 }
 
 // By one lane: how far the other hull is in front of a face.
@@ -91,35 +119,24 @@ BROADSIDE_HD float gap_over(const Around<Hull>& reference, const Around<Hull>& o
   return other.hull.least_at(lowest, out) - reference.hull.face_height(face);
 }
 
-struct MeasuredFace {
-  int face = 0;
-  float gap_m = 0.0F;
-};
-
+// Measures the faces that matter, and returns the one with the widest gap.
 template <typename Hull>
-using NearFaces = typename Hull::Lanes::template Handful<MeasuredFace>;
-
-// Those that matter, and the one with the widest gap; false: there may be more than there is room for.
-template <typename Hull>
-BROADSIDE_HD_CALLED bool find_near_faces(const Around<Hull>& reference, const Around<Hull>& other,
-                                         NearFaces<Hull>& found, MeasuredFace& best) {
-  (void)found.fill_with(
-      0, reference.hull.face_count(), [&](int k) { return reference.matters(k); },
-      [&](int k) {
-        return MeasuredFace{k, gap_over(reference, other, k)};
-      });
-  const FirstLeast least = found.first_least([](const MeasuredFace& f) { return -f.gap_m; });
-  best = found.at(least.item);
-  return found.count > 0 && found.count < kMostNearFaces;
+BROADSIDE_HD_CALLED NearFace widest_of(const Around<Hull>& reference, const Around<Hull>& other,
+                                       NearFaces<Hull>& near) {
+  near.each_own([&](NearFace& f) {
+    if (f.depth_m <= reference.most_m) f.gap_m = gap_over(reference, other, f.face);
+  });
+  return near.at(near.first_least([](const NearFace& f) { return -f.gap_m; }).item);
 }
 
-// Of the faces near the point the one that looks along a direction most.
+// Of the faces that were measured the one that looks along a direction most.
 template <typename Hull>
 BROADSIDE_HD int facing(const Hull& hull, const NearFaces<Hull>& near, Vec3 direction) {
   const Vec3 local = hull.local(direction);
-  return near
-      .at(near.first_least([&](const MeasuredFace& f) { return -dot(hull.hull.faces[f.face].normal, local); }).item)
-      .face;
+  const auto turned_away = [&](const NearFace& f) {
+    return f.gap_m > -3.0e38F ? -dot(hull.hull.faces[f.face].normal, local) : 3.402823e38F;
+  };
+  return near.at(near.first_least(turned_away).item).face;
 }
 
 // Edges of the faces that matter, each once, by numbers of (face, side).
@@ -131,8 +148,8 @@ struct NearEdges {
   int sides = 0;  // of the face with the most
 
   BROADSIDE_HD NearEdges(const Around<Hull>& around, const NearFaces<Hull>& near) : body(around) {
-    near.each_in_turn([&](const MeasuredFace& f) { return body.matters(f.face); },
-                      [&](const MeasuredFace& f) {
+    near.each_in_turn([&](const NearFace& f) { return f.depth_m <= body.most_m; },
+                      [&](const NearFace& f) {
                         const int own = body.hull.face_corner_count(f.face);
                         sides = own > sides ? own : sides;
                         faces[face_count++] = f.face;
@@ -144,7 +161,7 @@ struct NearEdges {
     const int side = k % sides;
     if (side >= body.hull.face_corner_count(face)) return false;
     const int other = beyond(face, side);
-    return !(other < face && body.matters(other));
+    return !(other < face && body.depth(other) <= body.most_m);
   }
   [[nodiscard]] BROADSIDE_HD axes_detail::PlacedEdge make(int k) const {
     const int face = faces[k / sides];
@@ -207,32 +224,42 @@ BROADSIDE_HD_CALLED SeparatingAxis axis_of_edges(const NearEdges<Hull>& near_a, 
 
 }  // namespace overlap_detail
 
-// near: exact_hull_gap of hulls that have ways. False where it has no point that both have, or too many faces are near
-// that: then axis is not told. As separating_axis does it takes a face where that is as wide but for rounding, of A
-// before of B.
+// near: exact_hull_gap of hulls that have ways and are not clearly apart. False where it has no point that both have,
+// or too many faces are near that: then axis is not told. As separating_axis does it takes a face where that is as wide
+// but for rounding, of A before of B.
 template <typename Hull>
 BROADSIDE_HD_CALLED bool overlap_axis(const Hull& a, const Hull& b, const NearestOfHulls& near, float rounding_m,
                                       SeparatingAxis& axis) {
   using namespace overlap_detail;
-  if (near.corners.count == 0 || near.gap.least_m > 0.0F) return false;
+  if (near.corners.count == 0 || near.gap.least_m > kClearlyApartRoundings * rounding_m) return false;
   const CommonPoint p = common_point(a, b, near.corners);
   if (!(p.off_m < 3.0e38F)) return false;  // weights of a sliver may be anything
-  Around<Hull> in_a = around(a, p, near.corners.of_a[0], rounding_m);
-  Around<Hull> in_b = around(b, p, near.corners.of_b[0], rounding_m);
+  // The bodies overlap no more than along the axis of the search for the point, so no face that is deeper than that
+  // matters.
+  const float first_m = -near.gap.least_m;
+  const float farthest_m = first_m + p.off_m + 3.0F * rounding_m;
+  Around<Hull> in_a{a, a.local_point(p.x), near.corners.of_a[0]};
+  Around<Hull> in_b{b, b.local_point(p.x), near.corners.of_b[0]};
+  NearFaces<Hull> faces_a;
+  NearFaces<Hull> faces_b;
+  const bool are_few = find_near_faces(in_a, farthest_m, faces_a) && find_near_faces(in_b, farthest_m, faces_b);
+  note_nearest(in_a, are_few ? nearest_of<Hull>(faces_a) : nearest_of_all(in_a), p.off_m, rounding_m);
+  note_nearest(in_b, are_few ? nearest_of<Hull>(faces_b) : nearest_of_all(in_b), p.off_m, rounding_m);
   const auto keep_to = [&](float overlap_m) {
     in_a.most_m = (overlap_m - in_b.inside_m) + rounding_m;
     in_b.most_m = (overlap_m - in_a.inside_m) + rounding_m;
   };
-  // The bodies overlap no more than along the axes that are known: of the search for the point, and of two faces.
-  const float first_m = Hull::Lanes::first_least(2, [&](int k) {
-                          return k == 0 ? -gap_over(in_a, in_b, in_a.nearest) : -gap_over(in_b, in_a, in_b.nearest);
-                        }).value;
-  keep_to(fminf(first_m, -near.gap.least_m));
-  NearFaces<Hull> faces_a;
-  NearFaces<Hull> faces_b;
-  MeasuredFace of_a;
-  MeasuredFace of_b;
-  if (!find_near_faces(in_a, in_b, faces_a, of_a) || !find_near_faces(in_b, in_a, faces_b, of_b)) return false;
+  // Nor more than along the axes of the nearest faces.
+  const float of_nearest_m =
+      Hull::Lanes::first_least(2, [&](int k) {
+        return k == 0 ? -gap_over(in_a, in_b, in_a.nearest) : -gap_over(in_b, in_a, in_b.nearest);
+      }).value;
+  keep_to(fminf(of_nearest_m, first_m));
+  if (!are_few && (!find_near_faces(in_a, in_a.most_m, faces_a) || !find_near_faces(in_b, in_b.most_m, faces_b)))
+    return false;
+  const NearFace of_a = widest_of(in_a, in_b, faces_a);
+  const NearFace of_b = widest_of(in_b, in_a, faces_b);
+  if (!(of_a.gap_m > -3.0e38F) || !(of_b.gap_m > -3.0e38F)) return false;  // rounding left none
   axis = {of_a.gap_m, -a.face_normal(of_a.face), AxisKind::kFaceOfA, of_a.face, 0};
   if (of_b.gap_m > of_a.gap_m + rounding_m)
     axis = {of_b.gap_m, b.face_normal(of_b.face), AxisKind::kFaceOfB, 0, of_b.face};

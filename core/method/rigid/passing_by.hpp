@@ -29,7 +29,7 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
 // one went through the other, and where they are too far apart to tell. Unknown where these lanes leave the pair.
 template <typename Lanes>
 BROADSIDE_HD QuickAnswer is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
-                                 const ContactShape& shape_b, const ContactPose& b, float reach_m) {
+                                        const ContactShape& shape_b, const ContactPose& b, float reach_m) {
   if constexpr (Lanes::kKnowsLongShapes)
     if (has_quick_answers(shape_a, shape_b)) {
       const QuickAnswer quick =
@@ -49,7 +49,8 @@ BROADSIDE_HD QuickAnswer is_still_apart(const Manifold& start, const ContactShap
 // where these lanes leave the pair.
 template <typename Lanes>
 BROADSIDE_HD QuickAnswer whether_passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
-                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
+                                           const ContactShape& shape_b, const ContactPath& b, float reach_m,
+                                           float near_m) {
   if (!(least_gap_m(start) > near_m)) return QuickAnswer::kNo;
   if (are_boxes(shape_a, shape_b) && parts_ends(start.normal, shape_a, a, shape_b, b)) return QuickAnswer::kYes;
   const float seen_m = seen_reach_m(reach_m);

@@ -165,7 +165,8 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
   if constexpr (!PolytopeA::kIsSheet && !PolytopeB::kIsSheet) {
     if (has_many_edges(a, b)) {
       TiltedContacts more;
-      tilted_contacts(a, b, out.normal, unit_across(out.normal), faces.of_a, faces.of_b, rounding_m, more);
+      tilted_contacts(a, b, out.normal, unit_across(out.normal), faces.of_a, faces.of_b, rounding_m, reach_m + balls_m,
+                      more);
       return keep_four_by<LanesOf<PolytopeA, PolytopeB>>(
           out, area.count + more.count, reach_m, kTurnOfStep,
           [&](int k) { return at(k < area.count ? area.points[k] : more.points[k - area.count]); },

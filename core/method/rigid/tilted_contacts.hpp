@@ -40,9 +40,10 @@ BROADSIDE_HD int lowest_of(const HullPolytopeOf<Lanes>& p, Vec3 direction) {
 
 // The face through which the line through x along `up` leaves the body on its way up; -1: the line misses the body. The
 // search begins at face `from` and crosses the sides that the line passes. Seen along `up` each crossing leads to where
-// the body is less high, so no face comes twice. Within rounding_m a line counts as over a face.
+// the body is less high, so no face comes twice. Within rounding_m a line counts as over a face. -1 too where x is
+// higher than most_m over the body: it is no higher over the body than over the plane of any face that looks up.
 template <typename Lanes>
-BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m) {
+BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m, float most_m) {
   const HullView& hull = p.hull;
   const Vec3 local = turned_back(p.axes, x - p.center);
   const Vec3 local_up = turned_back(p.axes, up);
@@ -51,11 +52,17 @@ BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Ve
     const HullFace& face = hull.faces[at];
     std::uint32_t next = at;
     bool is_over = true;
+    const float facing = dot(face.normal, local_up);
+    const float outside = dot(face.normal, local) - face.offset_m;
+    if (facing > 0.0F && outside - rounding_m > (most_m + 4.0F * rounding_m) * facing) return -1;
+    Vec3 start = hull.vertices[hull.corners[face.first_corner]];
     for (std::uint32_t k = 0; k < face.corner_count && is_over; ++k) {
       const std::uint32_t of_next = face.first_corner + (k + 1 == face.corner_count ? 0 : k + 1);
-      const Vec3 start = hull.vertices[hull.corners[face.first_corner + k]];
-      const Vec3 side = cross(hull.vertices[hull.corners[of_next]] - start, local_up);
-      if (!(dot(side, local - start) > rounding_m * length(side))) continue;
+      const Vec3 end = hull.vertices[hull.corners[of_next]];
+      const Vec3 side = cross(end - start, local_up);
+      const float beyond = dot(side, local - start);
+      start = end;
+      if (!(beyond > 0.0F) || !(beyond > rounding_m * length(side))) continue;
       is_over = false;
       next = hull.beyond[face.first_corner + k];
     }
@@ -67,7 +74,7 @@ BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Ve
 }
 // Where faces are few all are looked at.
 template <typename Polytope>
-BROADSIDE_HD int face_below(const Polytope& p, int, Vec3 x, Vec3 up, float rounding_m) {
+BROADSIDE_HD int face_below(const Polytope& p, int, Vec3 x, Vec3 up, float rounding_m, float) {
   int entered = -1;
   float entry = -3.402823e38F;
   float exit = 3.402823e38F;
@@ -87,10 +94,12 @@ BROADSIDE_HD int face_below(const Polytope& p, int, Vec3 x, Vec3 up, float round
 }  // namespace tilt_detail
 
 // The height of x, a point of the other body, above this one along the unit direction up; negative inside. False where
-// the line through x misses the body, or meets a face too steep for the height to be a gap. top: a face that looks up.
+// the line through x misses the body, or meets a face too steep for the height to be a gap, and perhaps where the
+// height is more than most_m. top: a face that looks up.
 template <typename Polytope>
-BROADSIDE_HD bool height_above(const Polytope& body, int top, Vec3 x, Vec3 up, float rounding_m, float& height_m) {
-  const int face = tilt_detail::face_below(body, top, x, up, rounding_m);
+BROADSIDE_HD bool height_above(const Polytope& body, int top, Vec3 x, Vec3 up, float rounding_m, float most_m,
+                               float& height_m) {
+  const int face = tilt_detail::face_below(body, top, x, up, rounding_m, most_m);
   if (face < 0) return false;
   const Vec3 n = body.face_normal(face);
   const float facing = dot(n, up);
@@ -103,10 +112,11 @@ struct TiltedContacts {
   ManifoldPoint points[2 * kTilts];
 };
 
-// normal: unit, from B to A. top_of_a and top_of_b: faces that look at the other body.
+// normal: unit, from B to A. top_of_a and top_of_b: faces that look at the other body. Points with a gap of more than
+// most_m may be left out.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED void tilted_contacts(const PolytopeA& a, const PolytopeB& b, Vec3 normal, Vec3 across, int top_of_a,
-                                         int top_of_b, float rounding_m, TiltedContacts& out) {
+                                         int top_of_b, float rounding_m, float most_m, TiltedContacts& out) {
   out.count = 0;
   const Vec3 other = cross(normal, across);
   // The corner of a body that is lowest along a direction, and its height above the other body.
@@ -116,7 +126,7 @@ BROADSIDE_HD_CALLED void tilted_contacts(const PolytopeA& a, const PolytopeB& b,
     const auto name = corner_name(static_cast<std::uint32_t>(corner));
     const Vec3 x = body.corner(corner);
     float gap = 0.0F;
-    if (!height_above(below, top, x, up, rounding_m, gap)) return false;
+    if (!height_above(below, top, x, up, rounding_m, most_m, gap)) return false;
     made = {x - (0.5F * gap) * up, gap, is_a ? feature_key(name, face_name(0)) : feature_key(face_name(0), name)};
     return true;
   };

@@ -10,20 +10,35 @@
 
 namespace broadside::gpu {
 
-// kMayBeLong: shapes may be hulls or meshes (f.has_long_contacts), or ways are followed (f.follows_ways).
-template <bool kMayBeLong>
-__device__ void run_contacts(const ContactView& f) {
-  const GridTeam grid(f.barrier);
+// False where there is nothing to make patches of: the frame will be repeated.
+template <typename Team>
+__device__ bool confirm_first(const Team& grid, const ContactView& f) {
   mark(f, grid.rank() == 0, core::Stage::kBroad);
-  if (lacks_pairs(f)) return;
+  if (lacks_pairs(f)) return false;
   confirm_pairs(grid, f);
   grid.sync();
   mark(f, grid.rank() == 0, core::Stage::kConfirm);
-  if (f.counts->confirmed > f.confirmed.capacity) return;
-  if constexpr (kMayBeLong)
-    make_long_patches(grid, f);
-  else
-    make_short_patches(grid, f);
+  return f.counts->confirmed <= f.confirmed.capacity;
+}
+
+// All of it, where no shape is a hull or a mesh and no ways are followed.
+__device__ inline void run_short_contacts(const ContactView& f) {
+  const GridTeam grid(f.barrier);
+  if (confirm_first(grid, f)) make_short_patches(grid, f);
+}
+
+// Else this first, which knows no shapes but boxes and hulls, and then run_long_contacts.
+__device__ inline void run_near_contacts(const ContactView& f) {
+  const GridTeam grid(f.barrier);
+  if (!confirm_first(grid, f)) return;
+  list_near_pairs<core::OneLane>(grid, f);
+  grid.sync();
+  make_hull_patches(grid, f);
+}
+
+__device__ inline void run_long_contacts(const ContactView& f) {
+  if (lacks_pairs(f) || f.counts->confirmed > f.confirmed.capacity) return;
+  make_long_patches(GridPlaces{}, f);
 }
 
 }  // namespace broadside::gpu

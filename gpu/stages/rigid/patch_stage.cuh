@@ -1,5 +1,5 @@
 // Patches of contact of confirmed pairs, and of bodies at faces of the domain; a thread a pair, a thread a body, or,
-// where shapes are hulls or meshes, a warp. RIGID 8.4.
+// where shapes are meshes, or hulls that need all edges, a warp. RIGID 8.4.
 #pragma once
 
 #include "core/contact.hpp"
@@ -192,15 +192,10 @@ __device__ void make_hull_patches(const Team& team, const ContactView& f) {
   });
 }
 
-// The same for any shapes. Of finely cut hulls each lane makes the patches of a pair. Of what is left a warp makes
-// those of one pair, or of one body at faces: its lanes share the loops over corners, edges, faces and triangles, and
-// the code is fetched once for all of them.
+// Patches of the other near pairs, and of bodies at faces, of any shapes, a warp for each. Its lanes share the loops
+// over corners, edges, faces and triangles, and the code is fetched once for all of them.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
-  list_near_pairs<core::OneLane>(team, f);
-  team.sync();
-  make_hull_patches(team, f);
-  team.sync();
   const std::uint64_t near = f.counts->near;
   const auto prepare = [&](std::uint64_t k, bool is_item) {
     return is_item && (k < near || may_touch_faces(f, static_cast<std::uint32_t>(k - near)));

@@ -240,6 +240,10 @@ struct WarpLanes {
       return from;
     }
 
+    template <typename Change>
+    __device__ void each_own(const Change& change) {
+      if (own_lane() < count) change(own);
+    }
     template <typename Value>
     __device__ core::FirstLeast first_least(const Value& value) const {
       return WarpLanes::first_least(count, [&](int) { return value(own); });

@@ -79,6 +79,30 @@ TEST(HullGap, EnclosesTheDistance) {
   EXPECT_GT(overlapping, 30);
 }
 
+// A search that stopped at a bound ends where one ends that never stopped.
+TEST(HullGap, GoesOnFromABoundToTheSameBits) {
+  Draw draw(31);
+  int unfinished = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Subject a = boulder(draw, 60);
+    Subject b = boulder(draw, 60);
+    a.pose.q = draw.turn();
+    b.pose = {draw.between(0.6F, 1.3F) * normalized(draw.in_cube(1.0F)), draw.turn()};
+    const HullPair pair = hull_pair(a.shape, a.pose, b.shape, b.pose);
+    HullSearch search = begin_search(pair.a, pair.b, {});
+    (void)hull_bounds(pair, search, draw.between(-0.1F, 0.3F));
+    unfinished += search.has_ended ? 0 : 1;
+    const NearestOfHulls gone_on = exact_hull_gap(pair.a, pair.b, search, pair.rounding_m);
+    const NearestOfHulls at_once = exact_hull_gap(pair.a, pair.b, pair.rounding_m);
+    EXPECT_EQ(gone_on.gap.normal, at_once.gap.normal) << trial;
+    EXPECT_EQ(gone_on.gap.least_m, at_once.gap.least_m) << trial;
+    EXPECT_EQ(gone_on.gap.most_m, at_once.gap.most_m) << trial;
+    ASSERT_EQ(gone_on.corners.count, at_once.corners.count) << trial;
+    for (int k = 0; k < gone_on.corners.count; ++k) EXPECT_EQ(gone_on.corners.weights[k], at_once.corners.weights[k]);
+  }
+  EXPECT_GT(unfinished, 50);
+}
+
 // Two boulders that turn and come near each other within a step.
 struct Meeting {
   Subject a;
@@ -111,13 +135,13 @@ TEST(QuickHulls, KnownGapsChangeNoPatch) {
   int patches = 0;
   int passing = 0;
   int added = 0;
-  for (int trial = 0; trial < 200; ++trial) {
+  for (int trial = 0; trial < 400; ++trial) {
     const Meeting m = meeting(draw);
     const ContactShape& a = m.a.shape;
     const ContactShape& b = m.b.shape;
     KnownGaps gaps;
-    const PairAhead ahead{.reach_m = m.reach_m, .near = {}, .swing_m = 1.0F, .may_pass = false};
-    ASSERT_FALSE(surely_passes(a, m.path_a, b, m.path_b, ahead, gaps));
+    const PairAhead ahead{.reach_m = m.reach_m, .near = {}, .swing_m = 1.0F, .may_pass = trial % 2 == 0};
+    if (surely_passes(a, m.path_a, b, m.path_b, ahead, gaps)) continue;
     ASSERT_TRUE(gaps.are_known);
     Manifold plain[kPatchesOfPair];
     Manifold known[kPatchesOfPair];
@@ -136,6 +160,31 @@ TEST(QuickHulls, KnownGapsChangeNoPatch) {
   EXPECT_GT(patches, 50);
   EXPECT_GT(passing, 10);
   EXPECT_GT(added, 10);
+}
+
+// A lane that leaves hard pairs makes the same patches of all others, and leaves few.
+TEST(QuickHulls, ALaneOfHullsLeavesFewPairs) {
+  Draw draw(23);
+  int made = 0;
+  int left = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Meeting m = meeting(draw);
+    const ContactShape& a = m.a.shape;
+    const ContactShape& b = m.b.shape;
+    Manifold all[kPatchesOfPair];
+    Manifold some[kPatchesOfPair];
+    const int count = make_manifolds(a, m.path_a.start, b, m.path_b.start, m.reach_m, all);
+    const int told = make_manifolds<OneLaneOfHulls>(a, m.path_a.start, b, m.path_b.start, m.reach_m, some);
+    left += told == kLeft ? 1 : 0;
+    if (told == kLeft) continue;
+    ASSERT_EQ(told, count) << trial;
+    made += count;
+    if (count > 0) {
+      EXPECT_TRUE(is_same(all[0], some[0])) << trial;
+    }
+  }
+  EXPECT_GT(made, 100);
+  EXPECT_LT(left, 30);
 }
 
 // As is_still_apart says it, by patches alone.
