@@ -158,6 +158,26 @@ BROADSIDE_HD void keep_four_by(Manifold& out, int count, float reach_m, float ti
   four.tell(out);
 }
 
+// The same of candidates of which few are near: make(k) gives number k, whose gap is gap(k). Where more are near than a
+// handful holds, they are made in each round anew.
+template <typename Lanes, typename Gap, typename Make>
+BROADSIDE_HD void keep_four_near(Manifold& out, int count, float reach_m, float tilt, const Gap& gap,
+                                 const Make& make) {
+  constexpr int kMostNear = 32;
+  typename Lanes::template Handful<ManifoldPoint> near;
+  (void)near.fill_with(
+      0, count, [&](int k) { return gap(k) <= reach_m; }, make);
+  if (near.count == kMostNear)
+    return keep_four_by<Lanes>(out, count, reach_m, tilt, make, [&](int k) { return gap(k) <= reach_m; });
+  FourKept four(out.normal, reach_m, tilt);
+  for (int round = 0; round < kManifoldPoints; ++round) {
+    const int best = near.first_best([&](const ManifoldPoint& p) { return four.rate(p); });
+    if (best < 0) break;
+    four.keep(near.at(best));
+  }
+  four.tell(out);
+}
+
 // Bodies that fall onto each other at 10 m/s turn by so much within a step, rad.
 inline constexpr float kTurnOfStep = 0.125F;
 

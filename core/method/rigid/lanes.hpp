@@ -157,6 +157,11 @@ struct OneLane {
     BROADSIDE_HD FirstLeast first_least(const Value& value) const {
       return OneLane::first_least(count, [&](int k) { return value(items[k]); });
     }
+    // The place of the best item, as OneLane::first_best.
+    template <typename Rate>
+    BROADSIDE_HD int first_best(const Rate& rate) const {
+      return OneLane::first_best(count, [&](int k) { return rate(items[k]); });
+    }
     BROADSIDE_HD Item at(int place) const { return items[place]; }
     // visit(item) for items with has, where a visit may change which items have it.
     template <typename Has, typename Visit>

@@ -106,9 +106,9 @@ BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape&
   if constexpr (Lanes::kKnowsLongShapes)
     if (a.shape->kind == ContactKind::kHull) {
       const HullPolytope hull = hull_polytope(a);
-      keep_four_by<Lanes>(
-          out, hull.corner_count(), reach_m, kTurnOfStep, [&](int k) { return over(hull.corner(k), corner(k)); },
-          [](int) { return true; });
+      keep_four_near<Lanes>(
+          out, hull.corner_count(), reach_m, kTurnOfStep, [&](int k) { return dot(n, hull.corner(k) - on_plane); },
+          [&](int k) { return over(hull.corner(k), corner(k)); });
     }
 }
 

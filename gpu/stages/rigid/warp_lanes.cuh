@@ -248,6 +248,10 @@ struct WarpLanes {
     __device__ core::FirstLeast first_least(const Value& value) const {
       return WarpLanes::first_least(count, [&](int) { return value(own); });
     }
+    template <typename Rate>
+    __device__ int first_best(const Rate& rate) const {
+      return WarpLanes::first_best(count, [&](int) { return rate(own); });
+    }
     __device__ Item at(int place) const { return of_lane(own, static_cast<unsigned>(place)); }
 
     template <typename Has, typename Visit>
