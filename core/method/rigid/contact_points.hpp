@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/attributes.hpp"
+#include "core/kept_loop.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/corner_layer.hpp"
 #include "core/method/rigid/cross.hpp"
@@ -54,7 +55,7 @@ class FourKept {
       : n_(normal), reach_m_(reach_m), tilt_(tilt), apart_m_(apart_m) {}
 
   // The candidate's score in the next round.
-  [[nodiscard]] BROADSIDE_HD Rated rate(const ManifoldPoint& candidate) const {
+  [[nodiscard]] BROADSIDE_HD_CALLED Rated rate(const ManifoldPoint& candidate) const {
     Rated rated;
     if (!(candidate.gap_m <= reach_m_)) return rated;
     // One corner may come with several triangles; where the common area is a line but for rounding, one edge may
@@ -150,6 +151,7 @@ template <typename Lanes, typename At, typename Has>
 BROADSIDE_HD void keep_four_by(Manifold& out, int count, float reach_m, float tilt, const At& at, const Has& has,
                                float apart_m = 0.0F) {
   FourKept four(out.normal, reach_m, tilt, apart_m);
+  BROADSIDE_KEPT_LOOP
   for (int round = 0; round < kManifoldPoints; ++round) {
     const int best = Lanes::first_best(count, [&](int k) { return has(k) ? four.rate(at(k)) : Rated{}; });
     if (best < 0) break;
@@ -170,6 +172,7 @@ BROADSIDE_HD void keep_four_near(Manifold& out, int count, float reach_m, float 
   if (near.count == kMostNear)
     return keep_four_by<Lanes>(out, count, reach_m, tilt, make, [&](int k) { return gap(k) <= reach_m; });
   FourKept four(out.normal, reach_m, tilt);
+  BROADSIDE_KEPT_LOOP
   for (int round = 0; round < kManifoldPoints; ++round) {
     const int best = near.first_best([&](const ManifoldPoint& p) { return four.rate(p); });
     if (best < 0) break;

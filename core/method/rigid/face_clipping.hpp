@@ -12,6 +12,7 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_points.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/room.hpp"
 
 namespace broadside::core {
 
@@ -29,7 +30,7 @@ struct ClippedCorner {
 template <int kRoom>
 struct ClippedFace {
   int count = 0;
-  ClippedCorner corners[kRoom];
+  Room<ClippedCorner, kRoom> corners;
 };
 
 template <typename Polytope, int kRoom>
@@ -88,13 +89,13 @@ BROADSIDE_HD void clip(ClippedFace<kRoom>& face, ClippedFace<kRoom>& kept, Vec3 
 template <int kRoom>
 struct CommonArea {
   int count = 0;
-  ManifoldPoint points[kRoom];
+  Room<ManifoldPoint, kRoom> points;
 };
 
 template <typename Reference, typename Incident, int kRoom>
-BROADSIDE_HD void common_area(const Reference& reference, int reference_face, const Incident& incident,
-                              int incident_face, Vec3 normal, bool reference_is_a, float rounding_m,
-                              CommonArea<kRoom>& out) {
+BROADSIDE_HD_CALLED void common_area(const Reference& reference, int reference_face, const Incident& incident,
+                                     int incident_face, Vec3 normal, bool reference_is_a, float rounding_m,
+                                     CommonArea<kRoom>& out) {
   out.count = 0;
   const int sides = reference.face_corner_count(reference_face);
   const Vec3 plane = reference.face_normal(reference_face);

@@ -59,7 +59,7 @@ BROADSIDE_HD std::uint32_t climb_start(const HullView& hull, Vec3 direction) {
 
 // From `from` on. direction: body axes, of any length. Steps are compared by differences along edges, which are as
 // exact as an edge is short; so where it stops, no corner is lower but for rounding.
-BROADSIDE_HD std::uint32_t climb_down(const HullView& hull, Vec3 direction, std::uint32_t from) {
+BROADSIDE_HD_CALLED std::uint32_t climb_down(const HullView& hull, Vec3 direction, std::uint32_t from) {
   const std::uint32_t* const begins = hull.guide + kGuideStarts;
   std::uint32_t here = from;
   for (std::uint32_t step = 0; step < hull.vertex_count; ++step) {
@@ -81,7 +81,7 @@ BROADSIDE_HD std::uint32_t climb_down(const HullView& hull, Vec3 direction, std:
 
 // Half as many steps lead there from the guide's corner as from one that was lowest along another direction of the same
 // search.
-BROADSIDE_HD std::uint32_t lowest_along(const HullView& hull, Vec3 direction) {
+BROADSIDE_HD_CALLED std::uint32_t lowest_along(const HullView& hull, Vec3 direction) {
   return climb_down(hull, direction, climb_start(hull, direction));
 }
 

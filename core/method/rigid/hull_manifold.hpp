@@ -53,7 +53,7 @@ BROADSIDE_HD NearestPoints points_of(const Hull& a, const Hull& b, const Nearest
 
 // How far the other body is in front of a face.
 template <typename Hull>
-BROADSIDE_HD float gap_over_face(const Hull& reference, const Hull& other, int face) {
+BROADSIDE_HD_CALLED float gap_over_face(const Hull& reference, const Hull& other, int face) {
   const Vec3 out = reference.face_normal(face);
   const auto lowest = static_cast<int>(lowest_along(other.hull, other.local(out)));
   return other.least_at(lowest, out) - reference.face_height(face);

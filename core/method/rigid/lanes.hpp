@@ -8,6 +8,7 @@
 
 #include "core/attributes.hpp"
 #include "core/kept_loop.hpp"
+#include "core/room.hpp"
 
 namespace broadside::core {
 
@@ -128,7 +129,7 @@ struct OneLane {
   struct Handful {
     static constexpr int kMost = 32;
     int count = 0;
-    Item items[kMost];
+    Room<Item, kMost> items;
 
     // The items from `from` on that make(k, item) makes, as many as there is room for. Returns where it stopped.
     template <typename Make>

@@ -32,7 +32,10 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
                                 Manifold* out) {
   out[0].count = 0;
   if constexpr (Lanes::kLeavesHardPairs) {
-    hull_manifold(hull_polytope<Lanes>(a), hull_polytope<Lanes>(b), rounding_m, reach_m, out[0]);
+    if (b.shape->kind == ContactKind::kHalfSpace)
+      plane_manifold<Lanes>(a, b, reach_m, out[0]);
+    else
+      hull_manifold(hull_polytope<Lanes>(a), hull_polytope<Lanes>(b), rounding_m, reach_m, out[0]);
     return out[0].count > 0 ? 1 : out[0].count;
   }
   const ContactKind kind = b.shape->kind;

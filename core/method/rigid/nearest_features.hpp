@@ -88,7 +88,7 @@ struct EdgeCrossing {
   bool is_inside = false;  // of both edges
 };
 
-BROADSIDE_HD EdgeCrossing edge_crossing(Vec3 p0, Vec3 p1, Vec3 q0, Vec3 q1) {
+BROADSIDE_HD_CALLED EdgeCrossing edge_crossing(Vec3 p0, Vec3 p1, Vec3 q0, Vec3 q1) {
   const Vec3 u = p1 - p0;
   const Vec3 v = q1 - q0;
   const Vec3 w = p0 - q0;

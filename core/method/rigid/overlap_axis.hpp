@@ -113,7 +113,7 @@ BROADSIDE_HD NearFace nearest_of_all(const Around<Hull>& body) {
 
 // By one lane: how far the other hull is in front of a face.
 template <typename Hull>
-BROADSIDE_HD float gap_over(const Around<Hull>& reference, const Around<Hull>& other, int face) {
+BROADSIDE_HD_CALLED float gap_over(const Around<Hull>& reference, const Around<Hull>& other, int face) {
   const Vec3 out = reference.hull.face_normal(face);
   const auto lowest = static_cast<int>(other.lowest(out, other.corner));
   return other.hull.least_at(lowest, out) - reference.hull.face_height(face);

@@ -81,6 +81,14 @@ BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape&
   out.normal = n;
   const auto over = [&](Vec3 p, std::uint32_t name) { return plane_detail::over_plane(p, n, on_plane, name); };
   const auto corner = [&](int k) { return static_cast<std::uint32_t>(k); };
+  if constexpr (Lanes::kKnowsLongShapes)
+    if (a.shape->kind == ContactKind::kHull) {
+      const HullPolytope hull = hull_polytope(a);
+      return keep_four_near<Lanes>(
+          out, hull.corner_count(), reach_m, kTurnOfStep, [&](int k) { return dot(n, hull.corner(k) - on_plane); },
+          [&](int k) { return over(hull.corner(k), corner(k)); });
+    }
+  if constexpr (Lanes::kLeavesHardPairs) return;  // of hulls alone
   switch (a.shape->kind) {
     case ContactKind::kSphere:
       return keep_four(out, 1, reach_m, [&](int) { return over(a.center - a.shape->radius_m * n, 0); });
@@ -103,13 +111,6 @@ BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape&
     default:
       break;
   }
-  if constexpr (Lanes::kKnowsLongShapes)
-    if (a.shape->kind == ContactKind::kHull) {
-      const HullPolytope hull = hull_polytope(a);
-      keep_four_near<Lanes>(
-          out, hull.corner_count(), reach_m, kTurnOfStep, [&](int k) { return dot(n, hull.corner(k) - on_plane); },
-          [&](int k) { return over(hull.corner(k), corner(k)); });
-    }
 }
 
 }  // namespace broadside::core

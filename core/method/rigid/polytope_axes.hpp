@@ -157,7 +157,7 @@ BROADSIDE_HD PlacedEdge place(const Polytope& p, int k) {
 
 // The unit direction from B to A across two edges that make a face of the difference of both bodies. False: they make
 // none, or are parallel.
-BROADSIDE_HD bool across(const PlacedEdge& a, bool a_is_solid, const PlacedEdge& b, bool b_is_solid, Vec3& n) {
+BROADSIDE_HD_CALLED bool across(const PlacedEdge& a, bool a_is_solid, const PlacedEdge& b, bool b_is_solid, Vec3& n) {
   if (a_is_solid && b_is_solid && !arcs_cross(a.left, a.right, -b.left, -b.right)) return false;
   const Vec3 product = cross(a.along, b.along);
   const float squared = dot(product, product);

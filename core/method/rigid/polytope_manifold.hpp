@@ -55,8 +55,9 @@ BROADSIDE_HD_CALLED void area_of(const PolytopeA& a, const PolytopeB& b, const S
 // The corner of the other body that is deepest along the axis, if it is over the reference's face (where bodies
 // overlap: but for rounding). The incident face may lack it where a hull has many faces.
 template <typename Reference, typename Incident>
-BROADSIDE_HD bool corner_over_face(const Reference& reference, const Incident& incident, const SeparatingAxis& axis,
-                                   int face, bool reference_is_a, float rounding_m, ManifoldPoint& out) {
+BROADSIDE_HD_CALLED bool corner_over_face(const Reference& reference, const Incident& incident,
+                                          const SeparatingAxis& axis, int face, bool reference_is_a, float rounding_m,
+                                          ManifoldPoint& out) {
   const Vec3 outward = reference_is_a ? -axis.normal : axis.normal;
   const int deepest = lowest_corner(incident, outward);
   const Vec3 p = incident.corner(deepest);

@@ -68,8 +68,9 @@ BROADSIDE_HD HullBounds hull_bounds(const HullPair& pair, HullSearch& search, fl
 }
 
 // toward: where the search begins, as for begin_search.
-BROADSIDE_HD HullBounds hull_bounds(const ContactShape& shape_a, const ContactPose& pose_a, const ContactShape& shape_b,
-                                    const ContactPose& pose_b, float stop_m, Vec3 toward = {}) {
+BROADSIDE_HD_CALLED HullBounds hull_bounds(const ContactShape& shape_a, const ContactPose& pose_a,
+                                           const ContactShape& shape_b, const ContactPose& pose_b, float stop_m,
+                                           Vec3 toward = {}) {
   const HullPair pair = hull_pair(shape_a, pose_a, shape_b, pose_b);
   HullSearch search = begin_search(pair.a, pair.b, toward);
   return hull_bounds(pair, search, stop_m);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/attributes.hpp"
+#include "core/kept_loop.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
 
@@ -45,7 +46,7 @@ BROADSIDE_HD Weighed nearest_of_edge(const Simplex& s, int p, int q) {
 }
 
 // By the regions of corners, edges and the inside (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
-BROADSIDE_HD Weighed nearest_of_triangle(const Simplex& s, int p, int q, int r) {
+BROADSIDE_HD_CALLED Weighed nearest_of_triangle(const Simplex& s, int p, int q, int r) {
   const Vec3 a = s.corners[p];
   const Vec3 b = s.corners[q];
   const Vec3 c = s.corners[r];
@@ -87,6 +88,7 @@ BROADSIDE_HD Vec3 keep_nearest(Simplex& s, float& inside_m) {
   if (s.count == 4) {
     float least = 3.402823e38F;
     float nearest_side = 3.402823e38F;
+    BROADSIDE_KEPT_LOOP
     for (int k = 0; k < 4; ++k) {
       // The side across from corner k.
       const int p = k == 0 ? 1 : 0;

@@ -18,6 +18,7 @@
 #include "core/method/rigid/hull_climb.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/polytopes.hpp"
+#include "core/room.hpp"
 
 namespace broadside::core {
 
@@ -43,7 +44,8 @@ BROADSIDE_HD int lowest_of(const HullPolytopeOf<Lanes>& p, Vec3 direction) {
 // the body is less high, so no face comes twice. Within rounding_m a line counts as over a face. -1 too where x is
 // higher than most_m over the body: it is no higher over the body than over the plane of any face that looks up.
 template <typename Lanes>
-BROADSIDE_HD int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m, float most_m) {
+BROADSIDE_HD_CALLED int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m,
+                                   float most_m) {
   const HullView& hull = p.hull;
   const Vec3 local = turned_back(p.axes, x - p.center);
   const Vec3 local_up = turned_back(p.axes, up);
@@ -109,7 +111,7 @@ BROADSIDE_HD bool height_above(const Polytope& body, int top, Vec3 x, Vec3 up, f
 
 struct TiltedContacts {
   int count = 0;
-  ManifoldPoint points[2 * kTilts];
+  Room<ManifoldPoint, 2 * kTilts> points;
 };
 
 // normal: unit, from B to A. top_of_a and top_of_b: faces that look at the other body. Points with a gap of more than

@@ -34,6 +34,7 @@ __device__ inline void run_near_contacts(const ContactView& f) {
   list_near_pairs<core::OneLane>(grid, f);
   grid.sync();
   make_hull_patches(grid, f);
+  make_face_patches_of_hulls(grid, f);
 }
 
 __device__ inline void run_long_contacts(const ContactView& f) {

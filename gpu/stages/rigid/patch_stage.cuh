@@ -172,6 +172,33 @@ __device__ inline bool may_touch_faces(const ContactView& f, std::uint32_t body)
   return may;
 }
 
+// By a whole warp.
+template <typename Lanes>
+__device__ void make_face_patches(const ContactView& f, std::uint32_t body) {
+  core::Manifold found[core::kPatchesOfPair];
+  for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
+    if (!may_touch_face(f, body, face)) continue;
+    const int count = touch_face<Lanes>(f, body, face, found);
+    add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
+  }
+}
+
+__device__ inline bool is_hull(const ContactView& f, std::uint32_t body) {
+  return f.shapes[f.shape_of_body[body]].contact.kind == core::ContactKind::kHull;
+}
+
+// Patches of hulls at faces of the domain, a warp a body.
+template <typename Team>
+__device__ void make_face_patches_of_hulls(const Team& team, const ContactView& f) {
+  const auto prepare = [&](std::uint64_t k, bool is_item) {
+    const auto body = static_cast<std::uint32_t>(k);
+    return is_item && is_hull(f, body) && may_touch_faces(f, body);
+  };
+  each_item_in_step(team, f.body_count, prepare, [&](std::uint64_t k, unsigned of) {
+    make_face_patches<WarpLanesOfHulls>(f, static_cast<std::uint32_t>(__shfl_sync(kFullWarp, k, of)));
+  });
+}
+
 // Patches of pairs of hulls, a lane a pair; what lanes leave is added to the other near pairs.
 template <typename Team>
 __device__ void make_hull_patches(const Team& team, const ContactView& f) {
@@ -192,30 +219,25 @@ __device__ void make_hull_patches(const Team& team, const ContactView& f) {
   });
 }
 
-// Patches of the other near pairs, and of bodies at faces, of any shapes, a warp for each. Its lanes share the loops
+// Patches of the other near pairs, and of bodies that are no hulls at faces, a warp for each. Its lanes share the loops
 // over corners, edges, faces and triangles, and the code is fetched once for all of them.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
-  const std::uint64_t near = f.counts->near;
-  const auto prepare = [&](std::uint64_t k, bool is_item) {
-    return is_item && (k < near || may_touch_faces(f, static_cast<std::uint32_t>(k - near)));
-  };
-  each_item_in_step(team, near + f.body_count, prepare, [&](std::uint64_t own_k, unsigned of) {
-    const std::uint64_t k = __shfl_sync(kFullWarp, own_k, of);
+  // Pairs and bodies each for themselves: the few pairs are spread over all warps.
+  const auto is_one = [](std::uint64_t, bool is_item) { return is_item; };
+  each_item_in_step(team, f.counts->near, is_one, [&](std::uint64_t own_k, unsigned of) {
+    const NearPair own = f.near[__shfl_sync(kFullWarp, own_k, of)];
     core::Manifold found[core::kPatchesOfPair];
-    if (k < near) {
-      const NearPair own = f.near[k];
-      const int count =
-          touch_bodies<WarpLanes>(f, own.pair, found, own.gaps == kNoGaps ? nullptr : &f.hull_gaps[own.gaps]);
-      add_patches(f, own.pair.i, own.pair.j, found, lane() == 0 ? count : 0);
-      return;
-    }
-    const auto body = static_cast<std::uint32_t>(k - near);
-    for (std::uint32_t face = 0; face < core::kFaceCount; ++face) {
-      if (!may_touch_face(f, body, face)) continue;
-      const int count = touch_face<WarpLanes>(f, body, face, found);
-      add_patches(f, body, core::kFirstFace + face, found, lane() == 0 ? count : 0);
-    }
+    const int count =
+        touch_bodies<WarpLanes>(f, own.pair, found, own.gaps == kNoGaps ? nullptr : &f.hull_gaps[own.gaps]);
+    add_patches(f, own.pair.i, own.pair.j, found, lane() == 0 ? count : 0);
+  });
+  const auto is_near_face = [&](std::uint64_t k, bool is_item) {
+    const auto body = static_cast<std::uint32_t>(k);
+    return is_item && !is_hull(f, body) && may_touch_faces(f, body);
+  };
+  each_item_in_step(team, f.body_count, is_near_face, [&](std::uint64_t k, unsigned of) {
+    make_face_patches<WarpLanes>(f, static_cast<std::uint32_t>(__shfl_sync(kFullWarp, k, of)));
   });
 }
 

@@ -287,4 +287,9 @@ struct WarpLanes {
   }
 };
 
+// The same for hulls alone; what needs all edges of two of them is left.
+struct WarpLanesOfHulls : WarpLanes {
+  static constexpr bool kLeavesHardPairs = true;
+};
+
 }  // namespace broadside::gpu
