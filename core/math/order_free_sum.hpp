@@ -1,8 +1,10 @@
 // A sum of nonnegative floats that is the same for every order of its terms: for threads that add up side by side.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "core/attributes.hpp"
 
@@ -34,5 +36,13 @@ class OrderFreeSum {
 
   int shift_ = 0;
 };
+
+// The terms are finite and not below 0.
+inline float order_free_sum(std::span<const float> terms) {
+  const OrderFreeSum sum(terms.empty() ? 0.0F : *std::max_element(terms.begin(), terms.end()));
+  std::uint64_t units = 0;
+  for (const float term : terms) units += sum.units(term);
+  return sum.value(units);
+}
 
 }  // namespace broadside::core

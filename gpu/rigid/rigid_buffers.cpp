@@ -138,6 +138,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   BROADSIDE_TRY(bodies_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(starts_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(stirred_.reserve(n + 1, "bodies"));
+  BROADSIDE_TRY(relaxed_.reserve(n, "bodies"));
   BROADSIDE_TRY(old_memory_.reserve_bodies(n));
   BROADSIDE_TRY(memory_.reserve_bodies(n));
   BROADSIDE_TRY(reserve_confirmed(std::max(kLeast, kConfirmedPerBody * n)));
@@ -207,6 +208,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.bodies = bodies_.data();
   view.starts = starts_.data();
   view.stirred = stirred_.data();
+  view.relaxed = relaxed_.data();
   view.impulses = impulses_.data();
   view.old_memory = old_memory_.view();
   view.memory = memory_.view();
@@ -221,8 +223,8 @@ std::uint64_t RigidBuffers::bytes() const {
          confirmed_.bytes() + near_.bytes() + hulls_.bytes() + hull_gaps_.bytes() + patches_.bytes() + ranks_.bytes() +
          patch_colors_.bytes() + coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() +
          color_cursor_.bytes() + patch_at_.bytes() + constraints_.bytes() + changes_.bytes() + by_color_.bytes() +
-         bodies_.bytes() + starts_.bytes() + stirred_.bytes() + impulses_.bytes() + old_memory_.bytes() +
-         memory_.bytes() + sleep_.bytes() + counts_.bytes() + barrier_.bytes();
+         bodies_.bytes() + starts_.bytes() + stirred_.bytes() + relaxed_.bytes() + impulses_.bytes() +
+         old_memory_.bytes() + memory_.bytes() + sleep_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

@@ -94,6 +94,7 @@ class RigidBuffers {
   DeviceBuffer<PackedSolverBody> bodies_;
   DeviceBuffer<PackedStart> starts_;
   DeviceBuffer<std::uint32_t> stirred_;
+  DeviceBuffer<std::uint32_t> relaxed_;
   DeviceBuffer<core::Vec3> impulses_;
   Memory old_memory_;
   Memory memory_;

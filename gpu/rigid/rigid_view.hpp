@@ -89,6 +89,8 @@ struct RigidFrameView : ContactView {
   PackedStart* starts = nullptr;       // [bodies + 1] of the substep
   // [bodies + 1] While contacts bounce: the latest sweep, counted over the step, that has to visit the body's patches.
   std::uint32_t* stirred = nullptr;
+  // [bodies] The latest relaxation along directions, named by its first sweep, that has visited a patch of the body.
+  std::uint32_t* relaxed = nullptr;
   core::Vec3* impulses = nullptr;  // [4 * patches] N s on A, of the whole step
   PatchMemory old_memory;          // of the step before
   SolveTeamKind solve_team = SolveTeamKind::kGrid;

@@ -8,6 +8,7 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/soft_contact.hpp"
 #include "core/method/rigid/solver_body.hpp"
 
 namespace broadside::core {
@@ -49,6 +50,28 @@ BROADSIDE_HD Number squared_change(const PatchOf<Number>& c, const PatchWayOf<Nu
 // a direction may lead on and on.
 BROADSIDE_HD constexpr float share_of_direction(float first_change, float last_change, float change) {
   return last_change > 0.0F && change <= last_change && change <= first_change ? change / last_change : 0.0F;
+}
+
+// Of one run of sweeps.
+class DirectionShare {
+ public:
+  // The share that follows a sweep. change: the sum of squared_change over all patches.
+  BROADSIDE_HD constexpr float after(float change) {
+    if (!(last_change_ > 0.0F)) first_change_ = change;
+    const float share = share_of_direction(first_change_, last_change_, change);
+    last_change_ = change;
+    return share;
+  }
+
+ private:
+  float first_change_ = 0.0F;
+  float last_change_ = 0.0F;
+};
+
+// Whether sweeps go on along directions. Where only one sweep holds the bodies none do: neither it, nor those that
+// bounce.
+BROADSIDE_HD constexpr bool has_directions(const SoftStep& step) {
+  return step.most_sweeps > 1;
 }
 
 // How far a step along the last direction changes a point's impulses.

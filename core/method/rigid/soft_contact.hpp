@@ -276,7 +276,8 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
     const PatchPointOf<Number>& p = c.points[k];
     const Number gap = gaps(k);
     const TruthOf<Number> has_gap = gap > 0.0F;
-    const TruthOf<Number> has_pushed = p.normal_impulse > 0.0F;
+    // Below 0 where a step along a direction went too far: the sweep mends that.
+    const TruthOf<Number> has_pushed = (p.normal_impulse > 0.0F) | (p.normal_impulse < 0.0F);
     const TruthOf<Number> is_bouncing = bounces(c, p);
     // An open point that gave no impulse is the next substep's.
     goals.is_open[k] = has_gap & !has_pushed;

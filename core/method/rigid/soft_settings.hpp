@@ -30,6 +30,9 @@ struct SolveNumbers {
   float done = 0.0F;
   float done_of_gravity = 0.0F;
   float omega_dt = 0.0F;  // soft_step of soft_contact.hpp
+  // Of a substep in which something bounces, at most: sweeps that stop what came fast. A heap that lands would take
+  // hundreds.
+  std::uint32_t stop_sweeps = 16;
 };
 
 // A step of a scene whose masses are further apart than SoftSettings::even_masses.
@@ -48,19 +51,17 @@ struct SoftSettings {
   // allows, 8 kg at 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts,
   // because light bodies that are struck turn by half a radian within a step, and meet in points that its start does
   // not show.
-  UnevenStep lively{4, {4, 1000, 1e-4F, 0x1p-5F, 200.0F}};
+  UnevenStep lively{4, {4, 1000, 1e-4F, 0x1p-5F, 200.0F, 24}};
   // The same where nothing moves fast (core/scene/calm_bodies.hpp). What is solved less well sways.
-  UnevenStep calm{1, {4, 500, 0x1p-8F, 0x1p-5F, 200.0F}};
+  UnevenStep calm{1, {4, 500, 0x1p-8F, 0x1p-5F, 200.0F, 24}};
   // For a calm step of few patches. What stands by a small margin has few contacts (an arch of 25 stones has 26
   // joints), so stiffer contacts and more sweeps cost little there.
   SolveNumbers few{4, 100, 0x1p-10F, 0x1p-5F, 20.0F};
   std::uint32_t few_patches = 128;
   float damping = 1.0F;
   PatchLimits limits{0x1p-16F, 0.0F};
-  // Sweeps over all patches while something bounces, at most: when three balls meet at once, two pairs share a ball,
-  // and what the second pair does changes the first. A heap that lands would take hundreds. First what came fast is
-  // stopped, which takes more of them: with 8 + 4 a heap of 30,000 cubes ends four times as deep. Then it bounces.
-  std::uint32_t stop_sweeps = 32;
+  // Sweeps of what bounces once it has been stopped, at most: when three balls meet at once, two pairs share a ball,
+  // and what the second pair does changes the first.
   std::uint32_t bounce_sweeps = 8;
   float fixed_bounce_from_m_s = 0.0F;  // 0 = twice what gravity gives in a step
 };
@@ -70,8 +71,9 @@ struct SoftSettings {
 // until little changes made a step of 1,000 resting cubes fifteen times as long.
 inline SoftSettings soft_step_settings() {
   SoftSettings settings;
-  settings.even = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F};
-  settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F}};
+  // Sweeps that stop follow no direction, so there are more.
+  settings.even = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F, 32};
+  settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F, 32}};
   return settings;
 }
 
@@ -137,12 +139,14 @@ constexpr std::uint32_t most_parts(const SoftSettings& settings, float largest_m
 
 inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_ratio, bool may_bounce) {
   const auto most_of = [&](std::uint32_t parts, const SolveNumbers& numbers) {
-    // The start from the last impulse, sweeps with a step along the direction between two, and relaxation.
-    std::uint32_t applications = 1 + (2 * numbers.sweeps - 1) + 1;
+    // Sweeps, of which several have a step along the direction between two.
+    const auto of_sweeps = [&](std::uint32_t sweeps) { return numbers.sweeps > 1 ? 2 * sweeps - 1 : sweeps; };
+    // The start from the last impulse, sweeps and relaxation.
+    std::uint32_t applications = 1 + of_sweeps(numbers.sweeps) + 1;
     // What pushes apart is taken back: a start without it, and what changes by that relaxes.
-    if (takes_back_pushes(settings)) applications += 1 + kMostRelaxSweeps;
+    if (takes_back_pushes(settings)) applications += 1 + of_sweeps(kMostRelaxSweeps);
     // Before a bounce all relaxes; a sweep of it visits a patch's points several times, and its friction.
-    if (may_bounce) applications += settings.stop_sweeps + settings.bounce_sweeps * (kSweepsOfBounce + 1);
+    if (may_bounce) applications += of_sweeps(numbers.stop_sweeps) + settings.bounce_sweeps * (kSweepsOfBounce + 1);
     return MostOfStep{parts * numbers.substeps, applications};
   };
   const auto larger = [](const MostOfStep& a, const MostOfStep& b) {
@@ -164,7 +168,7 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   SoftStep step = soft_step(dt_s / static_cast<float>(numbers.substeps), numbers.omega_dt, settings.damping);
   step.most_sweeps = numbers.sweeps;
   step.done_share = numbers.done;
-  step.most_stop_sweeps = settings.stop_sweeps;
+  step.most_stop_sweeps = numbers.stop_sweeps;
   step.most_bounce_sweeps = settings.bounce_sweeps;
   step.gravity_m_s2 = gravity;
   step.least_done_m_s = numbers.done_of_gravity * gravity * step.dt_s;

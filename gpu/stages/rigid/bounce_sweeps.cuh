@@ -13,16 +13,23 @@ struct LoadedBodies {
 
 // The whole patch, where it is known already that it is visited.
 struct LoadedStirred {
-  LoadedPatch patch;
+  LoadedWay of;
   bool is_whole = false;
 };
 
-// Relaxes the contacts of stirred bodies again. A change of more than `done` stirs the patch's bodies for the next
-// sweep. Contributes the largest change of a point's speed.
+__device__ __forceinline__ void note_relaxed(const RigidFrameView& f, std::uint32_t body, std::uint32_t since) {
+  if (body < f.body_count) f.relaxed[body] = since;
+}
+
+// Relaxes the contacts of stirred bodies again. Along directions also those that sweeps since `since` have visited:
+// they follow their directions by `share`. A change of more than `done` stirs the patch's bodies for the next sweep.
+// Contributes the largest change of a point's speed, and along directions that of f.changes.
 __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const RigidFrameView& f,
-                                              const core::SoftStep& soft, std::uint32_t sweep, float done,
-                                              const TeamSums& sums) {
+                                              const core::SoftStep& soft, std::uint32_t since, std::uint32_t sweep,
+                                              float done, float share, const TeamSums& sums) {
+  const bool has_directions = core::has_directions(soft);
   float largest = 0.0F;
+  float largest_change = 0.0F;
   const auto is_stirred = [&](const core::PatchConstraint& c) {
     return f.stirred[c.a] >= sweep || f.stirred[c.b] >= sweep;
   };
@@ -30,21 +37,48 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
       team, f, SweepBegin::kAtOnce,
       [&](const TileSlot& slot) {
         LoadedStirred loaded;
-        load_bodies(slot, loaded.patch.c);
-        loaded.is_whole = is_stirred(loaded.patch.c);
+        LoadedPatch& p = loaded.of.patch;
+        load_bodies(slot, p.c);
+        const bool follows = has_directions && load_relaxed(slot) == since;
+        loaded.is_whole = follows || is_stirred(p.c);
         if (!loaded.is_whole) return loaded;
-        loaded.patch = load_patch(f, slot);
-        load_impact(slot, loaded.patch.c);
-        set_goals_after_motion(f, slot, soft, loaded.patch);
+        p = load_patch(f, slot);
+        load_impact(slot, p.c);
+        if (has_directions) {
+          core::PatchWay& way = loaded.of.way;
+          if (follows) {
+            load_triples(slot, kBefore, way.before);
+            load_triples(slot, kWays, way.way);
+            core::follow_impulses(p.c, way, share);
+          } else {
+            way = {};
+            store_relaxed(slot, since);
+            note_relaxed(f, p.c.a, since);
+            note_relaxed(f, p.c.b, since);
+          }
+          core::note_impulses(p.c, way);
+          store_triples(slot, kBefore, way.before);
+          store_triples(slot, kWays, way.way);
+        }
+        set_goals_after_motion(f, slot, soft, p);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedStirred& loaded) {
-        LoadedPatch& p = loaded.patch;
+      [&](const TileSlot& slot, std::uint32_t place, LoadedStirred& loaded) {
+        LoadedPatch& p = loaded.of.patch;
         // An earlier color of this sweep may have stirred its bodies since it was loaded.
-        if (!loaded.is_whole) return is_stirred(p.c) ? Visit::kLoadAgain : Visit::kDone;
+        if (!loaded.is_whole) {
+          if (is_stirred(p.c)) return Visit::kLoadAgain;
+          if (has_directions) f.changes[place] = 0.0F;
+          return Visit::kDone;
+        }
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
         store_impulses(slot, p.c);
+        if (has_directions) {
+          const float squared = core::squared_change(p.c, loaded.of.way);
+          largest_change = fmaxf(largest_change, squared);
+          f.changes[place] = squared;
+        }
         largest = fmaxf(largest, change);
         if (!(change > done)) return Visit::kDone;
         stir(f, p.c.a, sweep + 1);
@@ -54,6 +88,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
       KeepsNothing{});
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
+  if (has_directions) sums.bring_largest(TeamSums::kSecond, largest_change);
 }
 
 // Points that came fast leave. is_first: notes how much impulse each patch may give. Contributes the largest change of
@@ -80,12 +115,12 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         if (is_first)
           core::note_budget(c);
         else
-          c.budget_n_s = slot.at(kBudget).v.x;
+          c.budget_n_s = load_budget(slot);
         core::SolverBody a = load_place(f.bodies[c.a]);
         core::SolverBody b = load_place(f.bodies[c.b]);
         with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, done)); });
         store_impulses(slot, c);
-        slot.at(kBudget) = {{c.budget_n_s, 0.0F, 0.0F}, 0.0F};
+        store_budget(slot, c.budget_n_s);
       },
       KeepsNothing{});
   __syncwarp();

@@ -21,7 +21,7 @@ enum ConstraintWord : std::uint32_t {
   kImpulses = kMobility + 6,  // [points] normal, tangents 1 and 2, of the substep; w: slide mass
   // By point: x y z w.
   kApproaches = kImpulses + core::kManifoldPoints,
-  kBudget,                // x: of a bounce
+  kRelaxed,               // x: the budget of a bounce; w: the latest relaxation along directions that has visited it
   kTotals,                // [3] as impulses
   kBefore = kTotals + 3,  // [3] of core::PatchWay
   kWays = kBefore + 3,    // [3] of core::PatchWay

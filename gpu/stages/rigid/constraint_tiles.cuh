@@ -232,6 +232,22 @@ __device__ __forceinline__ void store_triples(const TileSlot& slot, std::uint32_
   }
 }
 
+// What relaxation keeps of a patch from sweep to sweep.
+__device__ __forceinline__ float load_budget(const TileSlot& slot) {
+  return slot.at(kRelaxed).v.x;
+}
+__device__ __forceinline__ void store_budget(const TileSlot& slot, float budget_n_s) {
+  slot.at(kRelaxed) = {{budget_n_s, 0.0F, 0.0F}, 0.0F};
+}
+// The latest relaxation along directions, named by its first sweep, that has visited the patch: its direction is kept.
+// 0 = none of this step, and none since it bounced.
+__device__ __forceinline__ std::uint32_t load_relaxed(const TileSlot& slot) {
+  return __float_as_uint(slot.at(kRelaxed).w);
+}
+__device__ __forceinline__ void store_relaxed(const TileSlot& slot, std::uint32_t since) {
+  slot.at(kRelaxed) = {{0.0F, 0.0F, 0.0F}, __uint_as_float(since)};
+}
+
 // For a patch that is pushed apart: its impulses before the push. Nothing for others.
 __device__ __forceinline__ void store_before_push(const TileSlot& slot, const core::PatchConstraint& c,
                                                   bool is_pushed) {
@@ -265,6 +281,7 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
   }
   store_mobility(slot, c);
   store_approach(slot, c);
+  store_relaxed(slot, 0);
   const float none[kFourPoints] = {};
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, none);
 }

@@ -66,12 +66,13 @@ __device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std:
   });
 }
 
-// A step along the last directions: core::push_along.
+// A step along the last directions: core::push_along. since: only of patches that this relaxation has visited; 0 = of
+// all, before the bodies move.
 __device__ __forceinline__ void give_step_along(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
-                                                float share) {
-  give_known_impulses(f, i, body, [share](const TileSlot& slot, float(&out)[kFourPoints][3]) {
-    float ways[kFourPoints][3];
-    load_triples(slot, kWays, ways);
+                                                float share, std::uint32_t since) {
+  give_known_impulses(f, i, body, [share, since](const TileSlot& slot, float(&out)[kFourPoints][3]) {
+    float ways[kFourPoints][3] = {};
+    if (since == 0 || load_relaxed(slot) == since) load_triples(slot, kWays, ways);
 #pragma unroll
     for (std::uint32_t k = 0; k < kFourPoints; ++k) {
       const core::PointStep step = core::step_along(ways[k], share);

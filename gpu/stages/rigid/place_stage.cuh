@@ -56,6 +56,7 @@ __device__ inline void run_place(const RigidFrameView& f) {
     store_body(f.bodies[i], is_asleep(f, i) ? core::SolverBody{} : core::solver_body(s, mass));
     if (f.asleep != nullptr) f.sleep.restless[i] = 0;
     f.stirred[i] = 0;
+    f.relaxed[i] = 0;
     f.shape_boxes[i] = shape_box;
     if (mass.inverse_mass > 0.0F)
       fastest = max(fastest, as_ordered(core::fastest_of_body_m_s(s, mass, shape.balls.outer_m)));

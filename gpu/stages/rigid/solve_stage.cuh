@@ -52,8 +52,7 @@ __device__ __forceinline__ float sum_of_changes(const SolveTeam& team, const Rig
 
 // Behind a barrier; ends with one. Returns the fastest push.
 __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
-  float first_change = 0.0F;
-  float last_change = 0.0F;
+  core::DirectionShare directions;
   float share = 0.0F;
   float done = 0.0F;
   float fastest_push = 0.0F;
@@ -69,13 +68,10 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);
     if (k >= solve.soft.most_sweeps || largest_speed <= done) return fastest_push;
-    const float change = sum_of_changes(team, f, solve, largest_change);
-    if (!(last_change > 0.0F)) first_change = change;
-    share = core::share_of_direction(first_change, last_change, change);
-    last_change = change;
+    share = directions.after(sum_of_changes(team, f, solve, largest_change));
     each_body(team, f, [&](std::uint32_t i) {
       core::SolverBody body = load_moving(f.bodies[i]);
-      give_step_along(f, i, body, share);
+      give_step_along(f, i, body, share, 0);
       store_velocity(f.bodies[i], body);
     });
     team.sync();
@@ -89,13 +85,28 @@ enum class Stirred : std::uint8_t { kPushed, kBouncing };
 // because it is long.
 __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                                  Stirred of, float done) {
-  const int most = of == Stirred::kPushed ? core::kMostRelaxSweeps : static_cast<int>(solve.soft.most_stop_sweeps);
-  bool is_done = false;
-  for (int k = 0; k < most && !is_done; ++k, ++solve.sweep) {
-    relax_stirred(team, f, solve.soft, solve.sweep, done, solve.sums);
+  const std::uint32_t most = of == Stirred::kPushed ? core::kMostRelaxSweeps : solve.soft.most_stop_sweeps;
+  const std::uint32_t since = solve.sweep;
+  core::DirectionShare directions;
+  float share = 0.0F;
+  for (std::uint32_t k = 1;; ++k) {
+    relax_stirred(team, f, solve.soft, since, solve.sweep, done, share, solve.sums);
+    ++solve.sweep;
     ++(of == Stirred::kPushed ? solve.done.sweeps : solve.done.bounce_sweeps);
     team.sync();
-    is_done = !(largest_of_turn(team, solve) > done);
+    const float largest_change = solve.sums.largest(TeamSums::kSecond);
+    const float largest = largest_of_turn(team, solve);
+    if (k >= most || !(largest > done)) return;
+    if (!core::has_directions(solve.soft)) continue;
+    share = directions.after(sum_of_changes(team, f, solve, largest_change));
+    if (!(share > 0.0F)) continue;
+    each_body(team, f, [&](std::uint32_t i) {
+      if (f.relaxed[i] != since) return;
+      core::SolverBody body = load_moving(f.bodies[i]);
+      give_step_along(f, i, body, share, since);
+      store_velocity(f.bodies[i], body);
+    });
+    team.sync();
   }
 }
 

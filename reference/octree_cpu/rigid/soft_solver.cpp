@@ -28,35 +28,24 @@ float SoftSolver::largest_speed() const {
   return speeds_.empty() ? 0.0F : *std::max_element(speeds_.begin(), speeds_.end());
 }
 
-float SoftSolver::next_share() {
-  const core::OrderFreeSum sum(changes_.empty() ? 0.0F : *std::max_element(changes_.begin(), changes_.end()));
-  std::uint64_t units = 0;
-  for (const float part : changes_) units += sum.units(part);
-  const float change = sum.value(units);
-  if (!(last_change_ > 0.0F)) first_change_ = change;
-  const float share = core::share_of_direction(first_change_, last_change_, change);
-  last_change_ = change;
-  return share;
-}
-
 void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   speeds_.assign(work_.tiles().count(), 0.0F);
   changes_.assign(work_.tiles().places(), 0.0F);
-  last_change_ = 0.0F;
   pushes_.assign(work_.tiles().places(), 0.0F);
   work_.each_range(
       [&](const TileRange& range) { kernels_.begin_sweeps(range, numbers, speeds_.data(), pushes_.data()); });
   work_.note_pushed(pushes_, numbers);
   const float done = core::done_m_s(numbers, numbers.done_share, largest_speed());
   work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
-  SweepWay way{settings_.even.sweeps > 1, true, 0.0F, speeds_.data(), changes_.data()};
+  SweepWay way{core::has_directions(numbers), true, 0.0F, speeds_.data(), changes_.data()};
+  core::DirectionShare share;
   for (std::uint32_t k = 1;; ++k) {
     work_.each_range_by_color([&](const TileRange& range) { kernels_.sweep(range, numbers, way); });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
     if (k >= numbers.most_sweeps || largest_speed() <= done) return;
     way.is_first = false;
-    way.share = next_share();
+    way.share = share.after(core::order_free_sum(changes_));
     work_.each_range_by_color([&](const TileRange& range) { kernels_.push_along(range, way.share); });
   }
 }

@@ -28,16 +28,12 @@ class SoftSolver final : public ContactSolver {
   void substep(const RigidStep& step, const core::SoftStep& numbers, core::SolveKind kind);
   void sweep_until_done(const core::SoftStep& numbers);
   void relax(const core::SoftStep& numbers);
-  // How much of the last directions the impulses follow.
-  float next_share();
   [[nodiscard]] float largest_speed() const;
 
   core::SoftSettings settings_;
   const PatchKernels& kernels_;
   StepConstraints work_;
   std::uint64_t sweeps_done_ = 0;
-  float first_change_ = 0.0F;   // squared, of the first sweep of the substep
-  float last_change_ = 0.0F;    // and of the sweep before
   std::vector<float> pushes_;   // by place: core::fastest_push
   std::vector<float> speeds_;   // by tile: the largest of a loop
   std::vector<float> changes_;  // by place: squared, of the last sweep

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/contact.hpp"
+#include "core/math/order_free_sum.hpp"
 #include "core/method/rigid/kept_blows.hpp"
 #include "core/method/rigid/unpushed_body.hpp"
 
@@ -164,16 +165,50 @@ float StepConstraints::change(std::size_t place, const Work& work) {
   return largest;
 }
 
-float StepConstraints::relax_stirred(const core::SoftStep& numbers, float done_m_s) {
-  const auto relax = [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-    return core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
-  };
+float StepConstraints::relax_stirred(const core::SoftStep& numbers, float done_m_s, float share) {
   visit_by_color(place_begin_, [&](std::size_t place) {
-    of_places_[place] = is_stirred(place) ? change(place, relax) : 0.0F;
+    of_places_[place] = 0.0F;
+    changes_[place] = 0.0F;
+    const bool follows = has_way_[place] != 0;
+    if (!follows && !is_stirred(place)) return;
+    core::PatchWay& way = ways_[place];
+    if (!follows) way = {};
+    of_places_[place] = change(place, [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
+      if (follows) core::follow_impulses(c, way, share);
+      core::note_impulses(c, way);
+      const float largest = core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
+      changes_[place] = core::squared_change(c, way);
+      return largest;
+    });
+    has_way_[place] = core::has_directions(numbers) ? 1 : 0;
     if (of_places_[place] > done_m_s) stir(place, sweep_ + 1);
   });
   ++sweep_;
   return largest_of_places();
+}
+
+void StepConstraints::push_along(float share) {
+  visit_by_color(place_begin_, [&](std::size_t place) {
+    if (has_way_[place] == 0) return;
+    const PatchConstraint c = tiles_.get(place);
+    core::push_along(c, ways_[place], bodies_[c.a], bodies_[c.b], share);
+  });
+}
+
+std::uint32_t StepConstraints::relax_until_done(const core::SoftStep& numbers, float done_m_s, std::uint32_t most) {
+  of_places_.assign(tiles_.places(), 0.0F);
+  changes_.assign(tiles_.places(), 0.0F);
+  has_way_.assign(tiles_.places(), 0);
+  ways_.resize(tiles_.places());
+  core::DirectionShare directions;
+  float share = 0.0F;
+  for (std::uint32_t k = 1;; ++k) {
+    const float largest = relax_stirred(numbers, done_m_s, share);
+    if (k >= most || !(largest > done_m_s)) return k;
+    if (!core::has_directions(numbers)) continue;
+    share = directions.after(core::order_free_sum(changes_));
+    if (share > 0.0F) push_along(share);
+  }
 }
 
 void StepConstraints::note_pushed(std::span<const float> pushes, const core::SoftStep& numbers) {
@@ -207,10 +242,7 @@ void StepConstraints::take_back_impulses() {
 
 std::uint32_t StepConstraints::relax_pushed(const core::SoftStep& numbers) {
   const float done = core::done_m_s(numbers, core::kRelaxDone, fastest_push_m_s_);
-  of_places_.assign(tiles_.places(), 0.0F);
-  for (std::uint32_t k = 1; k <= core::kMostRelaxSweeps; ++k)
-    if (!(relax_stirred(numbers, done) > done)) return k;
-  return core::kMostRelaxSweeps;
+  return relax_until_done(numbers, done, core::kMostRelaxSweeps);
 }
 
 void StepConstraints::list_fast() {
@@ -252,12 +284,8 @@ void StepConstraints::bounce(const core::SoftStep& numbers, bool forgets_blows) 
   const float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
   // A share of the impulse that stopped them is given back, so that impulse must be known well.
+  bounce_sweeps_ += relax_until_done(numbers, done, numbers.most_stop_sweeps);
   float largest = fastest;
-  for (std::uint32_t k = 0; k < numbers.most_stop_sweeps && largest > done; ++k) {
-    largest = relax_stirred(numbers, done);
-    ++bounce_sweeps_;
-  }
-  largest = fastest;
   for (std::uint32_t k = 0; k < numbers.most_bounce_sweeps && largest > done; ++k) {
     of_places_.assign(fast_.size(), 0.0F);
     visit_by_color(fast_begin_, [&](std::size_t n) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -242,6 +243,28 @@ TEST_P(ContactSolvers, BouncesWhereItIsFirstMet) {
   EXPECT_GT(sweeps_of_step(), 0U);
   EXPECT_GT(rig.states[0].v.y, 0.0F);
   for (int k = 1; k < 300; ++k) ASSERT_LE(sweeps_of_step(), k < 240 ? kMostSweeps : 0U) << "step " << k;
+}
+
+// What stops the lowest of many cubes has to reach the uppermost. Sweeps that followed no direction left the cubes 1.3
+// mm deep in each other, and 258 sweeps of bounces followed.
+TEST(ConjugateSolver, AColumnThatLandsIsStopped) {
+  BoxRig rig = pillar(12, 1.0F);
+  for (core::Material& material : rig.materials) material.restitution = 0.3F;
+  rig.face_material.restitution = 0.3F;
+  for (core::RigidState& state : rig.states) {
+    state.x.y += 0.01F;
+    state.v.y = -3.0F;
+  }
+  const auto solver = make_contact_solver({});
+  double deepest_m = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    step_pillar(rig, *solver);
+    for (const core::ContactPatch& patch : rig.patches)
+      for (int point = 0; point < patch.manifold.count; ++point)
+        deepest_m = std::max(deepest_m, -static_cast<double>(patch.manifold.points[point].gap_m));
+  }
+  EXPECT_LT(deepest_m, 1e-3);
+  EXPECT_LT(solver->sweeps_done().bouncing, 100U);
 }
 
 // Spinning boxes hit the floor with a corner, with much friction and restitution: Newton's rule alone gives some of
