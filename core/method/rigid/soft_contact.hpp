@@ -262,7 +262,7 @@ BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointO
 }
 
 // Of a sweep after the bodies moved. Sets the patch's masses where its bodies have turned far: bodies turn where they
-// move alone, so masses that are right here are so until they move again.
+// move alone, so masses that are right here are so until they move again. Impulses that a step left below 0 count.
 template <typename Number, typename Body>
 BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const Body& a, const Body& b,
                                                      const SoftStep& step) {
@@ -276,7 +276,6 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
     const PatchPointOf<Number>& p = c.points[k];
     const Number gap = gaps(k);
     const TruthOf<Number> has_gap = gap > 0.0F;
-    // Below 0 where a step along a direction went too far: the sweep mends that.
     const TruthOf<Number> has_pushed = (p.normal_impulse > 0.0F) | (p.normal_impulse < 0.0F);
     const TruthOf<Number> is_bouncing = bounces(c, p);
     // An open point that gave no impulse is the next substep's.
