@@ -6,27 +6,28 @@ namespace {
 
 using continuous::FeatureKind;
 
-constexpr std::uint32_t kThreads = 128;
+constexpr std::uint32_t kImpactThreads = 128;
 constexpr std::uint32_t kResidentBlocks = 4;  // 128 registers a thread
 // No block waits for another: more than are resident even out the ends.
-constexpr std::uint32_t kBlocksPerMultiprocessor = 16;
+constexpr std::uint32_t kImpactBlocksPerMultiprocessor = 16;
 
 template <FeatureKind kKind>
-__global__ void __launch_bounds__(kThreads, kResidentBlocks) look_kernel(const __grid_constant__ ImpactView view) {
+__global__ void __launch_bounds__(kImpactThreads, kResidentBlocks)
+    look_kernel(const __grid_constant__ ImpactView view) {
   look_at_queries<kKind>(view);
 }
 
 template <FeatureKind kKind>
-__global__ void __launch_bounds__(kThreads) search_kernel(const __grid_constant__ ImpactView view) {
+__global__ void __launch_bounds__(kImpactThreads) search_kernel(const __grid_constant__ ImpactView view) {
   search_left<kKind>(view);
 }
 
 template <FeatureKind kKind>
 core::Status launch_kind(const ImpactView& view, std::uint32_t multiprocessors, StreamHandle stream) {
   BROADSIDE_CUDA_TRY(cudaMemsetAsync(&view.counts->left, 0, sizeof view.counts->left, stream));
-  const std::uint32_t blocks = kBlocksPerMultiprocessor * multiprocessors;
-  look_kernel<kKind><<<blocks, kThreads, 0, stream>>>(view);
-  search_kernel<kKind><<<blocks, kThreads, 0, stream>>>(view);
+  const std::uint32_t blocks = kImpactBlocksPerMultiprocessor * multiprocessors;
+  look_kernel<kKind><<<blocks, kImpactThreads, 0, stream>>>(view);
+  search_kernel<kKind><<<blocks, kImpactThreads, 0, stream>>>(view);
   return cuda_status(cudaGetLastError(), "launching continuous collision");
 }
 

@@ -7,10 +7,10 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 256;
-constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
+constexpr std::uint32_t kConstraintThreads = 256;
+constexpr std::uint32_t kConstraintBlocksPerMultiprocessor = 2;
 
-__global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
+__global__ void __launch_bounds__(kConstraintThreads, kConstraintBlocksPerMultiprocessor)
     constraint_kernel(const __grid_constant__ RigidFrameView frame) {
   run_constraints(frame);
 }
@@ -18,7 +18,7 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
 }  // namespace
 
 core::Result<LaunchShape> constraint_launch_shape() {
-  LaunchShape shape{kThreads, 0, 0, 0};
+  LaunchShape shape{kConstraintThreads, 0, 0, 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(constraint_kernel), shape));
   return shape;
 }

@@ -9,30 +9,31 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 256;
+constexpr std::uint32_t kPlaceThreads = 256;
 
-__global__ void __launch_bounds__(kThreads) place_kernel(const __grid_constant__ RigidFrameView frame) {
+__global__ void __launch_bounds__(kPlaceThreads) place_kernel(const __grid_constant__ RigidFrameView frame) {
   run_place(frame);
 }
 
-__global__ void __launch_bounds__(kThreads) rigid_digest_kernel(const __grid_constant__ RigidDigestView view) {
+__global__ void __launch_bounds__(kPlaceThreads) rigid_digest_kernel(const __grid_constant__ RigidDigestView view) {
   run_rigid_digest(view);
 }
 
 std::uint32_t blocks_for(std::uint64_t items, const LaunchShape& shape) {
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>((items + kThreads - 1) / kThreads, 1, 4 * shape.blocks));
+  return static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>((items + kPlaceThreads - 1) / kPlaceThreads, 1, 4 * shape.blocks));
 }
 
 }  // namespace
 
 core::Status launch_place(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream) {
-  place_kernel<<<blocks_for(frame.body_count, shape), kThreads, 0, stream>>>(frame);
+  place_kernel<<<blocks_for(frame.body_count, shape), kPlaceThreads, 0, stream>>>(frame);
   return cuda_status(cudaGetLastError(), "launching boxes");
 }
 
 core::Status launch_rigid_digest(const RigidDigestView& view, const LaunchShape& shape, StreamHandle stream) {
   const std::uint64_t items = std::max<std::uint64_t>({view.body_count, view.confirmed_count, view.patch_count});
-  rigid_digest_kernel<<<blocks_for(items, shape), kThreads, 0, stream>>>(view);
+  rigid_digest_kernel<<<blocks_for(items, shape), kPlaceThreads, 0, stream>>>(view);
   return cuda_status(cudaGetLastError(), "launching the digest");
 }
 

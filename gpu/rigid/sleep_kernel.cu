@@ -7,22 +7,22 @@
 namespace broadside::gpu {
 namespace {
 
-constexpr std::uint32_t kThreads = 256;
+constexpr std::uint32_t kSleepThreads = 256;
 
-__global__ void __launch_bounds__(kThreads) wake_kernel(const __grid_constant__ RigidFrameView frame) {
+__global__ void __launch_bounds__(kSleepThreads) wake_kernel(const __grid_constant__ RigidFrameView frame) {
   run_wake(frame);
 }
 
-__global__ void __launch_bounds__(kThreads) fall_asleep_kernel(const __grid_constant__ RigidFrameView frame) {
+__global__ void __launch_bounds__(kSleepThreads) fall_asleep_kernel(const __grid_constant__ RigidFrameView frame) {
   run_fall_asleep(frame);
 }
 
 }  // namespace
 
 core::Result<LaunchShape> sleep_launch_shape() {
-  LaunchShape wake{kThreads, 0, 0, 0};
+  LaunchShape wake{kSleepThreads, 0, 0, 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(wake_kernel), wake));
-  LaunchShape shape{kThreads, 0, 0, 0};
+  LaunchShape shape{kSleepThreads, 0, 0, 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(fall_asleep_kernel), shape));
   shape.blocks = wake.blocks < shape.blocks ? wake.blocks : shape.blocks;
   return shape;
