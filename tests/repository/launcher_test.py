@@ -21,7 +21,9 @@ MACHINE = {
              "printf '#!/bin/sh\\necho ran \"$@\"\\n[ \"$1\" != fetch ] || [ ! -e $PLAYED/offline ]\\n' >build/release/bench/broadside; chmod +x build/release/bench/broadside; "
              'else [[ ! -e $PLAYED/uncompilable ]] || { echo "a.cpp:1: error: expected"; exit 1; }; fi',
     "ctest": 'echo "0% tests passed, 1 tests failed out of 1"; exit 8',
-    "nvidia-smi": "exit 9",
+    "nvcc": "exit 0",
+    # The compute capabilities of the file `gpus`; without it there is no GPU.
+    "nvidia-smi": '[[ -e $PLAYED/gpus ]] || { echo "NVIDIA-SMI has failed"; exit 9; }; cat "$PLAYED/gpus"',
 }
 
 
@@ -182,6 +184,17 @@ class Launcher(unittest.TestCase):
         self.call("build")
         self.call("build", BROADSIDE_CUDA_ARCHITECTURES="90")
         self.assertTrue(self.called("cmake --fresh")[0].endswith("-DCMAKE_CUDA_ARCHITECTURES=90"), self.calls)
+
+    def test_compiles_for_the_gpus_of_this_machine_and_packages_for_all(self):
+        self.call("build")
+        self.assertTrue(self.called("cmake --fresh")[0].endswith("-DCMAKE_CUDA_ARCHITECTURES=75-virtual"), self.calls)
+        (self.played / "gpus").write_text("9.0\n8.6\n9.0\n", encoding="utf-8")
+        self.call("build")
+        self.assertTrue(self.called("cmake --fresh")[0].endswith("-DCMAKE_CUDA_ARCHITECTURES=86-real;90-real"), self.calls)
+        self.call("build")
+        self.assertEqual([], self.called("cmake --fresh"))
+        self.call("package")
+        self.assertNotIn("CUDA_ARCHITECTURES", self.called("cmake --fresh")[0])
 
     def test_no_subcommand_shows_the_usage(self):
         self.assertEqual(2, self.call().returncode)
