@@ -21,7 +21,7 @@ MACHINE = {
              "printf '#!/bin/sh\\necho ran \"$@\"\\n[ \"$1\" != fetch ] || [ ! -e $PLAYED/offline ]\\n' >build/release/bench/broadside; chmod +x build/release/bench/broadside; "
              'else [[ ! -e $PLAYED/uncompilable ]] || { echo "a.cpp:1: error: expected"; exit 1; }; fi',
     "ctest": 'echo "0% tests passed, 1 tests failed out of 1"; exit 8',
-    "nvcc": "exit 0",
+    "nvcc": "printf 'sm_%s\\n' 75 86 90",
     # The compute capabilities of the file `gpus`; without it there is no GPU.
     "nvidia-smi": '[[ -e $PLAYED/gpus ]] || { echo "NVIDIA-SMI has failed"; exit 9; }; cat "$PLAYED/gpus"',
 }
@@ -195,6 +195,10 @@ class Launcher(unittest.TestCase):
         self.assertEqual([], self.called("cmake --fresh"))
         self.call("package")
         self.assertNotIn("CUDA_ARCHITECTURES", self.called("cmake --fresh")[0])
+        self.call("build")
+        (self.played / "gpus").write_text("9.0\n13.0\n", encoding="utf-8")
+        self.call("build")
+        self.assertNotIn("CUDA_ARCHITECTURES", self.called("cmake --fresh")[0], "nvcc knows no 13.0")
 
     def test_no_subcommand_shows_the_usage(self):
         self.assertEqual(2, self.call().returncode)
