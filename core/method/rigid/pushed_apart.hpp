@@ -17,10 +17,8 @@
 
 namespace broadside::core {
 
-// Sweeps of relaxation over what was pushed and over what these change, along conjugate directions, at most. With 32 a
-// heap of 30,000 cubes that lands gains more energy than its steps explain.
-inline constexpr std::uint32_t kMostRelaxSweeps = 48;
-// One that changes no speed by more than this share of the fastest push is the last.
+// Sweeps of relaxation over what was pushed and over what these change end with one that changes no speed by more than
+// this share of the fastest push.
 inline constexpr float kRelaxDone = 0x1p-10F;
 
 // How fast the points of a patch are pushed, beyond twice what their springs yield to the impulses that they begin

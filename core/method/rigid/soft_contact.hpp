@@ -35,10 +35,10 @@ struct SoftStep {
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
   float kept_push_m_s = 0.0F;    // what pushes bodies apart faster is taken back (pushed_apart.hpp)
   float gravity_m_s2 = 0.0F;
-  // The last sweep is one that changes no point's speed by more than this share of the fastest, and at most the so
-  // many-th.
+  // The last sweep changes no point's speed by more than this share of the fastest, or is the so many-th.
   float done_share = 0.0F;
   std::uint32_t most_sweeps = 1;
+  std::uint32_t most_relax_sweeps = 0;  // that take back what pushed overlaps apart
   // While something bounces, sweeps that stop what came fast, and sweeps that let it bounce, at most.
   std::uint32_t most_stop_sweeps = 0;
   std::uint32_t most_bounce_sweeps = 0;

@@ -85,7 +85,7 @@ enum class Stirred : std::uint8_t { kPushed, kBouncing };
 // because it is long.
 __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                                  Stirred of, float done) {
-  const std::uint32_t most = of == Stirred::kPushed ? core::kMostRelaxSweeps : solve.soft.most_stop_sweeps;
+  const std::uint32_t most = of == Stirred::kPushed ? solve.soft.most_relax_sweeps : solve.soft.most_stop_sweeps;
   const std::uint32_t since = solve.sweep;
   core::DirectionShare directions;
   float share = 0.0F;
