@@ -163,6 +163,7 @@ Result<RigidBodies> make_rigid_bodies(const Scene& scene) {
   bodies.detected = bodies.state;
   bodies.free_end.resize(bodies.state.size());
   bodies.push.resize(bodies.state.size());
+  bodies.passed_on.resize(bodies.state.size());
   bodies.drift.resize(bodies.state.size());
   bodies.swing_m.resize(bodies.state.size());
   bodies.pushed.resize(bodies.state.size());

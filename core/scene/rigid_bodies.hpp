@@ -52,6 +52,7 @@ struct RigidBodies {
   ContactShapes contact_shapes;
   std::vector<std::uint8_t> is_swept;  // by body: 1 = its way is followed; or none: nobody's is (swept_bodies.hpp)
   std::vector<PushWord> push;          // what the candidates of a step tell the next one
+  std::vector<PushWord> passed_on;     // and what of that confirmed pairs pass on
   // Of detection: the pose, where it leads to if nothing is touched, by its velocity alone, and where others may drive
   // the body; how far it can come and how far it falls, the box of the shape, and a box that contains all of where it
   // goes.

@@ -134,8 +134,12 @@ struct ContactView {
   // At detection, as core::RigidBodies has them.
   core::ContactPose* free_end = nullptr;
   PackedPusher* pushers = nullptr;
-  const unsigned long long* old_push = nullptr;  // core::PushWord, from the step before
-  unsigned long long* push = nullptr;            // for the next step
+  // core::PushWord: what candidates told in the step before, and what confirmed pairs passed on of it; and for the next
+  // step.
+  const unsigned long long* old_push = nullptr;
+  const unsigned long long* old_passed_on = nullptr;
+  unsigned long long* push = nullptr;
+  unsigned long long* passed_on = nullptr;
   float* reach_m = nullptr;
   float* fall_m = nullptr;
   std::uint32_t* pushed_m = nullptr;  // as a word: the reach of the neighbor that reaches farthest

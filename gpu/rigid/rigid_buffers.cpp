@@ -129,6 +129,9 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   BROADSIDE_TRY(old_push_.reserve(n, "bodies"));
   BROADSIDE_TRY(old_push_.fill_bytes(0));
   BROADSIDE_TRY(push_.reserve(n, "bodies"));
+  BROADSIDE_TRY(old_passed_on_.reserve(n, "bodies"));
+  BROADSIDE_TRY(old_passed_on_.fill_bytes(0));
+  BROADSIDE_TRY(passed_on_.reserve(n, "bodies"));
   BROADSIDE_TRY(reach_m_.reserve(n, "bodies"));
   BROADSIDE_TRY(fall_m_.reserve(n, "bodies"));
   BROADSIDE_TRY(pushed_m_.reserve(n, "bodies"));
@@ -173,6 +176,7 @@ void RigidBuffers::advance(const RigidCounts& kept) {
   sleep_.old_count = kept.asleep_patches;
   before_.swap(after_);
   old_push_.swap(push_);
+  old_passed_on_.swap(passed_on_);
   old_memory_.swap(memory_);
 }
 
@@ -183,6 +187,8 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.pushers = pushers_.data();
   view.old_push = old_push_.data();
   view.push = push_.data();
+  view.old_passed_on = old_passed_on_.data();
+  view.passed_on = passed_on_.data();
   view.reach_m = reach_m_.data();
   view.fall_m = fall_m_.data();
   view.pushed_m = pushed_m_.data();
@@ -219,12 +225,13 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 
 std::uint64_t RigidBuffers::bytes() const {
   return before_.bytes() + after_.bytes() + free_end_.bytes() + pushers_.bytes() + old_push_.bytes() + push_.bytes() +
-         reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() + shape_boxes_.bytes() + boxes_.bytes() +
-         confirmed_.bytes() + near_.bytes() + hulls_.bytes() + hull_gaps_.bytes() + patches_.bytes() + ranks_.bytes() +
-         patch_colors_.bytes() + coloring_.bytes() + color_count_.bytes() + color_begin_.bytes() +
-         color_cursor_.bytes() + patch_at_.bytes() + constraints_.bytes() + changes_.bytes() + by_color_.bytes() +
-         bodies_.bytes() + starts_.bytes() + stirred_.bytes() + relaxed_.bytes() + impulses_.bytes() +
-         old_memory_.bytes() + memory_.bytes() + sleep_.bytes() + counts_.bytes() + barrier_.bytes();
+         old_passed_on_.bytes() + passed_on_.bytes() + reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() +
+         shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + near_.bytes() + hulls_.bytes() +
+         hull_gaps_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
+         color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
+         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + starts_.bytes() +
+         stirred_.bytes() + relaxed_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() +
+         sleep_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

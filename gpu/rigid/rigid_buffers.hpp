@@ -71,6 +71,8 @@ class RigidBuffers {
   DeviceBuffer<PackedPusher> pushers_;
   DeviceBuffer<unsigned long long> old_push_;
   DeviceBuffer<unsigned long long> push_;
+  DeviceBuffer<unsigned long long> old_passed_on_;
+  DeviceBuffer<unsigned long long> passed_on_;
   DeviceBuffer<float> reach_m_;
   DeviceBuffer<float> fall_m_;
   DeviceBuffer<std::uint32_t> pushed_m_;

@@ -41,17 +41,35 @@ BROADSIDE_HD FreeMotion free_motion(const RigidState& s, const RigidMass& mass, 
   return m;
 }
 
-// The box of all that a shape with this box may fill within this step and the next: where it is, and where it drifts
-// and falls to. It covers the next step too, so that a body that is going to be struck is known in time
-// (pushed_motion.hpp). It is grown by more than the rounding of these sums.
-BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m) {
+// For how many steps, this one among them, candidates are looked for, so that a body that is going to be struck is
+// known in time (pushed_motion.hpp). half_thickness_m: of the body. One that moves farther than that in a step drives
+// several others within it, and each step before tells of it only to those that the last ones would be driven to.
+// Before, of six cubes in a row, 3 cm apart, of which the first was struck at 20 m/s, two ended 13 cm deep in each
+// other.
+BROADSIDE_HD int steps_ahead(const FreeMotion& m, float half_thickness_m) {
+  return length(m.drift) > half_thickness_m ? 4 : 2;
+}
+
+// The box of all that a shape with this box may fill within so many steps: where it is, and where it drifts and falls
+// to. It also covers what is as near, in whatever direction, as gravity moves the body in a step. Patches so near are
+// always kept (near_m), because a blow passes within a step through bodies that touch. Before, a brick 0.2 mm beside a
+// row that was struck at 20 m/s was no candidate, and was entered by 64 mm. The box is grown by more than the rounding
+// of these sums.
+BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m, int steps) {
+  const float near_m = length(m.fall);
   Box swept;
   for (int k = 0; k < 3; ++k) {
     const float drift = m.drift[k];
-    const float fallen = drift + m.fall[k];
-    const float next = fallen + (fallen + m.fall[k]);
-    const float low = fminf(fminf(fminf(drift, fallen), next), 0.0F);
-    const float high = fmaxf(fmaxf(fmaxf(drift, fallen), next), 0.0F);
+    float low = fminf(drift, -near_m);
+    float high = fmaxf(drift, near_m);
+    float moves = drift;  // in a step
+    float moved = 0.0F;   // since the start
+    for (int step = 0; step < steps; ++step) {
+      moves = moves + m.fall[k];
+      moved = moved + moves;
+      low = fminf(low, moved);
+      high = fmaxf(high, moved);
+    }
     const float pad = m.swing_m + 0x1p-22F * (fmaxf(fabsf(box.min[k]), fabsf(box.max[k])) + (high - low));
     swept.min[k] = (box.min[k] + low) - pad;
     swept.max[k] = (box.max[k] + high) + pad;

@@ -3,6 +3,9 @@
 // A body that is struck moves on within the same step, and may then meet what its own motion never led to. So each pair
 // of a step's candidates, whose boxes are swept over two steps, tells the next step which body comes toward which.
 // Before, a cube at rest that was struck at 3 m/s ended 5 cm deep in the one below it.
+//
+// What a body is told it passes on within the same step to what is near it. Before, the first of two cubes that touch
+// was struck at 20 m/s, and drove the second one 24 mm into a third, 5 cm beyond.
 #pragma once
 
 #include <bit>
@@ -63,11 +66,25 @@ BROADSIDE_HD PushWord push_by(const Pusher& a, const Pusher& b, float restitutio
   return (static_cast<PushWord>(std::bit_cast<std::uint32_t>(strength)) << 32) | (is_given ? b.pusher : b.body);
 }
 
+// A push that is told to a body and one that is passed on to it.
+BROADSIDE_HD constexpr PushWord stronger_push(PushWord a, PushWord b) {
+  return a > b ? a : b;
+}
+
 // The push, m, in the direction in which the pusher now moves against the body. drift: of each, in a step.
 BROADSIDE_HD Vec3 pushed_way(PushWord push, Vec3 drift, Vec3 drift_of_pusher) {
   const Vec3 way = drift_of_pusher - drift;
   const float size = length(way);
   return size > 0.0F ? (push_m(push) / size) * way : Vec3{};
+}
+
+// The body with the push that it was told for the next step, where that is the stronger one. drift_of_pusher: of the
+// body that comes.
+BROADSIDE_HD Pusher told_of(Pusher body, PushWord push, Vec3 drift_of_pusher) {
+  if (!(push_m(push) > length(body.pushed))) return body;
+  body.pushed = pushed_way(push, body.drift, drift_of_pusher);
+  body.pusher = pusher_of(push);
+  return body;
 }
 
 // How far the push may take a body along a direction of length 1. Without friction a body that is struck moves along

@@ -5,6 +5,7 @@
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/push_stage.cuh"
 #include "gpu/stages/rigid/warp_shares.cuh"
 
 namespace broadside::gpu {
@@ -16,21 +17,6 @@ __device__ inline bool levels_meet(const ContactView& f, core::Pair pair) {
                                                       b.balls.outer_m, f.reach_m[pair.i] + f.reach_m[pair.j]);
   core::Uncounted tests;
   return core::is_confirmed(f.levels, *a.nodes, *b.nodes, pose, tests);
-}
-
-__device__ inline core::Pusher pusher_of(const ContactView& f, std::uint32_t body) {
-  const PackedPusher p = f.pushers[body];
-  return {f.before[body].x,           p.drift.v, p.pushed.v, p.drift.w, f.mass[body].inverse_mass, body,
-          __float_as_uint(p.pushed.w)};
-}
-
-// Notes what the candidates may do to each other in the next step.
-__device__ inline void note_pushes(const ContactView& f, core::Pair pair) {
-  const core::Pusher a = pusher_of(f, pair.i);
-  const core::Pusher b = pusher_of(f, pair.j);
-  const float restitution = max(f.material[pair.i].restitution, f.material[pair.j].restitution);
-  if (const unsigned long long push = core::push_by(a, b, restitution); push != 0) atomicMax(&f.push[pair.i], push);
-  if (const unsigned long long push = core::push_by(b, a, restitution); push != 0) atomicMax(&f.push[pair.j], push);
 }
 
 // Takes one of all n^2 ordered pairs, where no broad phase came before; false if it is no pair.

@@ -14,6 +14,7 @@
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/push_stage.cuh"
 #include "gpu/stages/rigid/warp_lanes.cuh"
 #include "gpu/stages/rigid/warp_shares.cuh"
 
@@ -116,13 +117,15 @@ __device__ bool may_touch(const ContactView& f, core::Pair pair, core::KnownGaps
   return !core::surely_passes<Lanes>(a, path_of(f, pair.i), b, path_of(f, pair.j), ahead, gaps);
 }
 
-// Confirmed pairs that may touch get lists of their own; otherwise lanes whose pairs do not touch would wait for the
-// others. Hulls that are clearly apart take another way than those that overlap, so they lie apart.
+// Passes on what confirmed pairs were told, and lists those that may touch. These get lists of their own; otherwise
+// lanes whose pairs do not touch would wait for the others. Hulls that are clearly apart take another way than those
+// that overlap, so they lie apart.
 template <typename Lanes, typename Team>
 __device__ void list_near_pairs(const Team& team, const ContactView& f) {
   constexpr bool kIsSpread = Lanes::kKnowsLongShapes;
   each_item_by_warps(team, f.counts->confirmed, kIsSpread, [&](std::uint64_t k, bool is_item) {
     const core::Pair pair = is_item ? f.confirmed.items[k] : core::Pair{};
+    if (is_item) pass_on_pushes(f, pair);
     core::KnownGaps gaps;
     const bool is_near = is_item && may_touch<Lanes>(f, pair, gaps);
     const bool are_hulls = Lanes::kKnowsLongShapes && is_near && gaps.are_known;

@@ -42,12 +42,14 @@ __device__ inline void run_place(const RigidFrameView& f) {
     const core::RigidWrench wrench = wrench_of(f, i);
     const core::FreeMotion motion = core::free_motion(s, mass, shape.balls, f.gravity_m_s2, wrench, f.dt_s);
     const core::Box shape_box = core::turned_box(shape.contact, shape.vertices, s.x, s.q);
-    const core::PushWord push = f.old_push[i];
+    const core::PushWord push = core::stronger_push(f.old_push[i], f.old_passed_on[i]);
     const std::uint32_t pusher = core::pusher_of(push);
     const core::Vec3 pushed = core::pushed_way(push, motion.drift, f.dt_s * f.before[pusher].v);
-    const core::Box box = core::pushed_box(core::swept_box(shape_box, motion), pushed);
+    const int steps = core::steps_ahead(motion, shape.half_thickness_m);
+    const core::Box box = core::pushed_box(core::swept_box(shape_box, motion, steps), pushed);
     f.pushers[i] = {{motion.drift, motion.swing_m}, {pushed, __uint_as_float(pusher)}};
     f.push[i] = 0;
+    f.passed_on[i] = 0;
     f.free_end[i] = core::free_end(s, mass, f.gravity_m_s2, wrench, f.dt_s);
     f.reach_m[i] = motion.reach_m() + core::length(pushed);
     f.fall_m[i] = core::length(motion.fall);

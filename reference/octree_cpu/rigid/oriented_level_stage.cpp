@@ -2,11 +2,10 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 
 #include "core/method/rigid/oriented_levels.hpp"
+#include "reference/octree_cpu/rigid/push_stage.hpp"
 
 namespace broadside::reference {
 
@@ -20,22 +19,6 @@ bool meets(const core::RigidBodies& bodies, core::Levels levels, Pair pair, std:
   const core::RelativePose pose = core::relative_pose(bodies.pose(pair.i), a.balls.outer_m, bodies.pose(pair.j),
                                                       b.balls.outer_m, bodies.reach_m[pair.i] + bodies.reach_m[pair.j]);
   return core::is_confirmed(levels, a.nodes, b.nodes, pose, tests);
-}
-
-void raise(core::PushWord& push, core::PushWord to) {
-  if (to == 0) return;
-  const std::atomic_ref<core::PushWord> shared(push);
-  core::PushWord now = shared.load(std::memory_order_relaxed);
-  while (now < to && !shared.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
-  }
-}
-
-void note_pushes(core::RigidBodies& bodies, Pair pair) {
-  const core::Pusher a = bodies.pusher(pair.i);
-  const core::Pusher b = bodies.pusher(pair.j);
-  const float restitution = std::max(bodies.material[pair.i].restitution, bodies.material[pair.j].restitution);
-  raise(bodies.push[pair.i], core::push_by(a, b, restitution));
-  raise(bodies.push[pair.j], core::push_by(b, a, restitution));
 }
 
 }  // namespace

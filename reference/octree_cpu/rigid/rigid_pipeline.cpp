@@ -19,6 +19,7 @@
 #include "core/scene/calm_bodies.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
+#include "reference/octree_cpu/rigid/push_stage.hpp"
 #include "reference/octree_cpu/stage_clock.hpp"
 
 namespace broadside::reference {
@@ -121,8 +122,8 @@ void RigidPipeline::place(float dt_s) {
       const core::FreeMotion motion =
           core::free_motion(s, bodies_.mass[i], shape.balls, scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
       bodies_.free_end[i] = core::free_end(s, bodies_.mass[i], scene_->gravity_m_s2, bodies_.wrench_of(i), dt_s);
-      const core::PushWord push = bodies_.push[i];
-      bodies_.push[i] = 0;
+      const core::PushWord push = core::stronger_push(bodies_.push[i], bodies_.passed_on[i]);
+      bodies_.push[i] = bodies_.passed_on[i] = 0;
       bodies_.pushed_by[i] = core::pusher_of(push);
       bodies_.pushed[i] = core::pushed_way(push, motion.drift, dt_s * bodies_.state[core::pusher_of(push)].v);
       bodies_.drift[i] = motion.drift;
@@ -130,7 +131,8 @@ void RigidPipeline::place(float dt_s) {
       bodies_.reach_m[i] = motion.reach_m() + core::length(bodies_.pushed[i]);
       bodies_.fall_m[i] = core::length(motion.fall);
       bodies_.shape_boxes[i] = core::turned_box(shape.contact, shape.vertices(), s.x, s.q);
-      bodies_.boxes[i] = core::pushed_box(core::swept_box(bodies_.shape_boxes[i], motion), bodies_.pushed[i]);
+      const int steps = core::steps_ahead(motion, shape.half_thickness_m);
+      bodies_.boxes[i] = core::pushed_box(core::swept_box(bodies_.shape_boxes[i], motion, steps), bodies_.pushed[i]);
     }
   });
 }
@@ -150,6 +152,7 @@ void RigidPipeline::confirm() {
     level_stage_.confirm(bodies_, options_.levels, candidates_.pairs, confirmed_);
   else
     level_stage_.confirm_all(bodies_, options_.levels, confirmed_);
+  pass_on_pushes(bodies_, confirmed_);
 }
 
 void RigidPipeline::touch_bodies() {

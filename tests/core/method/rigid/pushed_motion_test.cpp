@@ -57,6 +57,23 @@ TEST(PushedMotion, ItsOwnPushDoesNotComeBack) {
   EXPECT_EQ(pusher_of(push_by(body(3, {}, {}), below, 0.0F)), 2U);
 }
 
+// Of two that touch the first is struck: what it is told counts for the second, where it is more than what it knew.
+TEST(PushedMotion, WhatABodyIsToldIsPassedOn) {
+  const Pusher first = body(1, {1, 0, 0}, {});
+  const PushWord told = push_by(first, body(9, {0, 0, 0}, {0.8F, 0, 0}), 0.0F);
+  const Pusher knows = told_of(first, told, {0.8F, 0, 0});
+  EXPECT_FLOAT_EQ(knows.pushed.x, 0.4F);
+  EXPECT_EQ(knows.pusher, 9U);
+  const PushWord push = push_by(body(2, {2, 0, 0}, {}), knows, 0.0F);
+  EXPECT_FLOAT_EQ(push_m(push), 0.2F);
+  EXPECT_EQ(pusher_of(push), 9U);
+  EXPECT_EQ(stronger_push(push, told), told);
+  Pusher driven = first;
+  driven.pushed = {0.0F, 0.5F, 0.0F};
+  driven.pusher = 7;
+  EXPECT_EQ(told_of(driven, told, {0.8F, 0, 0}).pusher, 7U);
+}
+
 TEST(PushedMotion, TheStrongestPushIsTheLargestWord) {
   const Pusher still = body(0, {}, {});
   const PushWord weak = push_by(still, body(99, {0, 1, 0}, {0, -0.1F, 0}), 0.0F);
