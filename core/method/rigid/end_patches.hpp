@@ -10,6 +10,7 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/moved_back.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
@@ -18,10 +19,7 @@ namespace broadside::core {
 
 namespace end_detail {
 
-// An arm from the center of mass at the end of the step, as it was at the start; and the other way round.
-BROADSIDE_HD Vec3 at_start(const ContactPath& path, Vec3 arm) {
-  return turned(turned_axes(path.start.q), turned_back(turned_axes(path.end.q), arm));
-}
+// An arm from the center of mass at the start of the step, as it is at the end.
 BROADSIDE_HD Vec3 at_end(const ContactPath& path, Vec3 arm) {
   return turned(turned_axes(path.end.q), turned_back(turned_axes(path.start.q), arm));
 }
@@ -86,14 +84,11 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
     out.count = 0;
     for (int i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
-      const Vec3 half = (0.5F * p.gap_m) * m.normal;
-      const Vec3 on_a = end_detail::at_start(a, p.point + half);
-      const Vec3 on_b = end_detail::at_start(b, (p.point - half) + (a.end.x - b.end.x)) + (b.start.x - a.start.x);
+      const MovedBack at = moved_back(m.normal, p, a, b);
       // At the start the bodies may overlap more along this normal than they do: the gap is bounded below. A plane has
       // no end, so its point is where the body is.
-      const float gap = dot(m.normal, on_a - on_b);
-      const Vec3 middle = is_plane ? on_a - (0.5F * gap) * m.normal : 0.5F * (on_a + on_b);
-      const ManifoldPoint back{middle, fmaxf(gap, least_m), p.feature};
+      const Vec3 middle = is_plane ? at.on_a - (0.5F * at.gap_m) * m.normal : 0.5F * (at.on_a + at.on_b);
+      const ManifoldPoint back{middle, fmaxf(at.gap_m, least_m), p.feature};
       if (!end_detail::is_foreseen(back, p.gap_m, found, at_start, a, b, kNear * size_m, unseen))
         out.points[out.count++] = back;
     }

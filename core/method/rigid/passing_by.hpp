@@ -5,6 +5,7 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
+#include "core/method/rigid/moved_back.hpp"
 #include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
@@ -68,6 +69,31 @@ template <typename Lanes = OneLane>
 BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
                             const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
   return whether_passes_by<Lanes>(start, shape_a, a, shape_b, b, reach_m, near_m) == QuickAnswer::kYes;
+}
+
+// Of a patch that is kept because something may push a body there, though free motion passes by: takes the plane that
+// lies between the bodies where free motion leads them, if one lies between them all the way. It guards against the
+// push and stops nobody who passes by. Before, a cube that fell past the corner of another one at 4 m/s was stopped by
+// the plane through that corner, 3 cm beside it. Boxes alone: one direction tells of them whether a plane parts them.
+// falls_m: a patch nearer than this may carry what rests on it.
+template <typename Lanes = OneLane>
+BROADSIDE_HD void let_pass(Manifold& kept, const ContactShape& shape_a, const ContactPath& a,
+                           const ContactShape& shape_b, const ContactPath& b, float reach_m, float falls_m) {
+  if (!are_boxes(shape_a, shape_b) || !(least_gap_m(kept) > falls_m)) return;
+  if (parts_ends(kept.normal, shape_a, a, shape_b, b)) return;
+  Manifold end[kPatchesOfPair];
+  const int count = make_manifolds<Lanes>(shape_a, a.end, shape_b, b.end, seen_reach_m(reach_m), end);
+  if (count != 1) return;
+  const Manifold& m = end[0];
+  if (!(least_gap_m(m) > 0.0F) || !(dot(m.normal, kept.normal) > 0.0F)) return;
+  if (!(gap_of_boxes(shape_a, a.start, shape_b, b.start, m.normal) > 0.0F)) return;
+  if (!parts_ends(m.normal, shape_a, a, shape_b, b)) return;
+  kept.normal = m.normal;
+  kept.count = m.count;
+  for (int k = 0; k < m.count; ++k) {
+    const MovedBack at = moved_back(m.normal, m.points[k], a, b);
+    kept.points[k] = {0.5F * (at.on_a + at.on_b), at.gap_m, m.points[k].feature};
+  }
 }
 
 }  // namespace broadside::core

@@ -78,7 +78,10 @@ __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifol
   for (int k = 0; k < count; ++k) {
     const core::QuickAnswer passes = is_passing<Lanes>(f, pair, found[k]);
     if (passes == core::QuickAnswer::kUnknown) return core::kLeft;
-    if (passes == core::QuickAnswer::kNo) found[kept++] = found[k];
+    if (passes == core::QuickAnswer::kYes) continue;
+    if (!f.follows_ways || !are_followed(f, pair))
+      core::let_pass<Lanes>(found[k], a, path_a, b, path_b, reach_m, f.fall_m[pair.i] + f.fall_m[pair.j]);
+    found[kept++] = found[k];
   }
   const float swing_m = f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w;
   return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept, known);

@@ -98,8 +98,12 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
     const int count = core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), ahead.reach_m, found,
                                            known != nullptr ? &known->start : nullptr);
     int kept = 0;
-    for (int n = 0; n < count; ++n)
-      if (!is_passing(bodies, confirmed[k], found[n])) found[kept++] = found[n];
+    for (int n = 0; n < count; ++n) {
+      if (is_passing(bodies, confirmed[k], found[n])) continue;
+      if (!bodies.are_followed(confirmed[k]))
+        core::let_pass(found[n], a, bodies.path(i), b, bodies.path(j), ahead.reach_m, ahead.near.falls_m);
+      found[kept++] = found[n];
+    }
     kept = core::add_end_patches(a, bodies.path(i), b, bodies.path(j), ahead.swing_m, found, kept, known);
     for (int n = 0; n < kept; ++n) block.push_back({i, j, found[n]});
   });

@@ -75,5 +75,20 @@ TEST(Blows, ArePassedOnToWhatIsBeyondTheNextOne) {
   EXPECT_LT(deepest_of_row({2e-4F, 0.05F}), 0.005F);
 }
 
+// A cube falls past one that another one is about to drive toward it, but not so far. Before, it was stopped by the
+// plane through the corner.
+TEST(Blows, DoNotStopWhoFallsPast) {
+  PipelineRig rig;
+  const std::uint32_t cube = rig.box(1.0, 1.0, 1.0);
+  constexpr float kFalls_m = 0.0694F;  // in the first step, in which nobody is told of anything yet
+  rig.add(cube, {0.0F, 1.52F + kFalls_m, 0.0F}, 1.0F, {0.0F, -4.0F, 0.0F});
+  rig.add(cube, {1.028F, 0.5F, 0.0F}, 1.0F);
+  rig.add(cube, {2.15F, 0.5F, 0.0F}, 1.0F, {-4.0F, 0.0F, 0.0F});
+  const FrameRecord frame = rig.run(2).back();
+  EXPECT_NEAR(frame.velocity[0].y, -4.0F - 2.0F * 9.81F / 60.0F, 1e-4F);
+  EXPECT_EQ(frame.velocity[0].x, 0.0F);
+  EXPECT_LT(frame.velocity[1].x, -1.0F);
+}
+
 }  // namespace
 }  // namespace broadside::tests
