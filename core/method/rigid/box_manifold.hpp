@@ -85,11 +85,11 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
   is_shown |= has_witness;
   if (!is_shown) {
     const NearestOfBoxes near = nearest_of_boxes(a, b, rounding_m);
-    has_witness = true;
+    has_witness = !(near.gap_m > axis.gap_m && is_nearly_shown(axis.gap_m, least, near.distance_m));
     witness.gap_m = axis.gap_m;
     witness.feature = feature_key(near.name_a, near.name_b);
     // Where the boxes touch, the direction between their points is rounding alone: then the axis is kept.
-    if (near.gap_m > axis.gap_m) {
+    if (has_witness && near.gap_m > axis.gap_m) {
       out.normal = near.normal;
       witness.gap_m = near.distance_m;
       area.count = 0;

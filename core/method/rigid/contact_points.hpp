@@ -15,6 +15,15 @@
 
 namespace broadside::core {
 
+// Of bodies that are apart by axis_gap_m along an axis, and whose nearest points lie beside the faces that are over
+// each other: whether points of these faces, the least of whose gaps is least_m, stand for the nearest ones. A patch of
+// that one point alone lets its bodies come down to each side of it. Before, a brick that fell on another one at 9 m/s,
+// tilted by a degree and 5 mm to the side, was held at one corner and ended 9 cm deep.
+BROADSIDE_HD constexpr bool is_nearly_shown(float axis_gap_m, float least_m, float distance_m) {
+  constexpr float kShare = 0x1p-4F;
+  return axis_gap_m >= (1.0F - kShare) * distance_m && least_m <= (1.0F + kShare) * distance_m;
+}
+
 // Names of the parts of one shape, all different: its corner, its edge between two corners, its face.
 BROADSIDE_HD constexpr std::uint32_t corner_name(std::uint32_t corner) {
   return corner;

@@ -86,7 +86,8 @@ struct NearestPoints {
 
 // Points whose gap is at most reach_m, after the balls are counted. The distance of the deepest one is that of the
 // bodies: where two corners, or a corner and an edge, are nearest, the axis is wider than it and gives way to the
-// direction between them. nearest: their nearest points, or nothing.
+// direction between them, but for faces over each other that are nearly as near (is_nearly_shown). nearest: their
+// nearest points, or nothing.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis,
                                            float ball_a_m, float ball_b_m, float rounding_m, float reach_m,
@@ -146,13 +147,16 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     const NearestDirection near =
         nearest_direction(a, b, axis.normal, axis.gap_m, rounding_m, reach_m + balls_m + 2.0F * rounding_m);
     if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near
-    has_witness = true;
+    const float distance_m = sqrtf(near.features.squared_m2);
+    // Where bodies overlap, or touch so that the direction would be rounding alone, the axis is kept.
+    const bool is_wider = axis.gap_m > 0.0F && near.gap_m > axis.gap_m;
+    has_witness =
+        !(is_wider && balls_m == 0.0F && is_nearly_shown(axis.gap_m, polytope_detail::least_gap(area), distance_m));
     witness.gap_m = axis.gap_m;
     witness.feature = feature_key(near.features.name_a, near.features.name_b);
-    // Where bodies overlap, or touch so that the direction would be rounding alone, the axis is kept.
-    if (axis.gap_m > 0.0F && near.gap_m > axis.gap_m) {
+    if (has_witness && is_wider) {
       out.normal = near.normal;
-      witness.gap_m = sqrtf(near.features.squared_m2);
+      witness.gap_m = distance_m;
       area.count = 0;
       faces = {a.support_face(-out.normal), b.support_face(out.normal)};
     }

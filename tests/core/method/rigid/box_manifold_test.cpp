@@ -223,5 +223,17 @@ TEST(BoxManifolds, KeepTheirKeysThroughSmallMotions) {
   EXPECT_GT(own * 1000, general * 995);
 }
 
+// The upper one is 5 mm to the side of the lower one, whose highest edge is thus not under its face.
+TEST(BoxManifolds, OfFacesOverEachOtherHaveAllTheirPoints) {
+  BoxPair p;
+  p.a = p.b = {box({0.5F, 0.25F, 0.25F}).shape, {}};
+  p.b.pose.x = {0.06F, 0.55F, -0.005F};
+  p.a.pose.q = unit({1.0F, -0.0076F, 0.0F, 0.0F});
+  const BothManifolds both = both_of(p);
+  EXPECT_EQ(both.own.count, 4);
+  EXPECT_EQ(both.general.count, 4);
+  EXPECT_TRUE(both.show_faces());
+}
+
 }  // namespace
 }  // namespace broadside::core
