@@ -21,6 +21,11 @@ namespace broadside::core {
 // this share of the fastest push.
 inline constexpr float kRelaxDone = 0x1p-10F;
 
+BROADSIDE_HD constexpr float relax_done_m_s(const SoftStep& step, float fastest_push_m_s) {
+  const float done = done_m_s(step, kRelaxDone, fastest_push_m_s);
+  return done > step.least_relax_m_s ? done : step.least_relax_m_s;
+}
+
 // How fast the points of a patch are pushed, beyond twice what their springs yield to the impulses that they begin
 // with: the largest, m/s; 0 = none is. Twice, because where a light body bears a heavy one the load itself is not known
 // to a few percent, and what is taken back from it makes it sway. gap_m(k): of a point, at the start of the substep.

@@ -34,6 +34,7 @@ struct SoftStep {
   float least_done_m_s = 0.0F;   // changes of speed below this are none to sweep on for
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
   float kept_push_m_s = 0.0F;    // what pushes bodies apart faster is taken back (pushed_apart.hpp)
+  float least_relax_m_s = 0.0F;  // changes of speed below this are none to take back
   float gravity_m_s2 = 0.0F;
   // The last sweep changes no point's speed by more than this share of the fastest, or is the so many-th.
   float done_share = 0.0F;
@@ -386,7 +387,6 @@ BROADSIDE_HD void drop_impacts(PatchOf<Number>& c) {
   });
 }
 
-// Behind that.
 template <typename Number>
 BROADSIDE_HD void add_to_totals(PatchOf<Number>& c) {
   each_point(c, [&](int k) {

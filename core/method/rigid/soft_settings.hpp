@@ -36,6 +36,8 @@ struct SolveNumbers {
   // Of a substep that pushes overlaps apart, at most: sweeps that take the push back. With 32 a heap of 30,000 cubes
   // that lands gains more energy than its steps explain.
   std::uint32_t relax_sweeps = 48;
+  // Such a sweep is the last one that changes no point's speed by more than this share of a push that is kept.
+  float relax_done_of_kept = 0.0F;
 };
 
 // A step of a scene whose masses are further apart than SoftSettings::even_masses.
@@ -48,7 +50,7 @@ struct UnevenStep {
 struct SoftSettings {
   // Where everything rests the fastest point is slow itself, and one point of a thousand kept all others sweeping. So a
   // change below a share of gravity ends the sweeps too.
-  SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F};
+  SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F, 16, 48, 0.25F};
   float even_masses = 64.0F;
   // A contact of a light body bears what a heavy one needs to stop. With a contact as stiff as the light body alone
   // allows, 8 kg at 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts,
@@ -182,6 +184,7 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
   step.kept_push_m_s =
       takes_back_pushes(settings) ? kKeptPushShare * gravity * dt_s : std::numeric_limits<float>::max();
+  step.least_relax_m_s = takes_back_pushes(settings) ? numbers.relax_done_of_kept * step.kept_push_m_s : 0.0F;
   return step;
 }
 

@@ -131,7 +131,7 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
     float fastest = 0.0F;
     float done = 0.0F;
     if (of == Stirred::kPushed) {
-      done = core::done_m_s(solve.soft, core::kRelaxDone, fastest_push);
+      done = core::relax_done_m_s(solve.soft, fastest_push);
     } else {
       if (!solve.may_bounce) return;
       fastest = largest_of_turn(team, solve);

@@ -241,7 +241,7 @@ void StepConstraints::take_back_impulses() {
 }
 
 std::uint32_t StepConstraints::relax_pushed(const core::SoftStep& numbers) {
-  const float done = core::done_m_s(numbers, core::kRelaxDone, fastest_push_m_s_);
+  const float done = core::relax_done_m_s(numbers, fastest_push_m_s_);
   return relax_until_done(numbers, done, numbers.most_relax_sweeps);
 }
 
