@@ -54,7 +54,7 @@ BROADSIDE_HD int steps_ahead(const FreeMotion& m, float half_thickness_m) {
 // to. It also covers what is as near, in whatever direction, as gravity moves the body in a step. Patches so near are
 // always kept (near_m), because a blow passes within a step through bodies that touch. Before, a brick 0.2 mm beside a
 // row that was struck at 20 m/s was no candidate, and was entered by 64 mm. The box is grown by more than the rounding
-// of these sums.
+// of this step's sums; nothing is promised to the last bit of the steps behind it.
 BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m, int steps) {
   const float near_m = length(m.fall);
   Box swept;
