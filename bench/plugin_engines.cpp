@@ -113,7 +113,7 @@ core::Result<core::Engine> create_by(std::string_view key, const core::Settings&
     if (!on_device) return on_device.error();
     space = std::move(on_device).value();
   }
-  auto engine = reference::create_plugin_engine(plugin->path, settings, std::move(space));
+  auto engine = reference::create_plugin_engine(plugin->path, settings, space);
   if (engine.ok()) engine.value().build += " (" + plugin->name + ", " + plugin_content(plugin->row) + ")";
   return engine;
 }

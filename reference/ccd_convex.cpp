@@ -138,6 +138,7 @@ std::vector<Vec3> turned(const core::Mesh& mesh, core::Quat orientation) {
 
 std::vector<Vec3> corners_of(const core::Box& box) {
   std::vector<Vec3> points;
+  points.reserve(8);
   for (int corner = 0; corner < 8; ++corner) {
     points.push_back({(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
                       (corner & 4) != 0 ? box.max.z : box.min.z});

@@ -57,7 +57,7 @@ double default_of(dReal (*parameter)(dWorldID)) {
 }  // namespace
 
 void enter_ode() {
-  static const Library library;
+  static const Library kLibrary;
   dAllocateODEDataForThread(dAllocateMaskAll);
 }
 

@@ -81,7 +81,7 @@ core::Result<PluginDescription> describe_plugin(const std::string& given) {
 }
 
 core::Result<core::Engine> create_plugin_engine(const std::string& given, const core::Settings& settings,
-                                                std::shared_ptr<core::MemorySpace> space) {
+                                                const std::shared_ptr<core::MemorySpace>& space) {
   auto opened = open_source(given);
   if (!opened) return opened.error();
   const std::shared_ptr<const PluginSource> source = opened.value();

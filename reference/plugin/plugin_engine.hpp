@@ -36,6 +36,6 @@ core::Result<PluginDescription> describe_plugin(const std::string& given);
 
 // The engine itself. `space` is where a library wants its arrays. Settings: those of the description, by key.
 core::Result<core::Engine> create_plugin_engine(const std::string& given, const core::Settings& settings,
-                                                std::shared_ptr<core::MemorySpace> space);
+                                                const std::shared_ptr<core::MemorySpace>& space);
 
 }  // namespace broadside::reference

@@ -106,7 +106,7 @@ struct SimbodySystem::World {
 SimbodySystem::SimbodySystem(const SimbodySetup& setup) : world_(std::make_unique<World>()) {
   World& w = *world_;
   w.contact.setTransitionVelocity(setup.slip_speed_m_s);
-  SimTK::Force::UniformGravity(w.forces, w.matter, simbody(setup.gravity_m_s2));
+  const SimTK::Force::UniformGravity gravity(w.forces, w.matter, simbody(setup.gravity_m_s2));
   for (const SimbodySetup::Face& face : setup.faces) w.add(face, material(setup.stiffness_pa, setup.face_surface));
   for (const SimbodyBody& b : setup.bodies) w.add(b, material(setup.stiffness_pa, b.surface), setup.turns);
   for (std::size_t i = 0; i < setup.bodies.size(); ++i)

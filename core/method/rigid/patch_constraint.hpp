@@ -322,7 +322,10 @@ template <typename Number, typename Body>
 class PatchGaps {
  public:
   BROADSIDE_HD PatchGaps(const PatchOf<Number>& c, const Body& a, const Body& b)
-      : c_(c), a_(a), b_(b), is_far_(swings_far(a.turned) | swings_far(b.turned)) {
+      : c_(c), a_(a), b_(b) {
+    const TruthOf<Number> is_far_a = swings_far(a.turned);
+    const TruthOf<Number> is_far_b = swings_far(b.turned);
+    is_far_ = is_far_a | is_far_b;
     const VectorOf<Number> moved = (a.moved + cross(a.turned, c.center_a)) - (b.moved + cross(b.turned, c.center_b));
     const VectorOf<Number> turned = a.turned - b.turned;
     moved_ = dot(c.normal, moved);
