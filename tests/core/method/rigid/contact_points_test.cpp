@@ -67,5 +67,29 @@ TEST(KeepFour, OfTwoAtOnePlaceTheDeeper) {
   }
 }
 
+// The corners of a bunny that stands on two of them (x and z about its center, gap, m). By the areas that they span the
+// second one, which lies between the others, was left out, and the bunny rolled over it.
+TEST(KeepFour, WhatABodyStandsOnIsKeptBetweenHigherCorners) {
+  const std::vector<ManifoldPoint> corners = {{{-0.513F, -0.311F, -0.289F}, -0.000158F, 1},
+                                              {{0.154F, -0.312F, 0.103F}, -0.0000075F, 2},
+                                              {{0.174F, -0.306F, 0.319F}, 0.0110F, 3},
+                                              {{0.375F, -0.294F, 0.026F}, 0.0357F, 4},
+                                              {{0.348F, -0.251F, -0.171F}, 0.1202F, 5}};
+  EXPECT_TRUE(has(kept_of(corners, 0.27F), 2));
+}
+
+// What hides under the triangle of three is deeper than their plane: of four corners around it and one below the
+// middle, which is a little higher than the first, that one is kept.
+TEST(KeepFour, ACornerBelowThePlaneOfTheOthersIsKept) {
+  const std::vector<ManifoldPoint> corners = {{{0.0F, 0.0F, 0.0F}, 0.0F, 1},
+                                              {{1.0F, 0.0F, 0.0F}, 0.030F, 2},
+                                              {{0.0F, 0.0F, 1.0F}, 0.030F, 3},
+                                              {{1.0F, 0.0F, 1.0F}, 0.060F, 4},
+                                              {{0.45F, 0.0F, 0.45F}, 0.001F, 5}};
+  const auto kept = kept_of(corners, 0.2F);
+  EXPECT_EQ(kept.size(), 4U);
+  EXPECT_TRUE(has(kept, 1) && has(kept, 5));
+}
+
 }  // namespace
 }  // namespace broadside::core
