@@ -9,15 +9,15 @@ namespace {
 
 // Blocks of a warp for each of a multiprocessor's four schedulers, two of them resident: that leaves 255 registers a
 // thread, enough for a patch and both its bodies.
-constexpr std::uint32_t kThreads = 128;
+constexpr std::uint32_t kThreads = 32 * SolveShared::kMostWarps;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 // Not every GPU has clusters of more than 8 blocks.
 constexpr std::uint32_t kMostClusterBlocks = 16;
 
 __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
     solve_kernel(const __grid_constant__ RigidFrameView frame) {
-  __shared__ ColorTable table;
-  run_solve(frame, table);
+  __shared__ SolveShared shared;
+  run_solve(frame, shared);
 }
 
 cudaLaunchConfig_t cluster_config(std::uint32_t blocks, cudaLaunchAttribute& attribute) {

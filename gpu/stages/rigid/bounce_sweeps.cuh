@@ -6,9 +6,10 @@
 
 namespace broadside::gpu {
 
-// What a sweep loads of a patch before it knows whether the patch is visited.
-struct LoadedBodies {
+// What a sweep over patches that bounce loads of one.
+struct LoadedBounce {
   core::PatchConstraint c;
+  bool may_bounce = true;
 };
 
 // The whole patch, where it is known already that it is visited.
@@ -85,44 +86,66 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
         stir(f, p.c.b, sweep + 1);
         return Visit::kDone;
       },
-      KeepsNothing{});
+      KeepsNothing{},
+      Visits(
+          true,
+          [&](const TileSlot& slot) {
+            core::PatchConstraint c;
+            load_bodies(slot, c);
+            const bool follows = has_directions && load_relaxed(slot) == since;
+            return follows | (f.stirred[c.a] >= sweep) | (f.stirred[c.b] >= sweep);
+          },
+          [&](std::uint32_t place) {
+            if (has_directions) f.changes[place] = 0.0F;
+          }));
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
   if (has_directions) sums.bring_largest(TeamSums::kSecond, largest_change);
 }
 
-// Points that came fast leave. is_first: notes how much impulse each patch may give. Contributes the largest change of
-// a point's speed.
+// Points that came fast leave. is_first: notes how much impulse each patch may give, and which patches bounce: the
+// sweeps behind it change the impulses of these alone, so no other one begins to. Contributes the largest change of a
+// point's speed.
 __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f, bool is_first,
                                                float done, const TeamSums& sums) {
   float largest = 0.0F;
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
       [&](const TileSlot& slot) {
-        LoadedBodies loaded;
-        load_bodies(slot, loaded.c);
-        load_directions(slot, loaded.c);
-        load_impulses(slot, loaded.c);
-        load_impact(slot, loaded.c);
+        LoadedBounce loaded;
+        core::PatchConstraint& c = loaded.c;
+        if (!is_first) {
+          c.budget_n_s = load_budget(slot);
+          loaded.may_bounce = c.budget_n_s != kBouncesNot;
+          if (!loaded.may_bounce) return loaded;
+        }
+        load_bodies(slot, c);
+        load_directions(slot, c);
+        load_impulses(slot, c);
+        load_impact(slot, c);
         return loaded;
       },
-      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBodies& loaded) {
+      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBounce& loaded) {
         core::PatchConstraint& c = loaded.c;
-        if (!(core::fastest_bounce(c) > 0.0F)) return;
+        if (!loaded.may_bounce) return;
+        if (!(core::fastest_bounce(c) > 0.0F)) {
+          store_budget(slot, kBouncesNot);
+          return;
+        }
         load_levers(slot, c);
         load_masses(slot, c);
         load_mobility(slot, load_directions(slot, c), c);
-        if (is_first)
-          core::note_budget(c);
-        else
-          c.budget_n_s = load_budget(slot);
+        if (is_first) core::note_budget(c);
         core::SolverBody a = load_place(f.bodies[c.a]);
         core::SolverBody b = load_place(f.bodies[c.b]);
         with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, done)); });
         store_impulses(slot, c);
         store_budget(slot, c.budget_n_s);
       },
-      KeepsNothing{});
+      KeepsNothing{},
+      Visits(
+          !is_first, [](const TileSlot& slot) { return load_budget(slot) != kBouncesNot; },
+          [](std::uint32_t /*place*/) {}));
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
 }

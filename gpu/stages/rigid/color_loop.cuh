@@ -18,6 +18,7 @@
 
 #include "core/method/rigid/patch_constraint.hpp"
 #include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/rigid/chosen_turns.cuh"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
 #include "gpu/stages/rigid/solve_team.cuh"
 #include "gpu/stages/rigid/solver_bodies.cuh"
@@ -60,11 +61,20 @@ struct KeepsNothing {
 //
 // Both are called at one place each: they are long, and with a copy of load at every barrier the solver's code was
 // several times what a multiprocessor keeps of it, so that warps waited for instructions.
-template <typename Load, typename Work, typename Keep>
+//
+// visits: VisitsAll, or Visits of those that the sweep chooses in large colors, where nothing is loaded ahead.
+template <typename Load, typename Work, typename Keep, typename Visited = VisitsAll>
 __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, SweepBegin begin,
-                                                    const Load& load, const Work& work, const Keep& keep) {
+                                                    const Load& load, const Work& work, const Keep& keep,
+                                                    const Visited& visits = {}) {
   decltype(load(TileSlot(nullptr, 0))) loaded;
-  ColorTurn turn = team.turn_from(0);
+  std::uint32_t chosen_until = 0;
+  ChosenTurns chosen(team, f);
+  if constexpr (Visited::kChooses) {
+    if (visits.is_used) chosen_until = team.chosen_until();
+    if (chosen_until > 0) chosen.begin(0);
+  }
+  ColorTurn turn = chosen_until > 0 ? ColorTurn{} : team.turn_from(0);
   bool is_loaded = false;
   bool owes = false;
   std::uint32_t owed = 0;
@@ -92,11 +102,21 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
     if (turn.color == color && is_loaded) {
       owes = true;
       owed = turn.place;
-      turn = team.turn_after(turn);
+      turn = color < chosen_until ? chosen.next() : team.turn_after(turn);
       is_loaded = false;
     }
     if (__any_sync(kFullWarp, turn.color == color)) continue;
+    if constexpr (Visited::kChooses) {
+      if (color < chosen_until && chosen.has_more()) {
+        turn = chosen.choose(visits);
+        continue;
+      }
+    }
     if (++color >= team.colors()) break;
+    if constexpr (Visited::kChooses) {
+      if (color < chosen_until) chosen.begin(color);
+      if (color == chosen_until) turn = team.turn_from(color);
+    }
     if (color <= team.alone_from()) {
       team.arrive();
       wait = ColorWait::kTeam;

@@ -232,7 +232,9 @@ __device__ __forceinline__ void store_triples(const TileSlot& slot, std::uint32_
   }
 }
 
-// What relaxation keeps of a patch from sweep to sweep.
+// What relaxation keeps of a patch from sweep to sweep. kBouncesNot: of a patch that does not bounce; the budget of the
+// others is what is left of a positive number.
+constexpr float kBouncesNot = -3.402823e38F;
 __device__ __forceinline__ float load_budget(const TileSlot& slot) {
   return slot.at(kRelaxed).v.x;
 }

@@ -9,9 +9,9 @@
 
 namespace broadside::gpu {
 
-// table: in the block's shared memory.
-__device__ __forceinline__ void run_solve(const RigidFrameView& f, ColorTable& table) {
-  const SolveTeam team(f, table);
+// shared: in the block's shared memory.
+__device__ __forceinline__ void run_solve(const RigidFrameView& f, SolveShared& shared) {
+  const SolveTeam team(f, shared);
   const bool is_first = team.rank() == 0;
   const bool is_aborted = lacks_room(f);
   if (!is_aborted) {

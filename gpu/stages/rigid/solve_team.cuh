@@ -3,7 +3,7 @@
 
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/rigid/color_table.cuh"
+#include "gpu/stages/rigid/solve_shared.cuh"
 
 namespace broadside::gpu {
 
@@ -19,18 +19,20 @@ struct ColorTurn {
 // One class for both kinds of launch, because the sweeps take long to compile.
 class SolveTeam : public GridPlaces {
  public:
-  // table: in the block's shared memory. By all threads.
-  __device__ SolveTeam(const RigidFrameView& f, ColorTable& table)
+  // By all threads.
+  __device__ SolveTeam(const RigidFrameView& f, SolveShared& shared)
       : f_(f),
-        table_(table),
+        shared_(shared),
         colors_(min(f.counts->colors, f.color_capacity)),  // an aborted frame may have more
         alone_from_(colors_),
         threads_(static_cast<std::uint32_t>(size())),
         kind_(f.solve_team),
         barrier_(f.barrier) {
     while (alone_from_ > 0 && f.color_count[alone_from_ - 1] <= blockDim.x) --alone_from_;
+    for (std::uint32_t color = 0; color < alone_from_; ++color)
+      if (f.color_count[color] > kTurnsToChooseFrom * threads_) chosen_until_ = color + 1;
     for (std::uint32_t color = threadIdx.x; color < min(colors_, ColorTable::kColors); color += blockDim.x)
-      table_.of_color[color] = places_of_color(f, color, threads_of(color));
+      shared_.colors.of_color[color] = places_of_color(f, color, threads_of(color));
     __syncthreads();
   }
 
@@ -38,21 +40,30 @@ class SolveTeam : public GridPlaces {
   // From this color on each color has at most as many patches as the first block has threads, and that block solves
   // them alone. In a loose heap most colors are such.
   [[nodiscard]] __device__ std::uint32_t alone_from() const { return alone_from_; }
+  // The colors before this one are large, or smaller than a later one that is: a thread has several turns in a large
+  // color.
+  [[nodiscard]] __device__ std::uint32_t chosen_until() const { return chosen_until_; }
+  [[nodiscard]] __device__ std::uint32_t* chosen() const { return shared_.chosen[threadIdx.x / 32]; }
+  // How many solve a color that the first block does not solve alone.
+  [[nodiscard]] __device__ std::uint32_t threads() const { return threads_; }
 
   // This thread's first place in this color or a later one. Every sweep gives the same places to the same threads.
   [[nodiscard]] __device__ __forceinline__ ColorTurn turn_from(std::uint32_t color) const {
     for (; color < colors_; ++color) {
-      const bool is_alone = color >= alone_from_;
-      if (is_alone && blockIdx.x != 0) break;
-      const std::uint32_t threads = threads_of(color);
-      const ColorPlaces places =
-          color < ColorTable::kColors ? table_.of_color[color] : places_of_color(f_, color, threads);
-      const std::uint32_t rank = is_alone ? threadIdx.x : static_cast<std::uint32_t>(spread_rank());
-      const std::uint32_t behind = rank >= places.first_rank ? 0 : threads;
-      const std::uint32_t place = places.begin + (rank + behind - places.first_rank);
-      if (place < places.end) return {color, place, places.end};
+      if (color >= alone_from_ && blockIdx.x != 0) break;
+      if (const ColorTurn turn = turn_in(color); turn.color == color) return turn;
     }
     return {};
+  }
+  // Its first place in this color, if it has one.
+  [[nodiscard]] __device__ __forceinline__ ColorTurn turn_in(std::uint32_t color) const {
+    const std::uint32_t threads = threads_of(color);
+    const ColorPlaces places =
+        color < ColorTable::kColors ? shared_.colors.of_color[color] : places_of_color(f_, color, threads);
+    const std::uint32_t rank = color >= alone_from_ ? threadIdx.x : static_cast<std::uint32_t>(spread_rank());
+    const std::uint32_t behind = rank >= places.first_rank ? 0 : threads;
+    const std::uint32_t place = places.begin + (rank + behind - places.first_rank);
+    return place < places.end ? ColorTurn{color, place, places.end} : ColorTurn{};
   }
   [[nodiscard]] __device__ __forceinline__ ColorTurn turn_after(const ColorTurn& turn) const {
     const std::uint32_t place = turn.place + threads_of(turn.color);
@@ -82,14 +93,18 @@ class SolveTeam : public GridPlaces {
   [[nodiscard]] __device__ std::uint32_t waits() const { return waits_; }
 
  private:
+  // With so few it takes as long to look first; measured by sizes of heaps, gpu/EXPERIMENTS.md.
+  static constexpr std::uint32_t kTurnsToChooseFrom = 2;
+
   [[nodiscard]] __device__ std::uint32_t threads_of(std::uint32_t color) const {
     return color < alone_from_ ? threads_ : blockDim.x;
   }
 
   const RigidFrameView& f_;
-  ColorTable& table_;
+  SolveShared& shared_;
   std::uint32_t colors_;
   std::uint32_t alone_from_;
+  std::uint32_t chosen_until_ = 0;
   std::uint32_t threads_;
   SolveTeamKind kind_;
   mutable GridBarrier barrier_;

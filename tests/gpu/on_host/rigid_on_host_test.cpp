@@ -83,6 +83,18 @@ TEST(RigidOnHost, AHeapSolvedByAGrid) {
   EXPECT_GT(compare("freefall:cube:20[rigid=1]", 40, options), 0U);
 }
 
+// The first color has some three patches a thread: warps choose what a sweep visits while cubes land and bounce.
+TEST(RigidOnHost, ALargeColor) {
+  RigidPipelineOptions soft_steps;
+  soft_steps.solver = core::soft_step_settings();
+  EXPECT_GT(compare("freefall:cube:250[rigid=1]", 42, soft_steps, {{"contact", "soft-step"}}), 0U);
+  EXPECT_GT(compare("freefall:cube:250[rigid=1]", 42), 0U);
+  // Cubes that begin in each other: nearly all of a color is visited.
+  core::Scene scene = scene_of("freefall:cube:600[rigid=1]");
+  for (core::Body& body : scene.bodies) body.position = 0.5F * body.position;
+  EXPECT_GT(compare(scene, 4, {}, {}), 0U);
+}
+
 // Masses that are far apart: a step is taken in parts, and its points are put together. The heavy one comes down askew.
 TEST(RigidOnHost, AStepInParts) {
   core::Scene scene = scene_of("rigid:stack:1000-on-1");

@@ -1,0 +1,105 @@
+// The places of a large color that a sweep visits, where it visits few.
+//
+// While contacts bounce, a sweep visits the patches of stirred bodies: a few in a hundred. A lane that has several
+// places of a color one after the other mostly finds that it may pass, but in nearly each of its turns another lane of
+// its warp has a patch to solve. So a warp looks through several turns at once first, and then solves what it has
+// chosen, 32 at a time.
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/rigid/rigid_view.hpp"
+#include "gpu/stages/grid/device.cuh"
+#include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/constraint_tiles.cuh"
+#include "gpu/stages/rigid/solve_team.cuh"
+
+namespace broadside::gpu {
+
+// Of a sweep that visits all places.
+struct VisitsAll {
+  static constexpr bool kChooses = false;
+};
+
+// Of a sweep that visits those of which is_visited(slot) says so, which may be asked of any place; pass(place) is
+// called for the others of large colors. is_used: the same for all threads.
+template <typename IsVisited, typename Pass>
+struct Visits {
+  static constexpr bool kChooses = true;
+  bool is_used = false;
+  IsVisited is_visited;
+  Pass pass;
+};
+template <typename IsVisited, typename Pass>
+Visits(bool, IsVisited, Pass) -> Visits<IsVisited, Pass>;
+
+// The turns of this thread in one color after the other. By whole warps.
+class ChosenTurns {
+ public:
+  __device__ ChosenTurns(const SolveTeam& team, const RigidFrameView& f) : team_(team), f_(f) {}
+
+  __device__ __forceinline__ void begin(std::uint32_t color) {
+    scanned_ = team_.turn_in(color);
+    color_ = color;
+    has_more_ = true;
+  }
+  // Whether the warp has places of the color that it has not looked at.
+  [[nodiscard]] __device__ bool has_more() const { return has_more_; }
+
+  // Looks at the next places, and returns the first of what is chosen for this lane.
+  template <typename Visits>
+  __device__ __forceinline__ ColorTurn choose(const Visits& visits) {
+    std::uint32_t* const chosen = team_.chosen();
+    count_ = 0;
+    __syncwarp();  // nobody reads the places of before any more
+    for (std::uint32_t turn = 0; turn < kTurns; turn += kTogether) {
+      bool has[kTogether];
+      bool is_chosen[kTogether];
+      std::uint32_t place[kTogether];
+      // Any place can be asked, so that the loads of all turns are on their way together.
+#pragma unroll
+      for (std::uint32_t k = 0; k < kTogether; ++k) {
+        place[k] = scanned_.place + k * team_.threads();
+        has[k] = scanned_.color == color_ && place[k] < scanned_.end;
+        is_chosen[k] = visits.is_visited(TileSlot(f_.constraints, has[k] ? place[k] : 0)) && has[k];
+      }
+#pragma unroll
+      for (std::uint32_t k = 0; k < kTogether; ++k) {
+        const unsigned with = __ballot_sync(kFullWarp, is_chosen[k]);
+        if (is_chosen[k])
+          chosen[count_ + static_cast<std::uint32_t>(__popc(with & ((1U << lane()) - 1U)))] = place[k];
+        else if (has[k])
+          visits.pass(place[k]);
+        count_ += static_cast<std::uint32_t>(__popc(with));
+      }
+      if (scanned_.color == color_) scanned_.place += kTogether * team_.threads();
+    }
+    has_more_ = __any_sync(kFullWarp, scanned_.color == color_ && scanned_.place < scanned_.end) != 0;
+    __syncwarp();
+    at_ = lane();
+    return turn();
+  }
+  [[nodiscard]] __device__ __forceinline__ ColorTurn next() {
+    at_ += 32;
+    return turn();
+  }
+
+ private:
+  static constexpr std::uint32_t kTogether = 4;
+  static constexpr std::uint32_t kTurns = SolveShared::kChosen / 32;
+  static_assert(kTurns % kTogether == 0, "whole groups of turns fill the list");
+
+  [[nodiscard]] __device__ ColorTurn turn() const {
+    return at_ < count_ ? ColorTurn{color_, team_.chosen()[at_], 0} : ColorTurn{};
+  }
+
+  const SolveTeam& team_;
+  const RigidFrameView& f_;
+  ColorTurn scanned_;
+  std::uint32_t color_ = 0;
+  std::uint32_t count_ = 0;
+  std::uint32_t at_ = 0;
+  bool has_more_ = false;
+};
+
+}  // namespace broadside::gpu
