@@ -6,10 +6,12 @@
 
 namespace broadside::gpu {
 
-// What a sweep over patches that bounce loads of one.
+// A patch that bounces, and its bodies without their velocities.
 struct LoadedBounce {
   core::PatchConstraint c;
-  bool may_bounce = true;
+  core::SolverBody a;
+  core::SolverBody b;
+  bool bounces = false;
 };
 
 // The whole patch, where it is known already that it is visited.
@@ -66,11 +68,9 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
       },
       [&](const TileSlot& slot, std::uint32_t place, LoadedStirred& loaded) {
         LoadedPatch& p = loaded.of.patch;
-        // An earlier color of this sweep may have stirred its bodies since it was loaded.
         if (!loaded.is_whole) {
-          if (is_stirred(p.c)) return Visit::kLoadAgain;
           if (has_directions) f.changes[place] = 0.0F;
-          return Visit::kDone;
+          return;
         }
         float change = 0.0F;
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
@@ -81,10 +81,9 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
           f.changes[place] = squared;
         }
         largest = fmaxf(largest, change);
-        if (!(change > done)) return Visit::kDone;
+        if (!(change > done)) return;
         stir(f, p.c.a, sweep + 1);
         stir(f, p.c.b, sweep + 1);
-        return Visit::kDone;
       },
       KeepsNothing{},
       Visits(
@@ -97,7 +96,9 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
           },
           [&](std::uint32_t place) {
             if (has_directions) f.changes[place] = 0.0F;
-          }));
+          },
+          // An earlier color of this sweep may have stirred its bodies since it was loaded.
+          [&](const LoadedStirred& loaded) { return !loaded.is_whole && is_stirred(loaded.of.patch.c); }));
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
   if (has_directions) sums.bring_largest(TeamSums::kSecond, largest_change);
@@ -116,36 +117,38 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         core::PatchConstraint& c = loaded.c;
         if (!is_first) {
           c.budget_n_s = load_budget(slot);
-          loaded.may_bounce = c.budget_n_s != kBouncesNot;
-          if (!loaded.may_bounce) return loaded;
+          if (c.budget_n_s == kBouncesNot) return loaded;
         }
         load_bodies(slot, c);
-        load_directions(slot, c);
+        const core::Vec3 across = load_directions(slot, c);
         load_impulses(slot, c);
         load_impact(slot, c);
-        return loaded;
-      },
-      [&](const TileSlot& slot, std::uint32_t /*place*/, LoadedBounce& loaded) {
-        core::PatchConstraint& c = loaded.c;
-        if (!loaded.may_bounce) return;
-        if (!(core::fastest_bounce(c) > 0.0F)) {
+        loaded.bounces = core::fastest_bounce(c) > 0.0F;
+        if (!loaded.bounces) {
           store_budget(slot, kBouncesNot);
-          return;
+          return loaded;
         }
         load_levers(slot, c);
         load_masses(slot, c);
-        load_mobility(slot, load_directions(slot, c), c);
+        load_mobility(slot, across, c);
         if (is_first) core::note_budget(c);
-        core::SolverBody a = load_place(f.bodies[c.a]);
-        core::SolverBody b = load_place(f.bodies[c.b]);
-        with_velocities(f, c, a, b, [&] { largest = fmaxf(largest, core::bounce(c, a, b, done)); });
-        store_impulses(slot, c);
-        store_budget(slot, c.budget_n_s);
+        loaded.a = load_place(f.bodies[c.a]);
+        loaded.b = load_place(f.bodies[c.b]);
+        return loaded;
       },
-      KeepsNothing{},
+      [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedBounce& loaded) {
+        if (!loaded.bounces) return;
+        with_velocities(f, loaded.c, loaded.a, loaded.b,
+                        [&] { largest = fmaxf(largest, core::bounce(loaded.c, loaded.a, loaded.b, done)); });
+      },
+      [](const TileSlot& slot, std::uint32_t /*place*/, const LoadedBounce& loaded) {
+        if (!loaded.bounces) return;
+        store_impulses(slot, loaded.c);
+        store_budget(slot, loaded.c.budget_n_s);
+      },
       Visits(
           !is_first, [](const TileSlot& slot) { return load_budget(slot) != kBouncesNot; },
-          [](std::uint32_t /*place*/) {}));
+          [](std::uint32_t /*place*/) {}, NeverStale{}));
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
 }

@@ -21,17 +21,28 @@ struct VisitsAll {
   static constexpr bool kChooses = false;
 };
 
+// What was loaded ahead is what the patch needs.
+struct NeverStale {
+  template <typename Loaded>
+  __device__ bool operator()(const Loaded& /*loaded*/) const {
+    return false;
+  }
+};
+
 // Of a sweep that visits those of which is_visited(slot) says so, which may be asked of any place; pass(place) is
-// called for the others of large colors. is_used: the same for all threads.
-template <typename IsVisited, typename Pass>
+// called for the others of large colors. is_stale(loaded): whether the patch has to be loaded again, because an earlier
+// color of the sweep has changed what was loaded ahead. is_used: whether large colors are looked through first; the
+// same for all threads.
+template <typename IsVisited, typename Pass, typename IsStale>
 struct Visits {
   static constexpr bool kChooses = true;
   bool is_used = false;
   IsVisited is_visited;
   Pass pass;
+  IsStale is_stale;
 };
-template <typename IsVisited, typename Pass>
-Visits(bool, IsVisited, Pass) -> Visits<IsVisited, Pass>;
+template <typename IsVisited, typename Pass, typename IsStale>
+Visits(bool, IsVisited, Pass, IsStale) -> Visits<IsVisited, Pass, IsStale>;
 
 // The turns of this thread in one color after the other. By whole warps.
 class ChosenTurns {

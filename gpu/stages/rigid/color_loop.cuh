@@ -14,8 +14,6 @@
 //   (core::note_approach): approaches and totals are read of the others alone.
 #pragma once
 
-#include <type_traits>
-
 #include "core/method/rigid/patch_constraint.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/rigid/chosen_turns.cuh"
@@ -44,9 +42,6 @@ enum class SweepBegin : std::uint8_t { kAtOnce, kWithBarrier };
 // What a thread waits for before it goes on with the next color.
 enum class ColorWait : std::uint8_t { kNothing, kTeam, kBlock };
 
-// What a visit to a patch asks for next. kLoadAgain: what was loaded ahead is not what the patch needs after all.
-enum class Visit : std::uint8_t { kDone, kLoadAgain };
-
 // Of a sweep whose work writes all itself.
 struct KeepsNothing {
   template <typename Loaded>
@@ -56,8 +51,8 @@ struct KeepsNothing {
 // work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. keep(slot, place,
 // loaded) writes what no other patch waits for, once the thread has arrived at the barrier: a barrier waits until all
 // that was written before it can be seen. load(slot) gives what work needs of the constraint, and of its bodies what no
-// sweep changes; where work returns Visit::kLoadAgain, both are called once more. A thread loads its next constraint
-// right after its last one, mostly some colors ahead: nobody but this thread writes it during a sweep.
+// sweep changes. A thread loads its next constraint right after its last one, mostly some colors ahead: nobody but this
+// thread writes it during a sweep.
 //
 // Both are called at one place each: they are long, and with a copy of load at every barrier the solver's code was
 // several times what a multiprocessor keeps of it, so that warps waited for instructions.
@@ -92,14 +87,14 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
     if (wait == ColorWait::kTeam) team.wait();
     if (wait == ColorWait::kBlock) __syncthreads();
     wait = ColorWait::kNothing;
-    if (turn.color == color) {
-      if constexpr (std::is_void_v<decltype(work(TileSlot(f.constraints, turn.place), turn.place, loaded))>) {
-        work(TileSlot(f.constraints, turn.place), turn.place, loaded);
-      } else if (work(TileSlot(f.constraints, turn.place), turn.place, loaded) == Visit::kLoadAgain) {
-        is_loaded = false;
-      }
+    if constexpr (Visited::kChooses) {
+      // Lanes that load again do so before any lane of the warp works, so that all work at once.
+      const bool is_stale = turn.color == color && visits.is_stale(loaded);
+      is_loaded &= !is_stale;
+      if (__any_sync(kFullWarp, is_stale)) continue;
     }
-    if (turn.color == color && is_loaded) {
+    if (turn.color == color) {
+      work(TileSlot(f.constraints, turn.place), turn.place, loaded);
       owes = true;
       owed = turn.place;
       turn = color < chosen_until ? chosen.next() : team.turn_after(turn);
