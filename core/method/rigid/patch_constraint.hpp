@@ -321,8 +321,7 @@ BROADSIDE_HD Vector swung(const Vector& turned, const Vector& arm) {
 template <typename Number, typename Body>
 class PatchGaps {
  public:
-  BROADSIDE_HD PatchGaps(const PatchOf<Number>& c, const Body& a, const Body& b)
-      : c_(c), a_(a), b_(b) {
+  BROADSIDE_HD PatchGaps(const PatchOf<Number>& c, const Body& a, const Body& b) : c_(c), a_(a), b_(b) {
     const TruthOf<Number> is_far_a = swings_far(a.turned);
     const TruthOf<Number> is_far_b = swings_far(b.turned);
     is_far_ = is_far_a | is_far_b;
