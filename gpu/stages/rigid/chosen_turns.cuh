@@ -88,11 +88,11 @@ class ChosenTurns {
     has_more_ = __any_sync(kFullWarp, scanned_.color == color_ && scanned_.place < scanned_.end) != 0;
     __syncwarp();
     at_ = lane();
-    return turn();
+    return own_turn();
   }
   [[nodiscard]] __device__ __forceinline__ ColorTurn next() {
     at_ += 32;
-    return turn();
+    return own_turn();
   }
 
  private:
@@ -100,7 +100,7 @@ class ChosenTurns {
   static constexpr std::uint32_t kTurns = SolveShared::kChosen / 32;
   static_assert(kTurns % kTogether == 0, "whole groups of turns fill the list");
 
-  [[nodiscard]] __device__ ColorTurn turn() const {
+  [[nodiscard]] __device__ ColorTurn own_turn() const {
     return at_ < count_ ? ColorTurn{color_, team_.chosen()[at_], 0} : ColorTurn{};
   }
 
