@@ -86,19 +86,18 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
         stir(f, p.c.b, sweep + 1);
       },
       KeepsNothing{},
-      Visits(
-          true,
-          [&](const TileSlot& slot) {
-            core::PatchConstraint c;
-            load_bodies(slot, c);
-            const bool follows = has_directions && load_relaxed(slot) == since;
-            return follows | (f.stirred[c.a] >= sweep) | (f.stirred[c.b] >= sweep);
-          },
-          [&](std::uint32_t place) {
-            if (has_directions) f.changes[place] = 0.0F;
-          },
-          // An earlier color of this sweep may have stirred its bodies since it was loaded.
-          [&](const LoadedStirred& loaded) { return !loaded.is_whole && is_stirred(loaded.of.patch.c); }));
+      Visits{true,
+             [&](const TileSlot& slot) {
+               core::PatchConstraint c;
+               load_bodies(slot, c);
+               const bool follows = has_directions && load_relaxed(slot) == since;
+               return follows | (f.stirred[c.a] >= sweep) | (f.stirred[c.b] >= sweep);
+             },
+             [&](std::uint32_t place) {
+               if (has_directions) f.changes[place] = 0.0F;
+             },
+             // An earlier color of this sweep may have stirred its bodies since it was loaded.
+             [&](const LoadedStirred& loaded) { return !loaded.is_whole && is_stirred(loaded.of.patch.c); }});
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
   if (has_directions) sums.bring_largest(TeamSums::kSecond, largest_change);
@@ -146,9 +145,8 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         store_impulses(slot, loaded.c);
         store_budget(slot, loaded.c.budget_n_s);
       },
-      Visits(
-          !is_first, [](const TileSlot& slot) { return load_budget(slot) != kBouncesNot; },
-          [](std::uint32_t /*place*/) {}, NeverStale{}));
+      Visits{!is_first, [](const TileSlot& slot) { return load_budget(slot) != kBouncesNot; },
+             [](std::uint32_t /*place*/) {}, NeverStale{}});
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
 }
