@@ -93,7 +93,7 @@ class SolveTeam : public GridPlaces {
   [[nodiscard]] __device__ std::uint32_t waits() const { return waits_; }
 
  private:
-  // With so few it takes as long to look first; measured by sizes of heaps, gpu/EXPERIMENTS.md.
+  // A guess: with one or two turns a patch that was loaded ahead should be solved as soon. Not measured apart.
   static constexpr std::uint32_t kTurnsToChooseFrom = 2;
 
   [[nodiscard]] __device__ std::uint32_t threads_of(std::uint32_t color) const {
