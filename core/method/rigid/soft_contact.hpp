@@ -16,55 +16,10 @@
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
+#include "core/method/rigid/soft_step.hpp"
 #include "core/method/rigid/solver_body.hpp"
 
 namespace broadside::core {
-
-// Numbers of one substep, the same for all contacts.
-struct SoftStep {
-  float dt_s = 0.0F;  // of the substep
-  float per_dt_s = 0.0F;
-  // What of a gap's difference from the slop a substep takes away, per second; and how much of the impulse is soft.
-  float push_rate_per_s = 0.0F;
-  float mass_scale = 1.0F;
-  float impulse_scale = 0.0F;
-  // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
-  // friction holds, from the first substep on.
-  float settle_m_s = 0.0F;
-  float least_done_m_s = 0.0F;   // changes of speed below this are none to sweep on for
-  float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
-  float kept_push_m_s = 0.0F;    // what pushes bodies apart faster is taken back (pushed_apart.hpp)
-  float least_relax_m_s = 0.0F;  // changes of speed below this are none to take back
-  float gravity_m_s2 = 0.0F;
-  // The last sweep changes no point's speed by more than this share of the fastest, or is the so many-th.
-  float done_share = 0.0F;
-  std::uint32_t most_sweeps = 1;
-  std::uint32_t most_relax_sweeps = 0;  // that take back what pushed overlaps apart
-  // While something bounces, sweeps that stop what came fast, and sweeps that let it bounce, at most.
-  std::uint32_t most_stop_sweeps = 0;
-  std::uint32_t most_bounce_sweeps = 0;
-};
-
-// A spring and damper under each contact, taken implicitly: frequency and damping in units of the substep, omega h and
-// zeta. At rest it yields by (impulse / mass) / (h omega^2).
-BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
-  SoftStep s;
-  s.dt_s = dt_s;
-  s.per_dt_s = 1.0F / dt_s;
-  const float a1 = 2.0F * damping + omega_dt;
-  const float a2 = omega_dt * a1;
-  const float a3 = 1.0F / (1.0F + a2);
-  s.push_rate_per_s = omega_dt * s.per_dt_s / a1;
-  s.mass_scale = a2 * a3;
-  s.impulse_scale = a3;
-  return s;
-}
-
-// Of sweeps: the last one changes no point's speed by more. fastest_m_s: of all points.
-BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, float fastest_m_s) {
-  const float of_fastest = done_share * fastest_m_s;
-  return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
-}
 
 // Whether the point came fast enough to bounce.
 template <typename Number>

@@ -38,6 +38,9 @@ struct SolveNumbers {
   std::uint32_t relax_sweeps = 48;
   // Such a sweep is the last one that changes no point's speed by more than this share of a push that is kept.
   float relax_done_of_kept = 0.0F;
+  // Where pushes are kept, while something bounces: patches that relaxation changes by more than this share of what a
+  // push may be elsewhere are swept with those that bounce; 0: none.
+  float stirred_of_kept = 0.0F;
 };
 
 // A step of a scene whose masses are further apart than SoftSettings::even_masses.
@@ -75,11 +78,12 @@ struct SoftSettings {
 
 // Catto's soft step, without conjugate directions. Its cost is known ahead, so what it pushes apart is relaxed once and
 // not taken back (pushed_apart.hpp): one sweep leaves heaps a little deep in every substep, and on an H100 sweeping
-// until little changes made a step of 1,000 resting cubes fifteen times as long.
+// until little changes made a step of 1,000 resting cubes fifteen times as long. While something bounces, and sweeps go
+// on anyway, pushes relax with it: otherwise heaps that land gain energy.
 inline SoftSettings soft_step_settings() {
   SoftSettings settings;
+  settings.even = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F, 8, 0, 0.0F, 1.0F};
   // Sweeps that stop follow no direction, so there are more.
-  settings.even = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F, 32};
   settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F, 32}};
   return settings;
 }
@@ -184,6 +188,7 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
   step.kept_push_m_s =
       takes_back_pushes(settings) ? kKeptPushShare * gravity * dt_s : std::numeric_limits<float>::max();
+  if (numbers.stirred_of_kept > 0.0F) step.stirring_m_s = numbers.stirred_of_kept * kKeptPushShare * gravity * dt_s;
   step.least_relax_m_s = takes_back_pushes(settings) ? numbers.relax_done_of_kept * step.kept_push_m_s : 0.0F;
   return step;
 }

@@ -134,9 +134,11 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
       done = core::relax_done_m_s(solve.soft, fastest_push);
     } else {
       if (!solve.may_bounce) return;
+      const bool are_others_stirred = solve.sums.largest(TeamSums::kSecond) > 0.0F;
       fastest = largest_of_turn(team, solve);
       if (!(fastest > 0.0F)) return;
       done = core::kBounceDone * fastest;
+      if (are_others_stirred) done = fmaxf(done, solve.soft.stirring_m_s);
     }
     // A bounce so slow that its share vanishes has no sweeps.
     const bool has_sweeps = of == Stirred::kPushed || done > 0.0F;

@@ -149,10 +149,12 @@ __device__ __forceinline__ void set_goals_after_motion(const RigidFrameView& f, 
 }
 
 // Each contact once, after the bodies moved. may_bounce: what bounces stirs its bodies for this sweep, and its fastest
-// approach is brought.
+// approach is brought; so does what changes by more than soft.stirring_m_s, and the largest such change is brought.
 __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
                                           bool may_bounce, std::uint32_t sweep, const TeamSums& sums) {
   float fastest = 0.0F;
+  float largest = 0.0F;
+  float change = 0.0F;  // of the patch that is kept next
   each_place_by_color(
       team, f, SweepBegin::kAtOnce,
       [&](const TileSlot& slot) {
@@ -162,19 +164,23 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         return loaded;
       },
       [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedPatch& p) {
-        with_velocities(f, p.c, p.a, p.b, [&] { (void)core::relax_patch(p.c, p.goals, p.a, p.b); });
+        with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) {
         store_impulses(slot, p.c);
-        if (!may_bounce || !(p.c.surface.restitution > 0.0F)) return;
-        const float own = core::fastest_bounce(p.c);
-        if (!(own > 0.0F)) return;
+        if (!may_bounce) return;
+        const float own = p.c.surface.restitution > 0.0F ? core::fastest_bounce(p.c) : 0.0F;
+        const bool is_pushed = change > soft.stirring_m_s;
+        if (!(own > 0.0F) && !is_pushed) return;
         fastest = fmaxf(fastest, own);
+        if (is_pushed) largest = fmaxf(largest, change);
         stir(f, p.c.a, sweep);
         stir(f, p.c.b, sweep);
       });
   __syncwarp();
-  if (may_bounce) sums.bring_largest(TeamSums::kFirst, fastest);
+  if (!may_bounce) return;
+  sums.bring_largest(TeamSums::kFirst, fastest);
+  sums.bring_largest(TeamSums::kSecond, largest);
 }
 
 }  // namespace broadside::gpu

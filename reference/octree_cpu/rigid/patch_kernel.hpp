@@ -207,9 +207,10 @@ void push_along(const TileRange& range, float share) {
 }
 
 template <typename Lanes>
-void relax(const TileRange& range, const core::SoftStep& step) {
-  each_tile_moving<Lanes>(range, [&](Tile<Lanes>& t, auto& a, auto& b, std::size_t) {
-    (void)core::relax_patch(t.patch, core::goals_after_motion(t.patch, a, b, step), a, b);
+void relax(const TileRange& range, const core::SoftStep& step, float* changes) {
+  each_tile_moving<Lanes>(range, [&](Tile<Lanes>& t, auto& a, auto& b, std::size_t k) {
+    const auto goals = core::goals_after_motion(t.patch, a, b, step);
+    core::relax_patch(t.patch, goals, a, b).store(changes + k * kTileLanes);
   });
 }
 

@@ -47,7 +47,8 @@ struct PatchKernels {
   void (*warm_start)(const TileRange& range);
   void (*sweep)(const TileRange& range, const core::SoftStep& step, const SweepWay& way);
   void (*push_along)(const TileRange& range, float share);
-  void (*relax)(const TileRange& range, const core::SoftStep& step);
+  // Notes by place the largest change of a point's speed, m/s.
+  void (*relax)(const TileRange& range, const core::SoftStep& step, float* changes);
   void (*end_substep)(const TileRange& range);
 };
 

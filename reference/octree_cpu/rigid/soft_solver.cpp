@@ -55,7 +55,8 @@ void SoftSolver::relax(const core::SoftStep& numbers) {
     work_.take_back_impulses();
     work_.each_range_by_color([&](const TileRange& range) { kernels_.warm_start(range); });
   }
-  work_.each_range_by_color([&](const TileRange& range) { kernels_.relax(range, numbers); });
+  relaxed_.resize(work_.tiles().places());
+  work_.each_range_by_color([&](const TileRange& range) { kernels_.relax(range, numbers, relaxed_.data()); });
   if (work_.is_pushed()) sweeps_done_ += work_.relax_pushed(numbers);
 }
 
@@ -67,7 +68,7 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, c
   sweep_until_done(numbers);
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
   relax(numbers);
-  work_.bounce(numbers, core::forgets_blows(kind));
+  work_.bounce(numbers, relaxed_, core::forgets_blows(kind));
   work_.each_range([&](const TileRange& range) { kernels_.end_substep(range); });
 }
 

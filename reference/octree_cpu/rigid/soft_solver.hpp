@@ -37,6 +37,7 @@ class SoftSolver final : public ContactSolver {
   std::vector<float> pushes_;   // by place: core::fastest_push
   std::vector<float> speeds_;   // by tile: the largest of a loop
   std::vector<float> changes_;  // by place: squared, of the last sweep
+  std::vector<float> relaxed_;  // by place: what relaxation changed, m/s
 };
 
 }  // namespace broadside::reference

@@ -266,6 +266,16 @@ float StepConstraints::stir_what_bounces() {
   return largest_of_places();
 }
 
+bool StepConstraints::stir_what_relaxed(std::span<const float> relaxed, float from_m_s) {
+  of_places_.assign(relaxed.size(), 0.0F);
+  in_parallel(0, relaxed.size(), [&](std::size_t place) {
+    if (tiles_.patch_at()[place] == PatchTiles::kNoPatch || !(relaxed[place] > from_m_s)) return;
+    of_places_[place] = 1.0F;
+    stir(place, sweep_);
+  });
+  return largest_of_places() > 0.0F;
+}
+
 void StepConstraints::drop_blows(std::uint32_t since) {
   in_parallel(0, tiles_.places(), [&](std::size_t place) {
     if (tiles_.patch_at()[place] == PatchTiles::kNoPatch) return;
@@ -276,13 +286,14 @@ void StepConstraints::drop_blows(std::uint32_t since) {
   });
 }
 
-void StepConstraints::bounce(const core::SoftStep& numbers, bool forgets_blows) {
+void StepConstraints::bounce(const core::SoftStep& numbers, std::span<const float> relaxed, bool forgets_blows) {
   if (fast_.empty()) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
   const std::uint32_t since = sweep_;
   const float fastest = stir_what_bounces();
-  const float done = core::kBounceDone * fastest;
+  float done = core::kBounceDone * fastest;
   if (!(done > 0.0F)) return;
+  if (stir_what_relaxed(relaxed, numbers.stirring_m_s)) done = std::max(done, numbers.stirring_m_s);
   // A share of the impulse that stopped them is given back, so that impulse must be known well.
   bounce_sweeps_ += relax_until_done(numbers, done, numbers.most_stop_sweeps);
   float largest = fastest;

@@ -68,9 +68,10 @@ class StepConstraints {
 
   // Points that came fast, and meet something for the first time, leave with their share of that speed. Sweeps go on
   // until one changes no speed by more than 2^-10 of the fastest approach; they visit patches whose bodies bounce or
-  // have just been changed by more than that. forgets_blows: patches of bodies that these sweeps reached keep no
-  // impulse (core/method/rigid/kept_blows.hpp).
-  void bounce(const core::SoftStep& numbers, bool forgets_blows);
+  // have just been changed by more than that. relaxed: by place, what relaxation changed, m/s; where that is more than
+  // numbers.stirring_m_s these patches are visited too, and sweeps stop what changes by more. forgets_blows: patches of
+  // bodies that these sweeps reached keep no impulse (core/method/rigid/kept_blows.hpp).
+  void bounce(const core::SoftStep& numbers, std::span<const float> relaxed, bool forgets_blows);
 
  private:
   template <typename Work>
@@ -101,6 +102,8 @@ class StepConstraints {
   void list_fast();
   // The fastest approach of patches that bounce. Stirs their bodies.
   float stir_what_bounces();
+  // Stirs the bodies of patches that relaxation changed by more than `from`. Returns whether there are any.
+  bool stir_what_relaxed(std::span<const float> relaxed, float from_m_s);
   void stir(std::size_t place, std::uint32_t sweep);
   [[nodiscard]] bool is_stirred(std::size_t place) const;
   [[nodiscard]] float largest_of_places() const;

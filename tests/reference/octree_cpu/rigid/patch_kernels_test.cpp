@@ -116,6 +116,7 @@ struct OneByOne {
   std::vector<float> speeds;   // of the fastest point at first, then of each sweep
   std::vector<float> changes;  // of the last sweep
   std::vector<float> pushes;
+  std::vector<float> relaxed;  // what relaxation changed
 
   template <typename Work>
   void each(const Work& work) {
@@ -147,8 +148,9 @@ struct OneByOne {
       });
       speeds.push_back(largest);
     }
-    each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t) {
-      core::relax_patch(c, core::goals_after_motion(c, a, b, step), a, b);
+    relaxed.assign(patches.size(), 0.0F);
+    each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t k) {
+      relaxed[k] = core::relax_patch(c, core::goals_after_motion(c, a, b, step), a, b);
     });
     each([&](PatchConstraint& c, SolverBody&, SolverBody&, std::size_t) {
       core::drop_impacts(c);
@@ -198,7 +200,10 @@ void expect_same_substep(const PatchKernels& kernels, unsigned seed, int points,
   }
   for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
     expect_same_bits(changes[lane], one.changes[lane], "squared change", static_cast<int>(lane));
-  kernels.relax(range, step);
+  std::array<float, kTileLanes> relaxed{};
+  kernels.relax(range, step, relaxed.data());
+  for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
+    expect_same_bits(relaxed[lane], one.relaxed[lane], "relaxed", static_cast<int>(lane));
   kernels.end_substep(range);
   for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
     expect_same(kernels.get(tiles, 0, lane), one.patches[lane]);
