@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "core/attributes.hpp"
 #include "core/math/vec3.hpp"
@@ -33,14 +32,15 @@ struct SolveNumbers {
   // Of a substep in which something bounces, at most: sweeps that stop what came fast. A heap that lands would take
   // hundreds.
   std::uint32_t stop_sweeps = 16;
-  // Of a substep that pushes overlaps apart, at most: sweeps that take the push back. With 32 a heap of 30,000 cubes
-  // that lands gains more energy than its steps explain.
+  // Of a substep whose pushes are taken back, at most: sweeps that find what is left then.
   std::uint32_t relax_sweeps = 48;
-  // Such a sweep is the last one that changes no point's speed by more than this share of a push that is kept.
-  float relax_done_of_kept = 0.0F;
-  // Where pushes are kept, while something bounces: patches that relaxation changes by more than this share of what a
-  // push may be elsewhere are swept with those that bounce; 0: none.
-  float stirred_of_kept = 0.0F;
+  // Such a sweep is the last one that changes no point's speed by more than this share of a small push.
+  float relax_done_of_small = 0.0F;
+  // Where pushes are kept: patches that relaxation changes by more than this share of a small push are swept with those
+  // that bounce, until they change by less; 0: none are.
+  float stirred_of_small = 0.0F;
+  // And they are swept without anything that bounces, where relaxation changes one by more than this share; 0: never.
+  float begins_of_small = 0.0F;
 };
 
 // A step of a scene whose masses are further apart than SoftSettings::even_masses.
@@ -53,7 +53,12 @@ struct UnevenStep {
 struct SoftSettings {
   // Where everything rests the fastest point is slow itself, and one point of a thousand kept all others sweeping. So a
   // change below a share of gravity ends the sweeps too.
-  SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F, 16, 48, 0.25F};
+  // A heap moves somewhere in nearly every step. To take back all that a push did, and to find the rest anew, took it
+  // three times as many sweeps as to go on from where the push is kept, and it gained more energy. With 16 sweeps that
+  // stop, 30,000 cubes that land gain too much.
+  SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F, 24, 48, 0.25F, 0.25F, 1.0F};
+  // The same where nothing moves fast (core/scene/calm_bodies.hpp): what overlaps at rest parts without any speed.
+  SolveNumbers even_calm{4, 12, 0x1p-10F, 0x1p-5F, 6.0F, 16, 48, 0.25F};
   float even_masses = 64.0F;
   // A contact of a light body bears what a heavy one needs to stop. With a contact as stiff as the light body alone
   // allows, 8 kg at 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts,
@@ -82,7 +87,7 @@ struct SoftSettings {
 // on anyway, pushes relax with it: otherwise heaps that land gain energy.
 inline SoftSettings soft_step_settings() {
   SoftSettings settings;
-  settings.even = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F, 8, 0, 0.0F, 1.0F};
+  settings.even = settings.even_calm = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F, 8, 0, 0.0F, 1.0F};
   // Sweeps that stop follow no direction, so there are more.
   settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F, 32}};
   return settings;
@@ -91,7 +96,8 @@ inline SoftSettings soft_step_settings() {
 // So many substeps of a step in place of the solver's own; where masses are far apart as many times more as those have.
 inline SoftSettings with_substeps(SoftSettings settings, std::uint32_t substeps) {
   const std::uint32_t own = settings.even.substeps;
-  for (SolveNumbers* numbers : {&settings.even, &settings.few, &settings.lively.numbers, &settings.calm.numbers})
+  for (SolveNumbers* numbers :
+       {&settings.even, &settings.even_calm, &settings.few, &settings.lively.numbers, &settings.calm.numbers})
     numbers->substeps = numbers->substeps * substeps / own;
   return settings;
 }
@@ -100,7 +106,7 @@ inline SoftSettings with_substeps(SoftSettings settings, std::uint32_t substeps)
 // than the 1 % by which it stands.
 inline SoftSettings stiff_settings() {
   SoftSettings settings;
-  settings.even = settings.few = {8, 100, 1e-5F, 0x1p-10F, 20.0F};
+  settings.even = settings.even_calm = settings.few = {8, 100, 1e-5F, 0x1p-10F, 20.0F};
   return settings;
 }
 
@@ -115,18 +121,21 @@ constexpr const UnevenStep& uneven_step(const SoftSettings& settings, bool is_ca
 }
 
 // What a step, or its part, is solved with.
-enum class SolveKind : std::uint8_t { kEven, kUneven, kFew };
-inline constexpr SolveKind kSolveKinds[] = {SolveKind::kEven, SolveKind::kUneven, SolveKind::kFew};
+enum class SolveKind : std::uint8_t { kEven, kEvenCalm, kUneven, kFew };
+inline constexpr SolveKind kSolveKinds[] = {SolveKind::kEven, SolveKind::kEvenCalm, SolveKind::kUneven,
+                                            SolveKind::kFew};
 
 // touching_ratio: the largest ratio of masses of two bodies that touch.
 BROADSIDE_HD constexpr SolveKind solve_kind(const SoftSettings& settings, float touching_ratio, std::uint64_t patches,
                                             bool is_calm) {
   if (touching_ratio > settings.even_masses) return SolveKind::kUneven;
-  return is_calm && patches <= settings.few_patches ? SolveKind::kFew : SolveKind::kEven;
+  if (!is_calm) return SolveKind::kEven;
+  return patches <= settings.few_patches ? SolveKind::kFew : SolveKind::kEvenCalm;
 }
 
 constexpr const SolveNumbers& solve_numbers(const SoftSettings& settings, SolveKind kind, bool is_calm) {
   if (kind == SolveKind::kUneven) return uneven_step(settings, is_calm).numbers;
+  if (kind == SolveKind::kEvenCalm) return settings.even_calm;
   return kind == SolveKind::kFew ? settings.few : settings.even;
 }
 
@@ -134,9 +143,13 @@ constexpr bool is_uneven(const SoftSettings& settings, float largest_mass_ratio)
   return largest_mass_ratio > settings.even_masses;
 }
 
+// Whether sweeps go on with pushes that are kept. Without gravity nothing says which are small.
+constexpr bool stirs_pushes(const SolveNumbers& numbers, float gravity_m_s2) {
+  return numbers.stirred_of_small > 0.0F && gravity_m_s2 > 0.0F;
+}
 // Whether pushes are taken back. soft-step keeps them, because its cost must be known ahead.
-constexpr bool takes_back_pushes(const SoftSettings& settings) {
-  return settings.even.sweeps > 1;
+constexpr bool takes_back_pushes(const SolveNumbers& numbers, float gravity_m_s2) {
+  return numbers.sweeps > 1 && !stirs_pushes(numbers, gravity_m_s2);
 }
 
 // In how many parts a step is taken of bodies whose masses are so many times apart.
@@ -154,8 +167,8 @@ inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_
     const auto of_sweeps = [&](std::uint32_t sweeps) { return numbers.sweeps > 1 ? 2 * sweeps - 1 : sweeps; };
     // The start from the last impulse, sweeps and relaxation.
     std::uint32_t applications = 1 + of_sweeps(numbers.sweeps) + 1;
-    // What pushes apart is taken back: a start without it, and what changes by that relaxes.
-    if (takes_back_pushes(settings)) applications += 1 + of_sweeps(numbers.relax_sweeps);
+    // What pushes apart may be taken back: a start without it, and what changes by that relaxes.
+    if (numbers.sweeps > 1) applications += 1 + of_sweeps(numbers.relax_sweeps);
     // Before a bounce all relaxes; a sweep of it visits a patch's points several times, and its friction.
     if (may_bounce) applications += of_sweeps(numbers.stop_sweeps) + settings.bounce_sweeps * (kSweepsOfBounce + 1);
     return MostOfStep{parts * numbers.substeps, applications};
@@ -163,7 +176,8 @@ inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_
   const auto larger = [](const MostOfStep& a, const MostOfStep& b) {
     return MostOfStep{std::max(a.substeps, b.substeps), std::max(a.applications, b.applications)};
   };
-  const MostOfStep most = larger(most_of(1, settings.even), most_of(1, settings.few));
+  const MostOfStep most =
+      larger(larger(most_of(1, settings.even), most_of(1, settings.even_calm)), most_of(1, settings.few));
   if (!is_uneven(settings, largest_mass_ratio)) return most;
   const MostOfStep of_lively =
       larger(most_of(settings.lively.parts, settings.lively.numbers), most_of(settings.lively.parts, settings.even));
@@ -174,7 +188,7 @@ inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_
 inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, const SolveNumbers& numbers) {
   constexpr float kSettleShare = 0.05F;
   // A push that stays as speed leaves a sixteenth of what explicit and implicit Euler differ by in a step.
-  constexpr float kKeptPushShare = 0.25F;
+  constexpr float kSmallPushShare = 0.25F;
   const float gravity = length(gravity_m_s2);
   SoftStep step = soft_step(dt_s / static_cast<float>(numbers.substeps), numbers.omega_dt, settings.damping);
   step.most_sweeps = numbers.sweeps;
@@ -186,10 +200,15 @@ inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, fl
   step.least_done_m_s = numbers.done_of_gravity * gravity * step.dt_s;
   step.settle_m_s = kSettleShare * gravity * step.dt_s;
   step.bounce_from_m_s = settings.fixed_bounce_from_m_s > 0.0F ? settings.fixed_bounce_from_m_s : 2.0F * dt_s * gravity;
-  step.kept_push_m_s =
-      takes_back_pushes(settings) ? kKeptPushShare * gravity * dt_s : std::numeric_limits<float>::max();
-  if (numbers.stirred_of_kept > 0.0F) step.stirring_m_s = numbers.stirred_of_kept * kKeptPushShare * gravity * dt_s;
-  step.least_relax_m_s = takes_back_pushes(settings) ? numbers.relax_done_of_kept * step.kept_push_m_s : 0.0F;
+  const float small_m_s = kSmallPushShare * gravity * dt_s;
+  if (takes_back_pushes(numbers, gravity)) {
+    step.kept_push_m_s = small_m_s;
+    step.least_relax_m_s = numbers.relax_done_of_small * small_m_s;
+  }
+  if (stirs_pushes(numbers, gravity)) {
+    step.stirring_m_s = numbers.stirred_of_small * small_m_s;
+    if (numbers.begins_of_small > 0.0F) step.begins_m_s = numbers.begins_of_small * small_m_s;
+  }
   return step;
 }
 

@@ -21,10 +21,13 @@ struct SoftStep {
   float settle_m_s = 0.0F;
   float least_done_m_s = 0.0F;   // changes of speed below this are none to sweep on for
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
-  float kept_push_m_s = 0.0F;    // what pushes bodies apart faster is taken back (pushed_apart.hpp)
+  // What pushes bodies apart faster is taken back (pushed_apart.hpp).
+  float kept_push_m_s = std::numeric_limits<float>::max();
   float least_relax_m_s = 0.0F;  // changes of speed below this are none to take back
-  // What relaxation changes by more is swept with what bounces.
+  // What relaxation changes by more is swept with what bounces; and where one patch changes by more than the second,
+  // without anything that bounces.
   float stirring_m_s = std::numeric_limits<float>::max();
+  float begins_m_s = std::numeric_limits<float>::max();
   float gravity_m_s2 = 0.0F;
   // The last sweep changes no point's speed by more than this share of the fastest, or is the so many-th.
   float done_share = 0.0F;
@@ -54,6 +57,11 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
 BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, float fastest_m_s) {
   const float of_fastest = done_share * fastest_m_s;
   return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
+}
+
+// Whether pushes alone may be swept on with.
+BROADSIDE_HD constexpr bool may_begin(const SoftStep& step) {
+  return step.begins_m_s < std::numeric_limits<float>::max();
 }
 
 }  // namespace broadside::core

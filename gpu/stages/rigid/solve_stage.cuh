@@ -26,6 +26,9 @@ struct Solve {
   std::uint32_t sweep = 0;   // of all sweeps of bounces in this step
   bool owes_totals = false;  // the impulses of the substep before are to be added to the totals
   SolveCounts done;
+
+  // Whether sweeps may go on once all has relaxed.
+  [[nodiscard]] __device__ bool may_stir() const { return may_bounce || core::may_begin(soft); }
 };
 
 // Behind a barrier.
@@ -133,18 +136,19 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
     if (of == Stirred::kPushed) {
       done = core::relax_done_m_s(solve.soft, fastest_push);
     } else {
-      if (!solve.may_bounce) return;
-      const bool are_others_stirred = solve.sums.largest(TeamSums::kSecond) > 0.0F;
+      if (!solve.may_stir()) return;
+      const float relaxed = solve.sums.largest(TeamSums::kSecond);  // of those that are stirred
       fastest = largest_of_turn(team, solve);
-      if (!(fastest > 0.0F)) return;
+      if (!(fastest > 0.0F) && !(relaxed > solve.soft.begins_m_s)) return;
       done = core::kBounceDone * fastest;
-      if (are_others_stirred) done = fmaxf(done, solve.soft.stirring_m_s);
+      if (relaxed > 0.0F) done = fmaxf(done, solve.soft.stirring_m_s);
     }
     // A bounce so slow that its share vanishes has no sweeps.
     const bool has_sweeps = of == Stirred::kPushed || done > 0.0F;
     if (of == Stirred::kBouncing && has_sweeps && solve.forgets_blows) since = solve.sweep;
     if (has_sweeps) relax_until_done(team, f, solve, of, done);
     if (of == Stirred::kBouncing) {
+      if (!(fastest > 0.0F)) return;
       if (has_sweeps) bounce_all(team, f, solve, fastest, done);
       break;
     }
@@ -204,7 +208,7 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     store_body(f.bodies[i], body);
   });
   team.sync();
-  relax_all(team, f, solve.soft, solve.may_bounce && !is_pushed, solve.sweep, solve.sums);
+  relax_all(team, f, solve.soft, solve.may_stir() && !is_pushed, solve.sweep, solve.sums);
   team.sync();
   solve.owes_totals = true;
   end_substep(team, f, solve, is_pushed, fastest_push);

@@ -148,10 +148,10 @@ __device__ __forceinline__ void set_goals_after_motion(const RigidFrameView& f, 
   store_mobility(slot, p.c);
 }
 
-// Each contact once, after the bodies moved. may_bounce: what bounces stirs its bodies for this sweep, and its fastest
+// Each contact once, after the bodies moved. stirs: what bounces stirs its bodies for this sweep, and its fastest
 // approach is brought; so does what changes by more than soft.stirring_m_s, and the largest such change is brought.
 __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
-                                          bool may_bounce, std::uint32_t sweep, const TeamSums& sums) {
+                                          bool stirs, std::uint32_t sweep, const TeamSums& sums) {
   float fastest = 0.0F;
   float largest = 0.0F;
   float change = 0.0F;  // of the patch that is kept next
@@ -168,7 +168,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) {
         store_impulses(slot, p.c);
-        if (!may_bounce) return;
+        if (!stirs) return;
         const float own = p.c.surface.restitution > 0.0F ? core::fastest_bounce(p.c) : 0.0F;
         const bool is_pushed = change > soft.stirring_m_s;
         if (!(own > 0.0F) && !is_pushed) return;
@@ -178,7 +178,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         stir(f, p.c.b, sweep);
       });
   __syncwarp();
-  if (!may_bounce) return;
+  if (!stirs) return;
   sums.bring_largest(TeamSums::kFirst, fastest);
   sums.bring_largest(TeamSums::kSecond, largest);
 }

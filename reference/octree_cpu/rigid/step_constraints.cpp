@@ -287,13 +287,15 @@ void StepConstraints::drop_blows(std::uint32_t since) {
 }
 
 void StepConstraints::bounce(const core::SoftStep& numbers, std::span<const float> relaxed, bool forgets_blows) {
-  if (fast_.empty()) return;
+  const bool begins = !relaxed.empty() && *std::max_element(relaxed.begin(), relaxed.end()) > numbers.begins_m_s;
+  if (fast_.empty() && !begins) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
   const std::uint32_t since = sweep_;
   const float fastest = stir_what_bounces();
+  if (!(fastest > 0.0F) && !begins) return;
   float done = core::kBounceDone * fastest;
-  if (!(done > 0.0F)) return;
   if (stir_what_relaxed(relaxed, numbers.stirring_m_s)) done = std::max(done, numbers.stirring_m_s);
+  if (!(done > 0.0F)) return;
   // A share of the impulse that stopped them is given back, so that impulse must be known well.
   bounce_sweeps_ += relax_until_done(numbers, done, numbers.most_stop_sweeps);
   float largest = fastest;

@@ -68,9 +68,10 @@ class StepConstraints {
 
   // Points that came fast, and meet something for the first time, leave with their share of that speed. Sweeps go on
   // until one changes no speed by more than 2^-10 of the fastest approach; they visit patches whose bodies bounce or
-  // have just been changed by more than that. relaxed: by place, what relaxation changed, m/s; where that is more than
-  // numbers.stirring_m_s these patches are visited too, and sweeps stop what changes by more. forgets_blows: patches of
-  // bodies that these sweeps reached keep no impulse (core/method/rigid/kept_blows.hpp).
+  // have just been changed by more than that. relaxed: by place, what relaxation changed, m/s. Patches that it changed
+  // by more than numbers.stirring_m_s are visited too, and sweeps end where they change by less; and they begin without
+  // a bounce where it changed one by more than numbers.begins_m_s. forgets_blows: patches of bodies that these sweeps
+  // reached keep no impulse (core/method/rigid/kept_blows.hpp).
   void bounce(const core::SoftStep& numbers, std::span<const float> relaxed, bool forgets_blows);
 
  private:
