@@ -36,8 +36,8 @@ using PatchImpulses = std::array<core::Vec3, core::kManifoldPoints>;
 
 // Sweeps over all patches so far, for measurements.
 struct SolverSweeps {
-  std::uint64_t solving = 0;   // before the bodies move
-  std::uint64_t bouncing = 0;  // while contacts bounce
+  std::uint64_t solving = 0;   // before the bodies move, and where pushes are taken back
+  std::uint64_t bouncing = 0;  // while contacts bounce, or relax what pushes left
 };
 
 class ContactSolver {

@@ -245,9 +245,13 @@ TEST_P(ContactSolvers, BouncesWhereItIsFirstMet) {
   for (int k = 1; k < 300; ++k) ASSERT_LE(sweeps_of_step(), k < 240 ? kMostSweeps : 0U) << "step " << k;
 }
 
-// What stops the lowest of many cubes has to reach the uppermost. Sweeps that followed no direction left the cubes 1.3
-// mm deep in each other, and 258 sweeps of bounces followed.
-TEST(ConjugateSolver, AColumnThatLandsIsStopped) {
+struct Landing {
+  double deepest_m = 0.0;
+  std::uint64_t sweeps = 0;
+};
+
+// Twelve cubes on top of each other land at 3 m/s and bounce, 40 steps.
+Landing column_that_lands(const core::SoftSettings& settings) {
   BoxRig rig = pillar(12, 1.0F);
   for (core::Material& material : rig.materials) material.restitution = 0.3F;
   rig.face_material.restitution = 0.3F;
@@ -255,16 +259,27 @@ TEST(ConjugateSolver, AColumnThatLandsIsStopped) {
     state.x.y += 0.01F;
     state.v.y = -3.0F;
   }
-  const auto solver = make_contact_solver({});
-  double deepest_m = 0.0;
+  const auto solver = make_soft_solver(settings);
+  Landing landing;
   for (int k = 0; k < 40; ++k) {
     step_pillar(rig, *solver);
     for (const core::ContactPatch& patch : rig.patches)
       for (int point = 0; point < patch.manifold.count; ++point)
-        deepest_m = std::max(deepest_m, -static_cast<double>(patch.manifold.points[point].gap_m));
+        landing.deepest_m = std::max(landing.deepest_m, -static_cast<double>(patch.manifold.points[point].gap_m));
   }
-  EXPECT_LT(deepest_m, 1e-3);
-  EXPECT_LT(solver->sweeps_done().bouncing, 100U);
+  landing.sweeps = solver->sweeps_done().solving + solver->sweeps_done().bouncing;
+  return landing;
+}
+
+// What stops the lowest of many cubes has to reach the uppermost. Sweeps that followed no direction left the cubes 1.3
+// mm deep in each other. Where pushes are kept, sweeps relax them beside what bounces: no more of them than it takes to
+// find what is left of a push that is taken back.
+TEST(ConjugateSolver, AColumnThatLandsIsStopped) {
+  const Landing landing = column_that_lands({});
+  EXPECT_LT(landing.deepest_m, 1e-3);
+  core::SoftSettings taken_back;
+  taken_back.even = taken_back.even_calm;
+  EXPECT_LT(landing.sweeps, column_that_lands(taken_back).sweeps);
 }
 
 // Spinning boxes hit the floor with a corner, with much friction and restitution: Newton's rule alone gives some of
