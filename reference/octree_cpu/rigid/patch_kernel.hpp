@@ -15,6 +15,8 @@
 
 namespace broadside::reference::tiles {
 
+inline constexpr unsigned kAllLanes = (1U << kTileLanes) - 1U;
+
 // core::Symmetric3 of several patches, side by side.
 template <typename Lanes>
 struct LaneSymmetric3 {
@@ -53,11 +55,11 @@ struct LaneBody {
     Lanes::load_words(at, 12, inverse_mass, moved.x, moved.y, moved.z);
     Lanes::load_words(at, 16, turned.x, turned.y, turned.z, ignored);
   }
-  // Writes the velocities of bodies that move.
-  void store(core::SolverBody* bodies, const std::uint32_t (&ids)[kTileLanes]) const {
+  // Writes the velocities of bodies that move, of these lanes: bit k is lane k.
+  void store(core::SolverBody* bodies, const std::uint32_t (&ids)[kTileLanes], unsigned lanes = kAllLanes) const {
     float* at[kTileLanes];
     for (std::uint32_t lane = 0; lane < kTileLanes; ++lane) at[lane] = reinterpret_cast<float*>(bodies + ids[lane]);
-    const unsigned moves = lanes_of(core::is_moved(*this));
+    const unsigned moves = lanes & lanes_of(core::is_moved(*this));
     Lanes::store_words(at, 0, moves, v.x, v.y, v.z, angular_momentum.x);
     Lanes::store_words(at, 4, moves, angular_momentum.y, angular_momentum.z, inverse_inertia.xx, inverse_inertia.yy);
   }
@@ -214,6 +216,115 @@ void relax(const TileRange& range, const core::SoftStep& step, float* changes) {
   });
 }
 
+// Of a patch: what a sweep changes.
+template <typename Lanes>
+class PointImpulses {
+ public:
+  explicit PointImpulses(const core::PatchOf<Lanes>& patch) {
+    for (int k = 0; k < patch.count; ++k) {
+      const core::PatchPointOf<Lanes>& p = patch.points[k];
+      points_[k] = {p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2, p.slides};
+    }
+  }
+  // Gives these back to lanes for which it is asked.
+  void restore(const core::TruthOf<Lanes>& is_asked, core::PatchOf<Lanes>& patch) const {
+    const core::TruthOf<Lanes> is_not = !is_asked;
+    for (int k = 0; k < patch.count; ++k) {
+      core::PatchPointOf<Lanes>& p = patch.points[k];
+      p.normal_impulse = pick(is_asked, points_[k].normal, p.normal_impulse);
+      p.tangent_impulse_1 = pick(is_asked, points_[k].tangent_1, p.tangent_impulse_1);
+      p.tangent_impulse_2 = pick(is_asked, points_[k].tangent_2, p.tangent_impulse_2);
+      p.slides = (is_asked & points_[k].slides) | (is_not & p.slides);
+    }
+  }
+
+ private:
+  struct Point {
+    Lanes normal;
+    Lanes tangent_1;
+    Lanes tangent_2;
+    core::TruthOf<Lanes> slides;
+  };
+  Point points_[core::kManifoldPoints];
+};
+
+// Lanes of which a body is stirred.
+template <typename Lanes>
+unsigned stirred_lanes(const Tile<Lanes>& t, const StirredSweep& sweep) {
+  unsigned lanes = 0;
+  for (std::uint32_t lane = 0; lane < kTileLanes; ++lane)
+    if (sweep.stirred[t.a[lane]] >= sweep.number || sweep.stirred[t.b[lane]] >= sweep.number) lanes |= 1U << lane;
+  return lanes;
+}
+
+// Stirs the moved bodies of these lanes for the next sweep.
+template <typename Lanes>
+void stir(const Tile<Lanes>& t, const LaneBody<Lanes>& a, const LaneBody<Lanes>& b, unsigned lanes,
+          const StirredSweep& sweep) {
+  const unsigned moves_a = lanes & lanes_of(core::is_moved(a));
+  const unsigned moves_b = lanes & lanes_of(core::is_moved(b));
+  for (std::uint32_t lane = 0; lane < kTileLanes; ++lane) {
+    if ((moves_a >> lane & 1U) != 0) sweep.stirred[t.a[lane]] = sweep.number + 1;
+    if ((moves_b >> lane & 1U) != 0) sweep.stirred[t.b[lane]] = sweep.number + 1;
+  }
+}
+
+// Lanes that follow the last direction go on along it; the others, which the sweep visits for the first time, begin
+// without one.
+template <typename Lanes>
+void follow(Tile<Lanes>& t, unsigned followers, float share) {
+  const core::TruthOf<Lanes> begins = core::TruthOf<Lanes>::of_lanes(~followers);
+  if (followers != 0) {
+    const PointImpulses<Lanes> before(t.patch);
+    core::follow_impulses(t.patch, t.way, share);
+    before.restore(begins, t.patch);
+  }
+  for (auto& of_point : t.way.way)
+    for (Lanes& x : of_point) x = pick(begins, Lanes(0.0F), x);
+  core::note_impulses(t.patch, t.way);
+}
+
+template <typename Lanes>
+void relax_stirred(const TileRange& range, const core::SoftStep& step, const StirredSweep& sweep) {
+  const bool has_directions = core::has_directions(step);
+  for (std::size_t k = range.first; k < range.last; ++k) {
+    Tile<Lanes>& t = Tile<Lanes>::at(range.tiles, k);
+    float* const changes = sweep.changes + k * kTileLanes;
+    Lanes(0.0F).store(changes);
+    sweep.largest[k] = 0.0F;
+    const unsigned visited = sweep.followers[k] | stirred_lanes(t, sweep);
+    if (visited == 0) continue;
+    if (has_directions) follow(t, sweep.followers[k], sweep.share);
+    LaneBody<Lanes> a(range.bodies, t.a);
+    LaneBody<Lanes> b(range.bodies, t.b);
+    const core::TruthOf<Lanes> is_visited = core::TruthOf<Lanes>::of_lanes(visited);
+    const PointImpulses<Lanes> before(t.patch);
+    const Lanes sizes =
+        pick(is_visited, core::relax_patch(t.patch, core::goals_after_motion(t.patch, a, b, step), a, b), Lanes(0.0F));
+    before.restore(!is_visited, t.patch);
+    a.store(range.bodies, t.a, visited);
+    b.store(range.bodies, t.b, visited);
+    stir(t, a, b, lanes_of(sizes > Lanes(sweep.done_m_s)), sweep);
+    sweep.largest[k] = largest_of(sizes);
+    if (!has_directions) continue;
+    sweep.followers[k] = static_cast<std::uint8_t>(visited);
+    pick(is_visited, core::squared_change(t.patch, t.way), Lanes(0.0F)).store(changes);
+  }
+}
+
+template <typename Lanes>
+void push_stirred(const TileRange& range, const StirredSweep& sweep) {
+  for (std::size_t k = range.first; k < range.last; ++k) {
+    if (sweep.followers[k] == 0) continue;
+    const Tile<Lanes>& t = Tile<Lanes>::at(range.tiles, k);
+    LaneBody<Lanes> a(range.bodies, t.a);
+    LaneBody<Lanes> b(range.bodies, t.b);
+    core::push_along(t.patch, t.way, a, b, sweep.share);
+    a.store(range.bodies, t.a, sweep.followers[k]);
+    b.store(range.bodies, t.b, sweep.followers[k]);
+  }
+}
+
 template <typename Lanes>
 void end_substep(const TileRange& range) {
   for (std::size_t k = range.first; k < range.last; ++k) {
@@ -235,6 +346,8 @@ constexpr PatchKernels kernels_of(const char* name) {
           sweep<Lanes>,
           push_along<Lanes>,
           relax<Lanes>,
+          relax_stirred<Lanes>,
+          push_stirred<Lanes>,
           end_substep<Lanes>};
 }
 

@@ -17,6 +17,11 @@ struct Truth {
   friend Truth operator|(Truth a, Truth b) { return _mm256_or_ps(a.bits, b.bits); }
   friend Truth operator!(Truth a) { return _mm256_xor_ps(a.bits, Truth(true).bits); }
   // Bit k is lane k.
+  static Truth of_lanes(unsigned lanes) {
+    const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i found = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(lanes)), bit);
+    return _mm256_castsi256_ps(_mm256_cmpeq_epi32(found, bit));
+  }
   friend unsigned lanes_of(Truth a) { return static_cast<unsigned>(_mm256_movemask_ps(a.bits)); }
   friend bool any(Truth a) { return _mm256_movemask_ps(a.bits) != 0; }
 

@@ -25,6 +25,11 @@ struct Truth {
   friend Truth operator|(const Truth& a, const Truth& b) { return {a.low | b.low, a.high | b.high}; }
   friend Truth operator!(const Truth& a) { return {~a.low, ~a.high}; }
   // Bit k is lane k.
+  static Truth of_lanes(unsigned lanes) {
+    Truth truth;
+    for (std::uint32_t k = 0; k < kTileLanes; ++k) truth.set(k, (lanes >> k & 1U) != 0);
+    return truth;
+  }
   friend unsigned lanes_of(const Truth& a) {
     unsigned lanes = 0;
     for (std::uint32_t k = 0; k < kTileLanes; ++k) lanes |= (a.get(k) ? 1U : 0U) << k;

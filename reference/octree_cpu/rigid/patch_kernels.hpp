@@ -32,6 +32,17 @@ struct SweepWay {
   float* changes = nullptr;    // [tiles][kTileLanes] core::squared_change
 };
 
+// What a sweep over the patches of stirred bodies reads and writes.
+struct StirredSweep {
+  std::uint32_t number = 0;           // bodies that this sweep or a later one has to visit are stirred
+  float done_m_s = 0.0F;              // a larger change stirs a patch's bodies for the next sweep
+  float share = 0.0F;                 // of the last direction
+  std::uint32_t* stirred = nullptr;   // [bodies] the last sweep that has to visit the body's patches
+  std::uint8_t* followers = nullptr;  // [tiles] a bit for each lane that has a direction
+  float* largest = nullptr;           // [tiles] the largest change of a point's speed, m/s
+  float* changes = nullptr;           // [tiles][kTileLanes] core::squared_change
+};
+
 // The functions over tiles for one instruction set. They alone know how a tile lies in memory.
 struct PatchKernels {
   const char* name;
@@ -49,6 +60,10 @@ struct PatchKernels {
   void (*push_along)(const TileRange& range, float share);
   // Notes by place the largest change of a point's speed, m/s.
   void (*relax)(const TileRange& range, const core::SoftStep& step, float* changes);
+  // The same where a body is stirred, or along directions where it was since these sweeps began.
+  void (*relax_stirred)(const TileRange& range, const core::SoftStep& step, const StirredSweep& sweep);
+  // What a step along these directions does to the bodies.
+  void (*push_stirred)(const TileRange& range, const StirredSweep& sweep);
   void (*end_substep)(const TileRange& range);
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/contact.hpp"
 #include "core/math/order_free_sum.hpp"
+#include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/kept_blows.hpp"
 #include "core/method/rigid/unpushed_body.hpp"
 
@@ -15,6 +16,14 @@ namespace broadside::reference {
 using core::PatchConstraint;
 using core::PatchPoint;
 using core::SolverBody;
+
+namespace {
+
+float largest_of(std::span<const float> values) {
+  return values.empty() ? 0.0F : *std::max_element(values.begin(), values.end());
+}
+
+}  // namespace
 
 // The impulses that these two bodies gave each other in the last substep of the step before.
 void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c) const {
@@ -75,8 +84,6 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
   const auto faces = static_cast<std::uint32_t>(states.size());
   tiles_.arrange(patches, coloring_, faces);
   touched_.resize(tiles_.places());
-  place_begin_.clear();
-  for (const std::uint32_t tile : tiles_.color_begin()) place_begin_.push_back(tile * kTileLanes);
   came_fast_.assign(tiles_.places(), 0);
   in_parallel(0, tiles_.count(), [&](std::size_t tile) {
     tiles_.clear_tile(tile);
@@ -144,14 +151,6 @@ void StepConstraints::stir(std::size_t place, std::uint32_t sweep) {
     if (core::is_moved(bodies_[body])) std::atomic_ref(stirred_[body]).store(sweep, std::memory_order_relaxed);
 }
 
-bool StepConstraints::is_stirred(std::size_t place) const {
-  return stirred_[touched_[place].a] >= sweep_ || stirred_[touched_[place].b] >= sweep_;
-}
-
-float StepConstraints::largest_of_places() const {
-  return of_places_.empty() ? 0.0F : *std::max_element(of_places_.begin(), of_places_.end());
-}
-
 template <typename Work>
 void StepConstraints::visit_by_color(const std::vector<std::uint32_t>& begin, const Work& work) {
   for (std::size_t color = 0; color + 1 < begin.size(); ++color) in_parallel(begin[color], begin[color + 1], work);
@@ -165,55 +164,27 @@ float StepConstraints::change(std::size_t place, const Work& work) {
   return largest;
 }
 
-float StepConstraints::relax_stirred(const core::SoftStep& numbers, float done_m_s, float share) {
-  visit_by_color(place_begin_, [&](std::size_t place) {
-    of_places_[place] = 0.0F;
-    changes_[place] = 0.0F;
-    const bool follows = has_way_[place] != 0;
-    if (!follows && !is_stirred(place)) return;
-    core::PatchWay& way = ways_[place];
-    if (!follows) way = {};
-    of_places_[place] = change(place, [&](PatchConstraint& c, SolverBody& a, SolverBody& b) {
-      if (follows) core::follow_impulses(c, way, share);
-      core::note_impulses(c, way);
-      const float largest = core::relax_patch(c, core::goals_after_motion(c, a, b, numbers), a, b);
-      changes_[place] = core::squared_change(c, way);
-      return largest;
-    });
-    has_way_[place] = core::has_directions(numbers) ? 1 : 0;
-    if (of_places_[place] > done_m_s) stir(place, sweep_ + 1);
-  });
-  ++sweep_;
-  return largest_of_places();
-}
-
-void StepConstraints::push_along(float share) {
-  visit_by_color(place_begin_, [&](std::size_t place) {
-    if (has_way_[place] == 0) return;
-    const PatchConstraint c = tiles_.get(place);
-    core::push_along(c, ways_[place], bodies_[c.a], bodies_[c.b], share);
-  });
-}
-
 std::uint32_t StepConstraints::relax_until_done(const core::SoftStep& numbers, float done_m_s, std::uint32_t most) {
-  of_places_.assign(tiles_.places(), 0.0F);
+  followers_.assign(tiles_.count(), 0);
+  of_tiles_.assign(tiles_.count(), 0.0F);
   changes_.assign(tiles_.places(), 0.0F);
-  has_way_.assign(tiles_.places(), 0);
-  ways_.resize(tiles_.places());
   core::DirectionShare directions;
-  float share = 0.0F;
+  StirredSweep sweep{sweep_, done_m_s, 0.0F, stirred_.data(), followers_.data(), of_tiles_.data(), changes_.data()};
   for (std::uint32_t k = 1;; ++k) {
-    const float largest = relax_stirred(numbers, done_m_s, share);
+    each_range_by_color([&](const TileRange& range) { tiles_.kernels().relax_stirred(range, numbers, sweep); });
+    sweep.number = ++sweep_;
+    const float largest = largest_of(of_tiles_);
     if (k >= most || !(largest > done_m_s)) return k;
     if (!core::has_directions(numbers)) continue;
-    share = directions.after(core::order_free_sum(changes_));
-    if (share > 0.0F) push_along(share);
+    sweep.share = directions.after(core::order_free_sum(changes_));
+    if (sweep.share > 0.0F)
+      each_range_by_color([&](const TileRange& range) { tiles_.kernels().push_stirred(range, sweep); });
   }
 }
 
 void StepConstraints::note_pushed(std::span<const float> pushes, const core::SoftStep& numbers) {
   pushed_.clear();
-  fastest_push_m_s_ = pushes.empty() ? 0.0F : *std::max_element(pushes.begin(), pushes.end());
+  fastest_push_m_s_ = largest_of(pushes);
   if (!(fastest_push_m_s_ > numbers.kept_push_m_s)) fastest_push_m_s_ = 0.0F;
   if (!is_pushed()) return;
   for (std::size_t place = 0; place < pushes.size(); ++place) {
@@ -263,7 +234,7 @@ float StepConstraints::stir_what_bounces() {
     of_places_[k] = core::fastest_bounce(tiles_.get(fast_[k]));
     if (of_places_[k] > 0.0F) stir(fast_[k], sweep_);
   });
-  return largest_of_places();
+  return largest_of(of_places_);
 }
 
 bool StepConstraints::stir_what_relaxed(std::span<const float> relaxed, float from_m_s) {
@@ -273,7 +244,7 @@ bool StepConstraints::stir_what_relaxed(std::span<const float> relaxed, float fr
     of_places_[place] = 1.0F;
     stir(place, sweep_);
   });
-  return largest_of_places() > 0.0F;
+  return largest_of(of_places_) > 0.0F;
 }
 
 void StepConstraints::drop_blows(std::uint32_t since) {
@@ -287,7 +258,7 @@ void StepConstraints::drop_blows(std::uint32_t since) {
 }
 
 void StepConstraints::bounce(const core::SoftStep& numbers, std::span<const float> relaxed, bool forgets_blows) {
-  const bool begins = !relaxed.empty() && *std::max_element(relaxed.begin(), relaxed.end()) > numbers.begins_m_s;
+  const bool begins = largest_of(relaxed) > numbers.begins_m_s;
   if (fast_.empty() && !begins) return;
   sweep_ += 2;  // above what was stirred by the last sweep before
   const std::uint32_t since = sweep_;
@@ -308,7 +279,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers, std::span<const floa
       });
     });
     ++bounce_sweeps_;
-    largest = largest_of_places();
+    largest = largest_of(of_places_);
   }
   if (forgets_blows) drop_blows(since);
 }

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
 #include "core/method/rigid/pushed_apart.hpp"
 #include "core/method/rigid/soft_contact.hpp"
@@ -92,11 +91,6 @@ class StepConstraints {
   // Sweeps over patches whose bodies are stirred, until one changes no point's speed by more than done_m_s, and at most
   // `most`. Returns how many.
   std::uint32_t relax_until_done(const core::SoftStep& numbers, float done_m_s, std::uint32_t most);
-  // One of these, with the patches that followed a direction before: their impulses follow it by `share`. Bodies that
-  // it changes by more than done_m_s are stirred for the next one. Returns the largest change of a point's speed.
-  float relax_stirred(const core::SoftStep& numbers, float done_m_s, float share);
-  // What that step along the directions does to the bodies. Call it before the sweep.
-  void push_along(float share);
   // Patches of bodies that were stirred by this sweep or a later one keep no impulse.
   void drop_blows(std::uint32_t since);
   // Places of patches with a point that came fast enough to bounce.
@@ -106,8 +100,6 @@ class StepConstraints {
   // Stirs the bodies of patches that relaxation changed by more than `from`. Returns whether there are any.
   bool stir_what_relaxed(std::span<const float> relaxed, float from_m_s);
   void stir(std::size_t place, std::uint32_t sweep);
-  [[nodiscard]] bool is_stirred(std::size_t place) const;
-  [[nodiscard]] float largest_of_places() const;
 
   // Patches, as given, of bodies that are awake: all patches where no body sleeps.
   std::vector<core::ContactPatch> awake_patches_;
@@ -144,16 +136,15 @@ class StepConstraints {
   std::vector<PatchImpulses> impulses_;       // by patch as given
   std::vector<std::uint8_t> is_pushed_body_;  // by body: 1 = the step left it an impulse
   std::vector<float> of_places_;              // what a loop over places found, for the largest of it
-  std::vector<std::uint32_t> place_begin_;    // by color
   std::vector<std::uint8_t> came_fast_;       // by place
   std::vector<std::uint32_t> fast_;           // places of patches that came fast, by color
   std::vector<std::uint32_t> fast_begin_;
-  // By place, of sweeps of relaxation along directions.
-  std::vector<core::PatchWay> ways_;
-  std::vector<std::uint8_t> has_way_;   // 1 = one of these sweeps has visited the patch
-  std::vector<float> changes_;          // core::squared_change of the last sweep
-  std::vector<std::uint32_t> stirred_;  // [bodies] the sweep that has to visit the body's patches
-  std::uint32_t sweep_ = 0;             // of all sweeps of bounces in this step
+  // Of sweeps over stirred bodies: see StirredSweep.
+  std::vector<std::uint32_t> stirred_;
+  std::vector<std::uint8_t> followers_;
+  std::vector<float> of_tiles_;
+  std::vector<float> changes_;
+  std::uint32_t sweep_ = 0;  // of all sweeps of bounces in this step
   std::uint64_t bounce_sweeps_ = 0;
   float substep_s_ = 0.0F;
 };

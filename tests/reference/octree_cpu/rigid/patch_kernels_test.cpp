@@ -123,6 +123,47 @@ struct OneByOne {
     for (std::size_t k = 0; k < patches.size(); ++k) work(patches[k], bodies[patches[k].a], bodies[patches[k].b], k);
   }
 
+  void relax(const core::SoftStep& step) {
+    relaxed.assign(patches.size(), 0.0F);
+    each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t k) {
+      relaxed[k] = core::relax_patch(c, core::goals_after_motion(c, a, b, step), a, b);
+    });
+  }
+
+  // Relaxes all, then sweeps over the patches of stirred bodies, each with its share of the last direction. Returns how
+  // many patches the last one left alone.
+  std::size_t stir(const core::SoftStep& step, std::span<const float> shares, float done_m_s,
+                   std::vector<std::uint32_t>& stirred) {
+    ways.assign(patches.size(), {});
+    std::vector<std::uint8_t> follows(patches.size(), 0);
+    std::size_t left_alone = 0;
+    relax(step);
+    for (std::uint32_t n = 0; n < shares.size(); ++n) {
+      speeds.push_back(0.0F);
+      changes.assign(patches.size(), 0.0F);
+      left_alone = 0;
+      each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t k) {
+        if (shares[n] > 0.0F && follows[k] != 0) core::push_along(c, ways[k], a, b, shares[n]);
+      });
+      each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t k) {
+        if (follows[k] == 0 && stirred[c.a] < n + 1 && stirred[c.b] < n + 1) {
+          ++left_alone;
+          return;
+        }
+        if (follows[k] != 0) core::follow_impulses(c, ways[k], shares[n]);
+        core::note_impulses(c, ways[k]);
+        const float change = core::relax_patch(c, core::goals_after_motion(c, a, b, step), a, b);
+        if (core::has_directions(step)) changes[k] = core::squared_change(c, ways[k]);
+        follows[k] = core::has_directions(step) ? 1 : 0;
+        speeds.back() = std::max(speeds.back(), change);
+        if (!(change > done_m_s)) return;
+        for (const std::uint32_t body : {c.a, c.b})
+          if (core::is_moved(bodies[body])) stirred[body] = n + 2;
+      });
+    }
+    return left_alone;
+  }
+
   void run(const core::SoftStep& step, std::span<const float> shares) {
     ways.assign(patches.size(), {});
     changes.assign(patches.size(), 0.0F);
@@ -148,10 +189,7 @@ struct OneByOne {
       });
       speeds.push_back(largest);
     }
-    relaxed.assign(patches.size(), 0.0F);
-    each([&](PatchConstraint& c, SolverBody& a, SolverBody& b, std::size_t k) {
-      relaxed[k] = core::relax_patch(c, core::goals_after_motion(c, a, b, step), a, b);
-    });
+    relax(step);
     each([&](PatchConstraint& c, SolverBody&, SolverBody&, std::size_t) {
       core::drop_impacts(c);
       core::add_to_totals(c);
@@ -159,28 +197,47 @@ struct OneByOne {
   }
 };
 
+// The tile of these patches, made by these kernels.
+class OneTile {
+ public:
+  OneTile(const PatchKernels& kernels, const OneByOne& one)
+      : bodies(one.bodies), memory_(kernels.tile_bytes / sizeof(std::max_align_t) + 8) {
+    kernels.clear(tiles(), 0, kStill);
+    for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane) kernels.put(tiles(), 0, lane, one.patches[lane]);
+  }
+  [[nodiscard]] std::byte* tiles() {
+    return reinterpret_cast<std::byte*>((reinterpret_cast<std::uintptr_t>(memory_.data()) + 63) / 64 * 64);
+  }
+  [[nodiscard]] TileRange range() { return {tiles(), 0, 1, bodies.data()}; }
+
+  std::vector<SolverBody> bodies;
+
+ private:
+  std::vector<std::max_align_t> memory_;
+};
+
+// The last lane has no patch.
+OneByOne some_patches(Random& random, int points) {
+  OneByOne one{some_bodies(random), {}, {}, {}, {}, {}, {}};
+  for (std::uint32_t lane = 0; lane + 1 < kTileLanes; ++lane)
+    one.patches.push_back(some_patch(random, lane, points, one.bodies));
+  return one;
+}
+
 void expect_same_substep(const PatchKernels& kernels, unsigned seed, int points, float gravity_m_s2) {
   SCOPED_TRACE(testing::Message() << kernels.name << ", seed " << seed << ", points " << points);
   Random random(seed);
   const core::SoftStep step = some_step(gravity_m_s2);
-  OneByOne one{some_bodies(random), {}, {}, {}, {}, {}};
-  // The last lane has no patch.
-  for (std::uint32_t lane = 0; lane + 1 < kTileLanes; ++lane)
-    one.patches.push_back(some_patch(random, lane, points, one.bodies));
-
-  std::vector<SolverBody> bodies = one.bodies;
-  auto memory = std::vector<std::max_align_t>(kernels.tile_bytes / sizeof(std::max_align_t) + 8);
-  auto* tiles = reinterpret_cast<std::byte*>((reinterpret_cast<std::uintptr_t>(memory.data()) + 63) / 64 * 64);
-  kernels.clear(tiles, 0, kStill);
-  for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane) {
-    kernels.put(tiles, 0, lane, one.patches[lane]);
+  OneByOne one = some_patches(random, points);
+  OneTile tile(kernels, one);
+  std::byte* const tiles = tile.tiles();
+  for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
     expect_same(kernels.get(tiles, 0, lane), one.patches[lane]);
-  }
 
   constexpr std::array kShares{0.0F, 0.7F, 0.3F};
   one.run(step, kShares);
 
-  const TileRange range{tiles, 0, 1, bodies.data()};
+  const TileRange range = tile.range();
   float speed = 0.0F;
   std::array<float, kTileLanes> changes{};
   std::array<float, kTileLanes> pushes{};
@@ -207,7 +264,62 @@ void expect_same_substep(const PatchKernels& kernels, unsigned seed, int points,
   kernels.end_substep(range);
   for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane)
     expect_same(kernels.get(tiles, 0, lane), one.patches[lane]);
-  EXPECT_EQ(std::memcmp(bodies.data(), one.bodies.data(), bodies.size() * sizeof(SolverBody)), 0);
+  EXPECT_EQ(std::memcmp(tile.bodies.data(), one.bodies.data(), tile.bodies.size() * sizeof(SolverBody)), 0);
+}
+
+// Returns how many patches the last sweep left alone.
+std::size_t expect_same_stirred(const PatchKernels& kernels, unsigned seed, bool has_directions) {
+  SCOPED_TRACE(testing::Message() << kernels.name << ", seed " << seed << (has_directions ? ", directions" : ""));
+  Random random(seed);
+  core::SoftStep step = some_step(9.81F);
+  step.most_sweeps = has_directions ? 12 : 1;
+  OneByOne one = some_patches(random, 1 + static_cast<int>(seed % 4));
+  OneTile tile(kernels, one);
+
+  constexpr float kDone_m_s = 0.02F;
+  std::vector<float> shares{0.0F, 0.0F, 0.0F, 0.0F};
+  if (has_directions) shares = {0.0F, 0.7F, 0.0F, 0.3F};
+  std::vector<std::uint32_t> stirred(one.bodies.size(), 0);
+  for (std::uint32_t k = 0; k < kStill; ++k)
+    if (core::is_moved(one.bodies[k]) && random.one_of(4)) stirred[k] = 1;
+  std::vector<std::uint32_t> of_tile = stirred;
+  const std::size_t left_alone = one.stir(step, shares, kDone_m_s, stirred);
+
+  float largest = -1.0F;
+  std::uint8_t followers = 0;
+  std::array<float, kTileLanes> changes{};
+  std::array<float, kTileLanes> relaxed{};
+  kernels.relax(tile.range(), step, relaxed.data());
+  StirredSweep sweep{1, kDone_m_s, 0.0F, of_tile.data(), &followers, &largest, changes.data()};
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    sweep.share = shares[n];
+    if (sweep.share > 0.0F) kernels.push_stirred(tile.range(), sweep);
+    kernels.relax_stirred(tile.range(), step, sweep);
+    ++sweep.number;
+    expect_same_bits(largest, one.speeds[n], "change of speed", static_cast<int>(n));
+  }
+  for (std::uint32_t lane = 0; lane < one.patches.size(); ++lane) {
+    expect_same_bits(changes[lane], one.changes[lane], "squared change", static_cast<int>(lane));
+    expect_same(kernels.get(tile.tiles(), 0, lane), one.patches[lane]);
+  }
+  EXPECT_EQ(of_tile, stirred);
+  EXPECT_EQ(std::memcmp(tile.bodies.data(), one.bodies.data(), tile.bodies.size() * sizeof(SolverBody)), 0);
+  return left_alone;
+}
+
+TEST(PatchKernels, LanesOfStirredBodiesHaveTheBitsOfOnePatch) {
+  for (const PatchKernels* kernels : all_patch_kernels()) {
+    std::size_t left_alone = 0;
+    std::size_t visited = 0;
+    for (unsigned seed = 1; seed <= 40; ++seed)
+      for (const bool has_directions : {false, true}) {
+        const std::size_t alone = expect_same_stirred(*kernels, seed, has_directions);
+        left_alone += alone;
+        visited += kTileLanes - 1 - alone;
+      }
+    EXPECT_GT(left_alone, 50U);
+    EXPECT_GT(visited, 50U);
+  }
 }
 
 TEST(PatchKernels, LanesHaveTheBitsOfOnePatch) {
