@@ -27,11 +27,12 @@ struct PatchPointOf {
   VectorOf<Number> lever;
   Number gap_m = 0.0F;        // at the start of the step
   Number normal_mass = 0.0F;  // kg: impulse along the normal per change of speed along it
-  // Of the tangent plane: the inverse of the mobility, symmetric 2 x 2, and that of its larger eigenvalue.
+  // Of the tangent plane: the inverse of the mobility, symmetric 2 x 2, and the larger eigenvalue of the mobility,
+  // 1/kg.
   Number stick_mass_11 = 0.0F;
   Number stick_mass_12 = 0.0F;
   Number stick_mass_22 = 0.0F;
-  Number slide_mass = 0.0F;
+  Number slip_mobility = 0.0F;
   // Of the current substep, N s on A.
   Number normal_impulse = 0.0F;
   Number tangent_impulse_1 = 0.0F;
@@ -154,7 +155,7 @@ BROADSIDE_HD void set_masses(const TwistMobilityOf<Number>& m, PatchPointOf<Numb
   p.stick_mass_22 = inverse * k11;
   p.stick_mass_12 = -inverse * k12;
   const Number half = 0.5F * (k11 - k22);
-  p.slide_mass = 1.0F / (0.5F * (k11 + k22) + square_root(half * half + k12 * k12));
+  p.slip_mobility = 0.5F * (k11 + k22) + square_root(half * half + k12 * k12);
 }
 
 // The mobility of the patch, and the masses of its points, as its bodies are turned now.
@@ -177,7 +178,7 @@ BROADSIDE_HD void set_mobility_where(TruthOf<Number> is_asked, PatchOf<Number>& 
     choose(c.points[k].stick_mass_11, of_now.stick_mass_11);
     choose(c.points[k].stick_mass_12, of_now.stick_mass_12);
     choose(c.points[k].stick_mass_22, of_now.stick_mass_22);
-    choose(c.points[k].slide_mass, of_now.slide_mass);
+    choose(c.points[k].slip_mobility, of_now.slip_mobility);
   });
 }
 

@@ -100,8 +100,8 @@ BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Nu
 }
 
 // Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
-// the slip. With one mass for both directions of a sliding point its friction turns until it opposes the slip. Returns
-// how fast it changed the point, m/s.
+// the slip. With one mobility for both directions of a sliding point its friction turns until it opposes the slip.
+// Returns the square of how fast it changed the point, m^2/s^2: a root and a division take as long as all the rest.
 template <typename Number>
 BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m) {
   const Number v1 = tangent_1_speed(m.twist, p.lever);
@@ -113,12 +113,14 @@ BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number
   if (any(is_sliding)) {
     p.slides = p.slides | is_sliding;
     const Number most = c.surface.mu_kinetic * p.normal_impulse;
-    const Number slide_1 = p.tangent_impulse_1 - p.slide_mass * v1;
-    const Number slide_2 = p.tangent_impulse_2 - p.slide_mass * v2;
+    // What would stop the point, as the speed that it takes away.
+    const Number slide_1 = p.slip_mobility * p.tangent_impulse_1 - v1;
+    const Number slide_2 = p.slip_mobility * p.tangent_impulse_2 - v2;
     const Number size = square_root(slide_1 * slide_1 + slide_2 * slide_2);
-    const TruthOf<Number> is_more = size > most;
-    want_1 = pick(is_sliding, pick(is_more, (most / size) * slide_1, slide_1), want_1);
-    want_2 = pick(is_sliding, pick(is_more, (most / size) * slide_2, slide_2), want_2);
+    const TruthOf<Number> is_more = size > p.slip_mobility * most;
+    const Number share = pick(is_more, most, 1.0F) / pick(is_more, size, p.slip_mobility);
+    want_1 = pick(is_sliding, share * slide_1, want_1);
+    want_2 = pick(is_sliding, share * slide_2, want_2);
   }
   const Number change_1 = want_1 - p.tangent_impulse_1;
   const Number change_2 = want_2 - p.tangent_impulse_2;
@@ -127,17 +129,18 @@ BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number
   m.twist = plus<Number>(m.twist, change_1, gain_by_tangent_1(c.mobility, p.lever));
   m.twist = plus<Number>(m.twist, change_2, gain_by_tangent_2(c.mobility, p.lever));
   m.given.add_tangents(p.lever, change_1, change_2);
-  return square_root(change_1 * change_1 + change_2 * change_2) / p.slide_mass;
+  return (change_1 * change_1 + change_2 * change_2) * (p.slip_mobility * p.slip_mobility);
 }
 
+// Returns the largest change of a point's speed, m/s.
 template <typename Number>
 BROADSIDE_HD Number solve_frictions(PatchOf<Number>& c, PatchMotionOf<Number>& m) {
-  Number largest = 0.0F;
+  Number squared = 0.0F;
   each_point(c, [&](int k) {
-    const Number size = solve_friction(c, c.points[k], m);
-    largest = pick(size > largest, size, largest);
+    const Number of_point = solve_friction(c, c.points[k], m);
+    squared = pick(of_point > squared, of_point, squared);
   });
-  return largest;
+  return square_root(squared);
 }
 
 // How fast the soft contact yields to the impulse that a point bears, m/s.

@@ -132,7 +132,7 @@ __device__ __forceinline__ void store_masses(const TileSlot& slot, const core::P
   });
 }
 
-// The slide mass is positive; it is stored with the opposite sign where the point slides.
+// The slip mobility is positive; it is stored with the opposite sign where the point slides.
 __device__ __forceinline__ void load_impulses(const TileSlot& slot, core::PatchConstraint& c) {
 #pragma unroll
   for (std::uint32_t k = 0; k < kFourPoints; ++k) {
@@ -142,7 +142,7 @@ __device__ __forceinline__ void load_impulses(const TileSlot& slot, core::PatchC
     p.tangent_impulse_1 = impulse.v.y;
     p.tangent_impulse_2 = impulse.v.z;
     p.slides = (__float_as_uint(impulse.w) & 0x80000000U) != 0;
-    p.slide_mass = __uint_as_float(__float_as_uint(impulse.w) & 0x7FFFFFFFU);
+    p.slip_mobility = __uint_as_float(__float_as_uint(impulse.w) & 0x7FFFFFFFU);
   }
 }
 
@@ -151,7 +151,7 @@ __device__ __forceinline__ void store_impulses(const TileSlot& slot, const core:
     const core::PatchPoint& p = c.points[k];
     const std::uint32_t sign = p.slides ? 0x80000000U : 0U;
     slot.at(kImpulses + static_cast<std::uint32_t>(k)) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2},
-                                                          __uint_as_float(__float_as_uint(p.slide_mass) | sign)};
+                                                          __uint_as_float(__float_as_uint(p.slip_mobility) | sign)};
   });
 }
 
@@ -279,7 +279,7 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
     const core::PatchPoint& p = c.points[k];
     slot.at(kLevers + k) = {p.lever, p.gap_m};
     slot.at(kMasses + k) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12}, p.stick_mass_22};
-    slot.at(kImpulses + k) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2}, p.slide_mass};
+    slot.at(kImpulses + k) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2}, p.slip_mobility};
   }
   store_mobility(slot, c);
   store_approach(slot, c);

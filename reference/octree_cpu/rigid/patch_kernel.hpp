@@ -83,7 +83,7 @@ template <typename Lanes>
 void clear(std::byte* tiles, std::size_t tile, std::uint32_t still) {
   Tile<Lanes>& t = *new (tiles + tile * sizeof(Tile<Lanes>)) Tile<Lanes>{};
   for (std::uint32_t lane = 0; lane < kTileLanes; ++lane) t.a[lane] = t.b[lane] = still;
-  for (core::PatchPointOf<Lanes>& p : t.patch.points) p.normal_mass = p.slide_mass = 1.0F;  // others divide by them
+  for (core::PatchPointOf<Lanes>& p : t.patch.points) p.normal_mass = p.slip_mobility = 1.0F;  // others divide by them
 }
 
 // visit(x, y) for every number x of a tile's patch and the same number y of one patch.
@@ -115,7 +115,7 @@ void each_number(Patches& many, Patch& one, const Visit& visit) {
     visit(p.stick_mass_11, q.stick_mass_11);
     visit(p.stick_mass_12, q.stick_mass_12);
     visit(p.stick_mass_22, q.stick_mass_22);
-    visit(p.slide_mass, q.slide_mass);
+    visit(p.slip_mobility, q.slip_mobility);
     visit(p.normal_impulse, q.normal_impulse);
     visit(p.tangent_impulse_1, q.tangent_impulse_1);
     visit(p.tangent_impulse_2, q.tangent_impulse_2);

@@ -97,7 +97,7 @@ void expect_same(const PatchConstraint& found, const PatchConstraint& expected) 
     const core::PatchPoint& q = expected.points[k];
     expect_same_bits(p.normal_mass, q.normal_mass, "normal mass", k);
     expect_same_bits(p.stick_mass_12, q.stick_mass_12, "stick mass", k);
-    expect_same_bits(p.slide_mass, q.slide_mass, "slide mass", k);
+    expect_same_bits(p.slip_mobility, q.slip_mobility, "slip mobility", k);
     expect_same_bits(p.normal_impulse, q.normal_impulse, "normal impulse", k);
     expect_same_bits(p.tangent_impulse_1, q.tangent_impulse_1, "tangent impulse 1", k);
     expect_same_bits(p.tangent_impulse_2, q.tangent_impulse_2, "tangent impulse 2", k);
