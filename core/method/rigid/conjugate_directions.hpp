@@ -108,12 +108,13 @@ BROADSIDE_HD void follow_impulses(PatchOf<Number>& c, PatchWayOf<Number>& way, f
 // What the step along the direction does to the bodies. Call it before follow_impulses, which changes the direction.
 template <typename Number, typename Body>
 BROADSIDE_HD void push_along(const PatchOf<Number>& c, const PatchWayOf<Number>& way, Body& a, Body& b, float share) {
-  PatchPushOf<Number> given;
+  PatchPushOf<Number> along;
   each_point(c, [&](int k) {
     const PointStep<Number> more = step_along(way.way[k], share);
-    given.add_normal(c.points[k].lever, more.normal);
-    given.add_tangents(c.points[k].lever, more.tangent_1, more.tangent_2);
+    along.add_normal(c.points[k].lever, more.normal);
+    along.add_tangents(c.points[k].lever, more.tangent_1, more.tangent_2);
   });
+  const WorldPushOf<Number> given = in_world(c, along);
   give_to_a(c, given, a);
   give_to_b(c, given, b);
 }

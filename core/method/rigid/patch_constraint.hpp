@@ -243,19 +243,27 @@ BROADSIDE_HD void store(Body& body, const VectorOf<typename Body::Number>& v,
   body.angular_momentum = pick(is_moved(body), body.angular_momentum + gain, body.angular_momentum);
 }
 
+// The same in world axes.
+template <typename Number>
+struct WorldPushOf {
+  VectorOf<Number> impulse;
+  VectorOf<Number> moment;
+};
+template <typename Number>
+BROADSIDE_HD WorldPushOf<Number> in_world(const PatchOf<Number>& c, const PatchPushOf<Number>& given) {
+  return {in_world<Number>(c, given.push.x, given.push.y, given.push.z),
+          in_world<Number>(c, given.moment.x, given.moment.y, given.moment.z)};
+}
+
 // Gives such impulses to each body.
 template <typename Number, typename Body>
-BROADSIDE_HD void give_to_a(const PatchOf<Number>& c, const PatchPushOf<Number>& given, Body& a) {
-  const VectorOf<Number> impulse = in_world<Number>(c, given.push.x, given.push.y, given.push.z);
-  const VectorOf<Number> moment = in_world<Number>(c, given.moment.x, given.moment.y, given.moment.z);
-  store(a, a.v + a.inverse_mass * impulse, cross(c.center_a, impulse) + moment);
+BROADSIDE_HD void give_to_a(const PatchOf<Number>& c, const WorldPushOf<Number>& given, Body& a) {
+  store(a, a.v + a.inverse_mass * given.impulse, cross(c.center_a, given.impulse) + given.moment);
 }
 template <typename Number, typename Body>
-BROADSIDE_HD void give_to_b(const PatchOf<Number>& c, const PatchPushOf<Number>& given, Body& b) {
+BROADSIDE_HD void give_to_b(const PatchOf<Number>& c, const WorldPushOf<Number>& given, Body& b) {
   const VectorOf<Number> none;
-  const VectorOf<Number> impulse = in_world<Number>(c, given.push.x, given.push.y, given.push.z);
-  const VectorOf<Number> moment = in_world<Number>(c, given.moment.x, given.moment.y, given.moment.z);
-  store(b, b.v - b.inverse_mass * impulse, none - (cross(c.center_b, impulse) + moment));
+  store(b, b.v - b.inverse_mass * given.impulse, none - (cross(c.center_b, given.impulse) + given.moment));
 }
 
 // The two bodies of a patch while it is solved: their relative motion, and the impulses that they got so far.
@@ -288,8 +296,9 @@ BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Bod
 
 template <typename Number, typename Body>
 BROADSIDE_HD void store(const PatchOf<Number>& c, const PatchMotionOf<Number>& m, Body& a, Body& b) {
-  give_to_a(c, m.given, a);
-  give_to_b(c, m.given, b);
+  const WorldPushOf<Number> given = in_world(c, m.given);
+  give_to_a(c, given, a);
+  give_to_b(c, given, b);
 }
 
 // The impulse on A, N s, of what acts along the normal and the tangents.

@@ -71,15 +71,22 @@ BROADSIDE_HD void forget_slips(PatchOf<Number>& c) {
   each_point(c, [&](int k) { c.points[k].slides = false; });
 }
 
-// The impulses of the substep before.
-template <typename Number, typename Body>
-BROADSIDE_HD void warm_start(const PatchOf<Number>& c, Body& a, Body& b) {
+// What all impulses of a patch are together.
+template <typename Number>
+BROADSIDE_HD WorldPushOf<Number> whole_push(const PatchOf<Number>& c) {
   PatchPushOf<Number> given;
   each_point(c, [&](int k) {
     const PatchPointOf<Number>& p = c.points[k];
     given.add_normal(p.lever, p.normal_impulse);
     given.add_tangents(p.lever, p.tangent_impulse_1, p.tangent_impulse_2);
   });
+  return in_world(c, given);
+}
+
+// The impulses of the substep before.
+template <typename Number, typename Body>
+BROADSIDE_HD void warm_start(const PatchOf<Number>& c, Body& a, Body& b) {
+  const WorldPushOf<Number> given = whole_push(c);
   give_to_a(c, given, a);
   give_to_b(c, given, b);
 }

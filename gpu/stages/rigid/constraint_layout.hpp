@@ -18,9 +18,10 @@ enum ConstraintWord : std::uint32_t {
   kMasses = kLevers + core::kManifoldPoints,    // [points] normal mass, stick masses 11, 12, 22
   kMobility = kMasses + core::kManifoldPoints,  // [6] core::TwistMobility, then from A's center of mass to the patch's
   // What every sweep changes.
-  kImpulses = kMobility + 6,  // [points] normal, tangents 1 and 2, of the substep; w: slide mass
+  kImpulses = kMobility + 6,                   // [points] normal, tangents 1 and 2, of the substep; w: slip mobility
+  kGiven = kImpulses + core::kManifoldPoints,  // [2] core::WorldPush of these impulses, as relaxation left them
   // By point: x y z w.
-  kApproaches = kImpulses + core::kManifoldPoints,
+  kApproaches = kGiven + 2,
   kRelaxed,               // x: the budget of a bounce; w: the latest relaxation along directions that has visited it
   kTotals,                // [3] as impulses
   kBefore = kTotals + 3,  // [3] of core::PatchWay

@@ -5,6 +5,7 @@
 #include "core/method/rigid/conjugate_directions.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
 #include "core/method/rigid/pushed_apart.hpp"
+#include "core/method/rigid/soft_contact.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/rigid/constraint_layout.hpp"
@@ -123,7 +124,7 @@ __device__ __forceinline__ void load_masses(const TileSlot& slot, core::PatchCon
   }
 }
 
-// The slide masses are stored with the impulses.
+// The slip mobilities are stored with the impulses.
 __device__ __forceinline__ void store_masses(const TileSlot& slot, const core::PatchConstraint& c) {
   core::each_point(c, [&](int k) {
     const core::PatchPoint& p = c.points[k];
@@ -153,6 +154,19 @@ __device__ __forceinline__ void store_impulses(const TileSlot& slot, const core:
     slot.at(kImpulses + static_cast<std::uint32_t>(k)) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2},
                                                           __uint_as_float(__float_as_uint(p.slip_mobility) | sign)};
   });
+}
+
+// What bodies are given when the next substep begins. Levers and directions have been loaded.
+__device__ __forceinline__ void store_given(const TileSlot& slot, const core::PatchConstraint& c) {
+  const core::WorldPushOf<float> given = core::whole_push(c);
+  slot.at(kGiven) = {given.impulse, 0.0F};
+  slot.at(kGiven + 1) = {given.moment, 0.0F};
+}
+
+// Impulses that may be the last ones of a substep.
+__device__ __forceinline__ void store_kept_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
+  store_impulses(slot, c);
+  store_given(slot, c);
 }
 
 // What a sweep reads.
@@ -281,6 +295,7 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
     slot.at(kMasses + k) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12}, p.stick_mass_22};
     slot.at(kImpulses + k) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2}, p.slip_mobility};
   }
+  store_given(slot, c);
   store_mobility(slot, c);
   store_approach(slot, c);
   store_relaxed(slot, 0);

@@ -3,49 +3,49 @@
 // depend on velocities and no two patches of a body have one color.
 #pragma once
 
+#include <utility>
+
 #include "core/method/rigid/conjugate_directions.hpp"
+#include "core/method/rigid/soft_contact.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
 
 namespace broadside::gpu {
 
-// A patch and which of its bodies this thread works for.
+// A patch as its body's thread loads it; which of its bodies the thread works for; and what the loader adds.
+template <typename Loaded>
 struct KnownPatch {
   core::PatchConstraint c;
-  float changes[kFourPoints][3] = {};
+  Loaded loaded;
   bool is_b = false;  // the body is the patch's B
 };
 
-// triples(slot, out) gives the changes of the normal and tangent impulses of the four points.
-template <typename Triples>
+struct NothingMore {};
+
+// load(slot, patch) loads what push(patch, loaded) makes a core::WorldPush of. Centers are loaded here.
+template <typename Load, typename Push>
 __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
-                                                    const Triples& triples) {
+                                                    const Load& load, const Push& push) {
+  using Known = KnownPatch<decltype(load(TileSlot(nullptr, 0), std::declval<core::PatchConstraint&>()))>;
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
   const std::uint32_t count = core::is_moved(body) ? f.memory.count[i] : 0;  // who sleeps is not moved
-  const auto load = [&](std::uint32_t place_and_side) {
+  const auto load_known = [&](std::uint32_t place_and_side) {
     const TileSlot slot(f.constraints, place_and_side / 2);
-    KnownPatch known;
+    Known known;
     known.is_b = place_and_side % 2 != 0;
-    load_bodies(slot, known.c);
-    load_centers(slot, load_directions(slot, known.c), known.c);
-    load_levers(slot, known.c);
-    triples(slot, known.changes);
+    known.loaded = load(slot, known.c);
+    load_centers(slot, slot.at(kAcross).v, known.c);
     return known;
   };
   // A patch is loaded one round before it is used, and its place one round before that.
-  KnownPatch ahead;
+  Known ahead;
   std::uint32_t next = count > 0 ? places[0] : 0;
   for (std::uint32_t k = 0; k <= count; ++k) {
-    const KnownPatch now = ahead;
-    if (k < count) ahead = load(next);
+    const Known now = ahead;
+    if (k < count) ahead = load_known(next);
     next = k + 1 < count ? places[k + 1] : 0;
     if (k == 0) continue;
-    core::PatchPushOf<float> given;
-    core::each_point(now.c, [&](int point) {
-      const float(&change)[3] = now.changes[point];
-      given.add_normal(now.c.points[point].lever, change[0]);
-      given.add_tangents(now.c.points[point].lever, change[1], change[2]);
-    });
+    const core::WorldPushOf<float> given = push(now.c, now.loaded);
     if (now.is_b)
       core::give_to_b(now.c, given, body);
     else
@@ -55,32 +55,57 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
 
 // The impulses of the substep before: core::warm_start.
 __device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body) {
-  give_known_impulses(f, i, body, [](const TileSlot& slot, float(&out)[kFourPoints][3]) {
-#pragma unroll
-    for (std::uint32_t k = 0; k < kFourPoints; ++k) {
-      const PackedVec3 impulse = slot.at(kImpulses + k);
-      out[k][0] = impulse.v.x;
-      out[k][1] = impulse.v.y;
-      out[k][2] = impulse.v.z;
-    }
-  });
+  give_known_impulses(
+      f, i, body,
+      [](const TileSlot& slot, core::PatchConstraint& /*c*/) {
+        return core::WorldPushOf<float>{slot.at(kGiven).v, slot.at(kGiven + 1).v};
+      },
+      [](const core::PatchConstraint& /*c*/, const core::WorldPushOf<float>& given) { return given; });
 }
+
+// The impulses as they are, after sweeps that did not note what they are together.
+__device__ __forceinline__ void give_present_impulses(const RigidFrameView& f, std::uint32_t i,
+                                                      core::SolverBody& body) {
+  give_known_impulses(
+      f, i, body,
+      [](const TileSlot& slot, core::PatchConstraint& c) {
+        load_bodies(slot, c);
+        load_directions(slot, c);
+        load_levers(slot, c);
+        load_impulses(slot, c);
+        return NothingMore{};
+      },
+      [](const core::PatchConstraint& c, NothingMore /*none*/) { return core::whole_push(c); });
+}
+
+// Of each point.
+struct KnownWays {
+  float of[kFourPoints][3] = {};
+};
 
 // A step along the last directions: core::push_along. since: only of patches that this relaxation has visited; 0 = of
 // all, before the bodies move.
 __device__ __forceinline__ void give_step_along(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                 float share, std::uint32_t since) {
-  give_known_impulses(f, i, body, [share, since](const TileSlot& slot, float(&out)[kFourPoints][3]) {
-    float ways[kFourPoints][3] = {};
-    if (since == 0 || load_relaxed(slot) == since) load_triples(slot, kWays, ways);
-#pragma unroll
-    for (std::uint32_t k = 0; k < kFourPoints; ++k) {
-      const core::PointStep step = core::step_along(ways[k], share);
-      out[k][0] = step.normal;
-      out[k][1] = step.tangent_1;
-      out[k][2] = step.tangent_2;
-    }
-  });
+  give_known_impulses(
+      f, i, body,
+      [since](const TileSlot& slot, core::PatchConstraint& c) {
+        load_bodies(slot, c);
+        load_directions(slot, c);
+        load_levers(slot, c);
+        KnownWays ways;
+        if (since == 0 || load_relaxed(slot) == since) load_triples(slot, kWays, ways.of);
+        return ways;
+      },
+      [share](const core::PatchConstraint& c, const KnownWays& ways) {
+        core::PatchPushOf<float> along;
+        core::each_point(c, [&](int k) {
+          const core::PointStep step = core::step_along(ways.of[k], share);
+          along.add_normal(c.points[k].lever, step.normal);
+          along.add_tangents(c.points[k].lever, step.tangent_1, step.tangent_2);
+        });
+        return core::in_world(c, along);
+      });
 }
 
 }  // namespace broadside::gpu

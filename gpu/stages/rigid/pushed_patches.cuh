@@ -30,7 +30,7 @@ __device__ __forceinline__ void go_back_to_start(const RigidFrameView& f, std::u
     body.v = start.driven_v.v;
     body.angular_momentum = start.driven_angular_momentum.v;
   }
-  give_kept_impulses(f, i, body);
+  give_present_impulses(f, i, body);
 }
 
 // Call after relaxation: patches that bounce stir their bodies for sweep `sweep`. Contributes their fastest approach.

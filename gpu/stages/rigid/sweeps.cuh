@@ -167,7 +167,7 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
         with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
       },
       [&](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) {
-        store_impulses(slot, p.c);
+        store_kept_impulses(slot, p.c);
         if (!stirs) return;
         const float own = p.c.surface.restitution > 0.0F ? core::fastest_bounce(p.c) : 0.0F;
         const bool is_pushed = change > soft.stirring_m_s;
