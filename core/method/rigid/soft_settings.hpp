@@ -54,7 +54,7 @@ struct SoftSettings {
   // Where everything rests the fastest point is slow itself, and one point of a thousand kept all others sweeping. So a
   // change below a share of gravity ends the sweeps too.
   // A heap moves somewhere in nearly every step. To take back all that a push did, and to find the rest anew, took it
-  // three times as many sweeps as to go on from where the push is kept, and it gained more energy. With 16 sweeps that
+  // twice as many sweeps as to go on from where the push is kept, and it gained more energy. With 16 sweeps that
   // stop, 30,000 cubes that land gain too much.
   SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F, 24, 48, 0.25F, 0.25F, 1.0F};
   // The same where nothing moves fast (core/scene/calm_bodies.hpp): what overlaps at rest parts without any speed.
