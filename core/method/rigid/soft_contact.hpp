@@ -108,7 +108,7 @@ BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Nu
 
 // Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
 // the slip. With one mobility for both directions of a sliding point its friction turns until it opposes the slip.
-// Returns the square of how fast it changed the point, m^2/s^2: a root and a division take as long as all the rest.
+// Returns the square of how fast it changed the point, m^2/s^2: only the largest one of a patch is asked for.
 template <typename Number>
 BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m) {
   const Number v1 = tangent_1_speed(m.twist, p.lever);
