@@ -11,9 +11,11 @@
 
 #include "core/attributes.hpp"
 #include "core/material.hpp"
+#include "core/math/fused.hpp"
 #include "core/math/lane_number.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/each_point.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/method/rigid/patch_twist.hpp"
 #include "core/method/rigid/solver_body.hpp"
@@ -76,35 +78,14 @@ struct PatchConstraint : PatchOf<float> {
   std::uint32_t b = 0;
 };
 
-// work(k) for every point. The length is fixed, so that a GPU's compiler unrolls the loop and keeps points in
-// registers.
-template <typename Number, typename Work>
-BROADSIDE_HD void each_point(const PatchOf<Number>& c, const Work& work) {
-#if defined(__CUDACC__)
-#pragma unroll
-#endif
-  for (int k = 0; k < kManifoldPoints; ++k)
-    if (k < c.count) work(k);
-}
-
-// The same from the last one to the first.
-template <typename Number, typename Work>
-BROADSIDE_HD void each_point_back(const PatchOf<Number>& c, const Work& work) {
-#if defined(__CUDACC__)
-#pragma unroll
-#endif
-  for (int k = kManifoldPoints - 1; k >= 0; --k)
-    if (k < c.count) work(k);
-}
-
 // From the patch's axes to the world, and back.
 template <typename Number>
 BROADSIDE_HD VectorOf<Number> in_world(const PatchOf<Number>& c, Number along_normal, Number along_1, Number along_2) {
-  return (along_normal * c.normal + along_1 * c.tangent_1) + along_2 * c.tangent_2;
+  return plus_times(plus_times<VectorOf<Number>>(along_normal * c.normal, along_1, c.tangent_1), along_2, c.tangent_2);
 }
 template <typename Number, typename Vector>
 BROADSIDE_HD Vector in_patch(const PatchOf<Number>& c, const Vector& v) {
-  return {dot(c.normal, v), dot(c.tangent_1, v), dot(c.tangent_2, v)};
+  return {fused_dot(c.normal, v), fused_dot(c.tangent_1, v), fused_dot(c.tangent_2, v)};
 }
 
 // From the centers of mass to a point, world axes.
@@ -222,15 +203,15 @@ struct PatchPushOf {
 
   BROADSIDE_HD void add_normal(const VectorOf<Number>& lever, Number normal) {
     push.x = push.x + normal;
-    moment.y = moment.y + lever.z * normal;
-    moment.z = moment.z - lever.y * normal;
+    moment.y = plus_product(moment.y, lever.z, normal);
+    moment.z = less_product(moment.z, lever.y, normal);
   }
   BROADSIDE_HD void add_tangents(const VectorOf<Number>& lever, Number tangent_1, Number tangent_2) {
     push.y = push.y + tangent_1;
     push.z = push.z + tangent_2;
-    moment.x = moment.x + (lever.y * tangent_2 - lever.z * tangent_1);
-    moment.y = moment.y - lever.x * tangent_2;
-    moment.z = moment.z + lever.x * tangent_1;
+    moment.x = less_product(plus_product(moment.x, lever.y, tangent_2), lever.z, tangent_1);
+    moment.y = less_product(moment.y, lever.x, tangent_2);
+    moment.z = plus_product(moment.z, lever.x, tangent_1);
   }
 };
 
@@ -251,19 +232,22 @@ struct WorldPushOf {
 };
 template <typename Number>
 BROADSIDE_HD WorldPushOf<Number> in_world(const PatchOf<Number>& c, const PatchPushOf<Number>& given) {
-  return {in_world<Number>(c, given.push.x, given.push.y, given.push.z),
-          in_world<Number>(c, given.moment.x, given.moment.y, given.moment.z)};
+  // Plus 0: what is too small to be a number is 0 and not -0, whatever zeros came after it.
+  const VectorOf<Number> none;
+  const VectorOf<Number> push = none + given.push;
+  const VectorOf<Number> moment = none + given.moment;
+  return {in_world<Number>(c, push.x, push.y, push.z), in_world<Number>(c, moment.x, moment.y, moment.z)};
 }
 
 // Gives such impulses to each body.
 template <typename Number, typename Body>
 BROADSIDE_HD void give_to_a(const PatchOf<Number>& c, const WorldPushOf<Number>& given, Body& a) {
-  store(a, a.v + a.inverse_mass * given.impulse, cross(c.center_a, given.impulse) + given.moment);
+  store(a, plus_times(a.v, a.inverse_mass, given.impulse), plus_cross(given.moment, c.center_a, given.impulse));
 }
 template <typename Number, typename Body>
 BROADSIDE_HD void give_to_b(const PatchOf<Number>& c, const WorldPushOf<Number>& given, Body& b) {
   const VectorOf<Number> none;
-  store(b, b.v - b.inverse_mass * given.impulse, none - (cross(c.center_b, given.impulse) + given.moment));
+  store(b, less_times(b.v, b.inverse_mass, given.impulse), none - plus_cross(given.moment, c.center_b, given.impulse));
 }
 
 // The two bodies of a patch while it is solved: their relative motion, and the impulses that they got so far.
@@ -286,12 +270,15 @@ BROADSIDE_HD PatchMotionOf<Number> pick(TruthOf<Number> is_first, const PatchMot
 template <typename Number, typename Vector>
 BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Vector& v_a, const Vector& w_a,
                                              const Vector& v_b, const Vector& w_b) {
-  const Vector speed = (v_a + cross(w_a, c.center_a)) - (v_b + cross(w_b, c.center_b));
-  return {{in_patch(c, speed), in_patch(c, w_a - w_b)}, {}};
+  const Vector speed = plus_cross(v_a, w_a, c.center_a) - plus_cross(v_b, w_b, c.center_b);
+  // Plus 0: no number is -0, and none becomes so by what is added.
+  const Vector none;
+  return {{none + in_patch(c, speed), none + in_patch(c, w_a - w_b)}, {}};
 }
 template <typename Number, typename Body>
 BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Body& a, const Body& b) {
-  return motion_of(c, a.v, angular_velocity(a), b.v, angular_velocity(b));
+  return motion_of(c, a.v, fused_product(a.inverse_inertia, a.angular_momentum), b.v,
+                   fused_product(b.inverse_inertia, b.angular_momentum));
 }
 
 template <typename Number, typename Body>
@@ -335,17 +322,18 @@ class PatchGaps {
     const TruthOf<Number> is_far_a = swings_far(a.turned);
     const TruthOf<Number> is_far_b = swings_far(b.turned);
     is_far_ = is_far_a | is_far_b;
-    const VectorOf<Number> moved = (a.moved + cross(a.turned, c.center_a)) - (b.moved + cross(b.turned, c.center_b));
+    const VectorOf<Number> moved =
+        plus_cross(a.moved, a.turned, c.center_a) - plus_cross(b.moved, b.turned, c.center_b);
     const VectorOf<Number> turned = a.turned - b.turned;
-    moved_ = dot(c.normal, moved);
-    turned_1_ = dot(c.tangent_1, turned);
-    turned_2_ = dot(c.tangent_2, turned);
+    moved_ = fused_dot(c.normal, moved);
+    turned_1_ = fused_dot(c.tangent_1, turned);
+    turned_2_ = fused_dot(c.tangent_2, turned);
   }
 
   // Of point k. To first order in the patch's axes, like the point's speeds; along the arcs where a body turned far.
   BROADSIDE_HD Number operator()(int k) const {
     const PatchPointOf<Number>& p = c_.points[k];
-    const Number near = p.gap_m + (moved_ + (turned_1_ * p.lever.z - turned_2_ * p.lever.y));
+    const Number near = p.gap_m + less_product(plus_product(moved_, turned_1_, p.lever.z), turned_2_, p.lever.y);
     if (!any(is_far_)) return near;
     const VectorOf<Number> moved_a = a_.moved + swung(a_.turned, arm_a(c_, p));
     const VectorOf<Number> moved_b = b_.moved + swung(b_.turned, arm_b(c_, p));

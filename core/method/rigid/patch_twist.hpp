@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/attributes.hpp"
+#include "core/math/fused.hpp"
 #include "core/math/lane_number.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/cross.hpp"
@@ -26,21 +27,21 @@ BROADSIDE_HD TwistOf<Number> pick(TruthOf<Number> is_first, const TwistOf<Number
 
 template <typename Number>
 BROADSIDE_HD TwistOf<Number> plus(const TwistOf<Number>& t, Number times, const TwistOf<Number>& more) {
-  return {t.speed + times * more.speed, t.turn + times * more.turn};
+  return {plus_times(t.speed, times, more.speed), plus_times(t.turn, times, more.turn)};
 }
 
 // Of a point at `lever` from the patch's center, along each axis, m/s.
 template <typename Number, typename Vector>
 BROADSIDE_HD Number normal_speed(const TwistOf<Number>& t, const Vector& lever) {
-  return t.speed.x + (t.turn.y * lever.z - t.turn.z * lever.y);
+  return less_product(plus_product(t.speed.x, t.turn.y, lever.z), t.turn.z, lever.y);
 }
 template <typename Number, typename Vector>
 BROADSIDE_HD Number tangent_1_speed(const TwistOf<Number>& t, const Vector& lever) {
-  return t.speed.y + (t.turn.z * lever.x - t.turn.x * lever.z);
+  return less_product(plus_product(t.speed.y, t.turn.z, lever.x), t.turn.x, lever.z);
 }
 template <typename Number, typename Vector>
 BROADSIDE_HD Number tangent_2_speed(const TwistOf<Number>& t, const Vector& lever) {
-  return t.speed.z + (t.turn.x * lever.y - t.turn.y * lever.x);
+  return less_product(plus_product(t.speed.z, t.turn.x, lever.y), t.turn.y, lever.x);
 }
 
 template <typename Number>
@@ -72,20 +73,20 @@ struct TwistMobilityOf {
 template <typename Number, typename Vector>
 BROADSIDE_HD TwistOf<Number> gain_by_normal(const TwistMobilityOf<Number>& m, const Vector& lever) {
   const VectorOf<Number> turn_by_push = {m.speed_by_moment_x.x, m.speed_by_moment_y.x, m.speed_by_moment_z.x};
-  return {m.speed_by_push.x() + (lever.z * m.speed_by_moment_y - lever.y * m.speed_by_moment_z),
-          turn_by_push + (lever.z * m.turn_by_moment.y() - lever.y * m.turn_by_moment.z())};
+  return {less_times(plus_times(m.speed_by_push.x(), lever.z, m.speed_by_moment_y), lever.y, m.speed_by_moment_z),
+          less_times(plus_times(turn_by_push, lever.z, m.turn_by_moment.y()), lever.y, m.turn_by_moment.z())};
 }
 template <typename Number, typename Vector>
 BROADSIDE_HD TwistOf<Number> gain_by_tangent_1(const TwistMobilityOf<Number>& m, const Vector& lever) {
   const VectorOf<Number> turn_by_push = {m.speed_by_moment_x.y, m.speed_by_moment_y.y, m.speed_by_moment_z.y};
-  return {m.speed_by_push.y() + (lever.x * m.speed_by_moment_z - lever.z * m.speed_by_moment_x),
-          turn_by_push + (lever.x * m.turn_by_moment.z() - lever.z * m.turn_by_moment.x())};
+  return {less_times(plus_times(m.speed_by_push.y(), lever.x, m.speed_by_moment_z), lever.z, m.speed_by_moment_x),
+          less_times(plus_times(turn_by_push, lever.x, m.turn_by_moment.z()), lever.z, m.turn_by_moment.x())};
 }
 template <typename Number, typename Vector>
 BROADSIDE_HD TwistOf<Number> gain_by_tangent_2(const TwistMobilityOf<Number>& m, const Vector& lever) {
   const VectorOf<Number> turn_by_push = {m.speed_by_moment_x.z, m.speed_by_moment_y.z, m.speed_by_moment_z.z};
-  return {m.speed_by_push.z() + (lever.y * m.speed_by_moment_x - lever.x * m.speed_by_moment_y),
-          turn_by_push + (lever.y * m.turn_by_moment.x() - lever.x * m.turn_by_moment.y())};
+  return {less_times(plus_times(m.speed_by_push.z(), lever.y, m.speed_by_moment_x), lever.x, m.speed_by_moment_y),
+          less_times(plus_times(turn_by_push, lever.y, m.turn_by_moment.x()), lever.x, m.turn_by_moment.y())};
 }
 
 // One body's share of the mobility. center: from its center of mass to the patch's center, world axes.

@@ -33,10 +33,10 @@ BROADSIDE_HD constexpr float relax_done_m_s(const SoftStep& step, float fastest_
 template <typename Number, typename Gap>
 BROADSIDE_HD Number fastest_push(const PatchOf<Number>& c, const SoftStep& step, const Gap& gap_m) {
   Number fastest = 0.0F;
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     const Number gap = gap_m(k);
-    const TruthOf<Number> is_closed = gap < 0.0F;
-    if (!any(is_closed)) return;
+    const TruthOf<Number> is_closed = (gap < 0.0F) & TruthOf<Number>(k < c.count);
+    if (is_left_out(!any(is_closed))) return;
     const Number wish = (gap + c.slop_m) * step.push_rate_per_s;
     const Number beside = (0.0F - wish) - 2.0F * yielding<Number>(c.points[k], step);
     const Number most = most_push<Number>(c, 0.0F - gap, step);

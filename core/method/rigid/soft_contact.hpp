@@ -14,6 +14,7 @@
 #include <cstdint>
 
 #include "core/attributes.hpp"
+#include "core/math/fused.hpp"
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/patch_constraint.hpp"
 #include "core/method/rigid/soft_step.hpp"
@@ -60,7 +61,8 @@ BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const PatchMotionOf<
     const VectorOf<Number>& lever = c.points[k].lever;
     const VectorOf<Number> v = {normal_speed(m.twist, lever), tangent_1_speed(m.twist, lever),
                                 tangent_2_speed(m.twist, lever)};
-    squared = pick(dot(v, v) > squared, dot(v, v), squared);
+    const Number of_point = fused_dot(v, v);
+    squared = pick(of_point > squared, of_point, squared);
   });
   return square_root(squared);
 }
@@ -68,14 +70,14 @@ BROADSIDE_HD Number fastest_point(const PatchOf<Number>& c, const PatchMotionOf<
 // Before anything else of a substep: nothing slides yet.
 template <typename Number>
 BROADSIDE_HD void forget_slips(PatchOf<Number>& c) {
-  each_point(c, [&](int k) { c.points[k].slides = false; });
+  each_point_or_zeros(c, [&](int k) { c.points[k].slides = false; });
 }
 
 // What all impulses of a patch are together.
 template <typename Number>
 BROADSIDE_HD WorldPushOf<Number> whole_push(const PatchOf<Number>& c) {
   PatchPushOf<Number> given;
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     const PatchPointOf<Number>& p = c.points[k];
     given.add_normal(p.lever, p.normal_impulse);
     given.add_tangents(p.lever, p.tangent_impulse_1, p.tangent_impulse_2);
@@ -113,19 +115,21 @@ template <typename Number>
 BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m) {
   const Number v1 = tangent_1_speed(m.twist, p.lever);
   const Number v2 = tangent_2_speed(m.twist, p.lever);
-  Number want_1 = p.tangent_impulse_1 - (p.stick_mass_11 * v1 + p.stick_mass_12 * v2);
-  Number want_2 = p.tangent_impulse_2 - (p.stick_mass_12 * v1 + p.stick_mass_22 * v2);
+  Number want_1 = less_product(less_product(p.tangent_impulse_1, p.stick_mass_11, v1), p.stick_mass_12, v2);
+  Number want_2 = less_product(less_product(p.tangent_impulse_2, p.stick_mass_12, v1), p.stick_mass_22, v2);
   const Number held = pick(p.slides, c.surface.mu_kinetic, c.surface.mu_static) * p.normal_impulse;
-  const TruthOf<Number> is_sliding = want_1 * want_1 + want_2 * want_2 > held * held;
-  if (any(is_sliding)) {
+  const TruthOf<Number> is_sliding = plus_product(want_1 * want_1, want_2, want_2) > held * held;
+  if (!is_left_out(!any(is_sliding))) {
     p.slides = p.slides | is_sliding;
     const Number most = c.surface.mu_kinetic * p.normal_impulse;
     // What would stop the point, as the speed that it takes away.
-    const Number slide_1 = p.slip_mobility * p.tangent_impulse_1 - v1;
-    const Number slide_2 = p.slip_mobility * p.tangent_impulse_2 - v2;
-    const Number size = square_root(slide_1 * slide_1 + slide_2 * slide_2);
-    const TruthOf<Number> is_more = size > p.slip_mobility * most;
-    const Number share = pick(is_more, most, 1.0F) / pick(is_more, size, p.slip_mobility);
+    const Number slide_1 = plus_product(-v1, p.slip_mobility, p.tangent_impulse_1);
+    const Number slide_2 = plus_product(-v2, p.slip_mobility, p.tangent_impulse_2);
+    const Number size_squared = plus_product(slide_1 * slide_1, slide_2, slide_2);
+    const Number mobility_squared = p.slip_mobility * p.slip_mobility;
+    const TruthOf<Number> is_more = size_squared > mobility_squared * (most * most);
+    const Number share =
+        pick(is_more, most, 1.0F) * reciprocal_root<Number>(pick(is_more, size_squared, mobility_squared));
     want_1 = pick(is_sliding, share * slide_1, want_1);
     want_2 = pick(is_sliding, share * slide_2, want_2);
   }
@@ -136,14 +140,14 @@ BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number
   m.twist = plus<Number>(m.twist, change_1, gain_by_tangent_1(c.mobility, p.lever));
   m.twist = plus<Number>(m.twist, change_2, gain_by_tangent_2(c.mobility, p.lever));
   m.given.add_tangents(p.lever, change_1, change_2);
-  return (change_1 * change_1 + change_2 * change_2) * (p.slip_mobility * p.slip_mobility);
+  return plus_product(change_1 * change_1, change_2, change_2) * (p.slip_mobility * p.slip_mobility);
 }
 
 // Returns the largest change of a point's speed, m/s.
 template <typename Number>
 BROADSIDE_HD Number solve_frictions(PatchOf<Number>& c, PatchMotionOf<Number>& m) {
   Number squared = 0.0F;
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     const Number of_point = solve_friction(c, c.points[k], m);
     squared = pick(of_point > squared, of_point, squared);
   });
@@ -153,7 +157,7 @@ BROADSIDE_HD Number solve_frictions(PatchOf<Number>& c, PatchMotionOf<Number>& m
 // How fast the soft contact yields to the impulse that a point bears, m/s.
 template <typename Number>
 BROADSIDE_HD Number yielding(const PatchPointOf<Number>& p, const SoftStep& step) {
-  return step.impulse_scale * p.normal_impulse / (step.mass_scale * p.normal_mass);
+  return step.yield_scale * p.normal_impulse * near_reciprocal<Number>(p.normal_mass);
 }
 
 // An overlap is pushed apart no faster than half of what it would take to fall out of it, beside what the soft contact
@@ -162,7 +166,7 @@ BROADSIDE_HD Number yielding(const PatchPointOf<Number>& p, const SoftStep& step
 template <typename Number>
 BROADSIDE_HD Number most_push(const PatchOf<Number>& c, Number depth_m, const SoftStep& step) {
   if (!(step.gravity_m_s2 > 0.0F)) return c.fastest_push_m_s;
-  return square_root(0.5F * step.gravity_m_s2 * depth_m);
+  return near_root<Number>(0.5F * step.gravity_m_s2 * depth_m);
 }
 
 // What a sweep wants of the points of a patch. It follows from where the bodies are and from the patch's own impulses,
@@ -180,13 +184,13 @@ using PatchGoals = PatchGoalsOf<float>;
 template <typename Number, typename Gap>
 BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const SoftStep& step, const Gap& gap_m) {
   PatchGoalsOf<Number> goals;
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     const PatchPointOf<Number>& p = c.points[k];
     const Number gap = gap_m(k);
     const TruthOf<Number> is_open = gap > 0.0F;
     goals.is_open[k] = is_open;
     goals.allowed_m_s[k] = gap * step.per_dt_s;  // it may close within the substep, no more
-    if (any(!is_open)) {
+    if (!is_left_out(!any(!is_open))) {
       const Number wish = (gap + c.slop_m) * step.push_rate_per_s;
       const Number slow = pick(wish > step.settle_m_s, step.settle_m_s, wish);
       const Number fast = most_push<Number>(c, -gap, step) + yielding<Number>(p, step);
@@ -207,7 +211,7 @@ BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
                                 const SoftStep& step) {
   PatchMotionOf<Number> m = motion_of<Number>(c, a, b);
   Number largest = 0.0F;
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     PatchPointOf<Number>& p = c.points[k];
     const Number speed = normal_speed(m.twist, p.lever);
     const Number rigid = speed + goals.allowed_m_s[k];
@@ -238,7 +242,7 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
   if (any(is_far)) set_mobility_where<Number>(is_far, c, a, b);
   PatchGoalsOf<Number> goals;
   const auto gaps = gaps_now(c, a, b);
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     const PatchPointOf<Number>& p = c.points[k];
     const Number gap = gaps(k);
     const TruthOf<Number> has_gap = gap > 0.0F;
@@ -258,17 +262,15 @@ template <typename Number, typename Body>
 BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& goals, Body& a, Body& b) {
   PatchMotionOf<Number> m = motion_of<Number>(c, a, b);
   Number largest = 0.0F;
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     const TruthOf<Number> is_met = !goals.is_open[k];
-    if (!any(is_met)) return;
+    if (is_left_out(!any(is_met))) return;
     PatchPointOf<Number>& p = c.points[k];
     const Number speed = normal_speed(m.twist, p.lever);
     const Number wish = -p.normal_mass * (speed + goals.allowed_m_s[k]);
-    // Nothing changes while the point is not met.
-    const PatchMotionOf<Number> before = m;
+    // A point that is not met has no impulse, and gets none.
     const Number size = add_normal_impulse<Number>(c, p, m, pick(is_met, wish, 0.0F));
-    m = pick<Number>(is_met, m, before);
-    largest = pick(is_met & (size > largest), size, largest);
+    largest = pick(size > largest, size, largest);
   });
   const Number size = solve_frictions(c, m);
   store<Number>(c, m, a, b);
@@ -354,7 +356,7 @@ BROADSIDE_HD void drop_impacts(PatchOf<Number>& c) {
 
 template <typename Number>
 BROADSIDE_HD void add_to_totals(PatchOf<Number>& c) {
-  each_point(c, [&](int k) {
+  each_point_or_zeros(c, [&](int k) {
     PatchPointOf<Number>& p = c.points[k];
     p.normal_total = p.normal_total + p.normal_impulse;
     p.tangent_total_1 = p.tangent_total_1 + p.tangent_impulse_1;

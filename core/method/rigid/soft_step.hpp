@@ -16,6 +16,7 @@ struct SoftStep {
   float push_rate_per_s = 0.0F;
   float mass_scale = 1.0F;
   float impulse_scale = 0.0F;
+  float yield_scale = 0.0F;  // the second over the first
   // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
   // friction holds, from the first substep on.
   float settle_m_s = 0.0F;
@@ -50,6 +51,7 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
   s.push_rate_per_s = omega_dt * s.per_dt_s / a1;
   s.mass_scale = a2 * a3;
   s.impulse_scale = a3;
+  s.yield_scale = 1.0F / a2;
   return s;
 }
 

@@ -148,7 +148,7 @@ __device__ __forceinline__ void load_impulses(const TileSlot& slot, core::PatchC
 }
 
 __device__ __forceinline__ void store_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
-  core::each_point(c, [&](int k) {
+  core::each_point_or_zeros(c, [&](int k) {
     const core::PatchPoint& p = c.points[k];
     const std::uint32_t sign = p.slides ? 0x80000000U : 0U;
     slot.at(kImpulses + static_cast<std::uint32_t>(k)) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2},

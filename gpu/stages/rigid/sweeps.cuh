@@ -73,8 +73,9 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
 __device__ __forceinline__ core::PatchMotion driven_motion(const RigidFrameView& f, const LoadedPatch& p) {
   const PackedStart& a = f.starts[p.c.a];
   const PackedStart& b = f.starts[p.c.b];
-  return core::motion_of<float>(p.c, a.driven_v.v, p.a.inverse_inertia * a.driven_angular_momentum.v, b.driven_v.v,
-                                p.b.inverse_inertia * b.driven_angular_momentum.v);
+  return core::motion_of<float>(p.c, a.driven_v.v,
+                                core::fused_product(p.a.inverse_inertia, a.driven_angular_momentum.v), b.driven_v.v,
+                                core::fused_product(p.b.inverse_inertia, b.driven_angular_momentum.v));
 }
 
 // A sweep of several along conjugate directions. The impulses follow the last direction by `share` before, except in

@@ -48,6 +48,12 @@ struct Lanes {
     return _mm256_blendv_ps(second.v, first.v, is_first.bits);
   }
   friend Lanes square_root(Lanes a) { return _mm256_sqrt_ps(a.v); }
+  friend Lanes plus_product(Lanes sum, Lanes a, Lanes b) { return _mm256_fmadd_ps(a.v, b.v, sum.v); }
+  friend Lanes less_product(Lanes sum, Lanes a, Lanes b) { return _mm256_fnmadd_ps(a.v, b.v, sum.v); }
+  friend Lanes rough_reciprocal_root(Lanes a) {
+    const __m256i seed = _mm256_set1_epi32(static_cast<int>(core::kReciprocalRootBits));
+    return _mm256_castsi256_ps(_mm256_sub_epi32(seed, _mm256_srli_epi32(_mm256_castps_si256(a.v), 1)));
+  }
   // Over lanes that are not NaN; at least 0.
   friend float largest_of(Lanes a) {
     float lanes[kTileLanes];

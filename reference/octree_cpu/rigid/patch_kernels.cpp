@@ -44,6 +44,11 @@ struct Truth {
   [[nodiscard]] bool get(std::uint32_t lane) const { return (lane < kHalf ? low : high)[lane % kHalf] != 0; }
 };
 
+inline Four plus_product(Four sum, Four a, Four b) {
+  Four out;
+  for (int k = 0; k < 4; ++k) out[k] = core::plus_product(sum[k], a[k], b[k]);
+  return out;
+}
 inline Four root(Four x) {
   return Four{sqrtf(x[0]), sqrtf(x[1]), sqrtf(x[2]), sqrtf(x[3])};
 }
@@ -77,6 +82,17 @@ struct Lanes {
     return {chosen(is_first.low, first.low, second.low), chosen(is_first.high, first.high, second.high)};
   }
   friend Lanes square_root(const Lanes& a) { return {root(a.low), root(a.high)}; }
+  friend Lanes plus_product(const Lanes& sum, const Lanes& a, const Lanes& b) {
+    return {plus_product(sum.low, a.low, b.low), plus_product(sum.high, a.high, b.high)};
+  }
+  friend Lanes less_product(const Lanes& sum, const Lanes& a, const Lanes& b) {
+    return {plus_product(sum.low, -a.low, b.low), plus_product(sum.high, -a.high, b.high)};
+  }
+  friend Lanes rough_reciprocal_root(const Lanes& a) {
+    Lanes rough;
+    for (std::uint32_t k = 0; k < kTileLanes; ++k) rough.set(k, core::rough_reciprocal_root(a.get(k)));
+    return rough;
+  }
   // Over lanes that are not NaN; at least 0.
   friend float largest_of(const Lanes& a) {
     float largest = 0.0F;
@@ -130,7 +146,8 @@ const PatchKernels kPortablePatchKernels = tiles::kernels_of<portable::Lanes>("p
 std::span<const PatchKernels* const> all_patch_kernels() {
 #ifdef BROADSIDE_HAS_AVX2_KERNEL
   static const PatchKernels* const kAll[] = {&kAvx2PatchKernels, &kPortablePatchKernels};
-  return __builtin_cpu_supports("avx2") != 0 ? std::span(kAll) : std::span(kAll).subspan(1);
+  return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 ? std::span(kAll)
+                                                                                   : std::span(kAll).subspan(1);
 #else
   static const PatchKernels* const kAll[] = {&kPortablePatchKernels};
   return kAll;

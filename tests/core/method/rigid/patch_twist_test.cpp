@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
 #include <random>
 
 #include "core/method/rigid/patch_constraint.hpp"
@@ -109,6 +111,55 @@ TEST(PatchTwist, ABallLeavesWithItsShareOfTheSpeed) {
   note_budget(c);
   (void)bounce(c, a, ground, 0.0F);
   EXPECT_NEAR(a.v.y, 1.5F, 1e-5F);
+}
+
+std::uint32_t bits(float x) {
+  return std::bit_cast<std::uint32_t>(x);
+}
+void expect_same_bits(Vec3 one, Vec3 other) {
+  EXPECT_EQ(bits(one.x), bits(other.x));
+  EXPECT_EQ(bits(one.y), bits(other.y));
+  EXPECT_EQ(bits(one.z), bits(other.z));
+}
+
+// A GPU solves four points of every patch: those that it does not have are zeros, and change no bit.
+TEST(PatchTwist, PointsOfZerosChangeNoBit) {
+  RandomPatches random(3);
+  SoftStep step = soft_step(1.0F / 240.0F, 6.0F, 1.0F);
+  step.gravity_m_s2 = 9.81F;
+  for (int n = 0; n < 400; ++n) {
+    SolverBody a = random.body();
+    SolverBody b = n % 4 == 0 ? SolverBody{} : random.body();
+    // Bodies that hardly move, along an axis: zeros of either sign.
+    if (n % 3 == 0) a.v = b.v = {0.0F, -0.0F, n % 2 == 0 ? 0.0F : -1e-3F};
+    if (n % 3 == 0) a.angular_momentum = b.angular_momentum = {-0.0F, 0.0F, -0.0F};
+    PatchConstraint c = random.patch(a, b, 0.5F, 0.0F);
+    for (int k = 0; k < c.count; ++k) c.points[k].gap_m = random.in(-0.01F, 0.01F);
+    c.slop_m = 1e-3F;
+    PatchConstraint four = c;
+    four.count = kManifoldPoints;
+    SolverBody a_of_four = a;
+    SolverBody b_of_four = b;
+    for (int sweep = 0; sweep < 3; ++sweep) {
+      const float size = solve_patch<float>(c, goals_of<float>(c, a, b, step), a, b, step);
+      const PatchGoals goals = goals_of<float>(four, a_of_four, b_of_four, step);
+      EXPECT_EQ(bits(size), bits(solve_patch<float>(four, goals, a_of_four, b_of_four, step)));
+      const float relaxed = relax_patch<float>(c, goals_after_motion<float>(c, a, b, step), a, b);
+      const PatchGoals after = goals_after_motion<float>(four, a_of_four, b_of_four, step);
+      EXPECT_EQ(bits(relaxed), bits(relax_patch<float>(four, after, a_of_four, b_of_four)));
+    }
+    expect_same_bits(a.v, a_of_four.v);
+    expect_same_bits(a.angular_momentum, a_of_four.angular_momentum);
+    expect_same_bits(b.v, b_of_four.v);
+    expect_same_bits(b.angular_momentum, b_of_four.angular_momentum);
+    expect_same_bits(whole_push(c).impulse, whole_push(four).impulse);
+    expect_same_bits(whole_push(c).moment, whole_push(four).moment);
+    for (int k = c.count; k < kManifoldPoints; ++k) {
+      const PatchPoint& p = four.points[k];
+      EXPECT_EQ(bits(p.normal_impulse) | bits(p.tangent_impulse_1) | bits(p.tangent_impulse_2), 0U);
+      EXPECT_FALSE(p.slides);
+    }
+  }
 }
 
 }  // namespace
