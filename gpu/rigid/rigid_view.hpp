@@ -37,13 +37,14 @@ struct alignas(16) BodyColors {
 // core::SolverBody in words of 16 bytes. Words that sweeps over patches read come first, and among these the ones that
 // they also write: 32 bytes, which is the least that memory gives at once.
 struct alignas(128) PackedSolverBody {
-  PackedVec3 v;  // w: inverse mass
-  PackedVec3 angular_momentum;
-  PackedVec3 inertia;  // inverse: xx yy zz, w: xy
-  PackedVec3 moved;    // w: xz
-  PackedVec3 turned;   // w: yz
+  PackedVec3 v;                 // w: the velocities' version (stages/rigid/velocity_versions.cuh)
+  PackedVec3 angular_momentum;  // w: the same
+  PackedVec3 inertia;           // inverse: xx yy zz, w: xy
+  PackedVec3 moved;             // w: xz
+  PackedVec3 turned;            // w: yz
   core::Quat q;
   core::Quat q_rest;
+  PackedVec3 mass;  // x: inverse mass
 };
 static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 128,
               "read and written in words of 16 bytes");

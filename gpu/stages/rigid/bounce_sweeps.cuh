@@ -36,8 +36,8 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
   const auto is_stirred = [&](const core::PatchConstraint& c) {
     return f.stirred[c.a] >= sweep || f.stirred[c.b] >= sweep;
   };
-  each_place_by_color(
-      team, f, SweepBegin::kAtOnce,
+  each_visited_by_color(
+      team, f,
       [&](const TileSlot& slot) {
         LoadedStirred loaded;
         LoadedPatch& p = loaded.of.patch;
@@ -63,7 +63,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
           store_triples(slot, kBefore, way.before);
           store_triples(slot, kWays, way.way);
         }
-        set_goals_after_motion(f, slot, soft, p);
+        set_goals_after_motion(slot, soft, p);
         return loaded;
       },
       [&](const TileSlot& slot, std::uint32_t place, LoadedStirred& loaded) {
@@ -73,7 +73,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
           return;
         }
         float change = 0.0F;
-        with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
+        with_velocities(team, f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
         store_kept_impulses(slot, p.c);
         if (has_directions) {
           const float squared = core::squared_change(p.c, loaded.of.way);
@@ -109,8 +109,8 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
 __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f, bool is_first,
                                                float done, const TeamSums& sums) {
   float largest = 0.0F;
-  each_place_by_color(
-      team, f, SweepBegin::kAtOnce,
+  each_visited_by_color(
+      team, f,
       [&](const TileSlot& slot) {
         LoadedBounce loaded;
         core::PatchConstraint& c = loaded.c;
@@ -133,11 +133,12 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         if (is_first) core::note_budget(c);
         loaded.a = load_place(f.bodies[c.a]);
         loaded.b = load_place(f.bodies[c.b]);
+        (void)load_order(slot, loaded.a, loaded.b);
         return loaded;
       },
       [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedBounce& loaded) {
         if (!loaded.bounces) return;
-        with_velocities(f, loaded.c, loaded.a, loaded.b,
+        with_velocities(team, f, loaded.c, loaded.a, loaded.b,
                         [&] { largest = fmaxf(largest, core::bounce(loaded.c, loaded.a, loaded.b, done)); });
       },
       [](const TileSlot& slot, std::uint32_t /*place*/, const LoadedBounce& loaded) {

@@ -16,11 +16,6 @@
 
 namespace broadside::gpu {
 
-// Of a sweep that visits all places.
-struct VisitsAll {
-  static constexpr bool kChooses = false;
-};
-
 // What was loaded ahead is what the patch needs.
 struct NeverStale {
   template <typename Loaded>
@@ -35,7 +30,6 @@ struct NeverStale {
 // same for all threads.
 template <typename IsVisited, typename Pass, typename IsStale>
 struct Visits {
-  static constexpr bool kChooses = true;
   bool is_used = false;
   IsVisited is_visited;
   Pass pass;

@@ -1,15 +1,19 @@
 // Loops over constraints and bodies while contacts are solved.
 //
-// A sweep goes color by color, with a barrier between two. Unless there are some hundred thousand patches, its time is
-// that of the barriers and of one patch's chain of operations. So all of the solver serves to shorten these two:
-// - The four points of a patch and both its bodies lie in registers: loops over points have a fixed length
-//   (core::each_point), and a thread may have 255 registers.
+// A sweep solves patches in the order of their colors. Unless there are some hundred thousand patches, its time is that
+// of what a patch waits for and of its own chain of operations. So all of the solver serves to shorten these two:
+// - A patch waits for the velocities of its two bodies alone (velocity_versions.cuh), and a substep of soft steps has
+//   three barriers: behind the sweep, behind the motion and behind relaxation.
+// - The four points of a patch and both its bodies lie in registers: loops over points have a fixed length and no
+// branch
+//   (core::each_point_or_zeros), and a thread may have 255 registers.
 // - A thread loads its next constraint ahead, and works out then what follows from where the bodies are, gaps and how
-//   fast they may close (core::goals_of): behind the barrier only velocities are loaded.
+//   fast they may close (core::goals_of): once the bodies are ready only velocities are loaded.
 // - No pass goes over all constraints beside the sweeps: the next sweep adds up totals, and the last relaxation notes
-//   which points bounce. A substep of soft steps waits 2 C + 2 times for C colors.
+//   which points bounce.
 // - Impulses that are known beforehand need no colors (kept_impulses.cuh), and while contacts bounce, a sweep visits
-//   patches whose bodies have just changed (bounce_sweeps.cuh).
+//   patches whose bodies have just changed (bounce_sweeps.cuh). Which these are changes while it goes on, so colors of
+//   such a sweep have barriers between them.
 // - A patch that came too slowly to bounce has no restitution in the step, which lies in a word that all sweeps read
 //   (core::note_approach): approaches and totals are read of the others alone.
 #pragma once
@@ -36,10 +40,7 @@ __device__ __forceinline__ void each_place(const SolveTeam& team, const RigidFra
     if (f.patch_at[place] != kUncolored) work(TileSlot(f.constraints, place), place);
 }
 
-// Whether the barrier before a sweep is the sweep's: its first constraint is then loaded meanwhile.
-enum class SweepBegin : std::uint8_t { kAtOnce, kWithBarrier };
-
-// What a thread waits for before it goes on with the next color.
+// What a thread waits for before it goes on with the next color, in sweeps with barriers.
 enum class ColorWait : std::uint8_t { kNothing, kTeam, kBlock };
 
 // Of a sweep whose work writes all itself.
@@ -48,33 +49,59 @@ struct KeepsNothing {
   __device__ void operator()(const TileSlot& /*slot*/, std::uint32_t /*place*/, const Loaded& /*loaded*/) const {}
 };
 
-// work(slot, place, loaded) color by color, with a barrier between two colors and none at the end. keep(slot, place,
-// loaded) writes what no other patch waits for, once the thread has arrived at the barrier: a barrier waits until all
-// that was written before it can be seen. load(slot) gives what work needs of the constraint, and of its bodies what no
-// sweep changes. A thread loads its next constraint right after its last one, mostly some colors ahead: nobody but this
-// thread writes it during a sweep.
+// work(slot, place, loaded) for every patch, in the order of colors. A patch waits for its bodies' velocities alone,
+// until ready(loaded) has them. load(slot) gives what work needs of the constraint, and of its bodies what no sweep
+// changes; keep(slot, place, loaded) writes what no other patch waits for. A warp solves 32 patches of one color, then
+// its next 32: all of the grid's warps go through the places in this order, so one of them can always go on.
+template <typename Load, typename Ready, typename Work, typename Keep>
+__device__ __forceinline__ void each_place_in_turn(const SolveTeam& team, const RigidFrameView& f, const Load& load,
+                                                   const Ready& ready, const Work& work, const Keep& keep) {
+  decltype(load(TileSlot(nullptr, 0))) loaded;
+  const std::uint64_t places = f.counts->places;
+  std::uint64_t place = team.spread_rank();
+  const auto is_patch = [&](std::uint64_t at) { return at < places && f.patch_at[at] != kUncolored; };
+  bool has = is_patch(place);
+  if (has) loaded = load(TileSlot(f.constraints, place));
+  while (place - lane() < places) {
+    const std::uint64_t next = place + team.size();
+    const bool has_next = is_patch(next);
+    for (bool waits = has; __any_sync(kFullWarp, waits);) {
+      if (waits) waits = !ready(loaded);
+      relax();
+    }
+    if (has) {
+      work(TileSlot(f.constraints, place), place, loaded);
+      keep(TileSlot(f.constraints, place), place, loaded);
+    }
+    place = next;
+    has = has_next;
+    if (has) loaded = load(TileSlot(f.constraints, place));
+  }
+  team.end_version();
+}
+
+// work(slot, place, loaded) color by color, for the patches that a sweep visits, with a barrier between two colors and
+// none at the end. keep(slot, place, loaded) writes what no other patch waits for, once the thread has arrived at the
+// barrier: a barrier waits until all that was written before it can be seen. load(slot) gives what work needs of the
+// constraint, and of its bodies what no sweep changes. A thread loads its next constraint right after its last one,
+// mostly some colors ahead: nobody but this thread writes it during a sweep.
 //
 // Both are called at one place each: they are long, and with a copy of load at every barrier the solver's code was
 // several times what a multiprocessor keeps of it, so that warps waited for instructions.
 //
-// visits: VisitsAll, or Visits of those that the sweep chooses in large colors, where nothing is loaded ahead.
-template <typename Load, typename Work, typename Keep, typename Visited = VisitsAll>
-__device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const RigidFrameView& f, SweepBegin begin,
-                                                    const Load& load, const Work& work, const Keep& keep,
-                                                    const Visited& visits = {}) {
+// visits: Visits of those that the sweep chooses in large colors, where nothing is loaded ahead.
+template <typename Load, typename Work, typename Keep, typename Visited>
+__device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, const RigidFrameView& f, const Load& load,
+                                                      const Work& work, const Keep& keep, const Visited& visits) {
   decltype(load(TileSlot(nullptr, 0))) loaded;
-  std::uint32_t chosen_until = 0;
   ChosenTurns chosen(team, f);
-  if constexpr (Visited::kChooses) {
-    if (visits.is_used) chosen_until = team.chosen_until();
-    if (chosen_until > 0) chosen.begin(0);
-  }
+  const std::uint32_t chosen_until = visits.is_used ? team.chosen_until() : 0;
+  if (chosen_until > 0) chosen.begin(0);
   ColorTurn turn = chosen_until > 0 ? ColorTurn{} : team.turn_from(0);
   bool is_loaded = false;
   bool owes = false;
   std::uint32_t owed = 0;
-  ColorWait wait = begin == SweepBegin::kWithBarrier ? ColorWait::kTeam : ColorWait::kNothing;
-  if (wait == ColorWait::kTeam) team.arrive();
+  ColorWait wait = ColorWait::kNothing;
   for (std::uint32_t color = 0;;) {
     if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
     owes = false;
@@ -87,12 +114,10 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
     if (wait == ColorWait::kTeam) team.wait();
     if (wait == ColorWait::kBlock) __syncthreads();
     wait = ColorWait::kNothing;
-    if constexpr (Visited::kChooses) {
-      // Lanes that load again do so before any lane of the warp works, so that all work at once.
-      const bool is_stale = turn.color == color && visits.is_stale(loaded);
-      is_loaded &= !is_stale;
-      if (__any_sync(kFullWarp, is_stale)) continue;
-    }
+    // Lanes that load again do so before any lane of the warp works, so that all work at once.
+    const bool is_stale = turn.color == color && visits.is_stale(loaded);
+    is_loaded &= !is_stale;
+    if (__any_sync(kFullWarp, is_stale)) continue;
     if (turn.color == color) {
       work(TileSlot(f.constraints, turn.place), turn.place, loaded);
       owes = true;
@@ -101,17 +126,13 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
       is_loaded = false;
     }
     if (__any_sync(kFullWarp, turn.color == color)) continue;
-    if constexpr (Visited::kChooses) {
-      if (color < chosen_until && chosen.has_more()) {
-        turn = chosen.choose(visits);
-        continue;
-      }
+    if (color < chosen_until && chosen.has_more()) {
+      turn = chosen.choose(visits);
+      continue;
     }
     if (++color >= team.colors()) break;
-    if constexpr (Visited::kChooses) {
-      if (color < chosen_until) chosen.begin(color);
-      if (color == chosen_until) turn = team.turn_from(color);
-    }
+    if (color < chosen_until) chosen.begin(color);
+    if (color == chosen_until) turn = team.turn_from(color);
     if (color <= team.alone_from()) {
       team.arrive();
       wait = ColorWait::kTeam;
@@ -126,13 +147,14 @@ __device__ __forceinline__ void each_place_by_color(const SolveTeam& team, const
 
 // work(a, b) changes the velocities of a patch's two bodies, of which the rest is there already.
 template <typename Work>
-__device__ __forceinline__ void with_velocities(const RigidFrameView& f, const core::PatchConstraint& c,
-                                                core::SolverBody& a, core::SolverBody& b, const Work& work) {
+__device__ __forceinline__ void with_velocities(const SolveTeam& team, const RigidFrameView& f,
+                                                const core::PatchConstraint& c, core::SolverBody& a,
+                                                core::SolverBody& b, const Work& work) {
   load_velocity(f.bodies[c.a], a);
   load_velocity(f.bodies[c.b], b);
   work();
-  store_velocity(f.bodies[c.a], a);
-  store_velocity(f.bodies[c.b], b);
+  store_velocity(f.bodies[c.a], a, team.version());
+  store_velocity(f.bodies[c.b], b, team.version());
 }
 
 }  // namespace broadside::gpu

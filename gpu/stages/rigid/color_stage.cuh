@@ -6,6 +6,7 @@
 #include "core/method/coloring.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/constraint_tiles.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
 
 namespace broadside::gpu {
@@ -155,9 +156,11 @@ __device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body
   if (!is_moved(f, body)) return;
   const std::uint32_t begin = f.memory.begin[body];
   std::uint32_t before = 0;
-  for (std::uint32_t k = 0; k < f.memory.count[body]; ++k)
+  const std::uint32_t count = f.memory.count[body];
+  for (std::uint32_t k = 0; k < count; ++k)
     if (f.colors[f.memory.entries[begin + k].patch] < color) ++before;
   f.by_color[begin + before] = 2 * place + side;
+  store_order(TileSlot(f.constraints, place), side, {before, before + 1 == count});
 }
 
 template <typename Team>

@@ -17,8 +17,9 @@ enum ConstraintWord : std::uint32_t {
   kLevers,                                      // [points] of core::PatchPoint; w: gap
   kMasses = kLevers + core::kManifoldPoints,    // [points] normal mass, stick masses 11, 12, 22
   kMobility = kMasses + core::kManifoldPoints,  // [6] core::TwistMobility, then from A's center of mass to the patch's
+  kOrder = kMobility + 6,                       // of A and of B: PlaceInOrder; then their inverse masses
   // What every sweep changes.
-  kImpulses = kMobility + 6,                   // [points] normal, tangents 1 and 2, of the substep; w: slip mobility
+  kImpulses = kOrder + 1,                      // [points] normal, tangents 1 and 2, of the substep; w: slip mobility
   kGiven = kImpulses + core::kManifoldPoints,  // [2] core::WorldPush of these impulses, as relaxation left them
   // By point: x y z w.
   kApproaches = kGiven + 2,

@@ -69,7 +69,7 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     core::set_limits(c, body_a, body_b, f.solver.limits, f.dt_s);
     recall(f, soft, patch, c);
     bounces = core::note_approach(c, body_a, body_b, soft) || bounces;
-    store_constraint(TileSlot(f.constraints, place), c, across);
+    store_constraint(TileSlot(f.constraints, place), c, across, body_a, body_b);
   }
   __syncwarp();
   if (__any_sync(kFullWarp, bounces) && lane() == 0) atomicMax(&f.counts->bounces, 1U);

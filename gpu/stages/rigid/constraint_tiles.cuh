@@ -78,7 +78,7 @@ __device__ __forceinline__ void set_centers(core::Vec3 center_a, core::Vec3 acro
 
 // The arms alone, without the other numbers of these words.
 constexpr std::uint32_t kMobilityNumbers = 21;
-constexpr std::uint32_t kMobilityWords = kImpulses - kMobility;
+constexpr std::uint32_t kMobilityWords = kOrder - kMobility;
 static_assert(kMobilityNumbers + 3 == 4 * kMobilityWords, "the mobility and the center fill their words");
 __device__ __forceinline__ void load_centers(const TileSlot& slot, core::Vec3 across, core::PatchConstraint& c) {
   const PackedVec3 last = slot.at(kMobility + kMobilityWords - 1);
@@ -280,8 +280,37 @@ __device__ __forceinline__ bool load_before_push(const TileSlot& slot, core::Pat
   return !(before.of[0][0] < 0.0F);
 }
 
-// The whole constraint, when it was made. Points that the patch does not have are zeros.
-__device__ inline void store_constraint(const TileSlot& slot, core::PatchConstraint& c, core::Vec3 across) {
+// Where a patch stands among those of one of its bodies, which are solved in the order of their colors.
+class PlaceInOrder {
+ public:
+  __device__ explicit PlaceInOrder(std::uint32_t word = 0) : word_(word) {}
+  __device__ PlaceInOrder(std::uint32_t before, bool is_last) : word_(2 * before + (is_last ? 1 : 0)) {}
+  [[nodiscard]] __device__ std::uint32_t word() const { return word_; }
+  [[nodiscard]] __device__ std::uint32_t before() const { return word_ / 2; }  // how many
+  [[nodiscard]] __device__ bool is_last() const { return word_ % 2 != 0; }
+
+ private:
+  std::uint32_t word_;
+};
+
+struct PatchOrder {
+  PlaceInOrder of_a;
+  PlaceInOrder of_b;
+};
+__device__ __forceinline__ PatchOrder load_order(const TileSlot& slot, core::SolverBody& a, core::SolverBody& b) {
+  const PackedVec3 word = slot.at(kOrder);
+  a.inverse_mass = word.v.z;
+  b.inverse_mass = word.w;
+  return {PlaceInOrder(__float_as_uint(word.v.x)), PlaceInOrder(__float_as_uint(word.v.y))};
+}
+// side: 0 of A, 1 of B.
+__device__ inline void store_order(const TileSlot& slot, std::uint32_t side, PlaceInOrder order) {
+  (side == 0 ? slot.at(kOrder).v.x : slot.at(kOrder).v.y) = __uint_as_float(order.word());
+}
+
+// The whole constraint, when it was made, but for its order. Points that the patch does not have are zeros.
+__device__ inline void store_constraint(const TileSlot& slot, core::PatchConstraint& c, core::Vec3 across,
+                                        const core::SolverBody& a, const core::SolverBody& b) {
   for (int k = c.count; k < core::kManifoldPoints; ++k) c.points[k] = {};
   const std::uint32_t packed = c.a | static_cast<std::uint32_t>(c.count) << kCountShift;
   slot.at(kPatchBodies) = {{__uint_as_float(packed), __uint_as_float(c.b), c.slop_m}, c.fastest_push_m_s};
@@ -297,6 +326,8 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
   }
   store_given(slot, c);
   store_mobility(slot, c);
+  slot.at(kOrder).v.z = a.inverse_mass;
+  slot.at(kOrder).w = b.inverse_mass;
   store_approach(slot, c);
   store_relaxed(slot, 0);
   const float none[kFourPoints] = {};

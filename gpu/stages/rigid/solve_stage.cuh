@@ -75,7 +75,7 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
     each_body(team, f, [&](std::uint32_t i) {
       core::SolverBody body = load_moving(f.bodies[i]);
       give_step_along(f, i, body, share, 0);
-      store_velocity(f.bodies[i], body);
+      store_velocity(f.bodies[i], body, team.version());
     });
     team.sync();
   }
@@ -107,7 +107,7 @@ __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const Ri
       if (f.relaxed[i] != since) return;
       core::SolverBody body = load_moving(f.bodies[i]);
       give_step_along(f, i, body, share, since);
-      store_velocity(f.bodies[i], body);
+      store_velocity(f.bodies[i], body, team.version());
     });
     team.sync();
   }
@@ -170,7 +170,7 @@ __device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_
   start.driven_angular_momentum = {driven.angular_momentum, 0.0F};
 }
 
-// Sweeps over all contacts before the bodies move, with the barrier before them; ends with one. Returns the fastest
+// Sweeps over all contacts before the bodies move. Begins without a barrier, and ends with one. Returns the fastest
 // push.
 __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   if (solve.has_way) {
@@ -187,12 +187,13 @@ __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFra
 }
 
 __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+  team.end_version();  // patches wait for what is written now
   each_body(team, f, [&](std::uint32_t i) {
     core::SolverBody body = load_body(f.bodies[i]);
     core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
     note_start(f, i, body, solve);
     give_kept_impulses(f, i, body);
-    store_velocity(f.bodies[i], body);
+    store_velocity(f.bodies[i], body, team.version());
   });
   const float fastest_push = sweep_all(team, f, solve);
   const bool is_pushed = fastest_push > solve.soft.kept_push_m_s;
@@ -205,7 +206,7 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     core::SolverBody body = load_body(f.bodies[i]);
     core::move(body, f.mass[i], solve.soft.dt_s);
     if (is_pushed) go_back_to_start(f, i, body);
-    store_body(f.bodies[i], body);
+    store_body(f.bodies[i], body, team.version());
   });
   team.sync();
   relax_all(team, f, solve.soft, solve.may_stir() && !is_pushed, solve.sweep, solve.sums);

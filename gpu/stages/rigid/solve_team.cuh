@@ -89,6 +89,11 @@ class SolveTeam : public GridPlaces {
       barrier_.wait();
     ++waits_;
   }
+  // With which version of velocities the present sweep begins, and the next one (velocity_versions.cuh).
+  [[nodiscard]] __device__ std::uint32_t version() const { return version_; }
+  [[nodiscard]] __device__ std::uint32_t next_version() const { return version_ + colors_ + 1; }
+  // By all threads.
+  __device__ void end_version() const { version_ = next_version(); }
   // How often this thread has waited.
   [[nodiscard]] __device__ std::uint32_t waits() const { return waits_; }
 
@@ -109,6 +114,7 @@ class SolveTeam : public GridPlaces {
   SolveTeamKind kind_;
   mutable GridBarrier barrier_;
   mutable std::uint32_t waits_ = 0;
+  mutable std::uint32_t version_ = 0;
 };
 
 }  // namespace broadside::gpu

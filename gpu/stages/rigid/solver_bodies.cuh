@@ -19,11 +19,8 @@ __device__ __forceinline__ core::SolverBody load_place(const PackedSolverBody& f
   return b;
 }
 
-// The rest of what contacts read.
 __device__ __forceinline__ void load_velocity(const PackedSolverBody& from, core::SolverBody& b) {
-  const PackedVec3 v = from.v;
-  b.v = v.v;
-  b.inverse_mass = v.w;
+  b.v = from.v.v;
   b.angular_momentum = from.angular_momentum.v;
 }
 
@@ -31,6 +28,7 @@ __device__ __forceinline__ void load_velocity(const PackedSolverBody& from, core
 __device__ __forceinline__ core::SolverBody load_moving(const PackedSolverBody& from) {
   core::SolverBody b = load_place(from);
   load_velocity(from, b);
+  b.inverse_mass = from.mass.v.x;
   return b;
 }
 
@@ -40,16 +38,23 @@ __device__ inline core::SolverBody load_body(const PackedSolverBody& from) {
   return b;
 }
 
-// What a contact changes.
-__device__ inline void store_velocity(PackedSolverBody& to, const core::SolverBody& b) {
-  if (!core::is_moved(b)) return;
-  to.v = {b.v, b.inverse_mass};
-  to.angular_momentum = {b.angular_momentum, 0.0F};
+// Three floats with a version, in one access that is never torn.
+__device__ __forceinline__ void store_versioned(PackedVec3& to, core::Vec3 v, std::uint32_t version) {
+  GridWords::store_whole(reinterpret_cast<uint4*>(&to),
+                         {__float_as_uint(v.x), __float_as_uint(v.y), __float_as_uint(v.z), version});
 }
 
-__device__ inline void store_body(PackedSolverBody& to, const core::SolverBody& b) {
-  to.v = {b.v, b.inverse_mass};
-  to.angular_momentum = {b.angular_momentum, 0.0F};
+// What a contact changes. version: of the velocities.
+__device__ __forceinline__ void store_velocity(PackedSolverBody& to, const core::SolverBody& b, std::uint32_t version) {
+  if (!core::is_moved(b)) return;
+  store_versioned(to.v, b.v, version);
+  store_versioned(to.angular_momentum, b.angular_momentum, version);
+}
+
+__device__ inline void store_body(PackedSolverBody& to, const core::SolverBody& b, std::uint32_t version) {
+  to.v = {b.v, __uint_as_float(version)};
+  to.angular_momentum = {b.angular_momentum, __uint_as_float(version)};
+  to.mass = {{b.inverse_mass, 0.0F, 0.0F}, 0.0F};
   to.inertia = {{b.inverse_inertia.xx, b.inverse_inertia.yy, b.inverse_inertia.zz}, b.inverse_inertia.xy};
   to.moved = {b.moved, b.inverse_inertia.xz};
   to.turned = {b.turned, b.inverse_inertia.yz};

@@ -6,6 +6,7 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/rigid/color_loop.cuh"
 #include "gpu/stages/rigid/team_sums.cuh"
+#include "gpu/stages/rigid/velocity_versions.cuh"
 
 namespace broadside::gpu {
 
@@ -15,6 +16,7 @@ struct LoadedPatch {
   core::SolverBody a;
   core::SolverBody b;
   core::PatchGoals goals;
+  PatchOrder order;
 };
 
 // And its impulses before the sweep.
@@ -28,7 +30,22 @@ __device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const
   loaded.c = load_for_sweep(slot);
   loaded.a = load_place(f.bodies[loaded.c.a]);
   loaded.b = load_place(f.bodies[loaded.c.b]);
+  loaded.order = load_order(slot, loaded.a, loaded.b);
   return loaded;
+}
+
+// Loads the velocities of a patch's bodies, once the patches before it have written them.
+__device__ __forceinline__ bool try_velocities(const SolveTeam& team, const RigidFrameView& f, LoadedPatch& p) {
+  const VelocityVersions of_a(team.version(), team.next_version(), p.order.of_a);
+  const VelocityVersions of_b(team.version(), team.next_version(), p.order.of_b);
+  const bool has_a = of_a.try_load(f.bodies[p.c.a], p.a);
+  const bool has_b = of_b.try_load(f.bodies[p.c.b], p.b);
+  return has_a && has_b;
+}
+// For the patches after it.
+__device__ __forceinline__ void give_velocities(const SolveTeam& team, const RigidFrameView& f, const LoadedPatch& p) {
+  VelocityVersions(team.version(), team.next_version(), p.order.of_a).store(f.bodies[p.c.a], p.a);
+  VelocityVersions(team.version(), team.next_version(), p.order.of_b).store(f.bodies[p.c.b], p.b);
 }
 
 // As a substep's first sweep finds it: nothing slides yet. owes_totals: the substep before left its impulses to be
@@ -49,22 +66,24 @@ __device__ __forceinline__ float begin_substep(const TileSlot& slot, LoadedPatch
   return push;
 }
 
-// A substep's only sweep, with the barrier before it. Brings the fastest push.
+// A substep's only sweep. Brings the fastest push.
 __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
                                            bool owes_totals, const TeamSums& sums) {
   float fastest_push = 0.0F;
-  each_place_by_color(
-      team, f, SweepBegin::kWithBarrier,
+  each_place_in_turn(
+      team, f,
       [&](const TileSlot& slot) {
         LoadedPatch loaded = load_patch(f, slot);
         fastest_push = fmaxf(fastest_push, begin_substep(slot, loaded, soft, owes_totals));
         loaded.goals = core::goals_of(loaded.c, loaded.a, loaded.b, soft);
         return loaded;
       },
-      [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedPatch& p) {
-        with_velocities(f, p.c, p.a, p.b, [&] { (void)core::solve_patch(p.c, p.goals, p.a, p.b, soft); });
+      [&](LoadedPatch& p) { return try_velocities(team, f, p); },
+      [&](const TileSlot& /*slot*/, std::uint64_t /*place*/, LoadedPatch& p) {
+        (void)core::solve_patch(p.c, p.goals, p.a, p.b, soft);
+        give_velocities(team, f, p);
       },
-      [](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) { store_impulses(slot, p.c); });
+      [](const TileSlot& slot, std::uint64_t /*place*/, const LoadedPatch& p) { store_impulses(slot, p.c); });
   __syncwarp();
   if (core::takes_back_pushes(soft)) sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
@@ -88,8 +107,8 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
   float largest_change = 0.0F;
   float fastest = 0.0F;
   float fastest_push = 0.0F;
-  each_place_by_color(
-      team, f, SweepBegin::kAtOnce,
+  each_place_in_turn(
+      team, f,
       [&](const TileSlot& slot) {
         LoadedWay loaded{load_patch(f, slot), {}};
         core::PatchConstraint& c = loaded.patch.c;
@@ -107,12 +126,13 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
         loaded.patch.goals = core::goals_of(c, loaded.patch.a, loaded.patch.b, soft);
         return loaded;
       },
-      [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedWay& loaded) {
+      [&](LoadedWay& loaded) { return try_velocities(team, f, loaded.patch); },
+      [&](const TileSlot& /*slot*/, std::uint64_t /*place*/, LoadedWay& loaded) {
         LoadedPatch& p = loaded.patch;
-        with_velocities(f, p.c, p.a, p.b,
-                        [&] { largest_speed = fmaxf(largest_speed, core::solve_patch(p.c, p.goals, p.a, p.b, soft)); });
+        largest_speed = fmaxf(largest_speed, core::solve_patch(p.c, p.goals, p.a, p.b, soft));
+        give_velocities(team, f, p);
       },
-      [&](const TileSlot& slot, std::uint32_t place, const LoadedWay& loaded) {
+      [&](const TileSlot& slot, std::uint64_t place, const LoadedWay& loaded) {
         store_impulses(slot, loaded.patch.c);
         const float change = core::squared_change(loaded.patch.c, loaded.way);
         largest_change = fmaxf(largest_change, change);
@@ -131,18 +151,10 @@ __device__ __forceinline__ void stir(const RigidFrameView& f, std::uint32_t body
   if (body < f.body_count && f.mass[body].inverse_mass > 0.0F) f.stirred[body] = sweep;
 }
 
-__device__ __forceinline__ float inverse_mass_of(const RigidFrameView& f, std::uint32_t body) {
-  return body < f.body_count ? f.mass[body].inverse_mass : 0.0F;
-}
-
 // Of a patch after the bodies moved.
-__device__ __forceinline__ void set_goals_after_motion(const RigidFrameView& f, const TileSlot& slot,
-                                                       const core::SoftStep& soft, LoadedPatch& p) {
+__device__ __forceinline__ void set_goals_after_motion(const TileSlot& slot, const core::SoftStep& soft,
+                                                       LoadedPatch& p) {
   const bool sets_masses = core::has_turned_far(p.a) || core::has_turned_far(p.b);
-  if (sets_masses) {
-    p.a.inverse_mass = inverse_mass_of(f, p.c.a);
-    p.b.inverse_mass = inverse_mass_of(f, p.c.b);
-  }
   p.goals = core::goals_after_motion(p.c, p.a, p.b, soft);
   if (!sets_masses) return;
   store_masses(slot, p.c);
@@ -156,18 +168,20 @@ __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFram
   float fastest = 0.0F;
   float largest = 0.0F;
   float change = 0.0F;  // of the patch that is kept next
-  each_place_by_color(
-      team, f, SweepBegin::kAtOnce,
+  each_place_in_turn(
+      team, f,
       [&](const TileSlot& slot) {
         LoadedPatch loaded = load_patch(f, slot);
         load_impact(slot, loaded.c);
-        set_goals_after_motion(f, slot, soft, loaded);
+        set_goals_after_motion(slot, soft, loaded);
         return loaded;
       },
-      [&](const TileSlot& /*slot*/, std::uint32_t /*place*/, LoadedPatch& p) {
-        with_velocities(f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
+      [&](LoadedPatch& p) { return try_velocities(team, f, p); },
+      [&](const TileSlot& /*slot*/, std::uint64_t /*place*/, LoadedPatch& p) {
+        change = core::relax_patch(p.c, p.goals, p.a, p.b);
+        give_velocities(team, f, p);
       },
-      [&](const TileSlot& slot, std::uint32_t /*place*/, const LoadedPatch& p) {
+      [&](const TileSlot& slot, std::uint64_t /*place*/, const LoadedPatch& p) {
         store_kept_impulses(slot, p.c);
         if (!stirs) return;
         const float own = p.c.surface.restitution > 0.0F ? core::fastest_bounce(p.c) : 0.0F;
