@@ -149,18 +149,22 @@ __device__ inline void place_colors(const RigidFrameView& f) {
   f.counts->places = next;
 }
 
-// Enters a patch's place in the list of one of its bodies. The list is in the order of colors, and no two of a body's
-// patches have the same color.
+// Enters a patch's place in the list of one of its bodies, and the other way around. The list is in the order of
+// colors, and no two of a body's patches have the same color. A body that does not move has no list.
 __device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body, std::uint32_t color,
                                      std::uint32_t place, std::uint32_t side) {
-  if (!is_moved(f, body)) return;
+  const TileSlot slot(f.constraints, place);
+  if (!is_moved(f, body)) {
+    store_order(slot, side, PlaceInOrder());
+    return;
+  }
   const std::uint32_t begin = f.memory.begin[body];
   std::uint32_t before = 0;
   const std::uint32_t count = f.memory.count[body];
   for (std::uint32_t k = 0; k < count; ++k)
     if (f.colors[f.memory.entries[begin + k].patch] < color) ++before;
   f.by_color[begin + before] = 2 * place + side;
-  store_order(TileSlot(f.constraints, place), side, {before, before + 1 == count});
+  store_order(slot, side, {before, before + 1 == count});
 }
 
 template <typename Team>
