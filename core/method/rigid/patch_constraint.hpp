@@ -258,14 +258,6 @@ struct PatchMotionOf {
 };
 using PatchMotion = PatchMotionOf<float>;
 
-template <typename Number>
-BROADSIDE_HD PatchMotionOf<Number> pick(TruthOf<Number> is_first, const PatchMotionOf<Number>& first,
-                                        const PatchMotionOf<Number>& second) {
-  return {
-      pick<Number>(is_first, first.twist, second.twist),
-      {pick(is_first, first.given.push, second.given.push), pick(is_first, first.given.moment, second.given.moment)}};
-}
-
 // Of velocities in world axes.
 template <typename Number, typename Vector>
 BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Vector& v_a, const Vector& w_a,

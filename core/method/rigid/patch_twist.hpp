@@ -20,12 +20,6 @@ struct TwistOf {
 };
 
 template <typename Number>
-BROADSIDE_HD TwistOf<Number> pick(TruthOf<Number> is_first, const TwistOf<Number>& first,
-                                  const TwistOf<Number>& second) {
-  return {pick(is_first, first.speed, second.speed), pick(is_first, first.turn, second.turn)};
-}
-
-template <typename Number>
 BROADSIDE_HD TwistOf<Number> plus(const TwistOf<Number>& t, Number times, const TwistOf<Number>& more) {
   return {plus_times(t.speed, times, more.speed), plus_times(t.turn, times, more.turn)};
 }

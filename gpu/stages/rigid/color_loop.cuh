@@ -4,9 +4,8 @@
 // of what a patch waits for and of its own chain of operations. So all of the solver serves to shorten these two:
 // - A patch waits for the velocities of its two bodies alone (velocity_versions.cuh), and a substep of soft steps has
 //   three barriers: behind the sweep, behind the motion and behind relaxation.
-// - The four points of a patch and both its bodies lie in registers: loops over points have a fixed length and no
-// branch
-//   (core::each_point_or_zeros), and a thread may have 255 registers.
+// - The four points of a patch and both its bodies lie in registers: loops over points have a fixed length, without a
+//   branch (core::each_point_or_zeros), and a thread may have 255 registers.
 // - A thread loads its next constraint ahead, and works out then what follows from where the bodies are, gaps and how
 //   fast they may close (core::goals_of): once the bodies are ready only velocities are loaded.
 // - No pass goes over all constraints beside the sweeps: the next sweep adds up totals, and the last relaxation notes
