@@ -1,5 +1,5 @@
-// The tight axis-aligned box of a turned shape, RIGID 8.2: support points in closed form, or through the tree over a
-// mesh's vertices. Rounded outward, so the box contains the shape at this very pose.
+// The tight axis-aligned box of a turned shape, RIGID 8.2: support points in closed form, by going along a hull's
+// edges, or through the tree over a mesh's vertices. Rounded outward, so the box contains the shape at this very pose.
 #pragma once
 
 #include <cmath>
@@ -11,10 +11,11 @@
 #include "core/math/vec3.hpp"
 #include "core/method/rigid/contact_shape.hpp"
 #include "core/method/rigid/cross.hpp"
+#include "core/method/rigid/hull_climb.hpp"
 
 namespace broadside::core {
 
-// The vertices of a hull or mesh by the leaves of their octree, in mesh coordinates. Level-1 box k holds the leaves
+// The vertices of a mesh by the leaves of their octree, in mesh coordinates. Level-1 box k holds the leaves
 // 8 k to 8 k + 7; an empty leaf has no vertices.
 struct VertexTreeView {
   const Box* level1 = nullptr;                // 8
@@ -77,6 +78,7 @@ BROADSIDE_HD float shape_support(const ContactShape& s, const VertexTreeView& tr
       return s.half_length_m * fabsf(d[s.axis]) + s.radius_m * sqrtf(p * p + q * q);
     }
     case ContactKind::kHull:
+      return dot(d, s.hull.vertices[lowest_along(s.hull, -d)]);
     case ContactKind::kMesh:
       return vertex_support(tree, d);
     case ContactKind::kHalfSpace:

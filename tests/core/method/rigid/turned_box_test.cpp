@@ -7,10 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "core/exact/convex_hull.hpp"
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/scene/body_octree.hpp"
+#include "core/scene/hull_faces.hpp"
 
 namespace broadside::core {
 namespace {
@@ -62,7 +65,19 @@ double exact_reach(const ContactShape& s, const std::vector<Vec3>& vertices, Qua
 struct Case {
   ContactShape shape;
   std::vector<Vec3> vertices;
+  HullTables tables;  // of a hull: what the shape's view points into
 };
+
+void add_hull(Case& c) {
+  const auto hull = exact::convex_hull(c.vertices);
+  ASSERT_TRUE(hull.has_value());
+  c.tables = hull_tables(*hull);
+  HullView& view = c.shape.hull;
+  view.vertices = c.tables.vertices.data();
+  view.ways = c.tables.ways.data();
+  view.guide = c.tables.guide.data();
+  view.vertex_count = static_cast<std::uint32_t>(c.tables.vertices.size());
+}
 
 std::vector<Case> cases(std::mt19937& random) {
   std::uniform_real_distribution<float> side(0.01F, 2.0F);
@@ -80,7 +95,8 @@ std::vector<Case> cases(std::mt19937& random) {
       for (int k = 0; k < 200; ++k)
         c.vertices.push_back({side(random) - 1.0F, 3.0F * side(random) - 3.0F, 0.1F * side(random)});
       c.shape.size_m = 8.0F;
-      all.push_back(c);
+      if (kind == ContactKind::kHull) add_hull(c);
+      all.push_back(std::move(c));
     }
   }
   return all;
