@@ -8,6 +8,7 @@
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/patch_entries.cuh"
 
 namespace broadside::gpu {
 
@@ -20,13 +21,11 @@ __device__ inline std::uint64_t solved_patches(const RigidFrameView& f) {
 __device__ inline std::uint32_t rank_among(const RigidFrameView& f, std::uint32_t body, std::uint32_t patch,
                                            std::uint64_t priority) {
   if (!is_moved(f, body)) return kNotMoved;
-  const PatchEntry* entries = f.memory.entries + f.memory.begin[body];
   std::uint32_t rank = 0;
-  for (std::uint32_t k = 0; k < f.memory.count[body]; ++k) {
-    const PatchEntry entry = entries[k];
+  each_entry(f.memory, body, [&](const PatchEntry& entry) {
     const std::uint64_t other = core::color_priority(core::make_pair_of(body, entry.other));
     if (other < priority || (other == priority && entry.patch < patch)) ++rank;
-  }
+  });
   return rank;
 }
 
@@ -158,13 +157,10 @@ __device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body
     store_order(slot, side, PlaceInOrder());
     return;
   }
-  const std::uint32_t begin = f.memory.begin[body];
   std::uint32_t before = 0;
-  const std::uint32_t count = f.memory.count[body];
-  for (std::uint32_t k = 0; k < count; ++k)
-    if (f.colors[f.memory.entries[begin + k].patch] < color) ++before;
-  f.by_color[begin + before] = 2 * place + side;
-  store_order(slot, side, {before, before + 1 == count});
+  each_entry(f.memory, body, [&](const PatchEntry& entry) { before += f.colors[entry.patch] < color ? 1U : 0U; });
+  f.by_color[f.memory.begin[body] + before] = 2 * place + side;
+  store_order(slot, side, {before, before + 1 == f.memory.count[body]});
 }
 
 template <typename Team>

@@ -9,38 +9,46 @@
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/patch_entries.cuh"
 #include "gpu/stages/rigid/solver_bodies.cuh"
 
 namespace broadside::gpu {
 
-// The first point with this feature that these bodies had in the step before, patch by patch; or none.
+// For each point of a patch the first one with its feature that these bodies had in the step before, patch by patch; or
+// none.
 constexpr std::uint32_t kForgotten = 0xFFFFFFFFU;
-__device__ inline std::uint32_t remembered_at(const RigidFrameView& f, std::uint32_t a, std::uint32_t b,
-                                              std::uint32_t feature) {
-  const PatchMemory& memory = f.old_memory;
-  const std::uint32_t body = is_moved(f, a) ? a : b;
-  const std::uint32_t other = body == a ? b : a;
-  std::uint32_t found = kForgotten;
-  for (std::uint32_t k = 0; k < memory.count[body]; ++k) {
-    const PatchEntry entry = memory.entries[memory.begin[body] + k];
-    if (entry.other != other) continue;
-    for (std::uint32_t point = 4 * entry.patch; point < 4 * entry.patch + 4; ++point)
-      if (memory.feature[point] == feature) found = min(found, point);
-  }
+struct RememberedPoints {
+  std::uint32_t at[kFourPoints] = {kForgotten, kForgotten, kForgotten, kForgotten};
+};
+__device__ inline RememberedPoints remembered_points(const RigidFrameView& f, const core::ContactPatch& patch) {
+  const std::uint32_t body = is_moved(f, patch.a) ? patch.a : patch.b;
+  const std::uint32_t other = body == patch.a ? patch.b : patch.a;
+  RememberedPoints found;
+  each_entry(f.old_memory, body, [&](const PatchEntry& entry) {
+    if (entry.other != other) return;
+#pragma unroll
+    for (std::uint32_t old = 0; old < kFourPoints; ++old) {
+      const std::uint32_t point = kFourPoints * entry.patch + old;
+      const std::uint32_t feature = f.old_memory.feature[point];
+#pragma unroll
+      for (std::uint32_t k = 0; k < kFourPoints; ++k)
+        if (patch.manifold.points[k].feature == feature) found.at[k] = min(found.at[k], point);
+    }
+  });
   return found;
 }
 
 __device__ inline void recall(const RigidFrameView& f, const core::SoftStep& soft, const core::ContactPatch& patch,
                               core::PatchConstraint& c) {
-  for (int k = 0; k < c.count; ++k) {
-    const std::uint32_t at = remembered_at(f, patch.a, patch.b, patch.manifold.points[k].feature);
-    if (at == kForgotten) continue;
-    const PackedVec3 impulse = f.old_memory.impulse[at];
+  const RememberedPoints remembered = remembered_points(f, patch);
+  core::each_point(c, [&](int k) {
+    if (remembered.at[k] == kForgotten) return;
+    const PackedVec3 impulse = f.old_memory.impulse[remembered.at[k]];
     core::PatchPoint& p = c.points[k];
     p.normal_impulse = soft.dt_s * impulse.w;
     p.tangent_impulse_1 = soft.dt_s * core::dot(impulse.v, c.tangent_1);
     p.tangent_impulse_2 = soft.dt_s * core::dot(impulse.v, c.tangent_2);
-  }
+  });
 }
 
 // The numbers with which the step is solved.
