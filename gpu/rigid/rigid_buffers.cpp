@@ -139,6 +139,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   BROADSIDE_TRY(boxes_.reserve(n, "bodies"));
   BROADSIDE_TRY(coloring_.reserve(n, "bodies"));
   BROADSIDE_TRY(bodies_.reserve(n + 1, "bodies"));
+  BROADSIDE_TRY(inverse_mass_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(starts_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(stirred_.reserve(n + 1, "bodies"));
   BROADSIDE_TRY(relaxed_.reserve(n, "bodies"));
@@ -212,6 +213,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.changes = changes_.data();
   view.by_color = by_color_.data();
   view.bodies = bodies_.data();
+  view.inverse_mass = inverse_mass_.data();
   view.starts = starts_.data();
   view.stirred = stirred_.data();
   view.relaxed = relaxed_.data();
@@ -229,9 +231,9 @@ std::uint64_t RigidBuffers::bytes() const {
          shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + near_.bytes() + hulls_.bytes() +
          hull_gaps_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
          color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
-         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + starts_.bytes() +
-         stirred_.bytes() + relaxed_.bytes() + impulses_.bytes() + old_memory_.bytes() + memory_.bytes() +
-         sleep_.bytes() + counts_.bytes() + barrier_.bytes();
+         constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + inverse_mass_.bytes() +
+         starts_.bytes() + stirred_.bytes() + relaxed_.bytes() + impulses_.bytes() + old_memory_.bytes() +
+         memory_.bytes() + sleep_.bytes() + counts_.bytes() + barrier_.bytes();
 }
 
 }  // namespace broadside::gpu

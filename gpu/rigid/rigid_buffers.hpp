@@ -94,6 +94,7 @@ class RigidBuffers {
   DeviceBuffer<float> changes_;
   DeviceBuffer<std::uint32_t> by_color_;
   DeviceBuffer<PackedSolverBody> bodies_;
+  DeviceBuffer<float> inverse_mass_;
   DeviceBuffer<PackedStart> starts_;
   DeviceBuffer<std::uint32_t> stirred_;
   DeviceBuffer<std::uint32_t> relaxed_;

@@ -34,17 +34,18 @@ struct alignas(16) BodyColors {
   std::uint32_t colored = 0;     // how many of its patches have a color
 };
 
-// core::SolverBody in words of 16 bytes. Words that sweeps over patches read come first, and among these the ones that
-// they also write: 32 bytes, which is the least that memory gives at once.
+// core::SolverBody, but for its mass, in words of 16 bytes. Words that sweeps over patches read come first, and among
+// these the ones that they also write: 32 bytes, which is the least that memory gives at once. w: the version of the
+// velocities, and of the place that moving the body gave it (stages/rigid/versions.cuh).
 struct alignas(128) PackedSolverBody {
-  PackedVec3 v;                 // w: the velocities' version (stages/rigid/velocity_versions.cuh)
-  PackedVec3 angular_momentum;  // w: the same
-  PackedVec3 inertia;           // inverse: xx yy zz, w: xy
-  PackedVec3 moved;             // w: xz
-  PackedVec3 turned;            // w: yz
+  PackedVec3 v;
+  PackedVec3 angular_momentum;
+  PackedVec3 inertia_along;   // inverse: xx yy zz
+  PackedVec3 inertia_across;  // xy xz yz
+  PackedVec3 moved;
+  PackedVec3 turned;
   core::Quat q;
   core::Quat q_rest;
-  PackedVec3 mass;  // x: inverse mass
 };
 static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 128,
               "read and written in words of 16 bytes");
@@ -87,6 +88,7 @@ struct RigidFrameView : ContactView {
   // where the body is B.
   std::uint32_t* by_color = nullptr;
   PackedSolverBody* bodies = nullptr;  // [bodies + 1]; the last one stands for every face: it never moves
+  float* inverse_mass = nullptr;       // [bodies + 1] of these; 0 of those that sleep, too
   PackedStart* starts = nullptr;       // [bodies + 1] of the substep
   // [bodies + 1] While contacts bounce: the latest sweep, counted over the step, that has to visit the body's patches.
   std::uint32_t* stirred = nullptr;

@@ -74,7 +74,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
         }
         float change = 0.0F;
         with_velocities(team, f, p.c, p.a, p.b, [&] { change = core::relax_patch(p.c, p.goals, p.a, p.b); });
-        store_kept_impulses(slot, p.c);
+        store_kept_impulses(slot, p.c, team.kept_version());
         if (has_directions) {
           const float squared = core::squared_change(p.c, loaded.of.way);
           largest_change = fmaxf(largest_change, squared);
@@ -141,9 +141,9 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         with_velocities(team, f, loaded.c, loaded.a, loaded.b,
                         [&] { largest = fmaxf(largest, core::bounce(loaded.c, loaded.a, loaded.b, done)); });
       },
-      [](const TileSlot& slot, std::uint32_t /*place*/, const LoadedBounce& loaded) {
+      [&team](const TileSlot& slot, std::uint32_t /*place*/, const LoadedBounce& loaded) {
         if (!loaded.bounces) return;
-        store_kept_impulses(slot, loaded.c);
+        store_kept_impulses(slot, loaded.c, team.kept_version());
         store_budget(slot, loaded.c.budget_n_s);
       },
       Visits{!is_first, [](const TileSlot& slot) { return load_budget(slot) != kBouncesNot; },
@@ -171,7 +171,7 @@ __device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const Ri
     }
     load_levers(slot, c);
     store_totals(slot, c);
-    store_kept_impulses(slot, c);
+    store_kept_impulses(slot, c, team.kept_version());
   });
 }
 

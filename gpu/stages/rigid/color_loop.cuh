@@ -2,8 +2,10 @@
 //
 // A sweep solves patches in the order of their colors. Unless there are some hundred thousand patches, its time is that
 // of what a patch waits for and of its own chain of operations. So all of the solver serves to shorten these two:
-// - A patch waits for the velocities of its two bodies alone (velocity_versions.cuh), and a substep of soft steps has
-//   three barriers: behind the sweep, behind the motion and behind relaxation.
+// - A patch waits for its two bodies alone, and a body for its patches (versions.cuh). A substep of soft steps in which
+//   nothing bounces has no barrier.
+// - Lanes that wait go on together (wait_until). Where each went on as soon as it could, a warp ran what is behind the
+//   wait several times.
 // - The four points of a patch and both its bodies lie in registers: loops over points have a fixed length, without a
 //   branch (core::each_point_or_zeros), and a thread may have 255 registers.
 // - A thread loads its next constraint ahead, and works out then what follows from where the bodies are, gaps and how
@@ -23,13 +25,30 @@
 #include "gpu/stages/rigid/constraint_tiles.cuh"
 #include "gpu/stages/rigid/solve_team.cuh"
 #include "gpu/stages/rigid/solver_bodies.cuh"
+#include "gpu/stages/rigid/versions.cuh"
 
 namespace broadside::gpu {
 
-// work(i) for every body. No barrier.
+// work(i) for every body, always by the same thread. No barrier. The last threads have the first bodies, so that few
+// threads have both patches and bodies: those wait for bodies' versions while others solve patches.
 template <typename Work>
 __device__ __forceinline__ void each_body(const SolveTeam& team, const RigidFrameView& f, const Work& work) {
-  for (std::uint64_t i = team.spread_rank(); i < f.body_count; i += team.size()) work(static_cast<std::uint32_t>(i));
+  for (std::uint64_t i = team.size() - 1 - team.spread_rank(); i < f.body_count; i += team.size())
+    work(static_cast<std::uint32_t>(i));
+}
+// The same of load(i), once ready(i, loaded).
+template <typename Load, typename Ready, typename Work>
+__device__ __forceinline__ void each_body_in_turn(const SolveTeam& team, const RigidFrameView& f, const Load& load,
+                                                  const Ready& ready, const Work& work) {
+  std::uint64_t k = team.size() - 1 - team.spread_rank();
+  for (; __any_sync(kFullWarp, k < f.body_count); k += team.size()) {
+    const auto i = static_cast<std::uint32_t>(k);
+    const bool has = k < f.body_count;
+    decltype(load(i)) loaded;
+    if (has) loaded = load(i);
+    wait_until(has, [&] { return ready(i, loaded); });
+    if (has) work(i, loaded);
+  }
 }
 
 // work(slot, place) for every constraint, in any order: it reads bodies alone. No barrier.
@@ -48,33 +67,34 @@ struct KeepsNothing {
   __device__ void operator()(const TileSlot& /*slot*/, std::uint32_t /*place*/, const Loaded& /*loaded*/) const {}
 };
 
-// work(slot, place, loaded) for every patch, in the order of colors. A patch waits for its bodies' velocities alone,
-// until ready(loaded) has them. load(slot) gives what work needs of the constraint, and of its bodies what no sweep
-// changes; keep(slot, place, loaded) writes what no other patch waits for. A warp solves 32 patches of one color, then
-// its next 32: all of the grid's warps go through the places in this order, so one of them can always go on.
-template <typename Load, typename Ready, typename Work, typename Keep>
+// work(slot, place, loaded) for every patch, in the order of colors. A patch waits until placed(loaded) has where its
+// bodies are, and until ready(loaded) has their velocities, for nothing else. load(slot) gives what is needed of the
+// constraint, aim(slot, loaded) works out what no velocity is needed for, and keep(slot, place, loaded) writes what no
+// other patch waits for. A warp solves 32 patches of one color, then its next 32: all of the grid's warps go through
+// the places in this order, so one of them can always go on.
+template <typename Load, typename Placed, typename Aim, typename Ready, typename Work, typename Keep>
 __device__ __forceinline__ void each_place_in_turn(const SolveTeam& team, const RigidFrameView& f, const Load& load,
-                                                   const Ready& ready, const Work& work, const Keep& keep) {
+                                                   const Placed& placed, const Aim& aim, const Ready& ready,
+                                                   const Work& work, const Keep& keep) {
   decltype(load(TileSlot(nullptr, 0))) loaded;
   const std::uint64_t places = f.counts->places;
   std::uint64_t place = team.spread_rank();
   const auto is_patch = [&](std::uint64_t at) { return at < places && f.patch_at[at] != kUncolored; };
   bool has = is_patch(place);
-  if (has) loaded = load(TileSlot(f.constraints, place));
   while (place - lane() < places) {
+    const TileSlot slot(f.constraints, place);
+    if (has) loaded = load(slot);
     const std::uint64_t next = place + team.size();
     const bool has_next = is_patch(next);
-    for (bool waits = has; __any_sync(kFullWarp, waits);) {
-      if (waits) waits = !ready(loaded);
-      relax();
-    }
+    wait_until(has, [&] { return placed(loaded); });
+    if (has) aim(slot, loaded);
+    wait_until(has, [&] { return ready(loaded); });
     if (has) {
-      work(TileSlot(f.constraints, place), place, loaded);
-      keep(TileSlot(f.constraints, place), place, loaded);
+      work(slot, place, loaded);
+      keep(slot, place, loaded);
     }
     place = next;
     has = has_next;
-    if (has) loaded = load(TileSlot(f.constraints, place));
   }
   team.end_version();
 }

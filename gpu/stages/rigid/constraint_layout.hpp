@@ -19,8 +19,9 @@ enum ConstraintWord : std::uint32_t {
   kMobility = kMasses + core::kManifoldPoints,  // [6] core::TwistMobility, then from A's center of mass to the patch's
   kOrder = kMobility + 6,                       // of A and of B: PlaceInOrder; then their inverse masses
   // What every sweep changes.
-  kImpulses = kOrder + 1,                      // [points] normal, tangents 1 and 2, of the substep; w: slip mobility
-  kGiven = kImpulses + core::kManifoldPoints,  // [2] core::WorldPush of these impulses, as relaxation left them
+  kImpulses = kOrder + 1,  // [points] normal, tangents 1 and 2, of the substep; w: slip mobility
+  // [2] core::WorldPush of these impulses, as relaxation left them; w: their version.
+  kGiven = kImpulses + core::kManifoldPoints,
   // By point: x y z w.
   kApproaches = kGiven + 2,
   kRelaxed,               // x: the budget of a bounce; w: the latest relaxation along directions that has visited it

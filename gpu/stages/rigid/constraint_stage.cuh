@@ -69,8 +69,8 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
     const std::uint32_t b = is_face ? f.body_count : patch.b;
     const core::Material surface = core::combine(f.material[patch.a], is_face ? f.face_material : f.material[patch.b]);
     const core::Vec3 across = is_face ? core::Vec3{} : f.before[patch.b].x - f.before[patch.a].x;
-    const core::SolverBody body_a = load_moving(f.bodies[patch.a]);
-    const core::SolverBody body_b = load_moving(f.bodies[b]);
+    const core::SolverBody body_a = load_body(f, patch.a);
+    const core::SolverBody body_b = load_body(f, b);
     core::PatchConstraint c = core::make_constraint(patch.manifold, body_a, body_b, across, surface);
     c.a = patch.a;
     c.b = b;
@@ -84,7 +84,7 @@ __device__ void make_constraints(const Team& team, const RigidFrameView& f) {
 }
 
 // Includes the impulses of the last substep, which are not in the totals yet.
-__device__ inline void load_given(const TileSlot& slot, core::PatchConstraint& c) {
+__device__ inline void load_all_given(const TileSlot& slot, core::PatchConstraint& c) {
   load_bodies(slot, c);
   load_directions(slot, c);
   load_impulses(slot, c);
@@ -97,7 +97,7 @@ __device__ inline bool is_pushed_body(const RigidFrameView& f, std::uint32_t i) 
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
   for (std::uint32_t k = 0; k < f.memory.count[i]; ++k) {
     core::PatchConstraint c;
-    load_given(TileSlot(f.constraints, places[k] / 2), c);
+    load_all_given(TileSlot(f.constraints, places[k] / 2), c);
     if (core::has_pushed(c)) return true;
   }
   return false;
@@ -108,7 +108,7 @@ __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
   for (std::uint64_t k = team.spread_rank(); k < f.body_count; k += team.size()) {
     const auto i = static_cast<std::uint32_t>(k);
-    core::SolverBody body = load_body(f.bodies[i]);
+    core::SolverBody body = load_body(f, i);
     // A sleeping body is not moved, and its patches are others.
     if (core::is_moved(body) && !is_pushed_body(f, i))
       core::forget_pushes(body, f.before[i], f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i,
@@ -126,7 +126,7 @@ __device__ void finish_patches(const Team& team, const RigidFrameView& f) {
     const std::uint32_t patch = f.patch_at[place];
     if (patch == kUncolored) continue;
     core::PatchConstraint c;
-    load_given(TileSlot(f.constraints, place), c);
+    load_all_given(TileSlot(f.constraints, place), c);
     const std::uint64_t first = std::uint64_t{kFourPoints} * patch;
     // Points that the patch does not have get zeros: the host copies all four.
 #pragma unroll

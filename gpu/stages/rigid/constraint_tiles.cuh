@@ -9,6 +9,8 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/rigid/constraint_layout.hpp"
+#include "gpu/stages/rigid/place_in_order.cuh"
+#include "gpu/stages/rigid/versions.cuh"
 
 namespace broadside::gpu {
 
@@ -157,16 +159,30 @@ __device__ __forceinline__ void store_impulses(const TileSlot& slot, const core:
 }
 
 // What bodies are given when the next substep begins. Levers and directions have been loaded.
-__device__ __forceinline__ void store_given(const TileSlot& slot, const core::PatchConstraint& c) {
+__device__ __forceinline__ void store_given(const TileSlot& slot, const core::PatchConstraint& c,
+                                            std::uint32_t version) {
   const core::WorldPushOf<float> given = core::whole_push(c);
-  slot.at(kGiven) = {given.impulse, 0.0F};
-  slot.at(kGiven + 1) = {given.moment, 0.0F};
+  store_versioned(slot.at(kGiven), given.impulse, version);
+  store_versioned(slot.at(kGiven + 1), given.moment, version);
+}
+// The same, of the version that is there now.
+struct LoadedGiven {
+  Versioned impulse;
+  Versioned moment;
+
+  [[nodiscard]] __device__ bool is_of(std::uint32_t version) const {
+    return impulse.version == version && moment.version == version;
+  }
+};
+__device__ __forceinline__ LoadedGiven load_given(const TileSlot& slot) {
+  return {load_versioned(slot.at(kGiven)), load_versioned(slot.at(kGiven + 1))};
 }
 
-// Impulses that may be the last ones of a substep.
-__device__ __forceinline__ void store_kept_impulses(const TileSlot& slot, const core::PatchConstraint& c) {
+// Impulses that may be the last ones of a substep. version: of what the next one begins with.
+__device__ __forceinline__ void store_kept_impulses(const TileSlot& slot, const core::PatchConstraint& c,
+                                                    std::uint32_t version) {
   store_impulses(slot, c);
-  store_given(slot, c);
+  store_given(slot, c, version);
 }
 
 // What a sweep reads.
@@ -280,23 +296,6 @@ __device__ __forceinline__ bool load_before_push(const TileSlot& slot, core::Pat
   return !(before.of[0][0] < 0.0F);
 }
 
-// Where a patch stands among those of one of its bodies, which are solved in the order of their colors.
-class PlaceInOrder {
- public:
-  __device__ explicit PlaceInOrder(std::uint32_t word = 0) : word_(word) {}
-  __device__ PlaceInOrder(std::uint32_t before, bool is_last) : word_(2 * before + (is_last ? 1 : 0)) {}
-  [[nodiscard]] __device__ std::uint32_t word() const { return word_; }
-  [[nodiscard]] __device__ std::uint32_t before() const { return word_ / 2; }  // how many
-  [[nodiscard]] __device__ bool is_last() const { return word_ % 2 != 0; }
-
- private:
-  std::uint32_t word_;
-};
-
-struct PatchOrder {
-  PlaceInOrder of_a;
-  PlaceInOrder of_b;
-};
 __device__ __forceinline__ PatchOrder load_order(const TileSlot& slot, core::SolverBody& a, core::SolverBody& b) {
   const PackedVec3 word = slot.at(kOrder);
   a.inverse_mass = word.v.z;
@@ -324,7 +323,7 @@ __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstra
     slot.at(kMasses + k) = {{p.normal_mass, p.stick_mass_11, p.stick_mass_12}, p.stick_mass_22};
     slot.at(kImpulses + k) = {{p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2}, p.slip_mobility};
   }
-  store_given(slot, c);
+  store_given(slot, c, 0);
   store_mobility(slot, c);
   slot.at(kOrder).v.z = a.inverse_mass;
   slot.at(kOrder).w = b.inverse_mass;

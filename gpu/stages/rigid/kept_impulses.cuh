@@ -53,14 +53,23 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
   }
 }
 
-// The impulses of the substep before: core::warm_start.
-__device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body) {
+// The impulses of the substep before, which have this version: core::warm_start. They are mostly there, so lanes do not
+// wait together.
+__device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
+                                                   std::uint32_t version) {
+  struct Known {
+    TileSlot slot = TileSlot(nullptr, 0);
+    LoadedGiven given;
+  };
   give_known_impulses(
       f, i, body,
       [](const TileSlot& slot, core::PatchConstraint& /*c*/) {
-        return core::WorldPushOf<float>{slot.at(kGiven).v, slot.at(kGiven + 1).v};
+        return Known{slot, load_given(slot)};
       },
-      [](const core::PatchConstraint& /*c*/, const core::WorldPushOf<float>& given) { return given; });
+      [version](const core::PatchConstraint& /*c*/, Known known) {
+        for (; !known.given.is_of(version); known.given = load_given(known.slot)) relax();
+        return core::WorldPushOf<float>{known.given.impulse.v, known.given.moment.v};
+      });
 }
 
 // The impulses as they are, after sweeps that did not note what they are together.

@@ -27,7 +27,7 @@ __device__ inline void run_place(const RigidFrameView& f) {
   const GridPlaces grid;
   if (grid.rank() == 0) {
     f.outcome->begin_ns = now_ns();
-    store_body(f.bodies[f.body_count], core::SolverBody{}, 0);
+    begin_body(f, f.body_count, core::SolverBody{});
     f.starts[f.body_count] = {};
     f.stirred[f.body_count] = 0;
   }
@@ -55,7 +55,7 @@ __device__ inline void run_place(const RigidFrameView& f) {
     f.fall_m[i] = core::length(motion.fall);
     f.pushed_m[i] = 0;
     f.memory.count[i] = 0;
-    store_body(f.bodies[i], is_asleep(f, i) ? core::SolverBody{} : core::solver_body(s, mass), 0);
+    begin_body(f, i, is_asleep(f, i) ? core::SolverBody{} : core::solver_body(s, mass));
     if (f.asleep != nullptr) f.sleep.restless[i] = 0;
     f.stirred[i] = 0;
     f.relaxed[i] = 0;

@@ -13,6 +13,7 @@
 #include "gpu/stages/rigid/pushed_patches.cuh"
 #include "gpu/stages/rigid/sweeps.cuh"
 #include "gpu/stages/rigid/team_sums.cuh"
+#include "gpu/stages/rigid/versions.cuh"
 
 namespace broadside::gpu {
 
@@ -73,7 +74,7 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
     if (k >= solve.soft.most_sweeps || largest_speed <= done) return fastest_push;
     share = directions.after(sum_of_changes(team, f, solve, largest_change));
     each_body(team, f, [&](std::uint32_t i) {
-      core::SolverBody body = load_moving(f.bodies[i]);
+      core::SolverBody body = load_moving(f, i);
       give_step_along(f, i, body, share, 0);
       store_velocity(f.bodies[i], body, team.version());
     });
@@ -105,7 +106,7 @@ __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const Ri
     if (!(share > 0.0F)) continue;
     each_body(team, f, [&](std::uint32_t i) {
       if (f.relaxed[i] != since) return;
-      core::SolverBody body = load_moving(f.bodies[i]);
+      core::SolverBody body = load_moving(f, i);
       give_step_along(f, i, body, share, since);
       store_velocity(f.bodies[i], body, team.version());
     });
@@ -136,7 +137,6 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
     if (of == Stirred::kPushed) {
       done = core::relax_done_m_s(solve.soft, fastest_push);
     } else {
-      if (!solve.may_stir()) return;
       const float relaxed = solve.sums.largest(TeamSums::kSecond);  // of those that are stirred
       fastest = largest_of_turn(team, solve);
       if (!(fastest > 0.0F) && !(relaxed > solve.soft.begins_m_s)) return;
@@ -170,8 +170,7 @@ __device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_
   start.driven_angular_momentum = {driven.angular_momentum, 0.0F};
 }
 
-// Sweeps over all contacts before the bodies move. Begins without a barrier, and ends with one. Returns the fastest
-// push.
+// Sweeps over all contacts before the bodies move. Begins without a barrier. Returns the fastest push.
 __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   if (solve.has_way) {
     team.sync();
@@ -179,22 +178,59 @@ __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFra
   }
   sweep_once(team, f, solve.soft, solve.owes_totals, solve.sums);
   ++solve.done.sweeps;
-  team.sync();
   if (!core::takes_back_pushes(solve.soft)) return 0.0F;
+  team.sync();
   const float fastest_push = solve.sums.largest(TeamSums::kFourth);
   solve.sums.end_turn(team);
   return fastest_push;
 }
 
-__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+// Loads a body's velocities once its last patch has left them.
+__device__ __forceinline__ bool try_last_velocity(const RigidFrameView& f, std::uint32_t i, std::uint32_t version,
+                                                  core::SolverBody& body) {
+  return try_velocity(f.bodies[i], version, body) || !core::is_moved(body) || f.memory.count[i] == 0;
+}
+
+// Gravity, and the impulses of the substep before.
+__device__ __forceinline__ void begin_bodies(const SolveTeam& team, const RigidFrameView& f, const Solve& solve) {
+  const std::uint32_t before = team.version();
   team.end_version();  // patches wait for what is written now
-  each_body(team, f, [&](std::uint32_t i) {
-    core::SolverBody body = load_body(f.bodies[i]);
-    core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
-    note_start(f, i, body, solve);
-    give_kept_impulses(f, i, body);
-    store_velocity(f.bodies[i], body, team.version());
-  });
+  each_body_in_turn(
+      team, f,
+      [&](std::uint32_t i) {
+        core::SolverBody body;
+        body.inverse_mass = f.inverse_mass[i];
+        body.orientation.q = f.bodies[i].q;
+        return body;
+      },
+      [&](std::uint32_t i, core::SolverBody& body) { return try_last_velocity(f, i, before, body); },
+      [&](std::uint32_t i, core::SolverBody& body) {
+        core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
+        note_start(f, i, body, solve);
+        give_kept_impulses(f, i, body, team.kept_version());
+        store_velocity(f.bodies[i], body, team.version());
+      });
+}
+
+__device__ __forceinline__ void move_bodies(const SolveTeam& team, const RigidFrameView& f, const Solve& solve,
+                                            bool is_pushed) {
+  each_body_in_turn(
+      team, f, [&](std::uint32_t i) { return load_moved(f, i); },
+      [&](std::uint32_t i, core::SolverBody& body) { return try_last_velocity(f, i, team.version(), body); },
+      [&](std::uint32_t i, core::SolverBody& body) {
+        if (!core::is_moved(body)) return;
+        core::move(body, f.mass[i], solve.soft.dt_s);
+        if (is_pushed) {
+          go_back_to_start(f, i, body);
+          store_velocity(f.bodies[i], body, team.version());
+        }
+        store_moved(f, i, body, team.version());
+      });
+}
+
+// With soft steps in which nothing bounces there is no barrier: what waits, waits for versions.
+__device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
+  begin_bodies(team, f, solve);
   const float fastest_push = sweep_all(team, f, solve);
   const bool is_pushed = fastest_push > solve.soft.kept_push_m_s;
   solve.sweep += 2;  // above what was stirred by the last sweep before
@@ -202,19 +238,16 @@ __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFr
     take_back_impulses(team, f, solve.sweep);
     team.sync();
   }
-  each_body(team, f, [&](std::uint32_t i) {
-    core::SolverBody body = load_body(f.bodies[i]);
-    core::move(body, f.mass[i], solve.soft.dt_s);
-    if (is_pushed) go_back_to_start(f, i, body);
-    store_body(f.bodies[i], body, team.version());
-  });
-  team.sync();
+  move_bodies(team, f, solve, is_pushed);
+  if (is_pushed) team.sync();
   relax_all(team, f, solve.soft, solve.may_stir() && !is_pushed, solve.sweep, solve.sums);
-  team.sync();
   solve.owes_totals = true;
+  if (!is_pushed && !solve.may_stir()) return;
+  team.sync();
   end_substep(team, f, solve, is_pushed, fastest_push);
 }
 
+// Ends with a barrier.
 __device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidFrameView& f) {
   const int kind = step_kind(f);
   Solve solve{f.soft[kind],
@@ -226,6 +259,7 @@ __device__ __forceinline__ void run_substeps(const SolveTeam& team, const RigidF
               false,
               {}};
   for (std::uint32_t k = 0; k < f.substeps[kind]; ++k) run_substep(team, f, solve);
+  team.sync();
   if (team.rank() == 0) {
     f.counts->done = solve.done;
     f.counts->done.waits = team.waits();

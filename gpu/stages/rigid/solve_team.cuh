@@ -89,11 +89,14 @@ class SolveTeam : public GridPlaces {
       barrier_.wait();
     ++waits_;
   }
-  // With which version of velocities the present sweep begins, and the next one (velocity_versions.cuh).
+  // With which version of velocities the present sweep begins, and the next one (versions.cuh).
   [[nodiscard]] __device__ std::uint32_t version() const { return version_; }
   [[nodiscard]] __device__ std::uint32_t next_version() const { return version_ + colors_ + 1; }
   // By all threads.
   __device__ void end_version() const { version_ = next_version(); }
+  // The version of the impulses that the present substep keeps. It is the one with which its relaxation begins.
+  [[nodiscard]] __device__ std::uint32_t kept_version() const { return kept_version_; }
+  __device__ void begin_keeping() const { kept_version_ = version_; }
   // How often this thread has waited.
   [[nodiscard]] __device__ std::uint32_t waits() const { return waits_; }
 
@@ -115,6 +118,7 @@ class SolveTeam : public GridPlaces {
   mutable GridBarrier barrier_;
   mutable std::uint32_t waits_ = 0;
   mutable std::uint32_t version_ = 0;
+  mutable std::uint32_t kept_version_ = 0;
 };
 
 }  // namespace broadside::gpu

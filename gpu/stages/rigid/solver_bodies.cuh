@@ -4,62 +4,68 @@
 #include "core/method/rigid/solver_body.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
+#include "gpu/stages/rigid/versions.cuh"
 
 namespace broadside::gpu {
 
-// What no sweep changes of a body.
+// What no sweep changes of a body. Behind a barrier.
 __device__ __forceinline__ core::SolverBody load_place(const PackedSolverBody& from) {
-  const PackedVec3 inertia = from.inertia;
-  const PackedVec3 moved = from.moved;
-  const PackedVec3 turned = from.turned;
+  const core::Vec3 along = from.inertia_along.v;
+  const core::Vec3 across = from.inertia_across.v;
   core::SolverBody b;
-  b.inverse_inertia = {inertia.v.x, inertia.v.y, inertia.v.z, inertia.w, moved.w, turned.w};
-  b.moved = moved.v;
-  b.turned = turned.v;
+  b.inverse_inertia = {along.x, along.y, along.z, across.x, across.y, across.z};
+  b.moved = from.moved.v;
+  b.turned = from.turned.v;
+  return b;
+}
+// Without one: as it is now.
+__device__ __forceinline__ core::SolverBody load_place_now(const PackedSolverBody& from) {
+  core::SolverBody b;
+  (void)try_place(from, 0, b);
   return b;
 }
 
+// Behind a barrier.
 __device__ __forceinline__ void load_velocity(const PackedSolverBody& from, core::SolverBody& b) {
   b.v = from.v.v;
   b.angular_momentum = from.angular_momentum.v;
 }
 
-// Without the orientation, which no contact reads.
-__device__ __forceinline__ core::SolverBody load_moving(const PackedSolverBody& from) {
-  core::SolverBody b = load_place(from);
-  load_velocity(from, b);
-  b.inverse_mass = from.mass.v.x;
+// What directions are given to. Behind a barrier.
+__device__ __forceinline__ core::SolverBody load_moving(const RigidFrameView& f, std::uint32_t i) {
+  core::SolverBody b;
+  b.inverse_mass = f.inverse_mass[i];
+  load_velocity(f.bodies[i], b);
   return b;
 }
 
-__device__ inline core::SolverBody load_body(const PackedSolverBody& from) {
-  core::SolverBody b = load_moving(from);
-  b.orientation = {from.q, from.q_rest};
+// All that no sweep changes, behind a barrier or by the thread that moves the body.
+__device__ __forceinline__ core::SolverBody load_moved(const RigidFrameView& f, std::uint32_t i) {
+  core::SolverBody b = load_place(f.bodies[i]);
+  b.orientation = {f.bodies[i].q, f.bodies[i].q_rest};
+  b.inverse_mass = f.inverse_mass[i];
+  return b;
+}
+__device__ inline void store_moved(const RigidFrameView& f, std::uint32_t i, const core::SolverBody& b,
+                                   std::uint32_t version) {
+  store_place(f.bodies[i], b, version);
+  f.bodies[i].q = b.orientation.q;
+  f.bodies[i].q_rest = b.orientation.rest;
+}
+
+// Behind a barrier.
+__device__ __forceinline__ core::SolverBody load_body(const RigidFrameView& f, std::uint32_t i) {
+  core::SolverBody b = load_moved(f, i);
+  load_velocity(f.bodies[i], b);
   return b;
 }
 
-// Three floats with a version, in one access that is never torn.
-__device__ __forceinline__ void store_versioned(PackedVec3& to, core::Vec3 v, std::uint32_t version) {
-  GridWords::store_whole(reinterpret_cast<uint4*>(&to),
-                         {__float_as_uint(v.x), __float_as_uint(v.y), __float_as_uint(v.z), version});
-}
-
-// What a contact changes. version: of the velocities.
-__device__ __forceinline__ void store_velocity(PackedSolverBody& to, const core::SolverBody& b, std::uint32_t version) {
-  if (!core::is_moved(b)) return;
-  store_versioned(to.v, b.v, version);
-  store_versioned(to.angular_momentum, b.angular_momentum, version);
-}
-
-__device__ inline void store_body(PackedSolverBody& to, const core::SolverBody& b, std::uint32_t version) {
-  to.v = {b.v, __uint_as_float(version)};
-  to.angular_momentum = {b.angular_momentum, __uint_as_float(version)};
-  to.mass = {{b.inverse_mass, 0.0F, 0.0F}, 0.0F};
-  to.inertia = {{b.inverse_inertia.xx, b.inverse_inertia.yy, b.inverse_inertia.zz}, b.inverse_inertia.xy};
-  to.moved = {b.moved, b.inverse_inertia.xz};
-  to.turned = {b.turned, b.inverse_inertia.yz};
-  to.q = b.orientation.q;
-  to.q_rest = b.orientation.rest;
+// Before the step; the first versions are 0.
+__device__ inline void begin_body(const RigidFrameView& f, std::uint32_t i, const core::SolverBody& b) {
+  f.bodies[i].v = {b.v, 0.0F};
+  f.bodies[i].angular_momentum = {b.angular_momentum, 0.0F};
+  f.inverse_mass[i] = b.inverse_mass;
+  store_moved(f, i, b, 0);
 }
 
 }  // namespace broadside::gpu

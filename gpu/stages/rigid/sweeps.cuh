@@ -6,7 +6,7 @@
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/rigid/color_loop.cuh"
 #include "gpu/stages/rigid/team_sums.cuh"
-#include "gpu/stages/rigid/velocity_versions.cuh"
+#include "gpu/stages/rigid/versions.cuh"
 
 namespace broadside::gpu {
 
@@ -25,6 +25,7 @@ struct LoadedWay {
   core::PatchWay way;
 };
 
+// Behind a barrier.
 __device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const TileSlot& slot) {
   LoadedPatch loaded;
   loaded.c = load_for_sweep(slot);
@@ -33,6 +34,35 @@ __device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const
   loaded.order = load_order(slot, loaded.a, loaded.b);
   return loaded;
 }
+// Without one, between two motions of its bodies.
+__device__ __forceinline__ LoadedPatch load_patch_now(const RigidFrameView& f, const TileSlot& slot) {
+  LoadedPatch loaded;
+  loaded.c = load_for_sweep(slot);
+  loaded.a = load_place_now(f.bodies[loaded.c.a]);
+  loaded.b = load_place_now(f.bodies[loaded.c.b]);
+  loaded.order = load_order(slot, loaded.a, loaded.b);
+  return loaded;
+}
+// Its bodies' places are loaded later.
+__device__ __forceinline__ LoadedPatch load_unplaced(const TileSlot& slot) {
+  LoadedPatch loaded;
+  loaded.c = load_for_sweep(slot);
+  loaded.order = load_order(slot, loaded.a, loaded.b);
+  return loaded;
+}
+// Once its bodies have moved, to places of this version.
+__device__ __forceinline__ bool try_places(const RigidFrameView& f, std::uint32_t version, LoadedPatch& p) {
+  const bool has_a = try_place(f.bodies[p.c.a], version, p.a) || !core::is_moved(p.a);
+  const bool has_b = try_place(f.bodies[p.c.b], version, p.b) || !core::is_moved(p.b);
+  return has_a && has_b;
+}
+// Of sweeps that load bodies' places with the patch.
+struct IsPlaced {
+  template <typename Loaded>
+  __device__ bool operator()(const Loaded& /*loaded*/) const {
+    return true;
+  }
+};
 
 // Loads the velocities of a patch's bodies, once the patches before it have written them.
 __device__ __forceinline__ bool try_velocities(const SolveTeam& team, const RigidFrameView& f, LoadedPatch& p) {
@@ -71,12 +101,10 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
                                            bool owes_totals, const TeamSums& sums) {
   float fastest_push = 0.0F;
   each_place_in_turn(
-      team, f,
-      [&](const TileSlot& slot) {
-        LoadedPatch loaded = load_patch(f, slot);
-        fastest_push = fmaxf(fastest_push, begin_substep(slot, loaded, soft, owes_totals));
-        loaded.goals = core::goals_of(loaded.c, loaded.a, loaded.b, soft);
-        return loaded;
+      team, f, [&](const TileSlot& slot) { return load_patch_now(f, slot); }, IsPlaced{},
+      [&](const TileSlot& slot, LoadedPatch& p) {
+        fastest_push = fmaxf(fastest_push, begin_substep(slot, p, soft, owes_totals));
+        p.goals = core::goals_of(p.c, p.a, p.b, soft);
       },
       [&](LoadedPatch& p) { return try_velocities(team, f, p); },
       [&](const TileSlot& /*slot*/, std::uint64_t /*place*/, LoadedPatch& p) {
@@ -110,7 +138,10 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
   each_place_in_turn(
       team, f,
       [&](const TileSlot& slot) {
-        LoadedWay loaded{load_patch(f, slot), {}};
+        return LoadedWay{load_patch(f, slot), {}};
+      },
+      IsPlaced{},
+      [&](const TileSlot& slot, LoadedWay& loaded) {
         core::PatchConstraint& c = loaded.patch.c;
         if (is_first) {
           fastest_push = fmaxf(fastest_push, begin_substep(slot, loaded.patch, soft, owes_totals));
@@ -124,7 +155,6 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
         store_triples(slot, kBefore, loaded.way.before);
         store_triples(slot, kWays, loaded.way.way);
         loaded.patch.goals = core::goals_of(c, loaded.patch.a, loaded.patch.b, soft);
-        return loaded;
       },
       [&](LoadedWay& loaded) { return try_velocities(team, f, loaded.patch); },
       [&](const TileSlot& /*slot*/, std::uint64_t /*place*/, LoadedWay& loaded) {
@@ -161,28 +191,31 @@ __device__ __forceinline__ void set_goals_after_motion(const TileSlot& slot, con
   store_mobility(slot, p.c);
 }
 
-// Each contact once, after the bodies moved. stirs: what bounces stirs its bodies for this sweep, and its fastest
+// Each contact once, while the last bodies move. stirs: what bounces stirs its bodies for this sweep, and its fastest
 // approach is brought; so does what changes by more than soft.stirring_m_s, and the largest such change is brought.
 __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
                                           bool stirs, std::uint32_t sweep, const TeamSums& sums) {
   float fastest = 0.0F;
   float largest = 0.0F;
   float change = 0.0F;  // of the patch that is kept next
+  team.begin_keeping();
+  const std::uint32_t version = team.version();
   each_place_in_turn(
       team, f,
       [&](const TileSlot& slot) {
-        LoadedPatch loaded = load_patch(f, slot);
+        LoadedPatch loaded = load_unplaced(slot);
         load_impact(slot, loaded.c);
-        set_goals_after_motion(slot, soft, loaded);
         return loaded;
       },
+      [&](LoadedPatch& p) { return try_places(f, version, p); },
+      [&](const TileSlot& slot, LoadedPatch& p) { set_goals_after_motion(slot, soft, p); },
       [&](LoadedPatch& p) { return try_velocities(team, f, p); },
       [&](const TileSlot& /*slot*/, std::uint64_t /*place*/, LoadedPatch& p) {
         change = core::relax_patch(p.c, p.goals, p.a, p.b);
         give_velocities(team, f, p);
       },
       [&](const TileSlot& slot, std::uint64_t /*place*/, const LoadedPatch& p) {
-        store_kept_impulses(slot, p.c);
+        store_kept_impulses(slot, p.c, team.kept_version());
         if (!stirs) return;
         const float own = p.c.surface.restitution > 0.0F ? core::fastest_bounce(p.c) : 0.0F;
         const bool is_pushed = change > soft.stirring_m_s;
