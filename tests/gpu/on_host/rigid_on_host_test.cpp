@@ -218,6 +218,21 @@ TEST(RigidOnHost, SweepsAreCountedAlike) {
   EXPECT_GT(of_gpu["solver: waits"], of_gpu["solver: sweeps"]);
 }
 
+// All threads wait for each other once, at the end of the step: soft steps in which nothing bounces have no barrier.
+TEST(RigidOnHost, SoftStepsWaitForVersionsAlone) {
+  core::Scene scene = scene_of("rigid:stack:5");
+  RigidPipelineOptions options;
+  options.solver = core::soft_step_settings();
+  RigidPipeline subject(options);
+  ASSERT_TRUE(subject.load(scene).ok());
+  constexpr std::uint64_t kSteps = 10;
+  for (std::uint64_t k = 0; k < kSteps; ++k) ASSERT_TRUE(subject.step(scene.dt_s).ok());
+  auto counts = tests::counts_of(subject);
+  EXPECT_GT(counts["solver: sweeps"], kSteps);
+  EXPECT_EQ(counts["solver: sweeps of bounces"], 0U);
+  EXPECT_EQ(counts["solver: waits"], kSteps);
+}
+
 TEST(RigidOnHost, EveryStartAndLevel) {
   for (const core::LevelsRow& row : core::kLevels) {
     SCOPED_TRACE(row.name);
