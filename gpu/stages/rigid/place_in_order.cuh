@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "gpu/stages/grid/device.cuh"
+
 namespace broadside::gpu {
 
 class PlaceInOrder {
