@@ -131,8 +131,8 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
         load_masses(slot, c);
         load_mobility(slot, across, c);
         if (is_first) core::note_budget(c);
-        loaded.a = load_place(f.bodies[c.a]);
-        loaded.b = load_place(f.bodies[c.b]);
+        load_place(f.bodies[c.a], loaded.a);
+        load_place(f.bodies[c.b], loaded.b);
         (void)load_order(slot, loaded.a, loaded.b);
         return loaded;
       },

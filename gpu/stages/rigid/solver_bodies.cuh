@@ -9,20 +9,12 @@
 namespace broadside::gpu {
 
 // What no sweep changes of a body. Behind a barrier.
-__device__ __forceinline__ core::SolverBody load_place(const PackedSolverBody& from) {
+__device__ __forceinline__ void load_place(const PackedSolverBody& from, core::SolverBody& b) {
   const core::Vec3 along = from.inertia_along.v;
   const core::Vec3 across = from.inertia_across.v;
-  core::SolverBody b;
   b.inverse_inertia = {along.x, along.y, along.z, across.x, across.y, across.z};
   b.moved = from.moved.v;
   b.turned = from.turned.v;
-  return b;
-}
-// Without one: as it is now.
-__device__ __forceinline__ core::SolverBody load_place_now(const PackedSolverBody& from) {
-  core::SolverBody b;
-  (void)try_place(from, 0, b);
-  return b;
 }
 
 // Behind a barrier.
@@ -41,7 +33,8 @@ __device__ __forceinline__ core::SolverBody load_moving(const RigidFrameView& f,
 
 // All that no sweep changes, behind a barrier or by the thread that moves the body.
 __device__ __forceinline__ core::SolverBody load_moved(const RigidFrameView& f, std::uint32_t i) {
-  core::SolverBody b = load_place(f.bodies[i]);
+  core::SolverBody b;
+  load_place(f.bodies[i], b);
   b.orientation = {f.bodies[i].q, f.bodies[i].q_rest};
   b.inverse_mass = f.inverse_mass[i];
   return b;

@@ -25,24 +25,6 @@ struct LoadedWay {
   core::PatchWay way;
 };
 
-// Behind a barrier.
-__device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const TileSlot& slot) {
-  LoadedPatch loaded;
-  loaded.c = load_for_sweep(slot);
-  loaded.a = load_place(f.bodies[loaded.c.a]);
-  loaded.b = load_place(f.bodies[loaded.c.b]);
-  loaded.order = load_order(slot, loaded.a, loaded.b);
-  return loaded;
-}
-// Without one, between two motions of its bodies.
-__device__ __forceinline__ LoadedPatch load_patch_now(const RigidFrameView& f, const TileSlot& slot) {
-  LoadedPatch loaded;
-  loaded.c = load_for_sweep(slot);
-  loaded.a = load_place_now(f.bodies[loaded.c.a]);
-  loaded.b = load_place_now(f.bodies[loaded.c.b]);
-  loaded.order = load_order(slot, loaded.a, loaded.b);
-  return loaded;
-}
 // Its bodies' places are loaded later.
 __device__ __forceinline__ LoadedPatch load_unplaced(const TileSlot& slot) {
   LoadedPatch loaded;
@@ -50,11 +32,24 @@ __device__ __forceinline__ LoadedPatch load_unplaced(const TileSlot& slot) {
   loaded.order = load_order(slot, loaded.a, loaded.b);
   return loaded;
 }
-// Once its bodies have moved, to places of this version.
+// Behind a barrier.
+__device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const TileSlot& slot) {
+  LoadedPatch loaded = load_unplaced(slot);
+  load_place(f.bodies[loaded.c.a], loaded.a);
+  load_place(f.bodies[loaded.c.b], loaded.b);
+  return loaded;
+}
+// Whether its bodies have moved, to places of this version. Loads these.
 __device__ __forceinline__ bool try_places(const RigidFrameView& f, std::uint32_t version, LoadedPatch& p) {
   const bool has_a = try_place(f.bodies[p.c.a], version, p.a) || !core::is_moved(p.a);
   const bool has_b = try_place(f.bodies[p.c.b], version, p.b) || !core::is_moved(p.b);
   return has_a && has_b;
+}
+// Without a barrier, between two motions of its bodies: their places as they are.
+__device__ __forceinline__ LoadedPatch load_patch_now(const RigidFrameView& f, const TileSlot& slot) {
+  LoadedPatch loaded = load_unplaced(slot);
+  (void)try_places(f, 0, loaded);
+  return loaded;
 }
 // Of sweeps that load bodies' places with the patch.
 struct IsPlaced {
