@@ -131,6 +131,40 @@ TEST(TurnedBox, ContainsTheShapeAndIsTight) {
   }
 }
 
+// A prism whose long edges have corners between their ends. Turned about its axis, no such edge leads down along an
+// axis of the world: a search that comes to a corner in the middle of one would end there.
+TEST(TurnedBox, ContainsAPrismWithCornersAlongItsEdges) {
+  constexpr int kSides = 24;
+  constexpr int kRings = 5;
+  Case c;
+  for (int side = 0; side < kSides; ++side)
+    for (int ring = 0; ring < kRings; ++ring) {
+      const float angle = 6.2831853F * static_cast<float>(side) / kSides;
+      c.vertices.push_back({0.5F * std::cos(angle), 0.5F * std::sin(angle), 0.25F * static_cast<float>(ring)});
+    }
+  c.shape.kind = ContactKind::kHull;
+  c.shape.size_m = 1.2F;
+  add_hull(c);
+  const double waste = 4.0 * 0x1p-24 * kBoxRoundingsOfReach * 1.2;
+  for (int k = 0; k < 2000; ++k) {
+    const float half = 0.5F * 0.00314F * static_cast<float>(k);
+    // About its axis, and about that and one across.
+    for (const float across : {0.0F, 1e-7F, 0.1F}) {
+      Quat q{std::cos(half), across, 0.0F, std::sin(half)};
+      q = (1.0F / std::sqrt(dot(q, q))) * q;
+      const Box box = turned_box(c.shape, {}, {}, q);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double high = exact_reach(c.shape, c.vertices, q, axis, 1.0);
+        const double low = -exact_reach(c.shape, c.vertices, q, axis, -1.0);
+        ASSERT_GE(box.max[axis], high) << k << " " << across;
+        ASSERT_LE(box.min[axis], low) << k << " " << across;
+        ASSERT_LE(box.max[axis] - high, waste);
+        ASSERT_LE(low - box.min[axis], waste);
+      }
+    }
+  }
+}
+
 TEST(TurnedBox, TheVertexTreeFindsWhatALoopOverAllVerticesFinds) {
   std::mt19937 random(7);
   std::normal_distribution<float> normal;
