@@ -105,6 +105,7 @@ constexpr std::array kColumns{
     Column{"/trace/point/impulse", kOfPoints, kRows, kF32, 3, Records::kPoints, offsetof(ContactPoint, impulse), "N s"},
     Column{"/trace/point/feature", kOfPoints, kRows, kU32, 1, Records::kPoints, offsetof(ContactPoint, feature), "1",
            true},
+    Column{"/trace/point/parts", kOfPoints, kFrames, kU32, 1, Records::kParts, 0, "1", true},
     Column{"/trace/point/offsets", kOfPoints, kOffsets, kU64, 1, Records::kPoints, 0, "1"},
 
     Column{"/trace/narrow/pairs", kOfNarrow, kRows, kU32, 2, Records::kMeasured, 0, "1"},
@@ -199,6 +200,8 @@ auto visit_records(Frame& f, Records which, Visit visit) {
       return visit(f.pairs_demanded);
     case Records::kRaw:
       return visit(f.pairs_raw);
+    case Records::kParts:
+      return visit(f.parts);
     case Records::kConfirmed:
       return visit(f.confirmed);
     case Records::kProximity:

@@ -58,6 +58,7 @@ enum class Records : std::uint8_t {
   kWideAngularVelocity,
   kDetectedOrientation,
   kPoints,
+  kParts,
 };
 
 struct Column {

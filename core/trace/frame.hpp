@@ -72,6 +72,7 @@ struct FrameRecord {
 
   std::vector<Contact> contacts;
   std::vector<ContactPoint> points;
+  std::uint32_t parts = 0;  // in how many parts, each with its own points, the step was taken; 0: it is not known
 
   std::vector<Pair> measured;
   std::vector<Separation> separations;

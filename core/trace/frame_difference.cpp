@@ -42,7 +42,7 @@ constexpr std::array kStages{
     Stage{Records::kMeasured, bit(Group::kNarrow)},
     Stage{Records::kSeparations, bit(Group::kNarrow)},
 };
-constexpr std::array kCounts{Records::kTime, Records::kDemanded, Records::kRaw};
+constexpr std::array kCounts{Records::kTime, Records::kDemanded, Records::kRaw, Records::kParts};
 
 std::vector<const Column*> columns_of(Records records) {
   std::vector<const Column*> found;

@@ -14,8 +14,8 @@ namespace {
 class AngularMomentum final : public Validator {
  public:
   explicit AngularMomentum(const Subject& subject)
-      : detects_at_start_(subject.header.declaration.text("detection_at") == "start"),
-        detects_within_(subject.header.declaration.text("detection_at") == "within"),
+      : header_(subject.header),
+        is_told_at_start_(is_at_start(header_.declaration.text("detection_at"))),
         accumulations_(subject.header.declaration.number("iterations") * subject.header.declaration.number("substeps")),
         sleep_speed_m_s_(subject.header.declaration.number("sleep_speed_m_s")) {}
 
@@ -23,11 +23,12 @@ class AngularMomentum final : public Validator {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
     const std::size_t n = m.bodies.size();
+    finds_within_ = finds_within(header_, evidence.frame);
     moment_.assign(n, {});
     slack_.assign(n, 0.0);
     scale_.assign(n, 0.0);
     points_.assign(n, 0.0);
-    if (detects_within_) ways_.read(m, evidence.frame.points);
+    if (finds_within_) ways_.read(m, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
       const Vec3d j(p.impulse);
       give(m, p, p.a, 1.0, j);
@@ -40,15 +41,17 @@ class AngularMomentum final : public Validator {
   core::Verdict conclude() override { return tally_.conclude("no body with a reported point of contact"); }
 
  private:
+  static bool is_at_start(std::string_view detection_at) { return detection_at == "start" || detection_at == "within"; }
+
   // The point is at the pose of detection; by the end of the step it and the center have moved.
   void give(const Motion& m, const core::ContactPoint& p, std::uint32_t body, double sign, Vec3d j) {
     const BodyStep& b = m.bodies[body];
-    const Vec3d at = detects_at_start_ || detects_within_ ? b.before.x : b.after.x;
+    const Vec3d at = is_told_at_start_ ? b.before.x : b.after.x;
     const Vec3d arm = Vec3d(p.point) - at;
     const double size = length(j);
     moment_[body] = moment_[body] + sign * cross(arm, j);
-    const double moved = detects_within_     ? ways_.way_m(body, length(arm))
-                         : detects_at_start_ ? 0.0
+    const double moved = finds_within_       ? ways_.way_m(body, length(arm))
+                         : is_told_at_start_ ? 0.0
                                              : length(b.after.x - b.before.x) + m.h * length(b.after.w) * length(arm);
     // The point lies between the two surfaces, which are |gap| apart along the normal: only what acts across has a
     // moment that depends on where.
@@ -85,8 +88,9 @@ class AngularMomentum final : public Validator {
   static constexpr std::string_view kOrigin =
       "h |w x L| before and after, |J_t| times the gap, |J| times how far point and center move, twice the declared "
       "speed of sleep of a body that stands still, and rounding";
-  bool detects_at_start_;
-  bool detects_within_;
+  const core::TraceHeader& header_;
+  bool is_told_at_start_;
+  bool finds_within_ = false;  // in the frame that it looks at
   WaysWithin ways_;
   double accumulations_;
   double sleep_speed_m_s_;

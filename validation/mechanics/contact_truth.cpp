@@ -23,16 +23,16 @@ class ContactTruth final : public Validator {
       : header_(subject.header),
         shapes_(header_.scene),
         margin_(header_.declaration.number("contact_margin_m")),
-        has_substeps_(header_.declaration.number("substeps") > 1.0),
-        detects_within_(header_.declaration.text("detection_at") == "within") {}
+        has_substeps_(header_.declaration.number("substeps") > 1.0) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
     frame_ = &evidence.frame;
+    finds_within_ = finds_within(header_, *frame_);
     place_bodies(m);
     sort_points();
-    if (detects_within_) ways_.read(m, frame_->points);
+    if (finds_within_) ways_.read(m, frame_->points);
     if (has_substeps_) meetings_.read(m, header_.scene, frame_->points);
     for (const core::Pair pair : m.near)
       if (is_known(m, pair.i) && is_known(m, pair.j)) judge_pair(m, pair);
@@ -90,7 +90,7 @@ class ContactTruth final : public Validator {
   [[nodiscard]] double band(const Motion& m, std::uint32_t a, std::uint32_t b) const {
     const auto way_m = [&](std::uint32_t i) {
       if (core::is_face(i)) return 0.0;
-      if (detects_within_) return ways_.way_m(i, m.facts[i].reach_m);
+      if (finds_within_) return ways_.way_m(i, m.facts[i].reach_m);
       const BodyState& s = m.bodies[i].before;
       return m.h * (length(s.v) + length(s.w) * m.facts[i].reach_m);
     };
@@ -276,7 +276,7 @@ class ContactTruth final : public Validator {
   ExactShapes shapes_;
   double margin_;
   bool has_substeps_;
-  bool detects_within_;
+  bool finds_within_ = false;  // in the frame that it looks at
   WaysWithin ways_;
   MeetingWithin meetings_;
   const core::FrameRecord* frame_ = nullptr;

@@ -22,15 +22,16 @@ struct Friction {
 class FrictionCone final : public Validator {
  public:
   explicit FrictionCone(const Subject& subject)
-      : scene_(subject.header.scene),
+      : header_(subject.header),
+        scene_(subject.header.scene),
         model_(subject.header.declaration.text("friction")),
-        has_substeps_(subject.header.declaration.number("substeps") > 1.0),
-        detects_within_(subject.header.declaration.text("detection_at") == "within") {}
+        has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
+    finds_within_ = finds_within(header_, evidence.frame);
     sum_impulses(*evidence.motion, evidence.frame.points);
-    if (detects_within_) ways_.read(*evidence.motion, evidence.frame.points);
+    if (finds_within_) ways_.read(*evidence.motion, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) judge(*evidence.motion, p);
   }
 
@@ -82,7 +83,7 @@ class FrictionCone final : public Validator {
 
   // And how far the slip may be off because the point was found within the step.
   [[nodiscard]] double change_by_way(const Motion& m, std::uint32_t body, const core::ContactPoint& p) const {
-    if (!detects_within_ || core::is_face(body)) return 0.0;
+    if (!finds_within_ || core::is_face(body)) return 0.0;
     return ways_.speed_m_s(body, length(Vec3d(p.point) - m.bodies[body].before.x));
   }
 
@@ -163,10 +164,11 @@ class FrictionCone final : public Validator {
   static constexpr std::string_view kDirection =
       "friction acts against the slip at some moment of the step: twice 2 |g| h and what turning and other impulses "
       "change, and in substeps its own";
+  const core::TraceHeader& header_;
   const core::Scene& scene_;
   std::string_view model_;
   bool has_substeps_;
-  bool detects_within_;
+  bool finds_within_ = false;  // in the frame that it looks at
   WaysWithin ways_;
   std::vector<Pushed> pushed_;
   Tally tally_{"friction-cone", "impulses of points", "Coulomb's cone of the scene's friction"};

@@ -17,18 +17,19 @@ namespace {
 class Unilateral final : public Validator {
  public:
   explicit Unilateral(const Subject& subject)
-      : scene_(subject.header.scene),
+      : header_(subject.header),
+        scene_(subject.header.scene),
         margin_m_(subject.header.declaration.number("contact_margin_m")),
-        has_substeps_(subject.header.declaration.number("substeps") > 1.0),
-        detects_within_(subject.header.declaration.text("detection_at") == "within") {}
+        has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
 
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
+    finds_within_ = finds_within(header_, evidence.frame);
     given_.clear();
     for (const core::ContactPoint& p : evidence.frame.points) given_[{p.a, p.b}].add(m, p);
     if (has_substeps_) list_points(evidence.frame.points);
-    if (detects_within_) ways_.read(m, evidence.frame.points);
+    if (finds_within_) ways_.read(m, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
       if (p.impulse == core::Vec3{}) continue;
       const Vec3d at(p.point);
@@ -51,7 +52,7 @@ class Unilateral final : public Validator {
       double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
       reach += arc_m(m, p, p.a) + arc_m(m, p, p.b);
       // A point that was found within the step is told where its surfaces were at the start.
-      if (detects_within_) reach = std::max(reach, way_m(m, p, p.a) + way_m(m, p, p.b));
+      if (finds_within_) reach = std::max(reach, way_m(m, p, p.a) + way_m(m, p, p.b));
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
       tally_.check(p.gap_m, {limit, "m", kOrigin}, Where::pair(m.step, p.a, p.b, "points.gap"), [&] {
         return "an impulse over a gap of " + number_text(p.gap_m) + " m that closes at " + number_text(approach) +
@@ -140,10 +141,11 @@ class Unilateral final : public Validator {
   static constexpr std::string_view kOrigin =
       "the declared margin, h times the approach speed with gravity, wrenches and turning, what an arc is off its "
       "tangent, and rounding; with substeps also what other impulses of the step drive";
+  const core::TraceHeader& header_;
   const core::Scene& scene_;
   double margin_m_;
   bool has_substeps_;
-  bool detects_within_;
+  bool finds_within_ = false;  // in the frame that it looks at
   WaysWithin ways_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> points_of_;   // by body
   std::map<std::pair<std::uint32_t, std::uint32_t>, Given> given_;  // by the bodies of the points

@@ -7,9 +7,16 @@
 #include <vector>
 
 #include "core/contact_point.hpp"
+#include "core/trace/frame.hpp"
+#include "core/trace/trace_header.hpp"
 #include "validation/mechanics/motion.hpp"
 
 namespace broadside::validation {
+
+// Whether points of this frame may have been found within the step: not where the trace says that it was taken at once.
+inline bool finds_within(const core::TraceHeader& header, const core::FrameRecord& frame) {
+  return frame.parts != 1 && header.declaration.text("detection_at") == "within";
+}
 
 // A body is at no moment of the step faster than it began, and what gravity and the magnitudes of all impulses on it
 // add to that; nor is its angular momentum larger than at first and with all their moments, which turns it the fastest

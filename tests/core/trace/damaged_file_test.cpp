@@ -119,8 +119,9 @@ TEST_F(DamagedFile, OfAnotherFormatVersion) {
 }
 
 TEST_F(DamagedFile, WithoutAnyOneOfItsDatasets) {
-  // What a trace may leave out (SCHEMA.md): an engine's own names of its points, and the orientation that was detected.
-  const std::set<std::string> optional{"/trace/point/feature", "/trace/detection/orientation"};
+  // What a trace may leave out (SCHEMA.md): an engine's own names of its points, in how many parts a step was taken,
+  // and the orientation that was detected.
+  const std::set<std::string> optional{"/trace/point/feature", "/trace/point/parts", "/trace/detection/orientation"};
   const std::string good = bytes();
   for (const RawItem& item : raw_items(path_)) {
     if (!is_read(item) || optional.contains(item.path)) continue;

@@ -172,11 +172,13 @@ inline core::FrameRecord random_frame(Bits& bits, std::uint64_t step, std::uint3
   }
   if (has(Group::kContacts))
     for (std::uint32_t i = rows(); i > 0; --i) f.contacts.push_back(random_contact(bits, bodies));
-  if (has(Group::kPoints))
+  if (has(Group::kPoints)) {
+    f.parts = bits.below(5);
     for (std::uint32_t i = rows(); i > 0; --i) {
       const core::Contact like = random_contact(bits, bodies);
       f.points.push_back({like.a, like.b, bits.vec(), bits.vec(), bits.real(), bits.vec(), bits.below(9)});
     }
+  }
   if (has(Group::kNarrow))
     for (std::uint32_t i = rows(); i > 0; --i) {
       f.measured.push_back(bits.pair(bodies));
@@ -220,6 +222,7 @@ inline std::string first_difference(const core::FrameRecord& p, const core::Fram
   if (!same_bits(p.proximity, q.proximity)) return "proximity";
   if (!same_bits(p.contacts, q.contacts)) return "contacts";
   if (!same_bits(p.points, q.points)) return "points";
+  if (p.parts != q.parts) return "parts";
   if (!same_bits(p.detected_orientation, q.detected_orientation)) return "detected_orientation";
   if (!same_bits(p.wide.position, q.wide.position)) return "wide.position";
   if (!same_bits(p.wide.orientation, q.wide.orientation)) return "wide.orientation";

@@ -34,5 +34,17 @@ TEST(WaysWithin, WhatIsFoundAtTheStartIsWhereItIsTold) {
   EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
 }
 
+// An engine that looks again only in some steps.
+TEST(WaysWithin, AStepThatWasTakenAtOnceHasNoOther) {
+  const auto by_parts = [](std::uint32_t parts) {
+    bench::Specimen r = pushed("within", 0.1 * kLimit);
+    r.frames.back().parts = parts;
+    return law("angular-momentum", r).outcome;
+  };
+  EXPECT_EQ(by_parts(0), core::Outcome::kPass);
+  EXPECT_EQ(by_parts(1), core::Outcome::kFail);
+  EXPECT_EQ(by_parts(2), core::Outcome::kPass);
+}
+
 }  // namespace
 }  // namespace broadside::tests
