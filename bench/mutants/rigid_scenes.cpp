@@ -101,7 +101,7 @@ Scene offset() {
 Scene fast_bodies() {
   Scene scene = world("rigid-fast", 20, 1.0F / 60.0F);
   scene.meshes = {ball(0.1), box(0.1, 4, 4)};
-  add(scene, 0, {-4.5F, 4, 0}, {60, 0, 0}, 1.0F);
+  add(scene, 0, {-4.5F, 4, 0}, {300, 0, 0}, 1.0F);
   add(scene, 1, {0, 4, 0}, {}, 0.0F);
   return scene;
 }

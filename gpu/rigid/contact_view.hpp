@@ -81,8 +81,9 @@ struct RigidCounts {
   std::uint32_t largest_coordinate = 0;
   std::uint32_t colors = 0;
   std::uint32_t bounces = 0;      // 1: a patch has restitution
-  std::uint32_t fastest_m_s = 0;  // a point of a body as the step begins, as a word
-  std::uint32_t mass_ratio = 0;   // the largest of two bodies that touch, as a word
+  std::uint32_t fastest_m_s = 0;  // core::Pace of the step, or of its part, as words
+  std::uint32_t stride = 0;
+  std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
   // Where all threads contribute to one number, in turns (team_sums.cuh).
   std::uint32_t largest[4][4] = {};
@@ -110,6 +111,14 @@ struct NearPair {
   std::uint32_t gaps = 0;
 };
 inline constexpr std::uint32_t kNoGaps = 0xFFFFFFFFU;
+
+// The host plans a step before it knows how fast the step begins. For these paces its plan is the right one; at others
+// the frame is repeated. As words: of a calm step 0, of others the stride, and no less than 1.
+struct PlannedPace {
+  std::uint32_t calm_m_s = 0;
+  std::uint32_t least = 0;
+  std::uint32_t most = 0xFFFFFFFFU;
+};
 
 // Fixed during a run, except for the pointers that are swapped after every step.
 struct ContactView {
@@ -165,6 +174,7 @@ struct ContactView {
   // then the frame is repeated.
   std::uint32_t side_limit = 0;
   std::uint32_t coordinate_limit = 0;
+  PlannedPace planned;
 };
 
 }  // namespace broadside::gpu

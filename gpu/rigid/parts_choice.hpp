@@ -2,56 +2,85 @@
 // twin.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <limits>
 
 #include "core/method/rigid/soft_settings.hpp"
 #include "core/method/rigid/step_in_parts.hpp"
-#include "core/scene/calm_bodies.hpp"
+#include "core/scene/pace.hpp"
 #include "gpu/rigid/rigid_view.hpp"
-#include "gpu/runtime/device_buffer.hpp"
 
 namespace broadside::gpu {
 
+// The device finds how fast a step begins while it takes the first part. So the plan is that of the step before; where
+// that is not the right one, the part is taken again.
 class PartsChoice {
  public:
   PartsChoice() = default;
-  PartsChoice(const core::SoftSettings& solver, const core::Scene& scene)
-      : solver_(solver), mass_ratio_(core::largest_mass_ratio(scene)) {}
+  PartsChoice(const core::SoftSettings& solver, const core::Scene& scene, bool are_swept)
+      : solver_(solver),
+        mass_ratio_(core::largest_mass_ratio(scene)),
+        are_swept_(are_swept),
+        plan_(core::plan_of_step(solver, mass_ratio_, false, 0.0F)) {}
 
-  // before: the states that the step begins with, which are read where the masses ask for it.
-  core::Status choose(const core::RigidBodies& bodies, const DeviceBuffer<core::RigidState>& before,
-                      const core::Scene& scene, float step_s) {
-    if (!core::is_uneven(solver_, mass_ratio_)) return core::Done{};
-    std::vector<core::RigidState> states;
-    BROADSIDE_TRY(before.download(states, bodies.state.size()));
-    is_calm_ = core::are_calm(bodies, states, scene.gravity_m_s2, step_s);
-    count_ = core::parts_of_step(solver_, mass_ratio_, is_calm_);
-    return core::Done{};
-  }
+  [[nodiscard]] std::uint32_t count() const { return plan_.parts; }
 
-  [[nodiscard]] std::uint32_t count() const { return count_; }
-  [[nodiscard]] bool may_be_many() const { return core::most_parts(solver_, mass_ratio_) > 1; }
-
-  // Of each part. The view has gravity and solver.
-  void fill(RigidFrameView& view, float step_s) const {
-    view.dt_s = step_s / static_cast<float>(count_);
+  // Of a part. The view has gravity and solver.
+  void fill(RigidFrameView& view, float step_s, bool is_first) const {
+    view.step_s = step_s;
+    view.dt_s = step_s / static_cast<float>(plan_.parts);
     for (const core::SolveKind kind : core::kSolveKinds) {
       const auto k = static_cast<std::size_t>(kind);
-      const core::SolveNumbers& numbers = core::solve_numbers(view.solver, kind, is_calm_);
+      const core::SolveNumbers numbers = core::solve_numbers(view.solver, kind, plan_);
       view.substeps[k] = numbers.substeps;
       view.soft[k] = core::soft_step_of(view.solver, view.gravity_m_s2, view.dt_s, numbers);
     }
+    const float calm_m_s = core::calm_speed_m_s(view.gravity_m_s2, step_s);
     // A step in several parts counts as lively, whatever its later parts begin with.
-    view.calm_m_s = count_ > 1 ? -1.0F : core::calm_speed_m_s(view.gravity_m_s2, step_s);
+    view.calm_m_s = plan_.parts > 1 ? -1.0F : calm_m_s;
+    view.planned = is_first ? planned(calm_m_s) : PlannedPace{};
+  }
+
+  // Plans the step anew, from what its first part told. Whether the plan was another one.
+  bool replan(const RigidCounts& told, const RigidFrameView& view) {
+    const core::Pace pace{from_word(told.fastest_m_s), from_word(told.stride)};
+    const core::StepPlan before = plan_;
+    plan_ = core::plan_of_step(solver_, mass_ratio_, core::is_calm(pace, view.gravity_m_s2, view.step_s),
+                               are_swept_ ? 0.0F : pace.stride);
+    return !(plan_ == before);
   }
 
  private:
+  static float from_word(std::uint32_t word) {
+    const auto v = std::bit_cast<float>(word);
+    return std::isfinite(v) ? v : std::numeric_limits<float>::infinity();
+  }
+
+  [[nodiscard]] PlannedPace planned(float calm_m_s) const {
+    PlannedPace right{std::bit_cast<std::uint32_t>(calm_m_s)};
+    if (plan_.is_uneven) {
+      if (plan_.is_calm) right.most = 0;
+      if (!plan_.is_calm) right.least = 1;
+      return right;
+    }
+    if (are_swept_) return right;
+    const core::PartsByStride& rule = solver_.even_parts;
+    const auto longest = [&](std::uint32_t parts) {
+      return std::bit_cast<std::uint32_t>(rule.stride * static_cast<float>(parts));
+    };
+    if (plan_.parts > 1) right.least = longest(plan_.parts / 2) + 1;
+    if (plan_.parts < rule.most) right.most = longest(plan_.parts);
+    return right;
+  }
+
   core::SoftSettings solver_;
   float mass_ratio_ = 1.0F;
-  bool is_calm_ = false;  // as the step begins
-  std::uint32_t count_ = 1;
+  bool are_swept_ = false;
+  core::StepPlan plan_;
 };
 
 }  // namespace broadside::gpu

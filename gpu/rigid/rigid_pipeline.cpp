@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/method/rigid/sleep.hpp"
-#include "core/method/rigid/step_in_parts.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "core/scene/rigid_bodies.hpp"
+#include "gpu/rigid/earlier_parts.hpp"
 #include "gpu/rigid/parts_choice.hpp"
 #include "gpu/rigid/rigid_buffers.hpp"
 #include "gpu/rigid/rigid_kernel.hpp"
@@ -60,9 +60,11 @@ struct RigidPipeline::Impl {
   std::uint64_t waits = 0;
   std::uint64_t steps_slept = 0;
   std::uint64_t launches = 0;
-  float dt_s = 0.0F;  // of the step
+  float dt_s = 0.0F;    // of the step
+  float part_s = 0.0F;  // of the last part that was kept
   PartsChoice parts;
-  core::StepInParts earlier_parts;
+  std::uint32_t part = 1;  // that is being taken
+  EarlierParts earlier_parts;
 
   [[nodiscard]] bool has_broad() const;
   [[nodiscard]] Start start() const;
@@ -75,7 +77,9 @@ struct RigidPipeline::Impl {
   core::Status launch_all();
   core::Result<bool> is_kept();
   // The frame is kept: the next one starts from the state that it ended in.
-  [[nodiscard]] RigidLeft left() const { return {bodies, buffers, pairs, last_pairs, last}; }
+  [[nodiscard]] RigidLeft left() const { return left_of(bodies, buffers, pairs, last_pairs, last); }
+  [[nodiscard]] bool was_in_parts() const { return parts.count() > 1 && steps > 0; }
+  core::Status read_back_joined(core::FrameRecord& frame, core::RecordLevel level) const;
   void take_frame();
 };
 
@@ -146,9 +150,9 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   d.scene = &scene;
   d.steps = d.repeats = d.patches_made = d.pairs_tested = d.last_pairs = 0;
   d.sweeps = d.bounce_sweeps = d.waits = d.steps_slept = d.launches = 0;
-  d.dt_s = 0.0F;
+  d.dt_s = d.part_s = 0.0F;
   d.last = {};
-  d.parts = PartsChoice(d.options.solver, scene);
+  d.parts = PartsChoice(d.options.solver, scene, !d.bodies.is_swept.empty());
   d.earlier_parts.begin();
   d.told.forget();
   d.times = {};
@@ -212,8 +216,10 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 
 void RigidPipeline::Impl::fill() {
   buffers.fill(view);
-  parts.fill(view, dt_s);
-  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, view.dt_s);
+  parts.fill(view, dt_s, part == 1);
+  view.sleep.speed_m_s = core::sleep_speed_m_s(scene->gravity_m_s2, dt_s);
+  view.sleep.decides = part == parts.count();
+  view.sleep.share = part_s > 0.0F ? view.dt_s / part_s : 1.0F;
   view.pairs = pairs.data();
   view.pair_capacity = pairs.capacity();
   view.broad_counters = broad_counters.data();
@@ -266,6 +272,7 @@ core::Result<bool> RigidPipeline::Impl::is_kept() {
   last = outcome[0].counts;
   if (last.is_aborted == 0) return true;
   ++repeats;
+  if (part == 1 && parts.replan(last, view)) return false;
   if (last.largest_side > view.side_limit || last.largest_coordinate > view.coordinate_limit) {
     BROADSIDE_TRY(refit(last));
     return false;
@@ -307,27 +314,29 @@ core::Status RigidPipeline::Impl::run_part() {
   }
   if (view.follows_ways) BROADSIDE_TRY(sweep.stop_short(view, view.after, stream));
   take_frame();
+  part_s = view.dt_s;
   return core::Done{};
 }
 
 core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
-  const std::uint32_t parts_before = d.parts.count();
-  BROADSIDE_TRY(d.parts.choose(d.bodies, d.buffers.before(), *d.scene, dt_s));
-  // What sleeping contacts go on giving holds for parts of one length only, so all bodies wake.
-  if (dt_s != d.dt_s || d.parts.count() != parts_before) BROADSIDE_TRY(d.buffers.wake_all());
+  // For how long bodies have been still is counted in steps of one length.
+  if (dt_s != d.dt_s) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
   d.times = {};
   d.earlier_parts.begin();
-  for (std::uint32_t part = 1; part <= d.parts.count(); ++part) {
+  for (d.part = 1;; ++d.part) {
     BROADSIDE_TRY(d.run_part());
-    if (part == d.parts.count()) break;
-    core::FrameRecord told;
-    BROADSIDE_TRY(read_back_rigid(d.left(), told));
-    d.earlier_parts.add(std::move(told));
+    if (d.part == d.parts.count()) break;
+    BROADSIDE_TRY(d.earlier_parts.keep(d.left(), d.stream));
   }
   ++d.steps;
   return core::Done{};
+}
+
+core::Status RigidPipeline::Impl::read_back_joined(core::FrameRecord& frame, core::RecordLevel level) const {
+  BROADSIDE_TRY(read_back_rigid(left(), frame));
+  return earlier_parts.join(bodies, frame, level);
 }
 
 core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
@@ -335,12 +344,9 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
   frame = {};
   frame.step = d.steps;
   frame.time_s = static_cast<double>(d.steps) * static_cast<double>(d.dt_s);
+  frame.parts = d.was_in_parts() ? d.parts.count() : 1;
+  if (d.was_in_parts()) return d.read_back_joined(frame, level);
   const RigidLeft left = d.left();
-  if (d.parts.count() > 1 && d.steps > 0) {
-    BROADSIDE_TRY(read_back_rigid(left, frame));
-    d.earlier_parts.join(frame, level);
-    return core::Done{};
-  }
   auto digest = rigid_digest_of(left, d.contact_shape, d.stream);
   if (!digest.ok()) return digest.error();
   frame.digest = digest.value();
@@ -350,10 +356,11 @@ core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLeve
 core::Result<core::DeviceFrame> RigidPipeline::frame_on_device() {
   Impl& d = *impl_;
   if (d.scene == nullptr) return core::Error{"it has no scene", "octree-gpu", "load one first", core::Exit::kInternal};
-  // Points of the parts before the last one are on the host by now.
-  if (d.parts.may_be_many())
-    return core::Error{"a step of this scene is taken in parts, whose points are put together on the host",
-                       "octree-gpu", "read the frame back, or give bodies whose masses are nearer to each other"};
+  if (d.was_in_parts()) {
+    core::FrameRecord joined;
+    BROADSIDE_TRY(d.read_back_joined(joined, core::RecordLevel::kFull));
+    return d.told.upload(joined, d.steps);
+  }
   return d.told.tell(d.left(), d.steps, d.stream);
 }
 
@@ -372,14 +379,15 @@ std::span<const core::StageTime> RigidPipeline::stage_times() const {
 
 std::vector<core::Counter> RigidPipeline::counters() const {
   const Impl& d = *impl_;
-  std::vector<core::Counter> counters{{"launches", d.launches},
-                                      {"level stage: pairs tested", d.pairs_tested},
-                                      {"contact patches", d.patches_made},
-                                      {"solver: sweeps", d.sweeps},
-                                      {"solver: sweeps of bounces", d.bounce_sweeps},
-                                      {"solver: waits", d.waits},
-                                      {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() +
-                                                           d.pairs.bytes() + d.sweep.bytes()}};
+  std::vector<core::Counter> counters{
+      {"launches", d.launches},
+      {"level stage: pairs tested", d.pairs_tested},
+      {"contact patches", d.patches_made},
+      {"solver: sweeps", d.sweeps},
+      {"solver: sweeps of bounces", d.bounce_sweeps},
+      {"solver: waits", d.waits},
+      {"device bytes", d.device_scene.bytes() + d.buffers.bytes() + d.broad.bytes() + d.pairs.bytes() +
+                           d.sweep.bytes() + d.earlier_parts.bytes()}};
   if (d.view.follows_ways) counters.push_back({"sweep: bodies stopped short", d.sweep.stopped()});
   if (d.options.sleeps) counters.push_back({"sleep: bodies asleep", d.steps_slept});
   return counters;

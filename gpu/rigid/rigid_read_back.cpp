@@ -25,13 +25,13 @@ core::Result<std::uint64_t> rigid_digest_of(const RigidLeft& left, const LaunchS
   view.body_count = static_cast<std::uint32_t>(left.bodies.state.size());
   view.confirmed_count = left.counts.confirmed;
   view.patch_count = left.counts.patches;
-  view.detected = left.buffers.after().data();
-  view.state = left.buffers.before().data();
+  view.detected = left.detected.data();
+  view.state = left.state.data();
   view.mass = mass.data();
   view.static_spin = spin.data();
-  view.confirmed = left.buffers.confirmed().data();
-  view.patches = left.buffers.patches().data();
-  view.impulses = left.buffers.impulses().data();
+  view.confirmed = left.confirmed.data();
+  view.patches = left.patches.data();
+  view.impulses = left.impulses.data();
   view.digest = sum.data();
   BROADSIDE_TRY(launch_rigid_digest(view, shape, stream));
   BROADSIDE_TRY(wait_for_stream(stream, "the digest"));
@@ -59,8 +59,8 @@ core::Status add_points(const RigidLeft& left, const std::vector<core::RigidStat
                         core::FrameRecord& frame) {
   std::vector<core::ContactPatch> patches;
   std::vector<Vec3> impulses;
-  BROADSIDE_TRY(left.buffers.patches().download(patches, left.counts.patches));
-  BROADSIDE_TRY(left.buffers.impulses().download(impulses, 4 * left.counts.patches));
+  BROADSIDE_TRY(left.patches.download(patches, left.counts.patches));
+  BROADSIDE_TRY(left.impulses.download(impulses, 4 * left.counts.patches));
   // Patches of one pair lie one after the other, in their order.
   std::vector<std::uint32_t> order(patches.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -85,9 +85,9 @@ core::Status read_back_rigid(const RigidLeft& left, core::FrameRecord& frame) {
   std::vector<core::RigidState> now;
   std::vector<core::RigidState> detected;
   std::vector<PackedBox> boxes;
-  BROADSIDE_TRY(left.buffers.before().download(now, n));
-  BROADSIDE_TRY(left.buffers.after().download(detected, n));
-  BROADSIDE_TRY(left.buffers.boxes().download(boxes, n));
+  BROADSIDE_TRY(left.state.download(now, n));
+  BROADSIDE_TRY(left.detected.download(detected, n));
+  BROADSIDE_TRY(left.boxes.download(boxes, n));
   for (std::uint32_t i = 0; i < n; ++i) {
     add_body(left.bodies, i, now[i], detected[i], frame);
     frame.boxes.push_back(unpack(boxes[i]));
@@ -95,7 +95,7 @@ core::Status read_back_rigid(const RigidLeft& left, core::FrameRecord& frame) {
   BROADSIDE_TRY(left.pairs.download(frame.pairs, left.pair_count));
   std::sort(frame.pairs.begin(), frame.pairs.end());
   frame.pairs_demanded = frame.pairs_raw = frame.pairs.size();
-  BROADSIDE_TRY(left.buffers.confirmed().download(frame.confirmed, left.counts.confirmed));
+  BROADSIDE_TRY(left.confirmed.download(frame.confirmed, left.counts.confirmed));
   std::sort(frame.confirmed.begin(), frame.confirmed.end());
   return add_points(left, detected, frame);
 }

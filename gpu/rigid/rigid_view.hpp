@@ -61,7 +61,8 @@ enum class SolveTeamKind : std::uint8_t { kGrid, kCluster };
 
 // Fixed during a run, except for the pointers that are swapped after every step.
 struct RigidFrameView : ContactView {
-  float dt_s = 0.0F;
+  float dt_s = 0.0F;    // of the step, or of its part
+  float step_s = 0.0F;  // of the whole step
   core::Vec3 gravity_m_s2;
   core::Material face_material;
   core::SoftSettings solver;

@@ -19,6 +19,8 @@ struct AsleepPatch {
 
 struct SleepView {
   float speed_m_s = 0.0F;             // below which a body is still; 0: nobody sleeps
+  bool decides = true;                // who falls asleep: the last part of a step
+  float share = 1.0F;                 // of what they gave in the part before, that sleeping contacts give in this one
   std::uint32_t* still = nullptr;     // [bodies] steps in a row
   std::uint32_t* island = nullptr;    // [bodies] of who sleeps: the lowest of its bodies
   std::uint32_t* parent = nullptr;    // [bodies] union-find over the patches of a step

@@ -47,6 +47,13 @@ class DeviceBuffer {
     return core::Done{};
   }
 
+  // Of another buffer, in the stream's turn. With room for more, because what is kept of one step is seldom as large as
+  // that of the next.
+  core::Status copy(const DeviceBuffer& from, std::size_t count, StreamHandle stream, const char* what) {
+    if (data_ == nullptr || count > capacity_) BROADSIDE_TRY(reserve(count + count / 4, what));
+    return count == 0 ? core::Status(core::Done{}) : copy_on_device(data_, from.data_, count * sizeof(T), stream);
+  }
+
   // Synchronizes: returns when the bytes are there.
   core::Status download(std::vector<T>& to, std::size_t count) const {
     to.resize(count);

@@ -69,6 +69,8 @@ constexpr Row kRows[] = {
      {.place =
           [](StagedPipeline& p, float h) {
             p.sound_place(h);
+            if (p.step_number() == p.last_placed) return;
+            p.last_placed = p.step_number();
             std::swap(p.bodies_.boxes, p.last_boxes);
             if (p.bodies_.boxes.empty()) p.bodies_.boxes = p.last_boxes;
           }}},

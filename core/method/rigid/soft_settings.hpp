@@ -43,6 +43,13 @@ struct SolveNumbers {
   float begins_of_small = 0.0F;
 };
 
+// In how many parts a lively step is taken by how far bodies move in it: in so few that no body's stride
+// (core/scene/pace.hpp) is longer in one of them, but in no more than `most`. Both are powers of two.
+struct PartsByStride {
+  std::uint32_t most = 1;
+  float stride = 0.25F;
+};
+
 // A step of a scene whose masses are further apart than SoftSettings::even_masses.
 struct UnevenStep {
   std::uint32_t parts = 1;  // equal ones, each of which detects anew
@@ -57,8 +64,12 @@ struct SoftSettings {
   // twice as many sweeps as to go on from where the push is kept, and it gained more energy. With 16 sweeps that
   // stop, 30,000 cubes that land gain too much.
   SolveNumbers even{4, 12, 0x1p-10F, 0x1p-5F, 6.0F, 24, 48, 0.25F, 0.25F, 1.0F};
-  // The same where nothing moves fast (core/scene/calm_bodies.hpp): what overlaps at rest parts without any speed.
+  // The same where nothing moves fast (core/scene/pace.hpp): what overlaps at rest parts without any speed.
   SolveNumbers even_calm{4, 12, 0x1p-10F, 0x1p-5F, 6.0F, 16, 48, 0.25F};
+  // Contacts that the start of a step shows tell little of where a thin body meets others once it has moved by its
+  // thickness: dominoes that land ended up to a tenth of it deep. The parts share the step's substeps, so contacts are
+  // detected more often and solved as often as in one.
+  PartsByStride even_parts{4, 0.25F};
   float even_masses = 64.0F;
   // A contact of a light body bears what a heavy one needs to stop. With a contact as stiff as the light body alone
   // allows, 8 kg at 9 m/s sank into 16 g by a quarter of its side, and sweeps that stop early leave as much. Parts,
@@ -67,7 +78,7 @@ struct SoftSettings {
   // Sweeps take back the push of a light body under a heavy one by the root of their ratio: with 48 a cube of 8 kg that
   // had come to rest on one of 16 g left it with 1.4 m/s.
   UnevenStep lively{4, {4, 1000, 1e-4F, 0x1p-5F, 200.0F, 24, 400}};
-  // The same where nothing moves fast (core/scene/calm_bodies.hpp). What is solved less well sways.
+  // The same where nothing moves fast (core/scene/pace.hpp). What is solved less well sways.
   UnevenStep calm{1, {4, 500, 0x1p-8F, 0x1p-5F, 200.0F, 24, 400}};
   // For a calm step of few patches. What stands by a small margin has few contacts (an arch of 25 stones has 26
   // joints), so stiffer contacts and more sweeps cost little there.
@@ -88,6 +99,7 @@ struct SoftSettings {
 inline SoftSettings soft_step_settings() {
   SoftSettings settings;
   settings.even = settings.even_calm = settings.few = {8, 1, 0x1p-10F, 0x1p-5F, 1.2F, 8, 0, 0.0F, 1.0F};
+  settings.even_parts.most = 1;
   // Sweeps that stop follow no direction, so there are more.
   settings.lively = settings.calm = {1, {32, 1, 0x1p-10F, 0x1p-5F, 1.2F, 32}};
   return settings;
@@ -116,8 +128,37 @@ struct MostOfStep {
   std::uint32_t applications = 0;
 };
 
-constexpr const UnevenStep& uneven_step(const SoftSettings& settings, bool is_calm) {
+BROADSIDE_HD constexpr const UnevenStep& uneven_step(const SoftSettings& settings, bool is_calm) {
   return is_calm ? settings.calm : settings.lively;
+}
+BROADSIDE_HD constexpr bool is_uneven(const SoftSettings& settings, float largest_mass_ratio) {
+  return largest_mass_ratio > settings.even_masses;
+}
+
+// How a step is taken.
+struct StepPlan {
+  std::uint32_t parts = 1;  // equal ones, each of which detects anew
+  bool is_uneven = false;   // masses are far apart
+  bool is_calm = false;     // of such masses: nothing moves fast as the step begins
+  friend bool operator==(const StepPlan&, const StepPlan&) = default;
+};
+
+BROADSIDE_HD constexpr std::uint32_t parts_for(const PartsByStride& rule, float stride) {
+  std::uint32_t parts = 1;
+  while (parts < rule.most && stride > rule.stride * static_cast<float>(parts)) parts *= 2;
+  return parts;
+}
+
+// is_calm: as the step begins. stride: the largest of the bodies that move; 0 where bodies are swept (sweep.hpp), which
+// stop on their way: with parts a bullet at 180 m/s passed cards that it drove into others.
+BROADSIDE_HD constexpr StepPlan plan_of_step(const SoftSettings& settings, float largest_mass_ratio, bool is_calm,
+                                             float stride) {
+  if (is_uneven(settings, largest_mass_ratio)) return {uneven_step(settings, is_calm).parts, true, is_calm};
+  return {is_calm ? 1U : parts_for(settings.even_parts, stride), false, false};
+}
+constexpr std::uint32_t most_parts(const SoftSettings& settings, float largest_mass_ratio) {
+  if (!is_uneven(settings, largest_mass_ratio)) return settings.even_parts.most;
+  return std::max(settings.lively.parts, settings.calm.parts);
 }
 
 // What a step, or its part, is solved with.
@@ -133,14 +174,14 @@ BROADSIDE_HD constexpr SolveKind solve_kind(const SoftSettings& settings, float 
   return patches <= settings.few_patches ? SolveKind::kFew : SolveKind::kEvenCalm;
 }
 
-constexpr const SolveNumbers& solve_numbers(const SoftSettings& settings, SolveKind kind, bool is_calm) {
-  if (kind == SolveKind::kUneven) return uneven_step(settings, is_calm).numbers;
+// Of each part of the step.
+constexpr SolveNumbers solve_numbers(const SoftSettings& settings, SolveKind kind, const StepPlan& plan) {
+  if (kind == SolveKind::kUneven) return uneven_step(settings, plan.is_calm).numbers;
   if (kind == SolveKind::kEvenCalm) return settings.even_calm;
-  return kind == SolveKind::kFew ? settings.few : settings.even;
-}
-
-constexpr bool is_uneven(const SoftSettings& settings, float largest_mass_ratio) {
-  return largest_mass_ratio > settings.even_masses;
+  if (kind == SolveKind::kFew) return settings.few;
+  SolveNumbers numbers = settings.even;
+  if (!plan.is_uneven) numbers.substeps = std::max(1U, numbers.substeps / plan.parts);
+  return numbers;
 }
 
 // Whether sweeps go on with pushes that are kept. Without gravity nothing says which are small.
@@ -150,15 +191,6 @@ constexpr bool stirs_pushes(const SolveNumbers& numbers, float gravity_m_s2) {
 // Whether pushes are taken back. soft-step keeps them, because its cost must be known ahead.
 constexpr bool takes_back_pushes(const SolveNumbers& numbers, float gravity_m_s2) {
   return numbers.sweeps > 1 && !stirs_pushes(numbers, gravity_m_s2);
-}
-
-// In how many parts a step is taken of bodies whose masses are so many times apart.
-constexpr std::uint32_t parts_of_step(const SoftSettings& settings, float largest_mass_ratio, bool is_calm) {
-  return is_uneven(settings, largest_mass_ratio) ? uneven_step(settings, is_calm).parts : 1;
-}
-constexpr std::uint32_t most_parts(const SoftSettings& settings, float largest_mass_ratio) {
-  return std::max(parts_of_step(settings, largest_mass_ratio, false),
-                  parts_of_step(settings, largest_mass_ratio, true));
 }
 
 inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_ratio, bool may_bounce) {
@@ -176,9 +208,11 @@ inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_
   const auto larger = [](const MostOfStep& a, const MostOfStep& b) {
     return MostOfStep{std::max(a.substeps, b.substeps), std::max(a.applications, b.applications)};
   };
-  const MostOfStep most =
-      larger(larger(most_of(1, settings.even), most_of(1, settings.even_calm)), most_of(1, settings.few));
-  if (!is_uneven(settings, largest_mass_ratio)) return most;
+  MostOfStep most = larger(larger(most_of(1, settings.even), most_of(1, settings.even_calm)), most_of(1, settings.few));
+  if (!is_uneven(settings, largest_mass_ratio)) {
+    most.substeps = std::max(most.substeps, settings.even_parts.most);
+    return most;
+  }
   const MostOfStep of_lively =
       larger(most_of(settings.lively.parts, settings.lively.numbers), most_of(settings.lively.parts, settings.even));
   return larger(larger(most, of_lively), most_of(settings.calm.parts, settings.calm.numbers));

@@ -5,6 +5,7 @@
 #include "core/method/rigid/motion_reach.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "core/method/rigid/sleep.hpp"
+#include "core/method/rigid/stride.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/grid/team.cuh"
@@ -34,6 +35,7 @@ __device__ inline void run_place(const RigidFrameView& f) {
   std::uint32_t side = 0;
   std::uint32_t coordinate = 0;
   std::uint32_t fastest = 0;
+  std::uint32_t stride = 0;
   for (std::uint64_t k = grid.rank(); k < f.body_count; k += grid.size()) {
     const auto i = static_cast<std::uint32_t>(k);
     const core::RigidState s = f.before[i];
@@ -60,8 +62,11 @@ __device__ inline void run_place(const RigidFrameView& f) {
     f.stirred[i] = 0;
     f.relaxed[i] = 0;
     f.shape_boxes[i] = shape_box;
-    if (mass.inverse_mass > 0.0F)
-      fastest = max(fastest, as_ordered(core::fastest_of_body_m_s(s, mass, shape.balls.outer_m)));
+    if (mass.inverse_mass > 0.0F) {
+      const float fastest_m_s = core::fastest_of_body_m_s(s, mass, shape.balls.outer_m);
+      fastest = max(fastest, as_ordered(fastest_m_s));
+      stride = max(stride, as_ordered(core::stride_of(fastest_m_s, shape.half_thickness_m, f.step_s)));
+    }
     f.boxes[i] = pack(box, i, mass.inverse_mass > 0.0F ? 0U : 1U);
     for (int axis = 0; axis < 3; ++axis) {
       side = max(side, as_ordered(box.max[axis] - box.min[axis]));
@@ -72,10 +77,12 @@ __device__ inline void run_place(const RigidFrameView& f) {
   side = warp_max(side);
   coordinate = warp_max(coordinate);
   fastest = warp_max(fastest);
+  stride = warp_max(stride);
   if (lane() != 0) return;
   if (side != 0) atomicMax(&f.counts->largest_side, side);
   if (coordinate != 0) atomicMax(&f.counts->largest_coordinate, coordinate);
   if (fastest != 0) atomicMax(&f.counts->fastest_m_s, fastest);
+  if (stride != 0) atomicMax(&f.counts->stride, stride);
 }
 
 }  // namespace broadside::gpu

@@ -59,7 +59,7 @@ __device__ void keep_asleep_patches(const Team& team, const RigidFrameView& f) {
       const std::uint64_t at = first + n;
       f.patches.items[at] = old.patch;
       for (std::uint32_t point = 0; point < core::kManifoldPoints; ++point) {
-        f.impulses[4 * at + point] = old.impulses[point];
+        f.impulses[4 * at + point] = f.sleep.share * old.impulses[point];
         f.memory.feature[4 * at + point] = old.feature[point];
         f.memory.impulse[4 * at + point] = old.remembered[point];
       }
@@ -129,7 +129,7 @@ __device__ void find_restless(const Team& team, const RigidFrameView& f) {
     const float outer_m = f.shapes[f.shape_of_body[i]].balls.outer_m;
     const std::uint32_t still = core::still_steps(f.sleep.still[i], f.after[i], f.mass[i], outer_m, f.sleep.speed_m_s);
     f.sleep.still[i] = still;
-    if (still < core::still_steps_to_sleep(outer_m, f.gravity_m_s2, f.dt_s)) f.sleep.restless[root_of(f, i)] = 1;
+    if (still < core::still_steps_to_sleep(outer_m, f.gravity_m_s2, f.step_s)) f.sleep.restless[root_of(f, i)] = 1;
   }
   if (asleep != 0) atomicAdd(&f.counts->asleep_bodies, static_cast<unsigned long long>(asleep));
 }
@@ -174,17 +174,19 @@ __device__ inline void run_fall_asleep(const RigidFrameView& f) {
   const GridTeam grid(f.barrier);
   if (f.counts->told_is_aborted != 0) return;
   const std::uint64_t patches = f.counts->told_patches;
-  for (std::uint64_t i = grid.rank(); i < f.body_count; i += grid.size()) {
-    f.sleep.parent[i] = static_cast<std::uint32_t>(i);
-    f.sleep.restless[i] = 0;
+  if (f.sleep.decides) {
+    for (std::uint64_t i = grid.rank(); i < f.body_count; i += grid.size()) {
+      f.sleep.parent[i] = static_cast<std::uint32_t>(i);
+      f.sleep.restless[i] = 0;
+    }
+    grid.sync();
+    join_touching(grid, f, patches);
+    grid.sync();
+    find_restless(grid, f);
+    grid.sync();
+    fall_asleep(grid, f);
+    grid.sync();
   }
-  grid.sync();
-  join_touching(grid, f, patches);
-  grid.sync();
-  find_restless(grid, f);
-  grid.sync();
-  fall_asleep(grid, f);
-  grid.sync();
   note_asleep_patches(grid, f, patches);
   grid.sync();
   if (grid.rank() != 0) return;

@@ -25,10 +25,12 @@ struct RigidStep {
   core::Material face_material;
   core::Vec3 gravity_m_s2;
   float dt_s = 0.0F;
-  // By body, or empty: 1 = asleep. The patches of a sleeping body are those of the step before, and give the same
-  // impulses again. No awake body has a patch with it.
+  // By body, or empty: 1 = asleep. The patches of a sleeping body are those of the step before, and give this share of
+  // the impulses that they gave there. No awake body has a patch with it.
   std::span<const std::uint8_t> asleep;
-  bool is_calm = false;  // as the step began: core::are_calm
+  float asleep_share = 1.0F;
+  bool is_calm = false;  // as the step began: core::is_calm
+  core::StepPlan plan;   // of the step that this is, or is a part of
 };
 
 // Of one patch, by point: N s on A, of the whole step.
@@ -50,9 +52,8 @@ class ContactSolver {
   virtual void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                        const RigidStep& step) = 0;
 
-  // Into how many equal parts, each with its own call of advance, it wants a step to be cut in a scene whose masses are
-  // this many times apart. is_calm: as the step begins.
-  [[nodiscard]] virtual std::uint32_t parts_of_step(float largest_mass_ratio, bool is_calm) const = 0;
+  // How it wants a step to be taken, with a call of advance for each part; as core::plan_of_step.
+  [[nodiscard]] virtual core::StepPlan plan_of_step(float largest_mass_ratio, bool is_calm, float stride) const = 0;
 
   // The impulses of the last step, by patch.
   [[nodiscard]] virtual std::span<const PatchImpulses> impulses() const = 0;

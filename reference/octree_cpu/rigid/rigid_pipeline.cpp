@@ -16,7 +16,7 @@
 #include "core/method/rigid/sleep.hpp"
 #include "core/method/rigid/told_point.hpp"
 #include "core/method/rigid/turned_box.hpp"
-#include "core/scene/calm_bodies.hpp"
+#include "core/scene/pace.hpp"
 #include "core/scene/refuse_springs.hpp"
 #include "reference/octree_cpu/parallel_sum.hpp"
 #include "reference/octree_cpu/rigid/push_stage.hpp"
@@ -48,11 +48,11 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   bodies_ = std::move(bodies).value();
   solver_ = options_.make_solver(scene);
   mass_ratio_ = core::largest_mass_ratio(scene);
-  parts_ = 1;
+  plan_ = {};
   earlier_parts_.begin();
   sleepers_.load(bodies_);
   last_patches_.clear();
-  dt_s_ = 0.0F;
+  dt_s_ = part_s_ = 0.0F;
   steps_ = 0;
   candidates_ = {};
   confirmed_.clear();
@@ -69,19 +69,21 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 }
 
 core::Status RigidPipeline::step(float dt_s) {
-  const std::uint32_t parts_before = parts_;
-  is_calm_ = core::are_calm(bodies_, bodies_.state, scene_->gravity_m_s2, dt_s);
-  parts_ = solver_->parts_of_step(mass_ratio_, is_calm_);
-  // What sleeping contacts go on giving holds for parts of one length only, so all bodies wake.
-  if (dt_s != dt_s_ || parts_ != parts_before) sleepers_.wake_all();
-  const float part_s = dt_s / static_cast<float>(parts_);
+  const core::Pace pace = core::pace_of(bodies_, bodies_.state, dt_s);
+  is_calm_ = core::is_calm(pace, scene_->gravity_m_s2, dt_s);
+  plan_ = solver_->plan_of_step(mass_ratio_, is_calm_, bodies_.is_swept.empty() ? pace.stride : 0.0F);
+  // For how long bodies have been still is counted in steps of one length.
+  if (dt_s != dt_s_) sleepers_.wake_all();
+  const float part_s = dt_s / static_cast<float>(plan_.parts);
   times_ = {};
   earlier_parts_.begin();
-  for (std::uint32_t part = 1; part <= parts_; ++part) {
+  for (std::uint32_t part = 1; part <= plan_.parts; ++part) {
     core::Status status = core::Done{};
-    threads_->arena.execute([&] { status = run_stages(part_s); });
+    const bool is_last = part == plan_.parts;
+    threads_->arena.execute([&] { status = run_stages(part_s, is_last ? dt_s : 0.0F); });
     if (!status) return status;
-    if (part == parts_) break;
+    part_s_ = part_s;
+    if (is_last) break;
     core::FrameRecord frame;
     read_back_part(frame, core::RecordLevel::kFull);
     earlier_parts_.add(std::move(frame));
@@ -91,7 +93,7 @@ core::Status RigidPipeline::step(float dt_s) {
   return core::Done{};
 }
 
-core::Status RigidPipeline::run_stages(float dt_s) {
+core::Status RigidPipeline::run_stages(float dt_s, float ended_step_s) {
   StageClock clock(times_);
   place(dt_s);
   clock.lap(core::Stage::kIntegrate);
@@ -105,7 +107,7 @@ core::Status RigidPipeline::run_stages(float dt_s) {
   touch_faces();
   clock.lap(core::Stage::kFaces);
   respond(dt_s);
-  if (options_.sleeps) fall_asleep(dt_s);
+  if (options_.sleeps && ended_step_s > 0.0F) fall_asleep(ended_step_s);
   if (!bodies_.is_swept.empty())
     if (core::Status s = stop_short(); !s) return s;
   tell_points();
@@ -190,8 +192,17 @@ void RigidPipeline::keep_sleeping_patches() {
 }
 
 void RigidPipeline::respond(float dt_s) {
-  const RigidStep step{bodies_.mass, bodies_.material,   bodies_.wrench, scene_->face_material, scene_->gravity_m_s2,
-                       dt_s,         sleepers_.asleep(), is_calm_};
+  const float asleep_share = part_s_ > 0.0F ? dt_s / part_s_ : 1.0F;
+  const RigidStep step{bodies_.mass,
+                       bodies_.material,
+                       bodies_.wrench,
+                       scene_->face_material,
+                       scene_->gravity_m_s2,
+                       dt_s,
+                       sleepers_.asleep(),
+                       asleep_share,
+                       is_calm_,
+                       plan_};
   solver_->advance(bodies_.state, patches_, step);
 }
 
@@ -252,11 +263,12 @@ std::uint64_t RigidPipeline::digest() const {
 }
 
 core::Status RigidPipeline::read_back(core::FrameRecord& frame, core::RecordLevel level) {
-  const bool is_in_parts = parts_ > 1 && steps_ > 0;
+  const bool is_in_parts = plan_.parts > 1 && steps_ > 0;
   read_back_part(frame, is_in_parts ? core::RecordLevel::kFull : level);
   frame.step = steps_;
   frame.time_s = static_cast<double>(steps_) * static_cast<double>(dt_s_);
   if (is_in_parts) earlier_parts_.join(frame, level);
+  frame.parts = steps_ > 0 ? plan_.parts : 1;
   if (level == core::RecordLevel::kFull) record(frame);
   return core::Done{};
 }

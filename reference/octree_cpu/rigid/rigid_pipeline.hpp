@@ -88,7 +88,8 @@ class RigidPipeline : public core::Dynamics {
 
  private:
   // A step, or a part of one.
-  core::Status run_stages(float dt_s);
+  // Of a part of a step. ended_step_s: the length of the step that it ends; 0 where it ends none.
+  core::Status run_stages(float dt_s, float ended_step_s);
   void read_back_part(core::FrameRecord& frame, core::RecordLevel level);
   [[nodiscard]] std::uint64_t digest() const;
   void keep_sleeping_patches();
@@ -103,10 +104,11 @@ class RigidPipeline : public core::Dynamics {
   std::array<core::StageTime, core::kStageCount> times_{};
   std::vector<core::ContactPatch> last_patches_;  // of the step before, where bodies sleep
   float dt_s_ = 0.0F;                             // of the step
+  float part_s_ = 0.0F;                           // of the last part that was taken
   std::uint64_t steps_ = 0;
   float mass_ratio_ = 1.0F;  // core::largest_mass_ratio
   bool is_calm_ = false;     // as the step began
-  std::uint32_t parts_ = 1;  // of the step
+  core::StepPlan plan_;      // of the step
   core::StepInParts earlier_parts_;
 };
 

@@ -72,15 +72,15 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, c
   work_.each_range([&](const TileRange& range) { kernels_.end_substep(range); });
 }
 
-std::uint32_t SoftSolver::parts_of_step(float largest_mass_ratio, bool is_calm) const {
-  return core::parts_of_step(settings_, largest_mass_ratio, is_calm);
+core::StepPlan SoftSolver::plan_of_step(float largest_mass_ratio, bool is_calm, float stride) const {
+  return core::plan_of_step(settings_, largest_mass_ratio, is_calm, stride);
 }
 
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                          const RigidStep& step) {
   const core::SolveKind kind =
       core::solve_kind(settings_, largest_mass_ratio(patches, step.masses), patches.size(), step.is_calm);
-  const core::SolveNumbers& solve = core::solve_numbers(settings_, kind, step.is_calm);
+  const core::SolveNumbers solve = core::solve_numbers(settings_, kind, step.plan);
   const core::SoftStep numbers = core::soft_step_of(settings_, step.gravity_m_s2, step.dt_s, solve);
   work_.begin(states, patches, step, numbers, settings_.limits);
   for (std::uint32_t k = 0; k < solve.substeps; ++k) substep(step, numbers, kind);

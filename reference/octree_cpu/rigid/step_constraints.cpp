@@ -42,7 +42,8 @@ void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c
 
 // The patches that are to be solved. Notes the impulses that the others go on with.
 std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const core::ContactPatch> patches,
-                                                              std::span<const std::uint8_t> asleep) {
+                                                              const RigidStep& step) {
+  const std::span<const std::uint8_t> asleep = step.asleep;
   awake_patches_.clear();
   awake_.clear();
   asleep_.clear();
@@ -61,6 +62,7 @@ std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const co
       continue;
     }
     AsleepPatch kept{k, impulses_[last], {}};
+    for (core::Vec3& impulse : kept.given) impulse = step.asleep_share * impulse;
     const auto points = memory_.of_patch(last);
     std::copy(points.begin(), points.end(), kept.remembered.begin());
     asleep_.push_back(kept);
@@ -77,7 +79,7 @@ void StepConstraints::begin(std::span<const core::RigidState> states, std::span<
   each_body([&](std::size_t i) {
     bodies_[i] = is_asleep(i) ? core::SolverBody{} : core::solver_body(states[i], step.masses[i]);
   });
-  const std::span<const core::ContactPatch> patches = awake_of(given, step.asleep);
+  const std::span<const core::ContactPatch> patches = awake_of(given, step);
   stirred_.assign(bodies_.size(), 0);
   sweep_ = 0;
   coloring_.color(patches, step.masses);

@@ -80,7 +80,7 @@ class StepConstraints {
                    [&](std::size_t begin, std::size_t end) { work(tiles_.range(begin, end, bodies_.data())); });
   }
   [[nodiscard]] std::span<const core::ContactPatch> awake_of(std::span<const core::ContactPatch> patches,
-                                                             std::span<const std::uint8_t> asleep);
+                                                             const RigidStep& step);
   void recall(const core::ContactPatch& patch, core::PatchConstraint& c) const;
   // work(index) for the indices of each color; a color's indices end where those of the next begin.
   template <typename Work>

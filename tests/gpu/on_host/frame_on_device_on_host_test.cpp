@@ -85,22 +85,22 @@ TEST(FrameOnDeviceOnHost, OfTranslatingBodiesIsWhatIsReadBack) {
   EXPECT_GT(pairs_seen, 0U);
 }
 
-TEST(FrameOnDeviceOnHost, OfTurningBodiesIsWhatIsReadBack) {
-  auto made = datasets::make_scene("rigid:tip:push-tips", {});
-  ASSERT_TRUE(made.ok());
-  const core::Scene scene = std::move(made).value();
+// Returns how many parts its steps had at most.
+std::uint32_t expect_what_is_read_back(const core::Scene& scene, int steps) {
   PipelineByMotion pipeline = octree_gpu();
-  ASSERT_TRUE(pipeline.load(scene).ok());
+  EXPECT_TRUE(pipeline.load(scene).ok());
   std::size_t points_seen = 0;
-  for (int step = 0; step <= 5; ++step) {
+  std::uint32_t most_parts = 0;
+  for (int step = 0; step <= steps; ++step) {
     SCOPED_TRACE(step);
     if (step > 0) {
-      ASSERT_TRUE(pipeline.step(scene.dt_s).ok());
+      EXPECT_TRUE(pipeline.step(scene.dt_s).ok());
     }
     auto there = pipeline.frame_on_device();
     core::FrameRecord frame;
-    ASSERT_TRUE(pipeline.read_back(frame, core::RecordLevel::kFull).ok());
-    ASSERT_TRUE(there.ok());
+    EXPECT_TRUE(pipeline.read_back(frame, core::RecordLevel::kFull).ok());
+    EXPECT_TRUE(there.ok());
+    if (!there.ok()) return 0;
     EXPECT_TRUE(column<core::Vec3>(there.value(), "body/position") == frame.position);
     EXPECT_TRUE(column<core::Quat>(there.value(), "body/orientation") == frame.orientation);
     EXPECT_TRUE(column<core::Vec3>(there.value(), "body/velocity") == frame.velocity);
@@ -111,8 +111,25 @@ TEST(FrameOnDeviceOnHost, OfTurningBodiesIsWhatIsReadBack) {
     for (const core::DeviceColumn& c : there.value().columns)
       EXPECT_EQ(c.row_bytes, c.width * sizeof(float)) << c.path << ": JAX takes packed rows alone";
     points_seen += frame.points.size();
+    most_parts = std::max(most_parts, frame.parts);
   }
   EXPECT_GT(points_seen, 0U);
+  return most_parts;
+}
+
+TEST(FrameOnDeviceOnHost, OfTurningBodiesIsWhatIsReadBack) {
+  auto made = datasets::make_scene("rigid:tip:push-tips", {});
+  ASSERT_TRUE(made.ok());
+  EXPECT_EQ(expect_what_is_read_back(made.value(), 5), 1U);
+}
+
+// Whose parts are put together on the host.
+TEST(FrameOnDeviceOnHost, OfAStepInPartsIsWhatIsReadBack) {
+  auto made = datasets::make_scene("rigid:stack:5", {});
+  ASSERT_TRUE(made.ok());
+  core::Scene scene = std::move(made).value();
+  for (core::Body& body : scene.bodies) body.velocity = {1.0F, -30.0F, 0.0F};
+  EXPECT_EQ(expect_what_is_read_back(scene, 3), 4U);
 }
 
 TEST(FrameOnDeviceOnHost, IsMadeOnceAStepAndAgainOfAnotherScene) {

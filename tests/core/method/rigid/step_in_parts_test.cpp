@@ -13,11 +13,32 @@ TEST(StepInParts, MassesOfWhatMovesAreCompared) {
   EXPECT_EQ(largest_mass_ratio(scene), 1.0F);
   for (const float inverse : {0.0F, 2.0F, 0.25F, 1.0F}) scene.bodies.emplace_back().inverse_mass = inverse;
   EXPECT_EQ(largest_mass_ratio(scene), 8.0F);
-  EXPECT_EQ(parts_of_step({}, 64.0F, false), 1U);
-  EXPECT_EQ(parts_of_step({}, 65.0F, false), 4U);
-  EXPECT_EQ(parts_of_step({}, 65.0F, true), 1U);
+  const SoftSettings settings;
+  EXPECT_EQ(plan_of_step(settings, 64.0F, false, 0.0F).parts, 1U);
+  EXPECT_EQ(plan_of_step(settings, 65.0F, false, 0.0F).parts, 4U);
+  EXPECT_EQ(plan_of_step(settings, 65.0F, true, 9.0F).parts, 1U);
   // Its cost is to be known ahead.
   EXPECT_EQ(most_parts(soft_step_settings(), 1000.0F), 1U);
+  EXPECT_EQ(most_parts(soft_step_settings(), 1.0F), 1U);
+}
+
+TEST(StepInParts, NoBodyMovesFarForItsThicknessInOneOfThem) {
+  const SoftSettings settings;
+  const auto parts = [&](float stride) { return plan_of_step(settings, 1.0F, false, stride).parts; };
+  EXPECT_EQ(parts(0.25F), 1U);
+  EXPECT_EQ(parts(0.26F), 2U);
+  EXPECT_EQ(parts(0.5F), 2U);
+  EXPECT_EQ(parts(0.51F), 4U);
+  EXPECT_EQ(parts(1e9F), 4U);
+  EXPECT_EQ(plan_of_step(settings, 1.0F, true, 9.0F).parts, 1U);
+  // They share the substeps of the step.
+  for (const float stride : {0.1F, 0.3F, 2.0F}) {
+    const StepPlan plan = plan_of_step(settings, 1.0F, false, stride);
+    EXPECT_EQ(plan.parts * solve_numbers(settings, SolveKind::kEven, plan).substeps, settings.even.substeps);
+  }
+  // Where masses are far apart each part has all of them.
+  EXPECT_EQ(solve_numbers(settings, SolveKind::kEven, plan_of_step(settings, 65.0F, false, 0.0F)).substeps,
+            settings.even.substeps);
 }
 
 // One body that is a meter further, and a quarter turn about y on, in the second part.

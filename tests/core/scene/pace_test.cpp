@@ -1,8 +1,9 @@
-// Bodies that are slow as a step begins.
-#include "core/scene/calm_bodies.hpp"
+// How fast a step begins.
+#include "core/scene/pace.hpp"
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 namespace broadside::core {
@@ -24,10 +25,10 @@ bool is_calm_at(Vec3 v, Vec3 angular_momentum, Vec3 gravity_m_s2 = kDown) {
   states[0].v = v;
   states[0].angular_momentum = angular_momentum;
   states[1].v = {100, 0, 0};
-  return are_calm(bodies, states, gravity_m_s2, kStep_s);
+  return is_calm(pace_of(bodies, states, kStep_s), gravity_m_s2, kStep_s);
 }
 
-TEST(CalmBodies, ThoseWhoseFastestPointGravityMakesAsFastInTwoSteps) {
+TEST(Pace, IsCalmWhereGravityMakesTheFastestPointAsFastInTwoSteps) {
   EXPECT_TRUE(is_calm_at({}, {}));
   EXPECT_TRUE(is_calm_at({0.19F, 0, 0}, {}));
   EXPECT_FALSE(is_calm_at({0.21F, 0, 0}, {}));
@@ -37,9 +38,30 @@ TEST(CalmBodies, ThoseWhoseFastestPointGravityMakesAsFastInTwoSteps) {
 }
 
 // Without gravity nothing says how slow is slow, but what stands still is.
-TEST(CalmBodies, WithoutGravityThoseThatStandStill) {
+TEST(Pace, WithoutGravityIsCalmWhereAllStandsStill) {
   EXPECT_TRUE(is_calm_at({}, {}, {}));
   EXPECT_FALSE(is_calm_at({0.001F, 0, 0}, {}, {}));
+}
+
+// Of the thinner of two bodies, where the other one is faster.
+TEST(Pace, AStrideIsCountedInHalfThicknesses) {
+  RigidBodies bodies;
+  bodies.mass.resize(3);
+  bodies.mass[0].inverse_mass = bodies.mass[1].inverse_mass = 1.0F;
+  bodies.shapes.resize(2);
+  bodies.shapes[0].half_thickness_m = 0.02F;
+  bodies.shapes[1].half_thickness_m = 0.5F;
+  bodies.shape = {0, 1, 0};
+  std::vector<RigidState> states(3);
+  states[0].v = {0, -3, 0};
+  states[1].v = {0, -5, 0};
+  states[2].v = {100, 0, 0};
+  const Pace pace = pace_of(bodies, states, kStep_s);
+  EXPECT_EQ(pace.fastest_m_s, 5.0F);
+  EXPECT_NEAR(pace.stride, 1.5F, 1e-6F);
+  states[1].v.x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(pace_of(bodies, states, kStep_s).stride, std::numeric_limits<float>::infinity());
+  EXPECT_FALSE(is_calm(pace_of(bodies, states, kStep_s), kDown, kStep_s));
 }
 
 }  // namespace
