@@ -148,7 +148,8 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
     if (of == Stirred::kBouncing && has_sweeps && solve.forgets_blows) since = solve.sweep;
     if (has_sweeps) relax_until_done(team, f, solve, of, done);
     if (of == Stirred::kBouncing) {
-      if (!(fastest > 0.0F)) return;
+      // Sweeps over what pushes left may meet what came fast, too.
+      if (!(fastest > 0.0F) && !solve.may_bounce) return;
       if (has_sweeps) bounce_all(team, f, solve, fastest, done);
       break;
     }

@@ -111,6 +111,11 @@ TEST(RigidOnHost, AStepInParts) {
   EXPECT_GT(compare("rigid:stack:1000-on-1", 3), 0U);
 }
 
+// In step 142 sweeps over what pushes left are the first to give an impulse to a point that came fast.
+TEST(RigidOnHost, WhatCameFastIsMetWhilePushesAreSwept) {
+  EXPECT_GT(compare("freefall:brick:200[rigid=1]", 142), 0U);
+}
+
 // Thin bodies that come down: the plan of a step is that of the step before, and where it is not the right one the step
 // is begun again. With bodies that sleep, too.
 TEST(RigidOnHost, StepsInPartsByHowFarBodiesMove) {
