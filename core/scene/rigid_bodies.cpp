@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -89,8 +91,20 @@ Box box_of(const ContactShape& shape, const VertexTreeView& vertices) {
   return box;
 }
 
-// A ball about the center of mass inside the shape, where its closed form tells one; else none.
+// The distance of the center of mass from the nearest face.
+float inner_ball_of_hull_m(const HullView& hull, Vec3 center) {
+  double inner = std::numeric_limits<double>::infinity();
+  for (const HullFace& face : std::span(hull.faces, hull.face_count)) {
+    const double along = static_cast<double>(face.normal.x) * center.x + static_cast<double>(face.normal.y) * center.y +
+                         static_cast<double>(face.normal.z) * center.z;
+    inner = std::min(inner, face.offset_m + along);
+  }
+  return std::max(0.0F, std::nextafterf(static_cast<float>(inner), 0.0F));
+}
+
+// A ball about the center of mass inside the shape, where its closed form or its faces tell one; else none.
 float inner_ball_m(const ContactShape& s) {
+  if (s.kind == ContactKind::kHull) return inner_ball_of_hull_m(s.hull, s.center);
   const float off = length(s.center);
   float inner = 0.0F;
   if (s.kind == ContactKind::kBox) inner = std::min({s.half.x, s.half.y, s.half.z});

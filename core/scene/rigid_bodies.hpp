@@ -30,8 +30,8 @@ struct RigidShape {
   NodeBoxes nodes;       // from the center of mass, body axes
   BodyOctree octree;     // of the vertices of a hull or mesh, mesh coordinates; else none
   ShapeBalls balls;
-  // Of the ball inside; of a hull or mesh, whose inside nobody knows, a quarter of half of its box's shortest side,
-  // which is less than most ears and legs.
+  // Of the ball inside. Of a mesh that is not convex, whose inside nobody knows, a quarter of half of its box's
+  // shortest side, which is less than most ears and legs.
   float half_thickness_m = 0.0F;
 
   [[nodiscard]] VertexTreeView vertices() const {
