@@ -80,9 +80,13 @@ BROADSIDE_HD constexpr float sum_with_rest(float a, float b, float& rest) {
 
 // The sum of q and dq, of length 1. The change is computed whole before it is added, and what the addition rounds away
 // is kept; so the error of a step is that of the change, far below an ulp of q. An error of the length alone turns
-// nothing, so 1 / sqrt(1 + e) to second order is enough; e is the fifth order of the turn.
+// nothing, so 1 / sqrt(1 + e) to second order is enough; e is the fifth order of the turn. But the axes of a body, and
+// with them normals, are off by four times what the length is off, so by how much is found in double: in float32 the
+// square is rounded as coarsely as the length itself, and normals were not of length 1 to within four ulps.
 BROADSIDE_HD constexpr RestedQuat moved_on_sphere(RestedQuat s, Quat dq) {
-  const float e = (dot(s.q, s.q) - 1.0F) + (2.0F * dot(s.q, dq) + dot(dq, dq));
+  const auto square = [](float x) { return static_cast<double>(x) * x; };
+  const double squares = ((square(s.q.w) + square(s.q.x)) + square(s.q.y)) + square(s.q.z);
+  const float e = static_cast<float>(squares - 1.0) + (2.0F * dot(s.q, dq) + dot(dq, dq));
   const float shrink = e * (0.375F * e - 0.5F);
   const Quat change = s.rest + (dq + shrink * (s.q + dq));
   RestedQuat moved;
