@@ -75,8 +75,9 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
     witness = {middle_of(crossing.on_a, crossing.on_b, axis.normal, axis.gap_m, false), axis.gap_m,
                feature_key(edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
                            edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)))};
-  } else if (!is_shown && axis.gap_m <= 0.0F) {
-    // Where boxes overlap the deepest corner is over the face, whatever rounding says.
+  } else if (!is_shown && axis.gap_m <= 0.0F && (area.count > 0 || axis.gap_m < -2.0F * rounding_m)) {
+    // Where boxes overlap the deepest corner is over the face, whatever rounding says; unless they just touch, edge at
+    // edge, and rounding alone says that they overlap. Then it may lie a whole side beside the face.
     has_witness = true;
     witness = {(view.reference.middle + deepest.u * view.reference.u) +
                    (deepest.w * view.reference.w + (0.5F * deepest.gap_m) * outward),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
 #include "tests/core/method/rigid/manifold_cases.hpp"
 
@@ -233,6 +234,38 @@ TEST(BoxManifolds, OfFacesOverEachOtherHaveAllTheirPoints) {
   EXPECT_EQ(both.own.count, 4);
   EXPECT_EQ(both.general.count, 4);
   EXPECT_TRUE(both.show_faces());
+}
+
+// How far outside the box the point is along an axis of it.
+float outside_m(const Subject& box, Vec3 p) {
+  const Vec3 at = turned_back(turned_axes(box.pose.q), p - box.pose.x);
+  return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) - box.shape.half.x;
+}
+
+// Cubes that lie askew on each other's edges, as far along the edge as it is long, and overlap by rounding or not. The
+// corner that is deepest then may lie beside the other cube.
+TEST(BoxManifold, PointsOfEdgesThatJustTouchAreOnBothCubes) {
+  Draw draw(3);
+  Subject a = box({0.5F, 0.5F, 0.5F});
+  Subject b = a;
+  int found_points = 0;
+  for (int trial = 0; trial < 400000; ++trial) {
+    const float tilt = std::pow(10.0F, draw.between(-5.0F, -3.0F));
+    const float off = std::pow(10.0F, draw.between(-7.0F, -4.0F));
+    a.pose = {draw.in_cube(10.0F), tilted(draw, {}, tilt)};
+    b.pose = {
+        a.pose.x + Vec3{1.0F + draw.between(-off, off), 1.0F + draw.between(-off, off), draw.between(-1.0F, 1.0F)},
+        tilted(draw, {}, tilt)};
+    Manifold found[kPatchesOfPair];
+    const int count = make_manifolds(a.shape, a.pose, b.shape, b.pose, 0.001F, found);
+    for (int k = 0; k < count; ++k)
+      for (int n = 0; n < found[k].count; ++n) {
+        const Vec3 p = a.pose.x + found[k].points[n].point;
+        ++found_points;
+        ASSERT_LT(std::max(outside_m(a, p), outside_m(b, p)), 0.01F) << text_of(a) << "\n" << text_of(b);
+      }
+  }
+  EXPECT_GT(found_points, 400000);
 }
 
 }  // namespace
