@@ -244,7 +244,7 @@ float outside_m(const Subject& box, Vec3 p) {
 
 // Cubes that lie askew on each other's edges, as far along the edge as it is long, and overlap by rounding or not. The
 // corner that is deepest then may lie beside the other cube.
-TEST(BoxManifold, PointsOfEdgesThatJustTouchAreOnBothCubes) {
+TEST(BoxManifolds, OfEdgesThatJustTouchHaveTheirPointsOnBothCubes) {
   Draw draw(3);
   Subject a = box({0.5F, 0.5F, 0.5F});
   Subject b = a;
