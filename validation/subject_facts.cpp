@@ -39,7 +39,7 @@ std::string lacking_impulses(const core::TraceHeader& header) {
 }
 
 std::string lacking(const core::TraceHeader& header, std::uint32_t groups) {
-  static constexpr std::array<std::pair<core::Group, std::string_view>, 10> kWords{{
+  static constexpr std::array<std::pair<core::Group, std::string_view>, 11> kWords{{
       {core::Group::kBodies, "end-of-frame states"},
       {core::Group::kDetection, "boxes"},
       {core::Group::kPairs, "candidate pairs"},
@@ -50,6 +50,7 @@ std::string lacking(const core::TraceHeader& header, std::uint32_t groups) {
       {core::Group::kBodyOctree, "body octrees"},
       {core::Group::kDetectedOrientation, "orientations at detection"},
       {core::Group::kPoints, "points of contact"},
+      {core::Group::kPartPoses, "poses between the parts of a step"},
   }};
   for (const auto& [group, word] : kWords)
     if ((groups & core::bit(group)) != 0 && !has(header, group)) return "the trace records no " + std::string(word);

@@ -22,6 +22,7 @@ constexpr std::uint32_t kOfOctree = bit(Group::kOctree);
 constexpr std::uint32_t kOfWideBodies = bit(Group::kWideBodies);
 constexpr std::uint32_t kOfDetectedOrientation = bit(Group::kDetectedOrientation);
 constexpr std::uint32_t kOfPoints = bit(Group::kPoints);
+constexpr std::uint32_t kOfPartPoses = bit(Group::kPartPoses);
 constexpr std::uint32_t kOfBodyOctree = bit(Group::kBodyOctree);
 
 constexpr std::size_t in_contact(std::size_t kinematics, std::size_t field) {
@@ -108,6 +109,12 @@ constexpr std::array kColumns{
     Column{"/trace/point/parts", kOfPoints, kFrames, kU32, 1, Records::kParts, 0, "1", true},
     Column{"/trace/point/offsets", kOfPoints, kOffsets, kU64, 1, Records::kPoints, 0, "1"},
 
+    Column{"/trace/part/position", kOfPartPoses, kRows, kF32, 3, Records::kPartPoses, offsetof(PartPose, position),
+           "m"},
+    Column{"/trace/part/orientation", kOfPartPoses, kRows, kF32, 4, Records::kPartPoses,
+           offsetof(PartPose, orientation), "1"},
+    Column{"/trace/part/offsets", kOfPartPoses, kOffsets, kU64, 1, Records::kPartPoses, 0, "1"},
+
     Column{"/trace/narrow/pairs", kOfNarrow, kRows, kU32, 2, Records::kMeasured, 0, "1"},
     Column{"/trace/narrow/distance", kOfNarrow, kRows, kF64, 1, Records::kSeparations, offsetof(Separation, distance_m),
            "m"},
@@ -165,6 +172,7 @@ constexpr std::array kGroupRows{
     GroupRow{Group::kOctree, "/trace/octree"},
     GroupRow{Group::kBodyOctree, "/trace/body_octree"},
     GroupRow{Group::kPoints, "/trace/point"},
+    GroupRow{Group::kPartPoses, "/trace/part"},
     GroupRow{Group::kDetectedOrientation, "/trace/detection/orientation", true},
 };
 
@@ -234,6 +242,8 @@ auto visit_records(Frame& f, Records which, Visit visit) {
       return visit(f.detected_orientation);
     case Records::kPoints:
       return visit(f.points);
+    case Records::kPartPoses:
+      return visit(f.part_poses);
     case Records::kStep:
     case Records::kStatistics:
       break;

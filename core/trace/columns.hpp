@@ -59,6 +59,7 @@ enum class Records : std::uint8_t {
   kDetectedOrientation,
   kPoints,
   kParts,
+  kPartPoses,
 };
 
 struct Column {

@@ -32,6 +32,7 @@ enum class Group : std::uint32_t {
   kDetectedOrientation = 1U << 8,  // orientations that collision detection saw, of engines whose bodies turn
   kPoints = 1U << 9,               // points of contact with the totals of the step
   kWideBodies = 1U << 10,          // the states of kBodies in float64; a trace with it has kBodies too
+  kPartPoses = 1U << 11,           // where bodies were between the parts of a step
 };
 
 constexpr std::uint32_t bit(Group g) {
@@ -44,6 +45,12 @@ struct WideStates {
   std::vector<WideQuat> orientation;
   std::vector<WideVec3> velocity;          // [n] m/s
   std::vector<WideVec3> angular_velocity;  // [n] rad/s
+};
+
+// Where a body was at the end of a part of a step.
+struct PartPose {
+  Vec3 position;  // m
+  Quat orientation;
 };
 
 // Vectors of a group that the trace does not have are empty. n = body count.
@@ -73,6 +80,8 @@ struct FrameRecord {
   std::vector<Contact> contacts;
   std::vector<ContactPoint> points;
   std::uint32_t parts = 0;  // in how many parts, each with its own points, the step was taken; 0: it is not known
+  // [(parts - 1) n] all bodies at the end of each part but the last one, part after part
+  std::vector<PartPose> part_poses;
 
   std::vector<Pair> measured;
   std::vector<Separation> separations;

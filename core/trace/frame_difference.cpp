@@ -31,6 +31,7 @@ constexpr std::array kStages{
     Stage{Records::kDetectedOrientation, bit(Group::kDetectedOrientation)},
     Stage{Records::kContacts, bit(Group::kContacts)},
     Stage{Records::kPoints, bit(Group::kPoints)},
+    Stage{Records::kPartPoses, bit(Group::kPartPoses)},
     Stage{Records::kWidePosition, bit(Group::kWideBodies)},
     Stage{Records::kWideOrientation, bit(Group::kWideBodies)},
     Stage{Records::kWideVelocity, bit(Group::kWideBodies)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "core/exact/swept_box.hpp"
 
@@ -41,23 +42,25 @@ const MeshPassage::Shape& MeshPassage::shape(const Motion& motion, std::uint32_t
   return shapes_.emplace(facts.mesh, Shape{mesh.vertices, exact::MovingShape(mesh, false)}).first->second;
 }
 
-double MeshPassage::deepest_m(const Motion& motion, core::Pair pair, double moved_m) {
-  const BodyStep& a = motion.bodies[pair.i];
-  const BodyStep& b = motion.bodies[pair.j];
+double MeshPassage::deepest_m(const Motion& motion, core::Pair pair, std::size_t part, double moved_m) {
+  const BodyState& from_a = motion.pose_after(part, pair.i);
+  const BodyState& from_b = motion.pose_after(part, pair.j);
+  const BodyState& to_a = motion.pose_after(part + 1, pair.i);
+  const BodyState& to_b = motion.pose_after(part + 1, pair.j);
   const Shape& shape_a = shape(motion, pair.i);
   const Shape& shape_b = shape(motion, pair.j);
-  const double far = std::max({length(a.before.x), length(a.after.x), length(b.before.x), length(b.after.x)});
+  const double far = std::max({length(from_a.x), length(to_a.x), length(from_b.x), length(to_b.x)});
   const double rounded_m = kToFloat * (far + motion.facts[pair.i].reach_m + motion.facts[pair.j].reach_m);
-  const exact::RigidMotion motion_a = motion_between(a.before, a.after);
-  const exact::RigidMotion motion_b = motion_between(b.before, b.after);
+  const exact::RigidMotion motion_a = motion_between(from_a, to_a);
+  const exact::RigidMotion motion_b = motion_between(from_b, to_b);
   // A box holds its body at every time of the step: bodies whose boxes are apart never touch.
   if (!core::overlaps(exact::swept_box(shape_a.vertices, motion_a), exact::swept_box(shape_b.vertices, motion_b)))
     return rounded_m;
   ++asked_;
   const exact::RigidTouch there = first_touch(shape_a.surface, motion_a, shape_b.surface, motion_b);
   if (there.meeting == exact::Meeting::kApart) return rounded_m;
-  const exact::RigidTouch back = first_touch(shape_a.surface, motion_between(a.after, a.before), shape_b.surface,
-                                             motion_between(b.after, b.before));
+  const exact::RigidTouch back =
+      first_touch(shape_a.surface, motion_between(to_a, from_a), shape_b.surface, motion_between(to_b, from_b));
   const double last = back.meeting == exact::Meeting::kApart ? there.lower : 1.0 - back.lower;
   return 0.5 * moved_m * std::max(0.0, last - there.lower) + rounded_m;
 }

@@ -1,6 +1,7 @@
 // How deep two meshes that are not convex can have been in each other within a step, by the arbiter of first touches.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -14,10 +15,10 @@ class MeshPassage {
  public:
   explicit MeshPassage(const core::Scene& scene) : scene_(scene) {}
 
-  // No less than their depth at any time between the two recorded states: 0 where they never touch. Between their first
-  // touch and their last one they move by so much; in the middle they are at most half of it deep, because at both of
-  // these times they only touch. moved_m: no two of their points come closer by more than this in the step.
-  double deepest_m(const Motion& motion, core::Pair pair, double moved_m);
+  // No less than their depth at any time of this part of the step: 0 where they never touch. Between their first touch
+  // and their last one they move by so much; in the middle they are at most half of it deep, because at both of these
+  // times they only touch. moved_m: no two of their points come closer by more than this in it.
+  double deepest_m(const Motion& motion, core::Pair pair, std::size_t part, double moved_m);
   // Pairs whose swept boxes meet, so that the arbiter was asked.
   [[nodiscard]] std::uint64_t asked() const { return asked_; }
 

@@ -188,6 +188,24 @@ std::optional<BodyState> MotionReader::state_of(const core::FrameRecord& frame, 
   return s;
 }
 
+void MotionReader::read_between(const core::FrameRecord& frame) {
+  motion_.between.clear();
+  const std::size_t n = facts_.size();
+  if (n == 0 || frame.part_poses.size() % n != 0) return;
+  for (std::size_t k = 0; k < frame.part_poses.size(); ++k) {
+    BodyState s;
+    s.origin = Vec3d(frame.part_poses[k].position);
+    s.q = to_quatd(frame.part_poses[k].orientation);
+    const double norm = squared_norm(s.q);
+    if (!is_finite(s.origin) || !(norm > 0.5 && norm < 2.0)) {
+      motion_.between.clear();
+      return;
+    }
+    complete(s, k % n);
+    motion_.between.push_back(s);
+  }
+}
+
 core::Box MotionReader::predicted_box(std::size_t body) const {
   const BodyFacts& f = facts_[body];
   const BodyState& s = motion_.bodies[body].before;
@@ -205,12 +223,16 @@ core::Box MotionReader::predicted_box(std::size_t body) const {
 
 core::Box MotionReader::swept_box(std::size_t body) const {
   const BodyFacts& f = facts_[body];
-  const BodyStep& b = motion_.bodies[body];
-  // Between two poses an extent is above both ends' by at most reach (1 - cos(angle / 2)).
-  const double angle = angle_of(b.after.q * conjugate(b.before.q));
-  const double grow = f.reach_m * std::min(1.0, angle * angle / 8.0) + margin_m_;
-  return joined_boxes(predicted_[body],
-                      joined_boxes(box_around(b.before, f, grow, {}), box_around(b.after, f, grow, {})));
+  core::Box swept = predicted_[body];
+  for (std::size_t part = 0; part < motion_.parts(); ++part) {
+    const BodyState& from = motion_.pose_after(part, body);
+    const BodyState& to = motion_.pose_after(part + 1, body);
+    // Between two poses an extent is above both ends' by at most reach (1 - cos(angle / 2)).
+    const double angle = angle_of(to.q * conjugate(from.q));
+    const double grow = f.reach_m * std::min(1.0, angle * angle / 8.0) + margin_m_;
+    swept = joined_boxes(swept, joined_boxes(box_around(from, f, grow, {}), box_around(to, f, grow, {})));
+  }
+  return swept;
 }
 
 void MotionReader::find_touchable() {
@@ -298,6 +320,7 @@ const Motion* MotionReader::read(const core::FrameRecord& frame, const core::Fra
     motion_.bodies[i].before = *before;
     motion_.bodies[i].after = *after;
   }
+  read_between(frame);
   find_pulls();
   find_neighbors();
   return &motion_;

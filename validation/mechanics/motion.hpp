@@ -86,9 +86,17 @@ struct Motion {
   double strongest_pull = 0.0;  // m/s^2; the largest acceleration of gravity and wrenches
   std::span<const BodyFacts> facts;
   std::vector<BodyStep> bodies;
-  std::vector<core::Pair> near;           // pairs of bodies whose swept boxes meet
+  std::vector<BodyState> between;  // poses, without velocities: all bodies between the parts of the step, in turn
+  std::vector<core::Pair> near;    // pairs of bodies whose swept boxes meet
   std::vector<std::uint8_t> set_is_free;  // by set: none of its bodies may have touched a static body or the domain
 
+  // Equal parts whose ends are known.
+  [[nodiscard]] std::size_t parts() const { return bodies.empty() ? 1 : between.size() / bodies.size() + 1; }
+  // Where a body was at the end of so many of them.
+  [[nodiscard]] const BodyState& pose_after(std::size_t parts_gone, std::size_t body) const {
+    if (parts_gone == 0) return bodies[body].before;
+    return parts_gone == parts() ? bodies[body].after : between[(parts_gone - 1) * bodies.size() + body];
+  }
   // n rounded operations, relative.
   [[nodiscard]] double rounding_of(double operations) const { return operations * u; }
 };
@@ -105,6 +113,8 @@ class MotionReader {
  private:
   [[nodiscard]] std::optional<BodyState> state_of(const core::FrameRecord& frame, std::size_t body) const;
   [[nodiscard]] BodyState start_of(std::size_t body) const;
+  // Poses between parts; none where one is not finite, or where they are not those of all bodies.
+  void read_between(const core::FrameRecord& frame);
   void complete(BodyState& state, std::size_t body) const;
   void find_neighbors();
   void find_pulls();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
@@ -22,7 +23,8 @@ class Passage final : public Validator {
   void look(const Evidence& evidence) override {
     if (evidence.motion == nullptr) return;
     const Motion& m = *evidence.motion;
-    for (const core::Pair p : m.near) judge(m, p);
+    for (const core::Pair p : m.near)
+      for (std::size_t part = 0; part < m.parts(); ++part) judge({m, p, part});
   }
 
   core::Verdict conclude() override {
@@ -34,23 +36,40 @@ class Passage final : public Validator {
     Vec3d x;
     Quatd q;
   };
+  // Two bodies in a part of a step: all of it where no pose is known between its ends.
+  struct Encounter {
+    const Motion& m;
+    core::Pair pair;
+    std::size_t part;
 
-  // Between the two recorded poses: the center of mass on a line, the turn at a constant rate.
-  [[nodiscard]] static Pose pose_at(const Motion& m, std::uint32_t i, double t) {
-    const BodyStep& b = m.bodies[i];
-    const Quatd turn = b.after.q * conjugate(b.before.q);
+    [[nodiscard]] const BodyState& from(std::uint32_t body) const { return m.pose_after(part, body); }
+    [[nodiscard]] const BodyState& to(std::uint32_t body) const { return m.pose_after(part + 1, body); }
+    // rad at most, by the speeds that are recorded
+    [[nodiscard]] double turns(std::uint32_t body) const {
+      const BodyStep& b = m.bodies[body];
+      if (m.parts() == 1) return m.h * length(b.before.w);
+      return m.h / static_cast<double>(m.parts()) * std::max(length(b.before.w), length(b.after.w));
+    }
+  };
+
+  // Between two recorded poses: the center of mass on a line, the turn at a constant rate.
+  [[nodiscard]] static Pose pose_at(const Encounter& e, std::uint32_t i, double t) {
+    const BodyState& from = e.from(i);
+    const BodyState& to = e.to(i);
+    const Quatd turn = to.q * conjugate(from.q);
     const double angle = angle_of(turn);
     const double sign = turn.w < 0.0 ? -1.0 : 1.0;
     const Vec3d axis{sign * turn.x, sign * turn.y, sign * turn.z};
     const double size = length(axis);
-    const Quatd q = size > 0.0 ? turn_by((t * angle / size) * axis) * b.before.q : b.before.q;
-    return {b.before.x + t * (b.after.x - b.before.x), q};
+    const Quatd q = size > 0.0 ? turn_by((t * angle / size) * axis) * from.q : from.q;
+    return {from.x + t * (to.x - from.x), q};
   }
 
   // At most the distance: where boxes around the shapes are apart, theirs.
-  [[nodiscard]] double distance_at(const Motion& m, core::Pair pair, double t) const {
-    const Pose p = pose_at(m, pair.i, t);
-    const Pose q = pose_at(m, pair.j, t);
+  [[nodiscard]] double distance_at(const Encounter& e, double t) const {
+    const auto& [m, pair, part] = e;
+    const Pose p = pose_at(e, pair.i, t);
+    const Pose q = pose_at(e, pair.j, t);
     const auto origin = [&](std::uint32_t i, const Pose& at) {
       return at.x - matrix_of(at.q) * m.facts[i].center_of_mass;
     };
@@ -88,16 +107,16 @@ class Passage final : public Validator {
     return least;
   }
 
-  void judge(const Motion& m, core::Pair pair) {
+  void judge(const Encounter& e) {
+    const auto& [m, pair, part] = e;
     const BodyFacts& fa = m.facts[pair.i];
     const BodyFacts& fb = m.facts[pair.j];
-    const BodyStep& a = m.bodies[pair.i];
-    const BodyStep& b = m.bodies[pair.j];
-    const auto swing = [](const BodyStep& s, const BodyFacts& f) {
-      return f.reach_m * angle_of(s.after.q * conjugate(s.before.q));
+    const auto swing = [&e](std::uint32_t i) {
+      return e.m.facts[i].reach_m * angle_of(e.to(i).q * conjugate(e.from(i).q));
     };
-    // No two points of the bodies come closer by more than this in the step.
-    const double moved = length((a.after.x - a.before.x) - (b.after.x - b.before.x)) + swing(a, fa) + swing(b, fb);
+    // No two points of the bodies come closer by more than this in this part.
+    const double moved = length((e.to(pair.i).x - e.from(pair.i).x) - (e.to(pair.j).x - e.from(pair.j).x)) +
+                         swing(pair.i) + swing(pair.j);
     const bool knows_a = shapes_.knows(fa.mesh);
     const bool knows_b = shapes_.knows(fb.mesh);
     const bool is_by_vertices = knows_a != knows_b;
@@ -107,18 +126,18 @@ class Passage final : public Validator {
     // What is not deep at the ends cannot have been much deeper between them: penetration judges the ends.
     if (moved <= allowed) return;
     // So fast that the poses do not say which way it turned.
-    if (m.h * std::max(length(a.before.w), length(b.before.w)) >= std::numbers::pi) return;
-    const double first = overlap_bound(oriented_box(fa, a.before), oriented_box(fb, b.before));
-    const double last = overlap_bound(oriented_box(fa, a.after), oriented_box(fb, b.after));
+    if (std::max(e.turns(pair.i), e.turns(pair.j)) >= std::numbers::pi) return;
+    const double first = overlap_bound(oriented_box(fa, e.from(pair.i)), oriented_box(fb, e.from(pair.j)));
+    const double last = overlap_bound(oriented_box(fa, e.to(pair.i)), oriented_box(fb, e.to(pair.j)));
     if (0.5 * (first + last + moved) <= allowed && tally_.check_bound(std::max({0.0, first, last}), allowed)) return;
     if (!knows_a && !knows_b) {
-      judge_meshes(m, pair, moved, allowed);
+      judge_meshes(e, moved, allowed);
       return;
     }
-    const double d0 = distance_at(m, pair, 0.0);
-    const double d1 = distance_at(m, pair, 1.0);
+    const double d0 = distance_at(e, 0.0);
+    const double d1 = distance_at(e, 1.0);
     const double limit = allowed + std::max({0.0, -d0, -d1});
-    const double deepest = deepest_between({m, pair, limit, kUnseenShare * allowed}, {0.0, d0}, {1.0, d1}, moved);
+    const double deepest = deepest_between({e, limit, kUnseenShare * allowed}, {0.0, d0}, {1.0, d1}, moved);
     tally_.check(deepest, {limit, "m", is_by_vertices ? kOriginOfVertices : kOrigin},
                  Where::pair(m.step, pair.i, pair.j, "bodies.position"), [&] {
                    return "apart by " + number_text(d0) + " and " + number_text(d1) + " m at the two ends, and " +
@@ -128,8 +147,9 @@ class Passage final : public Validator {
 
   // By the arbiter: what never touches passed nothing, and what touched for a short while only was not deep. Whether
   // the rest were deep, two surfaces do not say.
-  void judge_meshes(const Motion& m, core::Pair pair, double moved, double allowed) {
-    const double deepest = meshes_.deepest_m(m, pair, moved);
+  void judge_meshes(const Encounter& e, double moved, double allowed) {
+    const auto& [m, pair, part] = e;
+    const double deepest = meshes_.deepest_m(m, pair, part, moved);
     if (deepest > allowed) {
       tally_.leave_undecided();
       return;
@@ -143,8 +163,7 @@ class Passage final : public Validator {
   };
   // What a search is for: deeper than limit; unseen: what may be missed beyond it.
   struct Search {
-    const Motion& m;
-    core::Pair pair;
+    const Encounter& encounter;
     double limit;
     double unseen;
   };
@@ -155,7 +174,7 @@ class Passage final : public Validator {
     const double found = std::max(-p.d, -q.d);
     if (found > s.limit || 0.5 * (p.d + q.d - moved) >= -s.limit - s.unseen) return found;
     const double t = 0.5 * (p.t + q.t);
-    const Sample middle{t, distance_at(s.m, s.pair, t)};
+    const Sample middle{t, distance_at(s.encounter, t)};
     const double left = deepest_between(s, p, middle, 0.5 * moved);
     return left > s.limit ? left : std::max(left, deepest_between(s, middle, q, 0.5 * moved));
   }
@@ -177,7 +196,7 @@ ValidatorRow passage_row() {
   return {"passage",
           "between two frames no body passes through another one",
           "tunnelling",
-          core::bit(core::Group::kBodies),
+          core::bit(core::Group::kBodies) | core::bit(core::Group::kPartPoses),
           0,
           [](const Subject& subject) { return lacking(subject.header, core::bit(core::Group::kBodies)); },
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Passage>(subject); },

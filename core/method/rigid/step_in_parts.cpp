@@ -1,6 +1,7 @@
 #include "core/method/rigid/step_in_parts.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/contact.hpp"
@@ -28,14 +29,21 @@ Vec3 at_start(const FrameRecord& part, const FrameRecord& first, std::uint32_t b
   return first.detected_position[body] + turned(turned_axes(first.detected_orientation[body]), in_body);
 }
 
-// All points of a frame belong to its pose of detection, so each is told where its two surfaces were at the start.
+// All points of a frame belong to its pose of detection, so each is told where its two surfaces were at the start:
+// along the normal in their middle, across it nearer to that which has moved less since. A body that still rests has a
+// moment that follows from there. Before, one that was struck from the side by a fast one was told of it 25 mm beside
+// the corner that was struck.
 ContactPoint taken_back(ContactPoint p, const FrameRecord& part, const FrameRecord& first) {
   const Vec3 half = (0.5F * p.gap_m) * p.normal;
   const Vec3 on_a = at_start(part, first, p.a, p.point + half);
   const Vec3 on_b = at_start(part, first, p.b, p.point - half);
+  const float way_a_m = length(p.point + half - on_a);
+  const float way_b_m = length(p.point - half - on_b);
   p.gap_m = dot(p.normal, on_a - on_b);
+  const Vec3 across = (on_b - on_a) + p.gap_m * p.normal;
   // A plane is met where the body is, wherever it slides.
-  p.point = is_face(p.b) ? on_a - (0.5F * p.gap_m) * p.normal : 0.5F * (on_a + on_b);
+  const float share = is_face(p.b) || !(way_a_m > 0.0F) ? 0.0F : way_a_m / (way_a_m + way_b_m);
+  p.point = (on_a - (0.5F * p.gap_m) * p.normal) + share * across;
   return p;
 }
 
@@ -86,6 +94,9 @@ void StepInParts::join(FrameRecord& last, RecordLevel level) const {
                      [](const ContactPoint& p, const ContactPoint& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
     keep_depths_of(first, points);
     last.points = std::move(points);
+    for (const FrameRecord& part : earlier_)
+      for (std::size_t i = 0; i < part.position.size(); ++i)
+        last.part_poses.push_back({part.position[i], part.orientation[i]});
     last.detected_position = first.detected_position;
     last.detected_velocity = first.detected_velocity;
     last.detected_orientation = first.detected_orientation;

@@ -1,8 +1,9 @@
 // A step that is taken in several equal parts, each of which detects anew, as one frame of a trace: RIGID 8.4.
 //
 // Where masses are far apart (UnevenStep), light bodies that are struck move and turn within a step to where no contact
-// of its start is. The frame has the bodies as the last part left them, what detection saw at the start of the step,
-// and the points of all parts. A contact that lasts has one point in each part, with the impulse that it gave there.
+// of its start is. The frame has the bodies as the last part left them, where they were between the parts, what
+// detection saw at the start of the step, and the points of all parts. A contact that lasts has one point in each part,
+// with the impulse that it gave there.
 #pragma once
 
 #include <utility>

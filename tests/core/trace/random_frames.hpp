@@ -22,7 +22,7 @@ using core::Group;
 constexpr std::uint32_t kAllGroups = bit(Group::kBodies) | bit(Group::kDetection) | bit(Group::kPairs) |
                                      bit(Group::kConfirmed) | bit(Group::kContacts) | bit(Group::kNarrow) |
                                      bit(Group::kOctree) | bit(Group::kBodyOctree) | bit(Group::kPoints) |
-                                     bit(Group::kDetectedOrientation);
+                                     bit(Group::kDetectedOrientation) | bit(Group::kPartPoses);
 
 inline core::Scene tetrahedra_scene(std::uint32_t bodies) {
   auto mesh = std::make_shared<core::Mesh>();
@@ -179,6 +179,9 @@ inline core::FrameRecord random_frame(Bits& bits, std::uint64_t step, std::uint3
       f.points.push_back({like.a, like.b, bits.vec(), bits.vec(), bits.real(), bits.vec(), bits.below(9)});
     }
   }
+  if (has(Group::kPartPoses))
+    for (std::uint32_t i = rows(); i > 0; --i)
+      f.part_poses.push_back({bits.vec(), {bits.real(), bits.real(), bits.real(), bits.real()}});
   if (has(Group::kNarrow))
     for (std::uint32_t i = rows(); i > 0; --i) {
       f.measured.push_back(bits.pair(bodies));

@@ -69,7 +69,7 @@ Sizes write_trace(const std::filesystem::path& path) {
   auto writer = TraceWriter::create(path, header_of(scene, kAllGroups));
   EXPECT_TRUE(writer.ok());
   Bits bits(3);
-  std::uint64_t p = 0, c = 0, x = 0, k = 0, s = 0, o = 0, b = 0, u = 0, l = 0, t = 0;
+  std::uint64_t p = 0, c = 0, x = 0, k = 0, s = 0, o = 0, b = 0, u = 0, l = 0, t = 0, z = 0;
   for (std::uint64_t step = 0; step < 250; ++step) {
     const FrameRecord f = random_frame(bits, step, 13, kAllGroups);
     p += f.pairs.size();
@@ -79,6 +79,7 @@ Sizes write_trace(const std::filesystem::path& path) {
     s += f.measured.size();
     o += f.octree_nodes.size();
     t += f.points.size();
+    z += f.part_poses.size();
     b += f.shape_of_body.size();
     u += f.body_octree_boxes.size();
     l += f.leaf_of_vertex.size();
@@ -86,10 +87,10 @@ Sizes write_trace(const std::filesystem::path& path) {
   }
   EXPECT_TRUE(writer.value().finish().ok());
   // Two meshes of 4 and 5 vertices and 4 triangles each; 250 steps are three windows.
-  Sizes sizes{{{"F", 250}, {"F+1", 251}, {"n", 13},   {"M", 2},    {"M+1", 3},    {"V", 9},
-               {"T", 8},   {"W", 3},     {"P", p},    {"C", c},    {"X", x},      {"K", k},
-               {"S", s},   {"O", o},     {"B", b},    {"U", u},    {"L", l},      {"N", t},
-               {"Q", 4},   {"H", 5},     {"n+1", 14}, {"8n", 104}, {"F n", 3250}, {"8 F n", 26000}}};
+  Sizes sizes{{{"F", 250},  {"F+1", 251}, {"n", 13},     {"M", 2},        {"M+1", 3}, {"V", 9}, {"T", 8},
+               {"W", 3},    {"P", p},     {"C", c},      {"X", x},        {"K", k},   {"S", s}, {"O", o},
+               {"B", b},    {"U", u},     {"L", l},      {"N", t},        {"Z", z},   {"Q", 4}, {"H", 5},
+               {"n+1", 14}, {"8n", 104},  {"F n", 3250}, {"8 F n", 26000}}};
   std::set<std::uint64_t> distinct;
   for (const auto& [name, value] : sizes.of)
     EXPECT_TRUE(name == "M+1" || distinct.insert(value).second) << name << " is as large as another size";

@@ -42,7 +42,7 @@ Passed passes(core::Vec3 from, core::Vec3 to) {
   EXPECT_NE(motion, nullptr);
   validation::MeshPassage meshes(r.header.scene);
   Passed passed;
-  passed.deepest_m = meshes.deepest_m(*motion, {0, 1}, static_cast<double>(core::length(way)));
+  passed.deepest_m = meshes.deepest_m(*motion, {0, 1}, 0, static_cast<double>(core::length(way)));
   passed.asked = meshes.asked();
   return passed;
 }
