@@ -176,4 +176,15 @@ std::string failure_lines(const std::vector<core::CellVerdicts>& verdicts) {
   return text;
 }
 
+std::string warning_lines(const std::vector<core::CellVerdicts>& verdicts) {
+  std::string text;
+  for (const core::CellVerdicts& cell : verdicts)
+    for (const core::Verdict& verdict : cell.verdicts) {
+      const std::size_t at = verdict.explanation.find("warning: ");
+      if (severity(verdict.outcome) >= severity(core::Outcome::kInconclusive) || at == std::string::npos) continue;
+      text += printable(cell.stamp.label() + ": " + verdict.validator + ": " + verdict.explanation.substr(at)) + "\n";
+    }
+  return text;
+}
+
 }  // namespace broadside::reports

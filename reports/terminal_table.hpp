@@ -23,4 +23,7 @@ std::string cell_table(const std::vector<core::Cell>& cells);
 // line for each of them that was broken. Empty when there is none.
 std::string failure_lines(const std::vector<core::CellVerdicts>& verdicts);
 
+// For each verdict that passes with a warning, the warning, in one line each. Empty when there is none.
+std::string warning_lines(const std::vector<core::CellVerdicts>& verdicts);
+
 }  // namespace broadside::reports

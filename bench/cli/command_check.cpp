@@ -49,6 +49,8 @@ core::Exit check(const CheckArguments& a) {
   fmt::print("{}", reports::verdict_table(rows.verdicts));
   const std::string failures = reports::failure_lines(rows.verdicts);
   if (!failures.empty()) fmt::print("\n{}", failures);
+  const std::string warnings = reports::warning_lines(rows.verdicts);
+  if (!warnings.empty()) fmt::print("\n{}", warnings);
   if (!a.json.empty()) {
     if (core::Status s = core::write_verdicts(a.json, rows.verdicts); !s) return complain(s.error());
   }

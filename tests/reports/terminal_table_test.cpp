@@ -98,5 +98,19 @@ TEST(FailureLines, GiveOneLinePerFailedOrInconclusiveVerdict) {
   EXPECT_NE(text.find("(limit: 8 ulp"), std::string::npos);
 }
 
+TEST(WarningLines, ShowWhatAPassedVerdictWarnsOf) {
+  EXPECT_EQ(warning_lines(sample_rows().verdicts), "");
+  core::CellVerdicts cell;
+  cell.stamp.engine = "mine";
+  core::Verdict passed;
+  passed.validator = "turning";
+  passed.outcome = core::Outcome::kPass;
+  passed.explanation = "all 3 hold; warning: too far, use a smaller dt";
+  cell.verdicts = {passed};
+  EXPECT_EQ(warning_lines({cell}), "mine: turning: warning: too far, use a smaller dt\n");
+  cell.verdicts[0].outcome = core::Outcome::kFail;
+  EXPECT_EQ(warning_lines({cell}), "") << "its failure line says it";
+}
+
 }  // namespace
 }  // namespace broadside::reports
