@@ -54,7 +54,7 @@ core::Status PipelineByMotion::finish_copy(core::FrameRecord& frame) {
 
 core::Declaration PipelineByMotion::declaration_for(const core::Scene& scene) const {
   if (!turns(scene)) return core::method_declaration(twin_);
-  core::Declaration awake = core::rigid_declaration(turning_options_.solver, scene, twin_);
+  core::Declaration awake = core::rigid_declaration(turning_options_.solver, scene, turning_options_.swept, twin_);
   if (!turning_options_.sleeps) return awake;
   return core::with_sleep(awake, core::sleep_speed_m_s(scene.gravity_m_s2, scene.dt_s));
 }

@@ -25,7 +25,7 @@ class PartsChoice {
       : solver_(solver),
         mass_ratio_(core::largest_mass_ratio(scene)),
         are_swept_(are_swept),
-        plan_(core::plan_of_step(solver, mass_ratio_, false, 0.0F)) {}
+        plan_(core::plan_of_step(solver, mass_ratio_, false, 0.0F, are_swept)) {}
 
   [[nodiscard]] std::uint32_t count() const { return plan_.parts; }
 
@@ -49,8 +49,8 @@ class PartsChoice {
   bool replan(const RigidCounts& told, const RigidFrameView& view) {
     const core::Pace pace{from_word(told.fastest_m_s), from_word(told.stride)};
     const core::StepPlan before = plan_;
-    plan_ = core::plan_of_step(solver_, mass_ratio_, core::is_calm(pace, view.gravity_m_s2, view.step_s),
-                               are_swept_ ? 0.0F : pace.stride);
+    plan_ = core::plan_of_step(solver_, mass_ratio_, core::is_calm(pace, view.gravity_m_s2, view.step_s), pace.stride,
+                               are_swept_);
     return !(plan_ == before);
   }
 
@@ -62,17 +62,18 @@ class PartsChoice {
 
   [[nodiscard]] PlannedPace planned(float calm_m_s) const {
     PlannedPace right{std::bit_cast<std::uint32_t>(calm_m_s)};
-    if (plan_.is_uneven) {
-      if (plan_.is_calm) right.most = 0;
-      if (!plan_.is_calm) right.least = 1;
+    if (plan_.is_uneven && plan_.is_calm) {
+      right.most = 0;
       return right;
     }
-    if (are_swept_) return right;
-    const core::PartsByStride& rule = solver_.even_parts;
+    if (plan_.is_uneven) right.least = 1;
+    if (plan_.is_uneven && !are_swept_) return right;
+    const core::PartsByStride& rule = core::parts_rule(solver_, are_swept_);
     const auto longest = [&](std::uint32_t parts) {
       return std::bit_cast<std::uint32_t>(rule.stride * static_cast<float>(parts));
     };
-    if (plan_.parts > 1) right.least = longest(plan_.parts / 2) + 1;
+    const std::uint32_t usual = plan_.is_uneven ? core::uneven_step(solver_, false).parts : 1U;
+    if (plan_.parts > usual) right.least = longest(plan_.parts / 2) + 1;
     if (plan_.parts < rule.most) right.most = longest(plan_.parts);
     return right;
   }

@@ -368,7 +368,7 @@ std::uint32_t RigidPipeline::groups() const {
   using core::Group;
   const std::uint32_t always = core::bit(Group::kBodies) | core::bit(Group::kDetection) |
                                core::bit(Group::kDetectedOrientation) | core::bit(Group::kConfirmed) |
-                               core::bit(Group::kPoints);
+                               core::bit(Group::kPoints) | core::bit(Group::kPartPoses);
   return impl_->has_broad() ? always | core::bit(Group::kPairs) : always;
 }
 

@@ -76,9 +76,11 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   turning.make_solver = [soft, is_fixed = settings.text("thresholds") == "fixed"](const core::Scene& scene) {
     return make_soft_solver(is_fixed ? core::with_fixed_thresholds(soft, scene) : soft);
   };
-  turning.declare = [soft](const core::Scene& scene) { return core::rigid_declaration(soft, scene); };
   turning.sleeps = settings.text("sleep") == "on";
   turning.swept = core::swept_named(settings.text("sweep"));
+  turning.declare = [soft, swept = turning.swept](const core::Scene& scene) {
+    return core::rigid_declaration(soft, scene, swept);
+  };
   turning.threads = threads;
 
   core::Engine engine;
@@ -90,9 +92,10 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.declaration = core::method_declaration();
   engine.dynamics = std::make_unique<PipelineByMotion>(std::move(options), std::move(turning),
                                                        core::refuse_method_settings("octree-cpu", settings));
-  engine.equivalence = [soft, sleeps = settings.text("sleep") == "on", build = engine.build,
+  engine.equivalence = [soft, swept = core::swept_named(settings.text("sweep")),
+                        sleeps = settings.text("sleep") == "on", build = engine.build,
                         workers = worker_count(settings.number("threads"))](const core::Scene& scene) {
-    return rigid_card(scene, soft, sleeps, build, workers);
+    return rigid_card(scene, soft, swept, sleeps, build, workers);
   };
   return engine;
 }

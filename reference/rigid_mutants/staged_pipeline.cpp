@@ -17,7 +17,7 @@ RigidPipelineOptions options_of(const TurningStages& stages) {
   options.swept = stages.sweeps_fast ? core::Swept::kAll : core::Swept::kFlagged;
   options.make_broad_phase = [](const core::Scene&) { return make_tree_broad_phase(); };
   options.make_solver = [](const core::Scene&) { return make_contact_solver({}); };
-  options.declare = [](const core::Scene& scene) { return rigid_declaration({}, scene); };
+  options.declare = [swept = options.swept](const core::Scene& scene) { return rigid_declaration({}, scene, swept); };
   return options;
 }
 

@@ -20,10 +20,11 @@ bool may_bounce(const Scene& scene) {
 
 }  // namespace
 
-Declaration rigid_declaration(const SoftSettings& solver, const Scene& scene, std::string_view twin_of) {
+Declaration rigid_declaration(const SoftSettings& solver, const Scene& scene, Swept swept, std::string_view twin_of) {
   const float ratio = largest_mass_ratio(scene);
-  const MostOfStep most = most_of_step(solver, ratio, may_bounce(scene));
-  const bool is_in_parts = most_parts(solver, ratio) > 1;
+  const bool are_swept = !swept_bodies(scene, swept).empty();
+  const MostOfStep most = most_of_step(solver, ratio, may_bounce(scene), are_swept);
+  const bool is_in_parts = most_parts(solver, ratio, are_swept) > 1;
   std::map<std::string, std::string> given{
       {"motion", "rigid"},
       {"detection_at", is_in_parts ? "within" : "start"},

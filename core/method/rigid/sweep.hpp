@@ -26,8 +26,16 @@ inline constexpr std::uint32_t kPartsOfWay = 256;
 // stays at its start.
 inline constexpr std::uint32_t kMostSweepRounds = 64;
 
-// How much deeper two bodies may get than they are at the start, as a share of the thinner one's half thickness.
-inline constexpr float kSweptDepthShare = 0.25F;
+// How deep two bodies may be in each other, as a share of the thinner one's half thickness.
+inline constexpr float kSweptDepthShare = 0x1p-4F;
+
+// Those that are deeper may get a little deeper in each step, up to so many times that depth; then they only part. That
+// is less than a twentieth of the thickness, the limit of class B. Before, bodies that others held between them went
+// through each other little by little.
+inline constexpr float kHeldDepth = 1.5F;
+
+// The search stops where less than this share of the depth is left.
+inline constexpr float kDoneShare = 0x1p-5F;
 
 // A way that is not cleared after this many advances ends where it is clear up to.
 inline constexpr int kMostAdvances = 64;
@@ -62,11 +70,19 @@ BROADSIDE_HD SweptWay free_way(const ContactPath& path, float outer_m) {
   return {path.start, path.end, swing_of(path.start, path.end, outer_m)};
 }
 
+// Its length is found in double: normals of contacts are turned by it, and with a length in float one was off by 4.03
+// units in the last place.
+BROADSIDE_HD Quat of_unit_length(Quat q) {
+  const auto square = [](float x) { return static_cast<double>(x) * x; };
+  const double scale = 1.0 / sqrt(((square(q.w) + square(q.x)) + square(q.y)) + square(q.z));
+  const auto scaled = [scale](float x) { return static_cast<float>(scale * x); };
+  return {scaled(q.w), scaled(q.x), scaled(q.y), scaled(q.z)};
+}
+
 // The pose after a share of the way, 0 to 1.
 BROADSIDE_HD ContactPose pose_at(const SweptWay& way, float share) {
   const Quat end = nearer_end(way.start.q, way.end.q);
-  const Quat q = (1.0F - share) * way.start.q + share * end;
-  return {way.start.x + share * (way.end.x - way.start.x), (1.0F / sqrtf(dot(q, q))) * q};
+  return {way.start.x + share * (way.end.x - way.start.x), of_unit_length((1.0F - share) * way.start.q + share * end)};
 }
 
 struct NearestPatch {
@@ -89,9 +105,18 @@ BROADSIDE_HD_CALLED NearestPatch nearest_patch(const ContactShape& a, ContactPos
   return nearest;
 }
 
-// The share of both ways, gone at the same time, up to which the bodies are in each other by no more than allowed_m or
-// than they are at the start. It stops where less than done_m is left. For two convex shapes it follows the direction
-// that parts them, or in which they overlap least, because only along it can they come nearer.
+// Whether bodies that are in each other at the start are less so at the end, on the same side.
+template <typename Lanes>
+BROADSIDE_HD bool part_at_end(const NearestPatch& start, const ContactShape& a, const SweptWay& way_a,
+                              const ContactShape& b, const SweptWay& way_b, float reach_m) {
+  const NearestPatch end = nearest_patch<Lanes>(a, way_a.end, b, way_b.end, reach_m);
+  return !end.is_found || (end.gap_m >= start.gap_m && dot(end.normal, start.normal) > 0.0F);
+}
+
+// The share of both ways, gone at the same time, up to which the bodies are in each other by no more than allowed_m; by
+// 2 done_m more than at the start where they are deeper then, and up to kHeldDepth times allowed_m. Deeper ones go all
+// of it if they part, and nothing else. It stops where less than done_m is left. For two convex shapes it follows the
+// direction that parts them, or in which they overlap least, because only along it can they come nearer.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED float clear_share(const ContactShape& a, const SweptWay& way_a, const ContactShape& b,
                                       const SweptWay& way_b, float allowed_m, float done_m) {
@@ -105,7 +130,11 @@ BROADSIDE_HD_CALLED float clear_share(const ContactShape& a, const SweptWay& way
     const NearestPatch near =
         nearest_patch<Lanes>(a, pose_at(way_a, share), b, pose_at(way_b, share), (1.0F - share) * most + done_m);
     if (!near.is_found) return 1.0F;
-    if (k == 0) allowed = fmaxf(allowed, 2.0F * done_m - near.gap_m);
+    if (k == 0 && 2.0F * done_m - near.gap_m > allowed_m) {
+      if (-near.gap_m > kHeldDepth * allowed_m)
+        return part_at_end<Lanes>(near, a, way_a, b, way_b, most + done_m) ? 1.0F : 0.0F;
+      allowed = 2.0F * done_m - near.gap_m;
+    }
     const float clear = near.gap_m + allowed;
     if (!(clear > done_m)) return share;
     const float closing = is_mesh ? most : fmaxf(dot(near.normal, toward), 0.0F) + swing;
@@ -115,13 +144,13 @@ BROADSIDE_HD_CALLED float clear_share(const ContactShape& a, const SweptWay& way
   return share;
 }
 
-// How much deeper two bodies may get than they are at the start, and how near to that the search stops, m. thinner_m:
-// half of the least thickness of the thinner one.
+// How deep two bodies may be in each other, and how near to that the search stops, m. thinner_m: half of the least
+// thickness of the thinner one.
 BROADSIDE_HD constexpr float swept_depth_m(float thinner_m) {
   return kSweptDepthShare * thinner_m;
 }
 BROADSIDE_HD constexpr float swept_done_m(float thinner_m) {
-  return 0.125F * swept_depth_m(thinner_m);
+  return kDoneShare * swept_depth_m(thinner_m);
 }
 
 // Whether two bodies do not touch on their free ways: neither if both move, nor if something holds one of them.

@@ -53,7 +53,8 @@ class ContactSolver {
                        const RigidStep& step) = 0;
 
   // How it wants a step to be taken, with a call of advance for each part; as core::plan_of_step.
-  [[nodiscard]] virtual core::StepPlan plan_of_step(float largest_mass_ratio, bool is_calm, float stride) const = 0;
+  [[nodiscard]] virtual core::StepPlan plan_of_step(float largest_mass_ratio, bool is_calm, float stride,
+                                                    bool are_swept) const = 0;
 
   // The impulses of the last step, by patch.
   [[nodiscard]] virtual std::span<const PatchImpulses> impulses() const = 0;

@@ -71,7 +71,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
 core::Status RigidPipeline::step(float dt_s) {
   const core::Pace pace = core::pace_of(bodies_, bodies_.state, dt_s);
   is_calm_ = core::is_calm(pace, scene_->gravity_m_s2, dt_s);
-  plan_ = solver_->plan_of_step(mass_ratio_, is_calm_, bodies_.is_swept.empty() ? pace.stride : 0.0F);
+  plan_ = solver_->plan_of_step(mass_ratio_, is_calm_, pace.stride, !bodies_.is_swept.empty());
   // For how long bodies have been still is counted in steps of one length.
   if (dt_s != dt_s_) sleepers_.wake_all();
   const float part_s = dt_s / static_cast<float>(plan_.parts);
@@ -227,7 +227,7 @@ void RigidPipeline::tell_points() {
 std::uint32_t RigidPipeline::groups() const {
   using core::Group;
   const std::uint32_t always = bit(Group::kBodies) | bit(Group::kDetection) | bit(Group::kDetectedOrientation) |
-                               bit(Group::kConfirmed) | bit(Group::kPoints);
+                               bit(Group::kConfirmed) | bit(Group::kPoints) | bit(Group::kPartPoses);
   return options_.make_broad_phase ? always | bit(Group::kPairs) : always;
 }
 

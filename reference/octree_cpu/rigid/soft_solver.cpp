@@ -72,8 +72,8 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, c
   work_.each_range([&](const TileRange& range) { kernels_.end_substep(range); });
 }
 
-core::StepPlan SoftSolver::plan_of_step(float largest_mass_ratio, bool is_calm, float stride) const {
-  return core::plan_of_step(settings_, largest_mass_ratio, is_calm, stride);
+core::StepPlan SoftSolver::plan_of_step(float largest_mass_ratio, bool is_calm, float stride, bool are_swept) const {
+  return core::plan_of_step(settings_, largest_mass_ratio, is_calm, stride, are_swept);
 }
 
 void SoftSolver::advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,

@@ -19,7 +19,8 @@ class SoftSolver final : public ContactSolver {
 
   void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                const RigidStep& step) override;
-  [[nodiscard]] core::StepPlan plan_of_step(float largest_mass_ratio, bool is_calm, float stride) const override;
+  [[nodiscard]] core::StepPlan plan_of_step(float largest_mass_ratio, bool is_calm, float stride,
+                                            bool are_swept) const override;
   [[nodiscard]] std::span<const PatchImpulses> impulses() const override { return work_.impulses(); }
   void forget() override { work_.forget(); }
   [[nodiscard]] SolverSweeps sweeps_done() const override { return {sweeps_done_, work_.bounce_sweeps()}; }

@@ -79,13 +79,35 @@ TEST(Sweep, WhoIsInAnotherMayLeaveIt) {
       1.0F);
 }
 
+// In each other by 2 cm where 1 is allowed: they part, or stay where they are.
+TEST(Sweep, WhoIsTooDeepInAnotherMayOnlyPart) {
+  const auto share_to = [](Vec3 to) {
+    return core::clear_share(ball(0.1F), straight({0.18F, 0, 0}, to), ball(0.1F), straight({}, {}), 0.01F, 0.001F);
+  };
+  EXPECT_EQ(share_to({0.19F, 0, 0}), 1.0F);
+  EXPECT_EQ(share_to({0.18F, 0.06F, 0}), 1.0F) << "sideways";
+  EXPECT_EQ(share_to({0.17F, 0, 0}), 0.0F);
+  EXPECT_EQ(share_to({-0.3F, 0, 0}), 0.0F) << "through it";
+}
+
+// Step by step bodies came deeper: each step allowed a little more than the one before had left.
+TEST(Sweep, WhoIsHeldBetweenOthersComesNoDeeper) {
+  float x = 0.195F;  // 5 mm deep where 10 are allowed
+  for (int step = 0; step < 100; ++step)
+    x += core::clear_share(ball(0.1F), straight({x, 0, 0}, {x - 0.1F, 0, 0}), ball(0.1F), straight({}, {}), 0.01F,
+                           0.001F) *
+         -0.1F;
+  EXPECT_GT(x, 0.2F - (core::kHeldDepth * 0.01F + 2.0F * 0.001F));
+  EXPECT_LT(x, 0.19F + 0.001F);
+}
+
 // A ball of 1 cm that is fast, and five loose cards of 2 mm that stand one behind the other.
 PipelineRig cards(float speed_m_s, bool sweeps) {
   PipelineRig rig;
   rig.options.swept = sweeps ? core::Swept::kAll : core::Swept::kNobody;
   const std::uint32_t bullet = rig.ball(0.01);
   const std::uint32_t card = rig.box(0.002, 0.2, 0.3);
-  rig.add(bullet, {-3, 50.03F, 0.02F}, 0.03F, {speed_m_s, 0, 0});
+  rig.add(bullet, {-3, 50, 0}, 0.03F, {speed_m_s, 0, 0});
   for (int k = 0; k < 5; ++k) rig.add(card, {0.3F * static_cast<float>(k), 50, 0}, 0.01F);
   return rig;
 }
