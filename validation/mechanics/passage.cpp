@@ -67,7 +67,8 @@ class Passage final : public Validator {
 
   // At most the distance: where boxes around the shapes are apart, theirs.
   [[nodiscard]] double distance_at(const Encounter& e, double t) const {
-    const auto& [m, pair, part] = e;
+    const Motion& m = e.m;
+    const core::Pair pair = e.pair;
     const Pose p = pose_at(e, pair.i, t);
     const Pose q = pose_at(e, pair.j, t);
     const auto origin = [&](std::uint32_t i, const Pose& at) {
@@ -108,7 +109,8 @@ class Passage final : public Validator {
   }
 
   void judge(const Encounter& e) {
-    const auto& [m, pair, part] = e;
+    const Motion& m = e.m;
+    const core::Pair pair = e.pair;
     const BodyFacts& fa = m.facts[pair.i];
     const BodyFacts& fb = m.facts[pair.j];
     const auto swing = [&e](std::uint32_t i) {
@@ -148,8 +150,9 @@ class Passage final : public Validator {
   // By the arbiter: what never touches passed nothing, and what touched for a short while only was not deep. Whether
   // the rest were deep, two surfaces do not say.
   void judge_meshes(const Encounter& e, double moved, double allowed) {
-    const auto& [m, pair, part] = e;
-    const double deepest = meshes_.deepest_m(m, pair, part, moved);
+    const Motion& m = e.m;
+    const core::Pair pair = e.pair;
+    const double deepest = meshes_.deepest_m(m, pair, e.part, moved);
     if (deepest > allowed) {
       tally_.leave_undecided();
       return;
