@@ -68,6 +68,7 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
       const float fastest = solve.sums.largest(TeamSums::kThird);
       done = core::done_m_s(solve.soft, solve.soft.done_share, fastest);
       fastest_push = solve.sums.largest(TeamSums::kFourth);
+      core::sweep_on_from(solve.soft, done, fastest_push > solve.soft.kept_push_m_s);
     }
     const float largest_change = solve.sums.largest(TeamSums::kSecond);
     const float largest_speed = largest_of_turn(team, solve);

@@ -28,7 +28,7 @@ float SoftSolver::largest_speed() const {
   return speeds_.empty() ? 0.0F : *std::max_element(speeds_.begin(), speeds_.end());
 }
 
-void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
+float SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   speeds_.assign(work_.tiles().count(), 0.0F);
   changes_.assign(work_.tiles().places(), 0.0F);
   pushes_.assign(work_.tiles().places(), 0.0F);
@@ -43,7 +43,7 @@ void SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
     work_.each_range_by_color([&](const TileRange& range) { kernels_.sweep(range, numbers, way); });
     ++sweeps_done_;
     // The last word is a sweep's: it leaves every impulse in its cone.
-    if (k >= numbers.most_sweeps || largest_speed() <= done) return;
+    if (k >= numbers.most_sweeps || largest_speed() <= done) return done;
     way.is_first = false;
     way.share = share.after(core::order_free_sum(changes_));
     work_.each_range_by_color([&](const TileRange& range) { kernels_.push_along(range, way.share); });
@@ -65,10 +65,12 @@ void SoftSolver::substep(const RigidStep& step, const core::SoftStep& numbers, c
   work_.each_body([&](std::size_t i) {
     core::accelerate(bodies[i], step.gravity_m_s2, step.wrenches.empty() ? nullptr : &step.wrenches[i], numbers.dt_s);
   });
-  sweep_until_done(numbers);
+  const float done = sweep_until_done(numbers);
+  core::SoftStep after = numbers;
+  if (core::has_directions(numbers)) core::sweep_on_from(after, done, work_.is_pushed());
   work_.each_body([&](std::size_t i) { core::move(bodies[i], step.masses[i], numbers.dt_s); });
   relax(numbers);
-  work_.bounce(numbers, relaxed_, core::forgets_blows(kind));
+  work_.bounce(after, relaxed_, core::forgets_blows(kind));
   work_.each_range([&](const TileRange& range) { kernels_.end_substep(range); });
 }
 

@@ -27,7 +27,8 @@ class SoftSolver final : public ContactSolver {
 
  private:
   void substep(const RigidStep& step, const core::SoftStep& numbers, core::SolveKind kind);
-  void sweep_until_done(const core::SoftStep& numbers);
+  // Returns up to which change of a point's speed its sweeps go, m/s.
+  float sweep_until_done(const core::SoftStep& numbers);
   void relax(const core::SoftStep& numbers);
   [[nodiscard]] float largest_speed() const;
 

@@ -170,6 +170,17 @@ TEST(RigidOnHost, WhatPushesIsTakenBack) {
   }
 }
 
+// An edge that comes down within a step is solved by relaxation alone, and sweeps go on from there.
+TEST(RigidOnHost, EdgesThatStrikeWithoutGravity) {
+  for (const float dt_s : {1.0F / 60.0F, 1.0F / 120.0F}) {
+    SCOPED_TRACE(dt_s);
+    core::Scene scene = scene_of("rigid:needle-through-plate");
+    scene.dt_s = dt_s;
+    RigidPipeline subject(RigidPipelineOptions{});
+    EXPECT_GT(compare_pipelines(scene, subject, *twin_of({}), 14, 1), 0U);
+  }
+}
+
 // What bounces stirs its neighbors; wrenches are added in each substep.
 TEST(RigidOnHost, BouncesAndWrenches) {
   EXPECT_GT(compare("rigid:billiards:cradle", 60), 0U);
