@@ -101,8 +101,6 @@ constexpr std::string_view kPhysxRebound =
     "four iterations do not share out the rebound of a pile: without restitution it sinks 0.1 m and gains nothing";
 constexpr std::string_view kJoltWarm =
     "ten iterations do not take back what warm starting put in: with 200, or without warm starting, it holds";
-constexpr std::string_view kDriven =
-    "ours: a row of thin cards is driven together within one step; with sweep=fast this law holds";
 constexpr std::string_view kJoltEdge =
     "for a step the normal is along the slab, 5 m deep, where an edge touches it (findings/jolt_normal.toml)";
 
@@ -115,12 +113,6 @@ constexpr std::array kRows{
     Row{"", "penetration", "rigid:two-spheres:fast", kDiscrete},
     Row{"", "closed-form", "rigid:two-spheres:fast", kDiscrete},
     Row{"", "penetration", "rigid:needle-through-plate", kDiscrete},
-    Row{"octree-cpu", "passage", "rigid:bullet-through-cards", kDriven},
-    Row{"octree-cpu", "penetration", "rigid:bullet-through-cards", kDriven},
-    Row{"octree-cpu", "momentum", "rigid:bullet-through-cards",
-        "ours: an impulse that a step gives and takes back leaves rounding, of which no point tells"},
-    Row{"octree-cpu", "rest", "rigid:arch:25",
-        "ours: 1 % above the least thickness it falls; with 8 substeps of up to 100 sweeps it stands"},
     Row{"", "passage", "rigid:", kDiscrete},
     Row{"", "closed-form", "rigid:needle-through-plate", kDiscrete},
     Row{"bullet-world", "closed-form", "rigid:bounce", kBulletEarly},
