@@ -21,8 +21,9 @@
 #include "gpu/scene/packed_box.hpp"
 
 namespace broadside::core {
+struct KeptPatch;
 struct KnownGaps;
-}
+}  // namespace broadside::core
 
 namespace broadside::gpu {
 
@@ -50,6 +51,7 @@ struct PatchMemory {
   PatchEntry* entries = nullptr;     // [2 * patches]
   std::uint32_t* feature = nullptr;  // [4 * patches]; 0 = no point
   PackedVec3* impulse = nullptr;     // [4 * patches] N: friction on A, and w = along the normal
+  core::KeptPatch* kept = nullptr;   // [patches]; null where no shape is a hull
 };
 
 // What a pair needs to know of a body to say what it does to the other one: core::Pusher.
@@ -70,6 +72,7 @@ struct SolveCounts {
 struct RigidCounts {
   unsigned long long confirmed = 0;
   // Confirmed pairs that are not seen to pass by each other: in ContactView::near, and of finely cut hulls.
+  unsigned long long fresh = 0;  // whose patches are not carried along with their bodies: in ContactView::fresh
   unsigned long long near = 0;
   unsigned long long near_hulls = 0;
   unsigned long long apart_hulls = 0;  // those that are clearly apart
@@ -159,13 +162,15 @@ struct ContactView {
   std::uint64_t pair_capacity = 0;
   const Counters* broad_counters = nullptr;
   AppendView<core::Pair> confirmed;
-  NearPair* near = nullptr;  // [confirmed.capacity]
+  core::Pair* fresh = nullptr;  // [confirmed.capacity]; null where no shape is a hull: all pairs are
+  NearPair* near = nullptr;     // [confirmed.capacity]
   // Of two finely cut hulls each, [confirmed.capacity]; those that are clearly apart from the end on. Null where no
   // shape is a hull.
   core::Pair* hulls = nullptr;
   core::KnownGaps* hull_gaps = nullptr;
   AppendView<core::ContactPatch> patches;  // those of one pair follow each other
   PatchMemory memory;                      // of this step
+  PatchMemory old_memory;                  // of the step before
 
   RigidCounts* counts = nullptr;
   unsigned long long* barrier = nullptr;

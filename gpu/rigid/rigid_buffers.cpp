@@ -27,9 +27,10 @@ core::Status RigidBuffers::Memory::reserve_bodies(std::size_t bodies) {
   return count.fill_bytes(0);
 }
 
-core::Status RigidBuffers::Memory::reserve_patches(std::size_t patches) {
+core::Status RigidBuffers::Memory::reserve_patches(std::size_t patches, bool has_hulls) {
   BROADSIDE_TRY(entries.reserve(2 * patches, "contacts"));
   BROADSIDE_TRY(feature.reserve(4 * patches, "contacts"));
+  if (has_hulls) BROADSIDE_TRY(kept.reserve(patches, "contacts"));
   return impulse.reserve(4 * patches, "contacts");
 }
 
@@ -40,14 +41,16 @@ void RigidBuffers::Memory::swap(Memory& other) noexcept {
   entries.swap(other.entries);
   feature.swap(other.feature);
   impulse.swap(other.impulse);
+  kept.swap(other.kept);
 }
 
 PatchMemory RigidBuffers::Memory::view() const {
-  return {begin.data(), count.data(), filled.data(), entries.data(), feature.data(), impulse.data()};
+  return {begin.data(), count.data(), filled.data(), entries.data(), feature.data(), impulse.data(), kept.data()};
 }
 
 std::uint64_t RigidBuffers::Memory::bytes() const {
-  return begin.bytes() + count.bytes() + filled.bytes() + entries.bytes() + feature.bytes() + impulse.bytes();
+  return begin.bytes() + count.bytes() + filled.bytes() + entries.bytes() + feature.bytes() + impulse.bytes() +
+         kept.bytes();
 }
 
 core::Status RigidBuffers::Sleep::reserve_bodies(std::size_t bodies) {
@@ -84,6 +87,7 @@ core::Status RigidBuffers::wake_all() {
 core::Status RigidBuffers::reserve_confirmed(std::size_t pairs) {
   BROADSIDE_TRY(confirmed_.reserve(pairs, "pairs"));
   if (has_hulls_) {
+    BROADSIDE_TRY(fresh_.reserve(confirmed_.capacity(), "pairs"));
     BROADSIDE_TRY(hulls_.reserve(confirmed_.capacity(), "pairs"));
     BROADSIDE_TRY(hull_gaps_.reserve(confirmed_.capacity(), "pairs"));
   }
@@ -97,7 +101,7 @@ core::Status RigidBuffers::reserve_patches(std::size_t patches) {
   BROADSIDE_TRY(impulses_.reserve(4 * patches, "contacts"));
   BROADSIDE_TRY(by_color_.reserve(2 * patches, "contacts"));
   if (may_sleep_) BROADSIDE_TRY(sleep_.now.reserve(patches, "contacts"));
-  return memory_.reserve_patches(patches);
+  return memory_.reserve_patches(patches, has_hulls_);
 }
 
 core::Status RigidBuffers::reserve_places(std::size_t places) {
@@ -147,7 +151,7 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   BROADSIDE_TRY(memory_.reserve_bodies(n));
   BROADSIDE_TRY(reserve_confirmed(std::max(kLeast, kConfirmedPerBody * n)));
   BROADSIDE_TRY(reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
-  BROADSIDE_TRY(old_memory_.reserve_patches(std::max(kLeast, kPatchesPerBody * n)));
+  BROADSIDE_TRY(old_memory_.reserve_patches(std::max(kLeast, kPatchesPerBody * n), has_hulls));
   colors_ = 0;
   BROADSIDE_TRY(reserve_colors(kFirstColors));
   BROADSIDE_TRY(reserve_places(std::max(kLeast, kPatchesPerBody * n) + 32 * kFirstColors));
@@ -161,7 +165,8 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
 std::size_t RigidBuffers::patch_room() const {
   return std::min({may_sleep_ ? sleep_.now.capacity() : patches_.capacity(), patches_.capacity(), ranks_.capacity(),
                    patch_colors_.capacity(), impulses_.capacity() / 4, by_color_.capacity() / 2,
-                   memory_.entries.capacity() / 2, memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4});
+                   memory_.entries.capacity() / 2, memory_.feature.capacity() / 4, memory_.impulse.capacity() / 4,
+                   has_hulls_ ? memory_.kept.capacity() : patches_.capacity()});
 }
 
 core::Status RigidBuffers::grow(const RigidCounts& demanded) {
@@ -197,6 +202,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.boxes = boxes_.data();
   view.confirmed = {confirmed_.data(), confirmed_.capacity()};
   view.near = near_.data();
+  view.fresh = has_hulls_ ? fresh_.data() : nullptr;
   view.hulls = has_hulls_ ? hulls_.data() : nullptr;
   view.hull_gaps = has_hulls_ ? hull_gaps_.data() : nullptr;
   view.patches = {patches_.data(), patch_room()};
@@ -228,7 +234,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
 std::uint64_t RigidBuffers::bytes() const {
   return before_.bytes() + after_.bytes() + free_end_.bytes() + pushers_.bytes() + old_push_.bytes() + push_.bytes() +
          old_passed_on_.bytes() + passed_on_.bytes() + reach_m_.bytes() + fall_m_.bytes() + pushed_m_.bytes() +
-         shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + near_.bytes() + hulls_.bytes() +
+         shape_boxes_.bytes() + boxes_.bytes() + confirmed_.bytes() + near_.bytes() + fresh_.bytes() + hulls_.bytes() +
          hull_gaps_.bytes() + patches_.bytes() + ranks_.bytes() + patch_colors_.bytes() + coloring_.bytes() +
          color_count_.bytes() + color_begin_.bytes() + color_cursor_.bytes() + patch_at_.bytes() +
          constraints_.bytes() + changes_.bytes() + by_color_.bytes() + bodies_.bytes() + inverse_mass_.bytes() +

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/method/rigid/kept_patch.hpp"
 #include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 #include "gpu/rigid/rigid_view.hpp"
@@ -38,9 +39,10 @@ class RigidBuffers {
     DeviceBuffer<PatchEntry> entries;
     DeviceBuffer<std::uint32_t> feature;
     DeviceBuffer<PackedVec3> impulse;
+    DeviceBuffer<core::KeptPatch> kept;  // empty unless there are hulls
 
     core::Status reserve_bodies(std::size_t bodies);
-    core::Status reserve_patches(std::size_t patches);
+    core::Status reserve_patches(std::size_t patches, bool has_hulls);
     void swap(Memory& other) noexcept;
     [[nodiscard]] PatchMemory view() const;
     [[nodiscard]] std::uint64_t bytes() const;
@@ -80,7 +82,9 @@ class RigidBuffers {
   DeviceBuffer<PackedBox> boxes_;
   DeviceBuffer<core::Pair> confirmed_;
   DeviceBuffer<NearPair> near_;
-  DeviceBuffer<core::Pair> hulls_;  // empty unless there are hulls
+  // Empty unless there are hulls.
+  DeviceBuffer<core::Pair> fresh_;
+  DeviceBuffer<core::Pair> hulls_;
   DeviceBuffer<core::KnownGaps> hull_gaps_;
   DeviceBuffer<core::ContactPatch> patches_;
   DeviceBuffer<PatchRank> ranks_;

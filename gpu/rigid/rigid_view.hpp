@@ -96,7 +96,6 @@ struct RigidFrameView : ContactView {
   // [bodies] The latest relaxation along directions, named by its first sweep, that has visited a patch of the body.
   std::uint32_t* relaxed = nullptr;
   core::Vec3* impulses = nullptr;  // [4 * patches] N s on A, of the whole step
-  PatchMemory old_memory;          // of the step before
   SolveTeamKind solve_team = SolveTeamKind::kGrid;
   SleepView sleep;
 };

@@ -31,6 +31,10 @@ __device__ inline void run_short_contacts(const ContactView& f) {
 __device__ inline void run_near_contacts(const ContactView& f) {
   const GridTeam grid(f.barrier);
   if (!confirm_first(grid, f)) return;
+  if (f.fresh != nullptr) {
+    carry_patches(grid, f);
+    grid.sync();
+  }
   list_near_pairs<core::OneLane>(grid, f);
   grid.sync();
   make_hull_patches(grid, f);

@@ -5,6 +5,7 @@
 #include "core/contact.hpp"
 #include "core/method/rigid/end_patches.hpp"
 #include "core/method/rigid/hull_manifold.hpp"
+#include "core/method/rigid/kept_patch.hpp"
 #include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/motion_reach.hpp"
@@ -14,6 +15,7 @@
 #include "gpu/rigid/contact_view.hpp"
 #include "gpu/stages/grid/team.cuh"
 #include "gpu/stages/rigid/contact_body.cuh"
+#include "gpu/stages/rigid/patch_entries.cuh"
 #include "gpu/stages/rigid/push_stage.cuh"
 #include "gpu/stages/rigid/warp_lanes.cuh"
 #include "gpu/stages/rigid/warp_shares.cuh"
@@ -21,12 +23,20 @@
 namespace broadside::gpu {
 
 // Appends the patches of a pair, one after the other, in the order in which they were made. Called by a whole warp: one
-// atomic serves all of its lanes.
+// atomic serves all of its lanes. kept: to be carried along from here, where it is one patch, or null.
 __device__ inline void add_patches(const ContactView& f, std::uint32_t a, std::uint32_t b, const core::Manifold* found,
-                                   int count) {
+                                   int count, const core::KeptPatch* kept = nullptr) {
   const unsigned long long first = warp_append(static_cast<unsigned>(count), &f.counts->patches);
   if (count == 0 || first + static_cast<unsigned>(count) > f.patches.capacity) return;
-  for (int k = 0; k < count; ++k) f.patches.items[first + static_cast<unsigned>(k)] = {a, b, found[k]};
+  for (int k = 0; k < count; ++k) {
+    const unsigned long long at = first + static_cast<unsigned>(k);
+    f.patches.items[at] = {a, b, found[k]};
+    if (f.memory.kept == nullptr) continue;
+    if (kept != nullptr)
+      f.memory.kept[at] = *kept;
+    else
+      f.memory.kept[at].count = 0;
+  }
   if (is_moved(f, a)) atomicAdd(&f.memory.count[a], static_cast<std::uint32_t>(count));
   if (is_moved(f, b)) atomicAdd(&f.memory.count[b], static_cast<std::uint32_t>(count));
 }
@@ -107,28 +117,81 @@ __device__ int touch_face(const ContactView& f, std::uint32_t body, std::uint32_
                                       count);
 }
 
+__device__ inline core::PairAhead ahead_of(const ContactView& f, core::Pair pair) {
+  return {f.reach_m[pair.i] + f.reach_m[pair.j], near_reach(f, pair),
+          f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w, !f.follows_ways || !are_followed(f, pair)};
+}
+
 // By one lane: drops pairs that a few bounds decide, so that nobody makes patches of a pair that has none. gaps: what
 // is known of those that stay.
 template <typename Lanes>
 __device__ bool may_touch(const ContactView& f, core::Pair pair, core::KnownGaps& gaps) {
   if (is_idle(f, pair.i) && is_idle(f, pair.j)) return false;
-  if (Lanes::kKnowsLongShapes && f.follows_ways && are_followed(f, pair)) return true;
+  const core::PairAhead ahead = ahead_of(f, pair);
+  if (Lanes::kKnowsLongShapes && !ahead.may_pass) return true;
   const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
   const core::ContactShape& b = f.shapes[f.shape_of_body[pair.j]].contact;
-  const core::PairAhead ahead{f.reach_m[pair.i] + f.reach_m[pair.j], near_reach(f, pair),
-                              f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w, true};
   return !core::surely_passes<Lanes>(a, path_of(f, pair.i), b, path_of(f, pair.j), ahead, gaps);
 }
 
-// Passes on what confirmed pairs were told, and lists those that may touch. These get lists of their own; otherwise
-// lanes whose pairs do not touch would wait for the others. Hulls that are clearly apart take another way than those
-// that overlap, so they lie apart.
+// What the step before kept of the only patch of two bodies, or null.
+__device__ inline const core::KeptPatch* kept_of_last_step(const ContactView& f, core::Pair pair) {
+  const std::uint32_t body = is_moved(f, pair.i) ? pair.i : pair.j;
+  const std::uint32_t other = body == pair.i ? pair.j : pair.i;
+  const core::KeptPatch* kept = nullptr;
+  each_entry(f.old_memory, body, [&](const PatchEntry& entry) {
+    if (entry.other == other) kept = f.old_memory.kept + entry.patch;
+  });
+  return kept;
+}
+
+// Whether the pair's patch of the step before is carried to where its bodies are: then it is in found.
+__device__ inline bool is_carried(const ContactView& f, core::Pair pair, core::Manifold& found,
+                                  const core::KeptPatch*& kept) {
+  if (f.asleep != nullptr || (is_idle(f, pair.i) && is_idle(f, pair.j))) return false;
+  const core::ContactShape& a = f.shapes[f.shape_of_body[pair.i]].contact;
+  const RigidShapeView& b = f.shapes[f.shape_of_body[pair.j]];
+  const core::PairAhead ahead = ahead_of(f, pair);
+  if (!core::may_be_carried(a, b.contact, ahead)) return false;
+  kept = kept_of_last_step(f, pair);
+  return kept != nullptr && core::carried(*kept, a, pose_of(f, pair.i), b.contact, pose_of(f, pair.j), b.balls.outer_m,
+                                          ahead.near.falls_m, found);
+}
+
+// Passes on what confirmed pairs were told, carries patches along, and lists the pairs that need new ones.
+template <typename Team>
+__device__ void carry_patches(const Team& team, const ContactView& f) {
+  each_item_by_warps(team, f.counts->confirmed, false, [&](std::uint64_t k, bool is_item) {
+    const core::Pair pair = is_item ? f.confirmed.items[k] : core::Pair{};
+    if (is_item) pass_on_pushes(f, pair);
+    core::Manifold found;
+    const core::KeptPatch* kept = nullptr;
+    const bool is_kept = is_item && is_carried(f, pair, found, kept);
+    add_patches(f, pair.i, pair.j, &found, is_kept ? 1 : 0, kept);
+    const std::uint64_t place = warp_append_one(is_item && !is_kept, &f.counts->fresh);
+    if (is_item && !is_kept) f.fresh[place] = pair;
+  });
+}
+
+// What is kept of the patches of two finely cut hulls: where there are more, some are of the end of the step.
+__device__ inline void add_hull_patches(const ContactView& f, core::Pair pair, const core::Manifold* found, int count) {
+  core::KeptPatch kept;
+  if (count == 1) kept = core::kept_patch(found[0], pose_of(f, pair.i), pose_of(f, pair.j));
+  add_patches(f, pair.i, pair.j, found, count, count == 1 ? &kept : nullptr);
+}
+
+// Lists the pairs that may touch, of those that carry_patches listed, or else of all confirmed ones, and then it passes
+// on what these were told. They get lists of their own; otherwise lanes whose pairs do not touch would wait for the
+// others. Hulls that are clearly apart take another way than those that overlap, so they lie apart.
 template <typename Lanes, typename Team>
 __device__ void list_near_pairs(const Team& team, const ContactView& f) {
   constexpr bool kIsSpread = Lanes::kKnowsLongShapes;
-  each_item_by_warps(team, f.counts->confirmed, kIsSpread, [&](std::uint64_t k, bool is_item) {
-    const core::Pair pair = is_item ? f.confirmed.items[k] : core::Pair{};
-    if (is_item) pass_on_pushes(f, pair);
+  const bool are_fresh = Lanes::kKnowsLongShapes && f.fresh != nullptr;
+  const core::Pair* const pairs = are_fresh ? f.fresh : f.confirmed.items;
+  const std::uint64_t count = are_fresh ? f.counts->fresh : f.counts->confirmed;
+  each_item_by_warps(team, count, kIsSpread, [&](std::uint64_t k, bool is_item) {
+    const core::Pair pair = is_item ? pairs[k] : core::Pair{};
+    if (is_item && !are_fresh) pass_on_pushes(f, pair);
     core::KnownGaps gaps;
     const bool is_near = is_item && may_touch<Lanes>(f, pair, gaps);
     const bool are_hulls = Lanes::kKnowsLongShapes && is_near && gaps.are_known;
@@ -221,7 +284,7 @@ __device__ void make_hull_patches(const Team& team, const ContactView& f) {
     const bool is_left = count == core::kLeft;
     const std::uint64_t place = warp_append_one(is_left, &f.counts->near);
     if (is_left) f.near[place] = {pair, static_cast<std::uint32_t>(at)};
-    add_patches(f, pair.i, pair.j, found, is_left ? 0 : count);
+    add_hull_patches(f, pair, found, is_left ? 0 : count);
   });
 }
 
@@ -236,7 +299,10 @@ __device__ void make_long_patches(const Team& team, const ContactView& f) {
     core::Manifold found[core::kPatchesOfPair];
     const int count =
         touch_bodies<WarpLanes>(f, own.pair, found, own.gaps == kNoGaps ? nullptr : &f.hull_gaps[own.gaps]);
-    add_patches(f, own.pair.i, own.pair.j, found, lane() == 0 ? count : 0);
+    if (own.gaps == kNoGaps)
+      add_patches(f, own.pair.i, own.pair.j, found, lane() == 0 ? count : 0);
+    else
+      add_hull_patches(f, own.pair, found, lane() == 0 ? count : 0);
   });
   const auto is_near_face = [&](std::uint64_t k, bool is_item) {
     const auto body = static_cast<std::uint32_t>(k);

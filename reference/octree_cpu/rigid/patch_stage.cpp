@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 
 #include "core/method/rigid/end_patches.hpp"
+#include "core/method/rigid/kept_patch.hpp"
 #include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/make_manifolds.hpp"
 #include "core/method/rigid/sweep.hpp"
@@ -21,18 +23,25 @@ namespace {
 constexpr std::size_t kPairsOfBlock = 64;
 constexpr std::size_t kBodiesOfBlock = 256;
 
-// Calls make(k, block) for each k below count. Afterwards `joined` has what all blocks were given, in order.
-template <typename Make>
-void fill_in_order(std::size_t count, std::size_t of_block, std::vector<std::vector<ContactPatch>>& blocks,
-                   std::vector<ContactPatch>& joined, const Make& make) {
+// Calls make(k, block) for each k below count, and returns how many blocks were filled. Joined in order they have what
+// they were given in the order of k.
+template <typename Block, typename Make>
+std::size_t fill_in_order(std::size_t count, std::size_t of_block, std::vector<Block>& blocks, const Make& make) {
   const std::size_t block_count = (count + of_block - 1) / of_block;
   if (blocks.size() < block_count) blocks.resize(block_count);
   tbb::parallel_for(std::size_t{0}, block_count, [&](std::size_t n) {
     blocks[n].clear();
     for (std::size_t k = n * of_block; k < std::min(count, (n + 1) * of_block); ++k) make(k, blocks[n]);
   });
+  return block_count;
+}
+
+template <typename Block, typename Item>
+void join(const std::vector<Block>& blocks, std::size_t block_count, std::vector<Item> Block::*items,
+          std::vector<Item>& joined) {
   joined.clear();
-  for (std::size_t n = 0; n < block_count; ++n) joined.insert(joined.end(), blocks[n].begin(), blocks[n].end());
+  for (std::size_t n = 0; n < block_count; ++n)
+    joined.insert(joined.end(), (blocks[n].*items).begin(), (blocks[n].*items).end());
 }
 
 bool is_before(const ContactPatch& p, const ContactPatch& q) {
@@ -52,15 +61,18 @@ core::PairAhead ahead_of(const core::RigidBodies& bodies, core::Pair pair) {
 
 }  // namespace
 
-void PatchStage::load(const core::Scene& scene) {
+void PatchStage::load(const core::Scene& scene, bool keeps_patches) {
   domain_ = scene.domain;
+  keeps_patches_ = keeps_patches;
+  kept_.clear();
+  last_kept_.clear();
   for (int k = 0; k < core::kFaceCount; ++k) {
     face_shapes_[static_cast<std::size_t>(k)] = core::domain_face_shape(k);
     face_poses_[static_cast<std::size_t>(k)] = core::domain_face_pose(scene.domain, k);
   }
   of_pairs_.clear();
   of_faces_.clear();
-  patches_made_ = 0;
+  patches_made_ = patches_carried_ = 0;
 }
 
 // Whether a patch leads to no contact in this step.
@@ -82,31 +94,68 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
   return core::passes_by(found, a.contact, path_a, b.contact, path_b, bodies.reach_m[i] + bodies.reach_m[j], near_m);
 }
 
+// The patch of the step before, where it may stand for a new one.
+std::optional<core::Manifold> PatchStage::carried_patch(const core::RigidBodies& bodies, core::Pair pair,
+                                                        const core::PairAhead& ahead,
+                                                        const core::KeptPatch*& kept) const {
+  const auto [i, j] = pair;
+  const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
+  const core::RigidShape& b = bodies.shapes[bodies.shape[j]];
+  if (!core::may_be_carried(a, b.contact, ahead)) return {};
+  const auto found =
+      std::lower_bound(last_kept_.begin(), last_kept_.end(), core::pair_key(pair),
+                       [](const KeptOfPair& k, std::uint64_t key) { return core::pair_key(k.pair) < key; });
+  if (found == last_kept_.end() || found->pair != pair) return {};
+  kept = &found->kept;
+  core::Manifold out;
+  if (!core::carried(*kept, a, bodies.pose(i), b.contact, bodies.pose(j), b.balls.outer_m, ahead.near.falls_m, out))
+    return {};
+  return out;
+}
+
+void PatchStage::touch_pair(const core::RigidBodies& bodies, core::Pair pair, Block& block) const {
+  const auto [i, j] = pair;
+  const core::PairAhead ahead = ahead_of(bodies, pair);
+  const core::KeptPatch* last = nullptr;
+  if (const auto carried = carried_patch(bodies, pair, ahead, last)) {
+    block.patches.push_back({i, j, *carried});
+    block.kept.push_back({pair, *last});
+    ++block.carried;
+    return;
+  }
+  core::Manifold found[core::kPatchesOfPair];
+  const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
+  const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
+  core::KnownGaps gaps;
+  if (core::surely_passes(a, bodies.path(i), b, bodies.path(j), ahead, gaps)) return;
+  const core::KnownGaps* const known = gaps.are_known ? &gaps : nullptr;
+  const int count = core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), ahead.reach_m, found,
+                                         known != nullptr ? &known->start : nullptr);
+  int kept = 0;
+  for (int n = 0; n < count; ++n) {
+    if (is_passing(bodies, pair, found[n])) continue;
+    if (!bodies.are_followed(pair))
+      core::let_pass(found[n], a, bodies.path(i), b, bodies.path(j), ahead.reach_m, ahead.near.falls_m);
+    found[kept++] = found[n];
+  }
+  kept = core::add_end_patches(a, bodies.path(i), b, bodies.path(j), ahead.swing_m, found, kept, known);
+  for (int n = 0; n < kept; ++n) block.patches.push_back({i, j, found[n]});
+  // Where there are more, some are of the end of the step.
+  if (keeps_patches_ && kept == 1 && core::has_quick_answers(a, b))
+    block.kept.push_back({pair, core::kept_patch(found[0], bodies.pose(i), bodies.pose(j))});
+}
+
 void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                               std::span<const std::uint8_t> asleep) {
   const auto is_idle = [&](std::uint32_t i) { return asleep[i] != 0 || bodies.is_static[i] != 0; };
-  fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, of_pairs_, [&](std::size_t k, Block& block) {
-    const auto [i, j] = confirmed[k];
-    if (is_idle(i) && is_idle(j)) return;
-    core::Manifold found[core::kPatchesOfPair];
-    const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
-    const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
-    const core::PairAhead ahead = ahead_of(bodies, confirmed[k]);
-    core::KnownGaps gaps;
-    if (core::surely_passes(a, bodies.path(i), b, bodies.path(j), ahead, gaps)) return;
-    const core::KnownGaps* const known = gaps.are_known ? &gaps : nullptr;
-    const int count = core::make_manifolds(a, bodies.pose(i), b, bodies.pose(j), ahead.reach_m, found,
-                                           known != nullptr ? &known->start : nullptr);
-    int kept = 0;
-    for (int n = 0; n < count; ++n) {
-      if (is_passing(bodies, confirmed[k], found[n])) continue;
-      if (!bodies.are_followed(confirmed[k]))
-        core::let_pass(found[n], a, bodies.path(i), b, bodies.path(j), ahead.reach_m, ahead.near.falls_m);
-      found[kept++] = found[n];
-    }
-    kept = core::add_end_patches(a, bodies.path(i), b, bodies.path(j), ahead.swing_m, found, kept, known);
-    for (int n = 0; n < kept; ++n) block.push_back({i, j, found[n]});
-  });
+  last_kept_.swap(kept_);
+  const std::size_t blocks =
+      fill_in_order(confirmed.size(), kPairsOfBlock, pair_blocks_, [&](std::size_t k, Block& block) {
+        if (!is_idle(confirmed[k].i) || !is_idle(confirmed[k].j)) touch_pair(bodies, confirmed[k], block);
+      });
+  join(pair_blocks_, blocks, &Block::patches, of_pairs_);
+  join(pair_blocks_, blocks, &Block::kept, kept_);
+  for (std::size_t n = 0; n < blocks; ++n) patches_carried_ += pair_blocks_[n].carried;
 }
 
 // How far a face is looked for: a body at rest may be driven into it as fast as its fastest neighbor comes. A face has
@@ -123,7 +172,7 @@ void PatchStage::find_pushed_reach(const core::RigidBodies& bodies, std::span<co
 void PatchStage::touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                              std::span<const std::uint8_t> asleep, std::vector<ContactPatch>& patches) {
   find_pushed_reach(bodies, confirmed);
-  fill_in_order(bodies.count(), kBodiesOfBlock, face_blocks_, of_faces_, [&](std::size_t k, Block& block) {
+  const auto touch = [&](std::size_t k, Block& block) {
     const auto i = static_cast<std::uint32_t>(k);
     if (bodies.is_static[i] != 0 || asleep[i] != 0) return;
     const core::Box& box = bodies.shape_boxes[i];
@@ -136,9 +185,11 @@ void PatchStage::touch_faces(const core::RigidBodies& bodies, std::span<const co
       int count = core::make_manifolds(shape, bodies.pose(i), face_shapes_[face], pose, reach_m, found);
       count = core::add_end_patches(shape, bodies.path(i), face_shapes_[face], {pose, pose}, bodies.swing_m[i], found,
                                     count);
-      for (int n = 0; n < count; ++n) block.push_back({i, core::kFirstFace + face, found[n]});
+      for (int n = 0; n < count; ++n) block.patches.push_back({i, core::kFirstFace + face, found[n]});
     }
-  });
+  };
+  const std::size_t blocks = fill_in_order(bodies.count(), kBodiesOfBlock, face_blocks_, touch);
+  join(face_blocks_, blocks, &Block::patches, of_faces_);
   patches.clear();
   std::merge(of_pairs_.begin(), of_pairs_.end(), of_faces_.begin(), of_faces_.end(), std::back_inserter(patches),
              is_before);

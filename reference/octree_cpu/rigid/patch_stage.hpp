@@ -4,11 +4,13 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/contact.hpp"
 #include "core/math/box.hpp"
+#include "core/method/rigid/kept_patch.hpp"
 #include "core/method/rigid/manifold.hpp"
 #include "core/pair.hpp"
 #include "core/scene/rigid_bodies.hpp"
@@ -18,7 +20,8 @@ namespace broadside::reference {
 
 class PatchStage {
  public:
-  void load(const core::Scene& scene);
+  // keeps_patches: not where bodies sleep, whose patches others keep.
+  void load(const core::Scene& scene, bool keeps_patches);
   // confirmed: sorted pairs. asleep: by body; pairs without an awake body are left out.
   void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                     std::span<const std::uint8_t> asleep);
@@ -30,9 +33,29 @@ class PatchStage {
   [[nodiscard]] std::span<const core::ContactPatch> of_bodies() const { return of_pairs_; }
   // Since load.
   [[nodiscard]] std::uint64_t patches_made() const { return patches_made_; }
+  // Of these, how many were carried from the step before.
+  [[nodiscard]] std::uint64_t patches_carried() const { return patches_carried_; }
 
  private:
-  using Block = std::vector<core::ContactPatch>;
+  struct KeptOfPair {
+    core::Pair pair;
+    core::KeptPatch kept;
+  };
+  struct Block {
+    std::vector<core::ContactPatch> patches;
+    std::vector<KeptOfPair> kept;
+    std::uint64_t carried = 0;
+    void clear() {
+      patches.clear();
+      kept.clear();
+      carried = 0;
+    }
+  };
+
+  [[nodiscard]] std::optional<core::Manifold> carried_patch(const core::RigidBodies& bodies, core::Pair pair,
+                                                            const core::PairAhead& ahead,
+                                                            const core::KeptPatch*& kept) const;
+  void touch_pair(const core::RigidBodies& bodies, core::Pair pair, Block& block) const;
 
   void find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
 
@@ -46,8 +69,13 @@ class PatchStage {
   std::vector<Block> face_blocks_;
   std::vector<core::ContactPatch> of_pairs_;
   std::vector<core::ContactPatch> of_faces_;
+  // Of pairs of hulls, sorted; of this step and of the one before.
+  bool keeps_patches_ = false;
+  std::vector<KeptOfPair> kept_;
+  std::vector<KeptOfPair> last_kept_;
   std::vector<float> pushed_reach_m_;  // by body
   std::uint64_t patches_made_ = 0;
+  std::uint64_t patches_carried_ = 0;
 };
 
 }  // namespace broadside::reference

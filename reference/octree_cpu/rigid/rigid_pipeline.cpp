@@ -60,7 +60,7 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   points_.clear();
   level_stage_.reset_counts();
   bodies_.is_swept = core::swept_bodies(scene, options_.swept);
-  patch_stage_.load(scene);
+  patch_stage_.load(scene, !options_.sleeps);
   sweep_stage_.load(scene, bodies_, options_.make_broad_phase);
   if (!options_.make_broad_phase) return core::Done{};
   broad_phase_ = options_.make_broad_phase(scene);
@@ -237,6 +237,7 @@ std::vector<core::Counter> RigidPipeline::counters() const {
   counters.push_back({"level stage: pairs tested", level_stage_.pairs_tested()});
   counters.push_back({"level stage: box tests", level_stage_.box_tests()});
   counters.push_back({"contact patches", patch_stage_.patches_made()});
+  counters.push_back({"contact patches carried", patch_stage_.patches_carried()});
   if (solver_) {
     const SolverSweeps sweeps = solver_->sweeps_done();
     counters.push_back({"solver: sweeps", sweeps.solving});

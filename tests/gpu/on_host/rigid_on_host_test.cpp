@@ -5,20 +5,17 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <memory>
-#include <random>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/engine/engine.hpp"
-#include "core/exact/convex_hull.hpp"
 #include "core/method/rigid/step_in_parts.hpp"
 #include "datasets/scenes.hpp"
 #include "gpu/rigid/rigid_pipeline.hpp"
 #include "tests/core/engine/counts.hpp"
 #include "tests/gpu/octree_cpu_twin.hpp"
 #include "tests/gpu/twin_comparison.hpp"
+#include "tests/reference/octree_cpu/rigid/boulders.hpp"
 
 namespace broadside::gpu {
 namespace {
@@ -61,18 +58,16 @@ TEST(RigidOnHost, HullsThatTouch) {
 
 // Finely cut ones: lanes dismiss pairs by bounds before warps make patches.
 TEST(RigidOnHost, RoundHullsThatFall) {
-  core::Scene scene = scene_of("freefall:cube:5[rigid=1]");
-  std::mt19937 random(4);
-  std::normal_distribution<float> normal;
-  std::vector<core::Vec3> points;
-  for (int k = 0; k < 40; ++k) {
-    const core::Vec3 p{normal(random), normal(random), normal(random)};
-    points.push_back((0.5F / core::length(p)) * p);
-  }
-  core::Mesh mesh = *exact::convex_hull(points);
-  mesh.name = "boulder";
-  for (auto& each : scene.meshes) each = std::make_shared<const core::Mesh>(mesh);
-  EXPECT_GT(compare(scene, 30, {}, {}), 0U);
+  EXPECT_GT(compare(tests::five_boulders(), 30, {}, {}), 0U);
+}
+
+// Once they are slow their patches are carried from step to step.
+TEST(RigidOnHost, RoundHullsThatRest) {
+  const core::Scene scene = tests::five_boulders_in_a_shaft();
+  RigidPipeline subject{{}};
+  const auto twin = twin_of({});
+  compare_pipelines(scene, subject, *twin, 150, 50);
+  EXPECT_GT(tests::counts_of(*twin)["contact patches carried"], 50U);
 }
 
 TEST(RigidOnHost, AHeap) {

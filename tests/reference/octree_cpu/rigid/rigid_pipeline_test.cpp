@@ -14,6 +14,7 @@
 #include "datasets/scenes.hpp"
 #include "reference/octree_cpu/rigid/rigid_declaration.hpp"
 #include "reference/scene_octree/broad_phases.hpp"
+#include "tests/reference/octree_cpu/rigid/boulders.hpp"
 
 namespace broadside::tests {
 namespace {
@@ -91,6 +92,24 @@ TEST(RigidPipeline, AStruckBodyMeetsTheNextOne) {
   // Class A without the speed: the scene's slop, and what two bodies fall in a step.
   const float fall_m = core::length(scene.gravity_m_s2) * scene.dt_s * scene.dt_s;
   EXPECT_LT(deepest, scene.parameters.delta_m + 2.0F * fall_m);
+}
+
+// Not of bodies that fall, nor where some may sleep.
+TEST(RigidPipeline, CarriesPatchesOfRoundHullsThatRest) {
+  const auto carried = [](bool sleeps, std::uint32_t steps) {
+    RigidPipelineOptions how = options();
+    how.sleeps = sleeps;
+    RigidPipeline engine(std::move(how));
+    const Scene scene = five_boulders_in_a_shaft();
+    EXPECT_TRUE(engine.load(scene).ok());
+    for (std::uint32_t k = 0; k < steps; ++k) EXPECT_TRUE(engine.step(scene.dt_s).ok());
+    for (const core::Counter& c : engine.counters())
+      if (c.name == "contact patches carried") return c.count;
+    return ~std::uint64_t{0};
+  };
+  EXPECT_EQ(carried(false, 5), 0U);
+  EXPECT_GT(carried(false, 120), 100U);
+  EXPECT_EQ(carried(true, 120), 0U);
 }
 
 TEST(RigidPipeline, RepeatsARunAfterAnotherLoad) {
