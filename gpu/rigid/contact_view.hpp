@@ -71,8 +71,9 @@ struct SolveCounts {
 // zeros.
 struct RigidCounts {
   unsigned long long confirmed = 0;
+  // Confirmed pairs whose patches are not carried along with their bodies: in ContactView::fresh.
+  unsigned long long fresh = 0;
   // Confirmed pairs that are not seen to pass by each other: in ContactView::near, and of finely cut hulls.
-  unsigned long long fresh = 0;  // whose patches are not carried along with their bodies: in ContactView::fresh
   unsigned long long near = 0;
   unsigned long long near_hulls = 0;
   unsigned long long apart_hulls = 0;  // those that are clearly apart

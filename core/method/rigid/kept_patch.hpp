@@ -1,6 +1,6 @@
 // Patches of finely cut hulls that are carried along with their bodies, and not made anew, while the two hardly move
-// against each other. To make one takes some 70,000 operations, to carry it 300; of a heap that has come to rest four
-// patches of five are carried. Bullet's persistent manifolds do the same.
+// against each other. To make one takes some 70,000 operations; to carry it turns and shifts its points. Of the patches
+// of 1000 bunnies that rest five of six are carried (soft steps, frames 600 to 900).
 //
 // What is carried is compared with where it was made, not with the step before, so errors do not add up: a gap is off
 // by no more than kept_within_m. Without gravity that is 0, and all patches are made anew.
@@ -86,9 +86,9 @@ BROADSIDE_HD void carry(const KeptPatch& kept, const ContactPose& a, const Conta
   }
 }
 
-// How far two bodies may have moved against each other since their patch was made. The share of what gravity moves them
-// in a step is a sixteenth of how far contacts are looked for, of two bodies that are slow; the other one bounds it
-// where that is more than small bodies are thick.
+// How far two bodies may have moved against each other since their patch was made: a share of falls_m, which is how far
+// gravity moves both in a step, so that it scales with the step. Of bodies that are smaller than they fall a share of
+// their size.
 BROADSIDE_HD float kept_within_m(const ContactShape& a, const ContactShape& b, float falls_m) {
   constexpr float kShareOfFalls = 0x1p-3F;
   constexpr float kShareOfSize = 0x1p-10F;

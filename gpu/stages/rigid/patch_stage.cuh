@@ -180,9 +180,9 @@ __device__ inline void add_hull_patches(const ContactView& f, core::Pair pair, c
   add_patches(f, pair.i, pair.j, found, count, count == 1 ? &kept : nullptr);
 }
 
-// Lists the pairs that may touch, of those that carry_patches listed, or else of all confirmed ones, and then it passes
-// on what these were told. They get lists of their own; otherwise lanes whose pairs do not touch would wait for the
-// others. Hulls that are clearly apart take another way than those that overlap, so they lie apart.
+// Lists those pairs that may touch: of the fresh ones where there are hulls, else of all confirmed ones, whose pushes
+// it then passes on. They get lists of their own; otherwise lanes whose pairs do not touch would wait for the others.
+// Hulls that are clearly apart take another way than those that overlap, so they lie apart.
 template <typename Lanes, typename Team>
 __device__ void list_near_pairs(const Team& team, const ContactView& f) {
   constexpr bool kIsSpread = Lanes::kKnowsLongShapes;

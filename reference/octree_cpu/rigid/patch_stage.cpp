@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 
 #include "core/method/rigid/end_patches.hpp"
 #include "core/method/rigid/kept_patch.hpp"
@@ -94,36 +93,32 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
   return core::passes_by(found, a.contact, path_a, b.contact, path_b, bodies.reach_m[i] + bodies.reach_m[j], near_m);
 }
 
-// The patch of the step before, where it may stand for a new one.
-std::optional<core::Manifold> PatchStage::carried_patch(const core::RigidBodies& bodies, core::Pair pair,
-                                                        const core::PairAhead& ahead,
-                                                        const core::KeptPatch*& kept) const {
+// What was kept of the pair's patch, if that patch may stand for a new one: then it is in out, where its bodies are.
+const core::KeptPatch* PatchStage::carry(const core::RigidBodies& bodies, core::Pair pair, const core::PairAhead& ahead,
+                                         core::Manifold& out) const {
   const auto [i, j] = pair;
   const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
   const core::RigidShape& b = bodies.shapes[bodies.shape[j]];
-  if (!core::may_be_carried(a, b.contact, ahead)) return {};
-  const auto found =
+  if (!core::may_be_carried(a, b.contact, ahead)) return nullptr;
+  const auto last =
       std::lower_bound(last_kept_.begin(), last_kept_.end(), core::pair_key(pair),
                        [](const KeptOfPair& k, std::uint64_t key) { return core::pair_key(k.pair) < key; });
-  if (found == last_kept_.end() || found->pair != pair) return {};
-  kept = &found->kept;
-  core::Manifold out;
-  if (!core::carried(*kept, a, bodies.pose(i), b.contact, bodies.pose(j), b.balls.outer_m, ahead.near.falls_m, out))
-    return {};
-  return out;
+  if (last == last_kept_.end() || last->pair != pair) return nullptr;
+  const bool is_carried =
+      core::carried(last->kept, a, bodies.pose(i), b.contact, bodies.pose(j), b.balls.outer_m, ahead.near.falls_m, out);
+  return is_carried ? &last->kept : nullptr;
 }
 
 void PatchStage::touch_pair(const core::RigidBodies& bodies, core::Pair pair, Block& block) const {
   const auto [i, j] = pair;
   const core::PairAhead ahead = ahead_of(bodies, pair);
-  const core::KeptPatch* last = nullptr;
-  if (const auto carried = carried_patch(bodies, pair, ahead, last)) {
-    block.patches.push_back({i, j, *carried});
+  core::Manifold found[core::kPatchesOfPair];
+  if (const core::KeptPatch* last = carry(bodies, pair, ahead, found[0])) {
+    block.patches.push_back({i, j, found[0]});
     block.kept.push_back({pair, *last});
     ++block.carried;
     return;
   }
-  core::Manifold found[core::kPatchesOfPair];
   const core::ContactShape& a = bodies.shapes[bodies.shape[i]].contact;
   const core::ContactShape& b = bodies.shapes[bodies.shape[j]].contact;
   core::KnownGaps gaps;

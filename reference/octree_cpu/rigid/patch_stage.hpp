@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,9 +51,8 @@ class PatchStage {
     }
   };
 
-  [[nodiscard]] std::optional<core::Manifold> carried_patch(const core::RigidBodies& bodies, core::Pair pair,
-                                                            const core::PairAhead& ahead,
-                                                            const core::KeptPatch*& kept) const;
+  [[nodiscard]] const core::KeptPatch* carry(const core::RigidBodies& bodies, core::Pair pair,
+                                             const core::PairAhead& ahead, core::Manifold& out) const;
   void touch_pair(const core::RigidBodies& bodies, core::Pair pair, Block& block) const;
 
   void find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
