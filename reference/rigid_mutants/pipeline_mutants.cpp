@@ -136,6 +136,19 @@ constexpr Row kRows[] = {
               for (core::ManifoldPoint& point : patch.manifold.points) point.gap_m *= 2.0F;
             });
           }}},
+    {"twin: patches-that-stay",
+     "a patch stays as it was first made, while it is one",
+     "contact-truth",
+     "rigid-overlap",
+     {.touch_faces =
+          [](StagedPipeline& p) {
+            p.sound_touch_faces();
+            change_patches(p, [&p](ContactPatch& patch) {
+              for (const ContactPatch& last : p.last_touching)
+                if (last.a == patch.a && last.b == patch.b) patch.manifold = last.manifold;
+            });
+            p.last_touching = p.patches_;
+          }}},
     {"twin: no-patches-of-bodies",
      "bodies do not touch each other",
      "penetration",

@@ -39,6 +39,7 @@ StagedPipeline::StagedPipeline(const TurningStages& stages, std::uint64_t run)
 core::Status StagedPipeline::load(const core::Scene& scene) {
   last_told = {};
   last_boxes.clear();
+  last_touching.clear();
   last_placed = 0;
   return RigidPipeline::load(scene);
 }

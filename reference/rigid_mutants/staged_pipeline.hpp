@@ -61,6 +61,7 @@ class StagedPipeline final : public RigidPipeline {
   // Of the frame that was told before, and of the step that was placed before: for stages that lag.
   core::FrameRecord last_told;
   std::vector<core::Box> last_boxes;
+  std::vector<core::ContactPatch> last_touching;
   std::uint64_t last_placed = 0;  // the step, of whose first part last_boxes are kept
 
  protected:
