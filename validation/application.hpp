@@ -32,8 +32,9 @@ struct Application {
   Vec3d sliding_after;
   Vec3d moved_a;  // post - pre position, m
   Vec3d moved_b;
-  // What rounding is relative to, m/s. Along the normal a component counts by |n_k|, across it by sqrt(1 - n_k^2):
-  // METHOD 4's normals are axes, for which these are single components, and any unit normal is covered too.
+  // The magnitudes that rounding errors are relative to, m/s. Along the normal a component counts by |n_k|, across it
+  // by sqrt(1 - n_k^2): METHOD 4's normals are axes, for which these are single components, and any unit normal is
+  // covered too.
   double along_before = 0.0;  // sum of |n_k r_k|, r the relative velocity before
   double along_after = 0.0;   // the same of |v_a| and |v_b| after, of bodies that can move
   double along_change = 0.0;  // and of r' - r, its part along and its part across the normal each by magnitude
@@ -46,9 +47,9 @@ struct Application {
   // v_t from them: r, and r - v_n n, 2 operations on |v_t| and 6 on what v_n adds. Its square underflows below sqrt(3 *
   // 2^-149).
   [[nodiscard]] double sliding_rounding() const;
-  // Error of the velocities after, along the normal, given the impulses: two additions a body, 3 operations on the
-  // change (two products, and one for what the second addition sees), and the part of a tangent along the normal, as
-  // far as rounding explains that the tangent is not quite across it.
+  // Error of the velocities after, along the normal, for given impulses: two additions a body, 3 operations on the
+  // change (two products, and one for the rounded sum that the second addition starts from), and the tangent's
+  // component along the normal, as far as rounding explains it.
   [[nodiscard]] double approach_after_rounding() const;
   // The same across the normal.
   [[nodiscard]] double sliding_after_rounding() const;
@@ -57,7 +58,7 @@ struct Application {
   [[nodiscard]] double leak() const;
 };
 
-// The scene's bodies as contacts need them.
+// What a contact needs to know of the scene's bodies.
 class ContactBodies {
  public:
   explicit ContactBodies(const core::Scene& scene) : scene_(&scene) {}

@@ -57,7 +57,8 @@ class CenterOfMass final : public Validator {
                  Where::pair(step, c.a, c.b, "contact.post.v"));
   }
 
-  // How far rounding takes one body's displacement from its share, m. Where the normal has no part, zero is added.
+  // How far rounding takes one body's displacement from its share, m. On an axis where the normal is zero, zero is
+  // added.
   static double moving(const Application& app, const core::Kinematics& post, Vec3d moved) {
     double square = 0.0;
     for (int k = 0; k < 3; ++k)
@@ -65,7 +66,7 @@ class CenterOfMass final : public Validator {
     return rounding(1) * std::sqrt(square) + rounding(3) * length(moved) + 8.0 * kSubnormal;
   }
 
-  // And its change of velocity, m/s.
+  // The same for the body's change of velocity, m/s.
   static double pushing(const Application& app, const core::Kinematics& post, Vec3d gained) {
     const double along = dot(gained, app.normal);
     return rounding(2) * length(Vec3d(post.v)) + rounding(3) * (std::abs(along) + length(gained - along * app.normal)) +

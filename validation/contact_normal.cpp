@@ -76,7 +76,7 @@ class ContactNormal final : public Validator {
     return Where::pair(step_, c.a, c.b, field);
   }
 
-  // Unit and along an axis; the axis, or -1.
+  // Checks that the normal has unit length and lies along an axis. Returns that axis, or -1.
   int judge_form(const core::Contact& c) {
     const Vec3d n(c.normal);
     const bool is_unit =
@@ -158,8 +158,8 @@ class ContactNormal final : public Validator {
     tally_.require(c.depth_m > 0.0F, "METHOD 4: a contact has positive depth", at(c, "contact.depth"));
   }
 
-  // The list is by color, the faces last. Per body, faces rise; with the colored solver colors rise, and no dynamic
-  // body is twice in one.
+  // The list is ordered by color, with the faces last. For each body, face indices rise; with the colored solver colors
+  // rise, and no dynamic body occurs twice in one color.
   void judge_order(const core::Contact& c) {
     const std::int64_t in_list = core::is_face(c.b) ? std::int64_t{core::kFaceColor} : (is_colored_ ? c.color : 0);
     tally_.require(in_list >= last_rank_,

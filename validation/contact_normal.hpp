@@ -16,8 +16,8 @@ namespace broadside::validation {
 //     and no dynamic body is twice in one color (colored solver).
 //
 // Limits, float32. Unit length and axis: 0, the components are 0 and 1. Depth: one subtraction, u p_k. Least axis: that
-// of two of them, 2 u p_k. Sign: centers closer on the axis than the rounding of their two sums (u |min + max| / 2
-// each; the difference of floats keeps its sign) decide nothing, either sign holds. Epsilon: the same on all axes, 3
+// of two of them, 2 u p_k. Sign: where the centers are closer on the axis than the rounding of their two sums (u |min +
+// max| / 2 each; the difference of floats keeps its sign), either sign holds. Epsilon: the same on all axes, 3
 // operations on the distance (its subtraction; three products and two sums halved by the root) and one on epsilon
 // squared. Boxes themselves are rebuilt bit for bit as the engine must have used them: one float addition a bound.
 ValidatorRow contact_normal_row();

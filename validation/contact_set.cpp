@@ -24,7 +24,7 @@ constexpr std::string_view kContactSetOrigin =
 constexpr std::string_view kFaceOrigin = "METHOD 4: one contact for each face that a body's box passes";
 constexpr std::uint32_t kPairGroups = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
 
-// When the boxes of a contact that is not in the trace may have been looked at.
+// When the engine may have tested the boxes of a contact that is not in the trace.
 enum class Turn { kAnyMoment, kAnyColor, kDetection, kUnknown };
 
 Turn turn_of(const core::Stamp& stamp) {

@@ -1,5 +1,5 @@
-// contact-set: every pair that touches was answered by one contact, every body beyond a face by one with it, and no
-// other contact was.
+// contact-set: every touching pair has one contact, every body beyond a face has one with that face, and there is no
+// other contact.
 #pragma once
 
 #include "validation/validator.hpp"
@@ -11,9 +11,9 @@ namespace broadside::validation {
 // face of the domain when the faces' turn comes has one with that face; no other two bodies have one.
 //
 // METHOD leaves the order of the body contacts open, so the turn of a contact that is not in the trace is unknown. It
-// is missed when the boxes overlap at every moment of the frame: before the first contact of either body, and after
-// each color (or, where no colors are told, after each contact). With solver=jacobi the only moment is that of
-// detection; with the race of printed-E8 no moment is known, and pairs are only judged not to be too many. Faces come
+// counts as missing only when the boxes overlap at every moment of the frame: before the first contact of either body,
+// and after each color (or, where no colors are told, after each contact). With solver=jacobi the only moment is that
+// of detection; with the race of printed-E8 no moment is known, and only superfluous contacts are judged. Faces come
 // last and in a given order: the position at a face's turn is that before the body's next face contact, or at the
 // frame's end. Where contacts have colors, a color is the length of a chain of touching pairs, so it is below their
 // number.

@@ -5,9 +5,9 @@
 
 namespace broadside::validation {
 
-// Law, per application, with d the depth before it, s the relative displacement of A against B along the normal and
-// d' = d - s: d' - delta = (1 - alpha beta)(d - delta) for d > delta; nothing moves for d <= delta. Never across the
-// normal. It says nothing about how the two bodies share the displacement: that is center-of-mass.
+// Law, per application, with d the depth before it, s the relative displacement of A against B along the normal and d'
+// = d - s: d' - delta = (1 - alpha beta)(d - delta) for d > delta; nothing moves for d <= delta, and nothing ever moves
+// across the normal. The law says nothing about how the two bodies share the displacement: that is center-of-mass.
 //
 // Limit for d > delta, on each axis that the normal has a part in: the two position additions round to u |x_k| of what
 // they end at, and the displacement is a chain of 7 operations (d - delta, beta, alpha, sum of inverse masses,

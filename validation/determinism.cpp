@@ -15,7 +15,7 @@ constexpr std::uint32_t kAllGroups = core::bit(core::Group::kBodies) | core::bit
                                      core::bit(core::Group::kContacts) | core::bit(core::Group::kNarrow) |
                                      core::bit(core::Group::kPoints) | core::bit(core::Group::kDetectedOrientation);
 
-// The first difference by bits, or that of the digests.
+// The first field that differs by bits; where none does, the digests if they differ.
 std::optional<Where> divergence(const core::FrameRecord& a, const core::FrameRecord& b, std::uint32_t groups) {
   const auto first = core::first_difference(a, b, groups, core::Bookkeeping::kIgnored);
   if (first) return Where{a.step, first->body_count, {first->bodies[0], first->bodies[1]}, first->field};
@@ -27,7 +27,7 @@ class Determinism final : public Validator {
  public:
   explicit Determinism(const Subject& subject)
       : baseline_(subject.baseline->stamp.label()),
-        // Who reads states gets them in float64, where a trace has them.
+        // A reader of states gets them in float64 where a trace has them, so these are compared too.
         common_(subject.header.groups & subject.baseline->groups & (kAllGroups | core::bit(core::Group::kWideBodies))) {
   }
 

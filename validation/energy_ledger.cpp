@@ -13,8 +13,8 @@ bool has_states(const core::FrameRecord& frame, std::size_t bodies) {
   return frame.position.size() == bodies && frame.velocity.size() == bodies;
 }
 
-// Rounded operations in double behind one energy: six of the kinetic one, seven of gravity's, their sum; and of a
-// spring.
+// Rounded operations in double behind one body's energy (six for the kinetic, seven for gravity's, their sum), and
+// behind one spring's.
 constexpr double kEnergyOperations = 14.0;
 constexpr double kSpringOperations = 11.0;
 

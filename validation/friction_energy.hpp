@@ -14,7 +14,8 @@ namespace broadside::validation {
 //
 // Limits, float32, with S = Application::sliding_rounding of v_t and B = Application::sliding_after_rounding:
 //   - energy: t is off by S / |v_t| and 4 operations (three products and two sums halved by the root, the root, a
-//     quotient), J_t by 5 on its size, so v_t' is off from something no faster than v_t by E = S + 9 u |v_t| + B;
+//     quotient), J_t by 5 on its size, so v_t' differs by at most E = S + 9 u |v_t| + B from a velocity no faster than
+//     v_t;
 //     |v_t'| E / (wA + wB) as in normal-energy;
 //   - stick: S / (wA + wB) and 5 operations (|v_t|'s, the sum of inverse masses, a quotient); slide: 3 on mu_k J_n (mu
 //     a product and its root); the choice between them: both, with 3 on the cone. Where that decides, or whether the

@@ -77,7 +77,8 @@ void HandOver::link(const core::Kinematics& pre, const core::Kinematics& post, s
   stand = {Vec3d(post.x), Vec3d(post.v)};
 }
 
-// Of n changes: each is one subtraction, n - 1 additions on at most their sum of sizes, and one to the state.
+// Rounding of a sum of n changes: one subtraction each, n - 1 additions on at most the sum of their magnitudes, and one
+// addition to the state.
 void HandOver::add_up(const core::FrameRecord& frame) {
   std::vector<Stand> sums(stand_.size());
   std::vector<int> counts(stand_.size(), 0);
@@ -128,7 +129,8 @@ void HandOver::judge_face(core::Vec3 x, std::uint32_t body, std::uint32_t face) 
   const double bound = local + x[axis];
   const double outside = is_upper ? bound - wall : wall - bound;
   const double error = rounding(1) * std::abs(bound);
-  // A body pushed in by the opposite face, later in the order, may stick out here when the domain is narrower.
+  // Where the domain is narrower than the body, the opposite face, later in the order, may have pushed it out of this
+  // one.
   const bool is_met = (met_[body] & (1U << face | 1U << (face ^ 1U))) != 0;
   if (!is_met) {
     domain_.check(outside, {error, "m", kOutside},

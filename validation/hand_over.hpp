@@ -1,7 +1,7 @@
-// Hand-over: within a frame of the method each contact goes on from the state that the body's last contact left, the
-// frame ends in the last one, and no body ends outside a face without a contact with it. Contacts of two bodies that
-// are summed (solver=jacobi) all start from what was seen, and their changes are added before the faces. Part of
-// state-sanity.
+// Hand-over: within a frame of the method each contact starts from the state that the body's last contact left, the
+// frame ends in the state after the last contact, and no body ends outside a face without a contact with it. Contacts
+// of two bodies that are summed (solver=jacobi) all start from what was seen, and their changes are added before the
+// faces. Part of state-sanity.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,7 @@ core::Status check_scenes(const core::TraceHeader& a, const core::TraceHeader& b
 
 std::vector<Entry> make_entries(const Subject& subject, const JudgeOptions& options, std::uint32_t& groups,
                                 std::uint32_t& baseline_groups) {
-  // What a validator that compares runs of one scene says when the baseline is of another scene.
+  // What validators see that compare runs of one scene: no baseline, when the baseline is of another scene.
   Subject alone = subject;
   const bool is_transformed =
       subject.baseline != nullptr && subject.baseline->stamp.scene_digest != subject.header.stamp.scene_digest;
@@ -121,8 +121,8 @@ class BaselineFrames {
   std::optional<core::FrameRecord> frame_;
 };
 
-// Validators share nothing that they write, so those of one frame look at it on as many threads as there are, beside
-// the reading of the next frame; what each concludes does not depend on which thread it was.
+// Validators share no data that they write. So all of them look at a frame in parallel, on as many threads as there
+// are, while the next frame is read; no verdict depends on the thread that computed it.
 template <typename Read>
 void look_and_read(std::vector<Entry>& entries, const Evidence& evidence, const Evidence& alone, const Read& read) {
   const tbb::blocked_range<std::size_t> jobs(0, entries.size() + 1, 1);

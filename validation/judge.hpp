@@ -32,16 +32,16 @@ struct FrameSource {
   const core::TraceHeader& header;
   std::span<const std::uint64_t> steps;  // rising
   // Frame by index, with at least the asked-for groups that the header names. Called from one thread at a time, not
-  // always the same one, and beside validators that look at an earlier frame.
+  // always the same one, while validators on other threads look at an earlier frame.
   std::function<core::Result<core::FrameRecord>(std::uint64_t index, std::uint32_t groups)> read;
   std::vector<core::PenetrationStatistics> statistics = {};
   bool is_cut_off = false;  // the file was not finished
 };
 
 // One verdict per validator, in the table's order; those that do not apply say why. With a baseline, validators that
-// need one compare; the others judge the subject alone. The two scenes must have one digest, or
-// the baseline's be a transformed one (validation/scene_relation.hpp), which metamorphic alone looks at. Frames of the
-// baseline are matched by step; at most four frames are in memory at a time.
+// need one compare; the others judge the subject alone. The two scenes must have the same digest, or the baseline's
+// scene must be the subject's, transformed (validation/scene_relation.hpp); only metamorphic sees such a baseline.
+// Frames of the baseline are matched by step; at most four frames are in memory at a time.
 core::Result<std::vector<core::Verdict>> judge(const core::TraceReader& trace, const core::TraceReader* baseline,
                                                const JudgeOptions& options);
 core::Result<std::vector<core::Verdict>> judge(const FrameSource& subject, const FrameSource* baseline,

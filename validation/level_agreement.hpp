@@ -13,7 +13,7 @@ namespace broadside::validation {
 // recorded candidates when the engine has a broad phase (so that a pair which the broad phase lost is not counted
 // twice), otherwise the exact overlap set. Every frame is judged; a pair that stands still is computed once. With a
 // baseline that differs in its level or broad-phase settings only, every frame is compared as long as the recorded
-// boxes are bit-equal; once flat's own dynamics part the trajectories, there is nothing to compare.
+// boxes are bit-equal; once the trajectories differ, because flat confirms other pairs, there is nothing to compare.
 //
 // Limits: 0 pairs. Boxes are translated in float32 as recorded boxes are, and compared as floats.
 ValidatorRow level_agreement_row();

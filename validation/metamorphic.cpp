@@ -182,7 +182,7 @@ class Metamorphic final : public Validator {
 
   // Busy: bodies that met more than one other body, in both runs together. Applying one contact can move a body out of
   // another, which is then no contact, so two orders may have recorded different contacts. A body that met a busy one
-  // has another state after it too, and meets faces with that state.
+  // may also have another state afterwards, and meets the faces in that state.
   void find_busy() {
     std::map<std::uint32_t, std::set<std::uint32_t>> partners;
     const auto meet = [&partners](std::uint32_t a, std::uint32_t b) { partners[a].insert(b), partners[b].insert(a); };

@@ -8,10 +8,10 @@ namespace broadside::validation {
 // Law: against a run of one engine and settings on a transformed scene (core/scene/transformed_scene.hpp),
 //   - scaled by a power of two, mirrored on an axis: every state, box, pair, proximity and contact is the transformed
 //     one, to the last bit (a zero's sign aside);
-//   - renumbered, which swaps A and B of pairs: from equal detection states follow the renumbered pairs, the renumbered
-//     contact of each two bodies that meet nobody else in either run, and the face contacts of those and of bodies that
-//     meet nobody. The order in which a body's several contacts are applied is a function of ids (METHOD leaves it
-//     open), so from a frame with such a body on trajectories may part;
+//   - renumbered, which swaps A and B of pairs: equal detection states give the renumbered pairs; the renumbered
+//     contact of any two bodies that meet no third body in either run; and the renumbered face contacts of these bodies
+//     and of bodies that meet no other. The order in which a body's several contacts are applied is a function of ids
+//     (METHOD leaves it open), so trajectories may differ from the first frame with such a body on;
 //   - grown: where bodies stand at the same places, the candidate pairs contain the subject's.
 // Mirroring moves vertices on an octant's plane to the other octant, so where last-level boxes decide, confirmed pairs
 // may differ; nothing is compared from such a frame on. A contact whose centers coincide on its axis has no side that

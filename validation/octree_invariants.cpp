@@ -134,8 +134,8 @@ class OctreeInvariants final : public Validator {
     tally_.check(deepest, {band(lower->box, box), "m", kCellOrigin}, where);
   }
 
-  // The least distance of the box from the cell's faces; negative when the box sticks out. A face of the domain holds
-  // what touches it, so it does not count.
+  // The least distance of the box from the cell's faces; negative when the box sticks out. The domain's faces contain
+  // boxes that touch them, so they do not count.
   [[nodiscard]] double room_in(const Box& cell, const Box& box) const {
     double room = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {

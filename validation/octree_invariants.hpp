@@ -8,7 +8,7 @@ namespace broadside::validation {
 // Laws, METHOD 2, P-Alg 1 and P-Alg A1.
 // Scene octree, in every frame that records it:
 //   - node 0 is the root, with the scene's domain as its box; every other node is a child of exactly one;
-//   - a node above MAX_LEVEL = 2 has eight children, one level down, one at MAX_LEVEL has none: 73 nodes (E7);
+//   - a node above MAX_LEVEL = 2 has eight children, one level down, and a node at MAX_LEVEL has none: 73 nodes (E7);
 //   - children tile their parent: each takes one half of every axis, and halves meet at one plane;
 //   - the node of a body contains its box, and none of its children does. Boxes outside the domain are in the root.
 // Body octrees, in the frame that records them:

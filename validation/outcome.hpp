@@ -12,7 +12,7 @@ namespace broadside::validation {
 core::Outcome worst_outcome(std::span<const core::Verdict> verdicts);
 
 // fail -> 1, inconclusive -> 3, pass and not applicable -> 0: a cell of a run may have no law that applies. `check`,
-// which was asked to judge, makes 3 of nothing judged.
+// which was asked to judge, exits with 3 when nothing was judged.
 core::Exit exit_of(core::Outcome outcome);
 
 }  // namespace broadside::validation

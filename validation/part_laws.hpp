@@ -16,8 +16,8 @@ struct PartLaw {
   std::string_view nothing;  // why it met nothing, where that is so
 };
 
-// whole: the validator's name, things and origin, with nothing counted. Its worst place is the worst of the parts, of
-// equals the earliest, then the first part's; a failure says how many times each part was broken.
+// whole: the validator's name, things and origin, with nothing counted. Its worst place is that of the worst part; of
+// equally bad ones, the earliest, and then that of the first part. A failure says how many times each part was broken.
 core::Verdict sum_up(std::span<const PartLaw> parts, Tally whole, std::string_view nothing, const std::string& notes);
 
 }  // namespace broadside::validation

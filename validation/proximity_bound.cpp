@@ -64,7 +64,8 @@ class ProximityBound final : public Validator {
       return;
     }
     if (frame_->proximity.size() != frame_->confirmed.size()) {
-      // Because the vertex stage was off, in all frames; our engines say in their settings whether it was.
+      // Empty lists in all frames are lawful: the vertex stage was off. Our engines say in their settings whether it
+      // was.
       const bool was_on = setting(header_.stamp, "vertex_stage") == "on" || confirmed_ > 0;
       if (frame_->proximity.empty() && !was_on) return;
       tally_.require(false, "one proximity per confirmed pair", Where::frame(frame_->step, "proximity"));

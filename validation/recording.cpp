@@ -49,8 +49,8 @@ struct StepWindow {
   std::uint64_t last = 0;
 };
 
-// "1:50,100:250" as the trace's note has it; nothing where there is no note. A text that is no list of windows has
-// none, so that no step is in it.
+// "1:50,100:250" as the trace's note has it; nothing where there is no note. For a text that is no list of windows the
+// list is empty, so that no step is inside a window.
 std::optional<std::vector<StepWindow>> told_windows(const core::TraceHeader& header) {
   const auto note = header.notes.find("windows of steps");
   if (note == header.notes.end()) return std::nullopt;
@@ -109,8 +109,8 @@ class Recording final : public Validator {
                    kLevel, Where::frame(step, "/provenance@level"));
   }
 
-  // A step that is no multiple, or in no window, can only be the last: it is judged when another one follows. Before
-  // the first recorded step there was none to record, either.
+  // Only the last step may be no multiple, or in no window, so each step is judged when another one follows. Nor may a
+  // step that was to be recorded lie before the first recorded one.
   void judge_every(std::uint64_t step) {
     const std::uint64_t every = std::max<std::uint32_t>(1, header_.every);
     const bool is_first = last_step_ == kNoStep;

@@ -45,8 +45,8 @@ class StepPowers {
   void advance();
   // The largest norm of the powers so far, the zeroth included: at least 1.
   [[nodiscard]] double largest_norm() const { return largest_; }
-  // Above the exact largest norm: each advance rounds 3 operations an entry in double, no more than 2^-50 of what it
-  // multiplies, and later steps carry that on.
+  // An upper bound of the exact largest norm: each advance rounds 3 operations an entry in double, no more than 2^-50
+  // of what it multiplies, and later steps carry that on.
   [[nodiscard]] double bound() const { return largest_ * (1.0 + 0x1p-50 * steps_ * largest_); }
 
  private:

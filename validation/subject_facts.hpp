@@ -15,7 +15,7 @@ std::string lacking(const core::TraceHeader& header, std::uint32_t groups);
 
 bool has(const core::TraceHeader& header, core::Group group);
 
-// Whether points of contact are recorded with what acted there, and not as places alone.
+// Whether points of contact are recorded with the impulses that acted there, and not as places alone.
 bool has_impulses(const core::TraceHeader& header);
 
 // Why impulses of points cannot be judged; empty when they can.
@@ -24,8 +24,8 @@ std::string lacking_impulses(const core::TraceHeader& header);
 // Value of one key in the stamp's canonical settings "a=1,b=2"; empty when it is not there.
 std::string_view setting(const core::Stamp& stamp, std::string_view key);
 
-// Whether both have the same settings, apart from these keys. Of one engine every key must be equal. Twins may have
-// keys of their own, such as a device's; then only keys that both have are compared.
+// Whether both have the same settings, apart from these keys. For two runs of one engine every key must be equal. Twins
+// may have keys of their own, such as a device's; then only keys that both have are compared.
 bool same_settings_but(const core::Stamp& a, const core::Stamp& b, std::initializer_list<std::string_view> but);
 
 // Whether the trace is of an engine that moved the bodies itself: it has states, or digests alone, and was not fed.

@@ -51,8 +51,9 @@ class Tally {
   // equals.
   // worked: the numbers behind it, asked for when this becomes the worst value; a failing verdict shows them.
   bool check(double measured, const Limit& limit, const Where& where, const std::function<std::string()>& worked = {});
-  // The same for a value of which only a bound is known: true, and judged, where the value holds and is no worse than
-  // the worst so far, whatever it is. Otherwise nothing is judged, and the value itself has to be measured.
+  // The same for a value of which only an upper bound is known. Returns true, and counts the value as judged, when the
+  // bound alone shows that the value holds its limit and is no worse than the worst so far. Otherwise nothing is
+  // judged, and the value itself has to be measured.
   bool check_bound(double bound, double limit);
   // A law that either holds or not, without a magnitude.
   bool require(bool holds, std::string_view origin, const Where& where);

@@ -53,7 +53,7 @@ struct ValidatorRow {
   // Why it does not apply to this subject and baseline; empty when it does.
   std::string (*why_not)(const Subject& subject);
   std::unique_ptr<Validator> (*make)(const Subject& subject);
-  // Its baseline runs a transformed scene (validation/scene_relation.hpp); other validators never get such a one.
+  // Its baseline runs a transformed scene (validation/scene_relation.hpp); other validators never get such a baseline.
   bool compares_scenes = false;
   bool reads_motion = false;
   // The law says how forces move bodies: where it passes on a body that moved, the motion is proven.

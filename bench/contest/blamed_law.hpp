@@ -1,4 +1,4 @@
-// Which rows of the contest a known cause speaks of.
+// Which broken laws of the contest a known cause explains.
 #pragma once
 
 #include <string_view>

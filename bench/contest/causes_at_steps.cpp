@@ -1,4 +1,4 @@
-// Causes of what is broken at another step than the scene's own, where it holds.
+// Causes of laws that are broken at another step than the scene's own, and hold at the scene's own.
 #include <array>
 
 #include "bench/contest/blamed_law.hpp"
@@ -12,7 +12,7 @@ struct StepRow : BlamedLaw {
   std::string_view cause;
 };
 
-// What falls 1 m reaches 4.4 m/s, 7 cm in 1/60 s.
+// A body that falls 1 m reaches 4.4 m/s, which is 7 cm in 1/60 s.
 constexpr std::string_view kFallen = "it does not stand, and what falls is pressed in by its speed times the step";
 constexpr std::string_view kThrough =
     "detection at steps alone: what moves 0.3 m a step is first seen inside of others";

@@ -1,4 +1,4 @@
-// Why laws are broken: a line for each cause, and beneath it whom it strikes.
+// Why laws are broken: a line for each cause, and below it the engines and scenes that it affects.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kNotYet = "not yet looked into";
 
-// What one cause breaks; what has none yet, by engine.
+// The broken laws of one cause; those without a known cause are kept by engine.
 struct Strike {
   std::string cause;
   std::set<std::string> entrants;
@@ -50,7 +50,7 @@ std::vector<Strike> strikes_of(const ContestTable& table) {
           ++strike.count;
         }
       }
-  // What nobody looked into first, then what strikes most.
+  // Broken laws without a known cause come first, then causes by how many laws they break.
   std::stable_sort(strikes.begin(), strikes.end(), [](const Strike& a, const Strike& b) {
     if (a.cause.empty() != b.cause.empty()) return a.cause.empty();
     return a.count > b.count;
@@ -64,7 +64,7 @@ std::string scenes_text(const Strike& strike) {
   return fmt::format("{} ({} scenes)", fmt::join(strike.families, ", "), strike.scenes.size());
 }
 
-// Engines all of whose entrants are struck, and other entrants.
+// The engines of which every entrant is affected, and the affected entrants of other engines.
 std::string entrants_text(const Strike& strike, const ContestTable& table) {
   std::map<std::string, std::vector<std::string>> all;
   for (const Entrant& e : table.entrants) all[id_of(e)].push_back(e.engine);

@@ -122,7 +122,7 @@ std::string plan_text(const CellSeconds& known, const campaign::Manifest& manife
     all += costs.back().seconds;
   }
   std::stable_sort(costs.begin(), costs.end(), [](const Cost& a, const Cost& b) { return a.seconds > b.seconds; });
-  // A sum that is mostly guessed is no estimate.
+  // A sum of mostly unknown times is no estimate.
   if (2 * unknown > costs.size())
     return fmt::format("{} cells, of which {} were measured: too few for an estimate.\n", costs.size(),
                        costs.size() - unknown);

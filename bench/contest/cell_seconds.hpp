@@ -1,4 +1,4 @@
-// How long cells of a contest take: as an earlier contest measured it, and what of that is left of this one.
+// How long cells of a contest take: as an earlier contest measured them, and how much of that this contest has left.
 #pragma once
 
 #include <filesystem>
@@ -43,8 +43,8 @@ class CellSeconds {
   std::string origin_;  // what the lines with '#' say
 };
 
-// Cells that are not finished, at the pace of those that this call finished: a busy or slower machine takes longer for
-// each, by about the same factor.
+// The time that unfinished cells will take, scaled by the pace of those that this call finished: a busy or slower
+// machine takes longer for each, by about the same factor.
 class Forecast {
  public:
   Forecast(const CellSeconds& known, const campaign::Manifest& manifest, const std::filesystem::path& folder);
@@ -58,7 +58,7 @@ class Forecast {
   double taken_s_ = 0.0;
 };
 
-// Sum, what is not known, and the dearest cells, as text.
+// The sum, the cells whose time is not known, and the most expensive cells, as text.
 std::string plan_text(const CellSeconds& known, const campaign::Manifest& manifest, std::uint32_t jobs);
 
 // The text of results/seconds.tsv, made when the program is built.

@@ -20,7 +20,7 @@ struct Count {
   std::size_t absent = 0;
 };
 
-// Of the scenes' own steps.
+// Counts cells at the scenes' own steps.
 Count count_of(const ContestTable& table) {
   Count count;
   for (const SceneTable& scene : table.scenes)

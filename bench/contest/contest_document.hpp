@@ -9,7 +9,7 @@
 
 namespace broadside::bench::contest {
 
-// command: what repeats it.
+// command: repeats the contest.
 Document contest_document(const ContestTable& table, const std::string& command);
 
 // One section each, in the order of the page; they add nothing where there is nothing to show.
@@ -31,7 +31,8 @@ void add_declarations(Document& document, const ContestTable& table);
 
 // `first`, then a column an entrant.
 std::vector<std::string> columns_of(const ContestTable& table, std::vector<std::string> first);
-// What an engine is built as says how its time counts: code in WebAssembly is not the library's own speed.
+// Whether the engine is native code. If not, its time does not count: code in WebAssembly does not have the library's
+// own speed.
 bool is_native(const ContestTable& table, const std::string& label);
 // "energy_rigid_bounce": letters and digits alone.
 std::string file_name_of(const std::string& what, std::string scene);

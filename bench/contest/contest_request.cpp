@@ -19,8 +19,8 @@
 namespace broadside::bench::contest {
 namespace {
 
-// As it ships and as its manual recommends (tunings.cpp), and a setting where a default leaves something out that
-// others have, or offers another method.
+// Each engine as it ships and as its manual recommends (tunings.cpp). More settings where the default leaves out what
+// other engines have, or where a setting selects another method.
 constexpr std::array<std::string_view, 26> kEntrants{"octree-cpu",
                                                      "plain-rigid",
                                                      "bullet-world",
@@ -54,17 +54,16 @@ constexpr std::array<std::string_view, 2> kHeaps{"freefall:cube:100[rigid=1,fram
                                                  "freefall:cube:1000[rigid=1,frames=240]"};
 constexpr std::string_view kLargestHeap = "freefall:cube:10000[rigid=1,frames=120]";
 
-// On which engines run with one and with two threads, where they have a number of threads.
+// Scenes on which engines that have a number of threads run with one and with two.
 constexpr std::array<std::string_view, 2> kOfThreads{"rigid:stack:5", kHeaps[0]};
 
-// Of the default scenes those that run at every step: each kind of motion once, so that the whole contest takes an
-// hour.
+// The default scenes that run at every step: each kind of motion once, so that the whole contest takes an hour.
 constexpr std::array<std::string_view, 9> kAtEveryStep{
     "rigid:torque-free:box",     "rigid:spin-up", "rigid:incline:slide", "rigid:slide:heading-3",
     "rigid:sphere:slip-to-roll", "rigid:bounce",  "rigid:stack:5",       "rigid:stack:1000-on-1",
     "rigid:card-tent:stands"};
 
-// The step that games take, at which what stands by statics is tried as well: as it ships and as recommended.
+// The step that games take. Scenes that stand by statics run at it too, with engines as they ship and as recommended.
 constexpr double kUsualStep_s = 1.0 / 60.0;
 
 // Shares of the scene's own step, the usual one included where it is longer and the scene stands by statics.
@@ -99,7 +98,8 @@ std::string with_threads(const std::string& engine, const std::string& threads) 
   return engine + "[threads=" + threads + "]";
 }
 
-// What is not in the campaign yet. They are judged and not timed: what an impact costs says the scene's own step.
+// Adds the runs of passages that are not in the campaign yet. They are judged and not timed: the cost of an impact is
+// measured at the scene's own step.
 void add_passages(campaign::CampaignFile& campaign, const std::vector<Entrant>& entrants, double time_limit_s) {
   std::set<std::pair<std::string, std::string>> there;
   for (const campaign::CellWork& work : campaign.cells) there.emplace(work.scene, work.engine);

@@ -14,8 +14,9 @@ namespace broadside::bench::contest {
 struct ContestRequest {
   std::vector<std::string> engines;  // empty = default_entrants()
   std::vector<std::string> scenes;   // names, or a beginning that ends in ':' or '*'; empty = default_scenes()
-  // Of the scene's own step, rising. The scene's own, 1, is the one that the matrix of verdicts shows. Scenes that are
-  // not named run at their own, but for one of each kind; and at 1/60 s where they stand by statics.
+  // Factors of the scene's own step, rising. The matrix of verdicts shows the scene's own, 1. Where no scenes are
+  // named, one scene of each kind runs at all of these steps and the others at their own; those that stand by statics
+  // also run at 1/60 s.
   std::vector<double> step_factors{0.25, 0.5, 1.0, 2.0};
   std::uint32_t repetitions = 1;   // timed runs of a cell; 0 = none
   double time_limit_s = 120.0;     // of each part of a cell
@@ -34,7 +35,7 @@ std::vector<std::string_view> default_entrants();
 // Those with answers (rigid:*), and heaps.
 std::vector<std::string> default_scenes();
 
-// Whose energy is shown over time: those that run at every step, or those that were asked for.
+// Scenes whose energy is shown over time: those that run at every step, or those that were asked for.
 core::Result<std::vector<std::string>> scenes_with_energy(const ContestRequest& request);
 
 core::Result<std::vector<Entrant>> entrants_of(const ContestRequest& request);

@@ -53,7 +53,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// The median of a run's frames, s; the least of the runs.
+// The median time of a run's frames, s.
 double frame_s(const core::Sample& sample) {
   for (const core::StageSeries& stage : sample.stages)
     if (stage.stage == "frame") return median(stage.seconds);
@@ -64,7 +64,7 @@ void add_verdicts(Entry& entry, const core::CellVerdicts& judged) {
   entry.coverage = core::coverage_of(judged.verdicts);
   for (const core::Verdict& v : judged.verdicts) {
     if (v.outcome == core::Outcome::kFail) entry.broken.push_back(v);
-    // Above its limit is what holds where a limit is the least.
+    // Where a limit is a lower bound, a law holds above it: its share says nothing about how near the limit is.
     if (v.outcome == core::Outcome::kPass && share_of_limit(v) <= 1.0 &&
         (!entry.has_nearest || share_of_limit(v) > share_of_limit(entry.nearest))) {
       entry.nearest = v;
@@ -162,7 +162,7 @@ ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>
     if (!cell.stamp.engine_build.empty()) table.builds[label] = cell.stamp.engine_build;
     place.entries[label][step] = std::move(entry);
   }
-  // A page of cells that another machine did is made where its engines may be missing.
+  // The page may be made on a machine without the engines, from cells that another machine ran.
   for (Entrant& e : table.entrants)
     if (table.builds.count(e.engine) > 0) e.absent.clear();
   return table;

@@ -15,7 +15,7 @@
 
 namespace broadside::bench::contest {
 
-// What became of one engine on one scene at one step.
+// The result of one engine on one scene at one step.
 struct Entry {
   core::CellState state = core::CellState::kNotMeasured;
   std::string reason;  // of a cell that was not recorded
@@ -67,8 +67,8 @@ std::pair<std::string, std::string> name_and_step(const std::string& scene_name)
 ContestTable contest_table(const core::RunRows& rows, const std::vector<Entrant>& entrants,
                            const std::map<std::string, double>& steps_s);
 
-// Reads the traces of these scenes at their own steps, in this folder, and keeps the curves in FOLDER/energy.json: a
-// trace that is gone has the curve that was kept of it, or none.
+// Reads the traces of these scenes at their own steps, in this folder, and keeps the curves in FOLDER/energy.json. For
+// a trace that is gone the kept curve is used, if there is one.
 core::Status read_energy(ContestTable& table, const std::filesystem::path& folder,
                          const std::vector<std::string>& scenes);
 

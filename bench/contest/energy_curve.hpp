@@ -1,4 +1,4 @@
-// How much energy a recorded run has, against its start. It is worked out from the states, so no engine need keep a
+// How much energy a recorded run has gained since its start, computed from the states, so that no engine need keep a
 // ledger.
 #pragma once
 

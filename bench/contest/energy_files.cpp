@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using CurvesByTrace = std::map<std::string, EnergyCurve>;
 
-// A file that is missing or damaged keeps nothing: it is made of the traces again.
+// A file that is missing or damaged gives no curves: it is made anew from the traces.
 CurvesByTrace kept_curves(const fs::path& file) {
   const auto text = core::read_whole_file(file);
   if (!text) return {};

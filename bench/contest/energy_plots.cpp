@@ -22,7 +22,8 @@ double largest(const EnergyCurve& curve) {
   return most;
 }
 
-// As they ship where there are many: more lines than colors and shapes would be a carpet.
+// Where there are many entrants, only engines as they ship are shown: with more lines than colors and shapes, lines
+// could not be told apart.
 bool is_shown(const ContestTable& table, const std::string& label) {
   constexpr std::size_t kMostLines = 12;
   const auto rows = tunings();
@@ -30,8 +31,8 @@ bool is_shown(const ContestTable& table, const std::string& label) {
          std::any_of(rows.begin(), rows.end(), [&](const Tuning& t) { return t.as_shipped == label; });
 }
 
-// What most engines need: twice the middle one of their largest changes. One that explodes would make lines of all
-// others.
+// A range that suits most engines: twice the median of their largest changes. With the range of an engine that explodes
+// all other curves would be flat lines.
 double range_j(const std::map<std::string, EnergyCurve>& curves) {
   std::vector<double> all;
   all.reserve(curves.size());
@@ -41,7 +42,7 @@ double range_j(const std::map<std::string, EnergyCurve>& curves) {
   return 2.0 * *middle;
 }
 
-// Cut where it leaves the range; `words` says where.
+// The curve, cut where it leaves the range; `words` says where.
 Curve curve_of(const EnergyCurve& of, const std::string& label, double range, std::string& words) {
   Curve curve;
   curve.name = label;

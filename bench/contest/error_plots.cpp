@@ -43,7 +43,7 @@ bool is_native(const ContestTable& table, const std::string& label) {
 
 void add_error_against_cost(Document& document, const ContestTable& table) {
   std::vector<Block> figures;
-  // Where engines ran at one step alone, a line is a mark: behind a fold.
+  // Where every engine ran at one step only, its line is a single mark. Such plots go into a fold.
   Fold marks{"", "error_marks", false, {}};
   for (const SceneTable& scene : table.scenes) {
     LinePlot plot;

@@ -27,7 +27,7 @@ std::string broken_anchor(const std::string& scene, const std::string& engine);
 std::string measured_text(const core::Verdict& verdict);
 // How many times its limit a law measured; infinite where the limit is zero or something is no number.
 double share_of_limit(const core::Verdict& verdict);
-// The furthest from its limit; null where none is broken.
+// The broken law that is furthest beyond its limit; null where none is broken.
 const core::Verdict* worst_of(const Entry& entry);
 
 }  // namespace broadside::bench::contest

@@ -1,4 +1,4 @@
-// A fold for each family of scenes: who breaks what there, and every broken law with its worked line.
+// A fold for each family of scenes: which engine breaks which law there, and every broken law with its worked line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace broadside::bench::contest {
 namespace {
 
-// What became of an engine on the scenes of a family.
+// The results of an engine on the scenes of a family.
 struct Tally {
   std::size_t holds = 0;
   std::size_t breaks = 0;
@@ -81,7 +81,7 @@ std::vector<TableCell> line_of(const std::string& engine, const Tally& tally) {
           words(fmt::format("{}", fmt::join(tally.causes, "; ")))};
 }
 
-// Every broken law of the family, each where its square leads to.
+// Every broken law of the family, each with the anchor that its square links to.
 Notes worked_lines(const Family& family, const ContestTable& table) {
   Notes notes;
   for (const SceneTable* scene : family.scenes)
@@ -92,7 +92,7 @@ Notes worked_lines(const Family& family, const ContestTable& table) {
         const std::string_view cause = known_cause(e.engine, v.validator, scene->scene);
         notes.items.push_back(fmt::format("{}, {}, {}: {}: {}", scene->scene, e.engine, v.validator,
                                           cause.empty() ? "not yet looked into" : cause, v.explanation));
-        // A square leads to the first law that its cell broke.
+        // A square links to the first law that its cell broke.
         notes.ids.push_back(&v == entry->broken.data() ? broken_anchor(scene->scene, e.engine) : std::string());
       }
     }

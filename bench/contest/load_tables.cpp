@@ -1,4 +1,4 @@
-// What carries load: stacks, arches and mass ratios, and the heaps of many boxes.
+// Scenes that carry load: stacks, arches and mass ratios, and the heaps of many boxes.
 #include <fmt/format.h>
 
 #include <algorithm>

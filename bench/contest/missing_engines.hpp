@@ -1,4 +1,4 @@
-// Entrants that can be installed and are not: named, and installed where somebody agrees.
+// Entrants that can be installed and are not: they are named, and installed if the user agrees.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace broadside::bench::contest {
 
-// What can be installed, whom to ask, and what installs one.
+// Which engines can be installed, how to ask the user, and the function that installs one.
 struct InstallPath {
   std::vector<std::string> ids;
   std::function<bool(const std::string& question)> agrees;
@@ -20,8 +20,8 @@ struct InstallPath {
 // Ids of absent entrants that are among these, each once.
 std::vector<std::string> missing_of(const std::vector<Entrant>& entrants, const std::vector<std::string>& ids);
 
-// Asks once for all of them. How many were installed; none where nobody agrees. An engine that cannot be installed
-// stays absent, with a line that says why.
+// Asks once for all of them. Returns how many were installed: none if the user does not agree. An engine that cannot be
+// installed stays absent, with a line that says why.
 std::size_t install_missing(const std::vector<Entrant>& entrants, const InstallPath& path);
 
 }  // namespace broadside::bench::contest

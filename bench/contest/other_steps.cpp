@@ -1,4 +1,4 @@
-// What is broken at other steps than a scene's own, where that one shows nothing of it: the squares leave it out.
+// Laws that are broken at other steps than a scene's own, and not at its own: the squares do not show them.
 #include <fmt/format.h>
 
 #include <algorithm>

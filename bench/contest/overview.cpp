@@ -1,4 +1,4 @@
-// Who is right, on one screen: an engine a line, a scene a square.
+// Which engine is right, on one screen: one line per engine, one square per scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kUnknown = "?";
 constexpr std::string_view kAbsent = "\u2013";
-// What a square has room for.
+// The largest count that a square has room for.
 constexpr std::size_t kMostCounted = 9;
 
 bool has_every_cause(const Entry& entry, const std::string& engine, const std::string& scene) {

@@ -1,4 +1,4 @@
-// Bodies so fast that an engine may let them through: scenes, and how far the fast body moves a step.
+// Scenes with a body so fast that it may pass through another one, and how far it moves a step.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace broadside::bench::contest {
 
 struct PassageRun {
   std::string scene;
-  double step_m = 0.0;  // what the fast body moves a step where nothing stops it
+  double step_m = 0.0;  // how far the fast body moves a step if nothing stops it
 };
 
 struct PassageCourse {

@@ -1,4 +1,5 @@
-// Which engine lets what through: a picture a course, engines downward and distances a step along.
+// Which engine lets bodies pass through others: one picture per course, with a row per engine and a column per distance
+// that the body moves a step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ constexpr double kWidth = 760.0;
 constexpr double kRowHeight = 17.0;
 constexpr double kGap = 1.5;
 
-// The color of a place, and how full: what is through is full, so that it is seen without colors too.
+// The color of a mark, and how full it is: a passage is full, so that it can be seen without colors too.
 struct Look {
   std::string_view style;
   double opacity;
@@ -47,7 +48,7 @@ const Entry* entry_of(const ContestTable& table, const std::string& scene_name, 
   return nullptr;
 }
 
-// Those that ran at any distance.
+// The engines that ran at any distance.
 std::vector<std::string> engines_of(const ContestTable& table, const PassageCourse& course) {
   std::vector<std::string> engines;
   for (const Entrant& e : table.entrants)
@@ -99,7 +100,7 @@ std::string picture(const ContestTable& table, const PassageCourse& course, cons
 void add_passages(Document& document, const ContestTable& table) {
   std::vector<Block> figures;
   const std::vector<PassageCourse> courses = passage_courses();
-  // Who ran at a scene's own step alone is in the table of verdicts.
+  // Engines that ran only at the scenes' own steps are in the table of verdicts.
   std::vector<std::string> columns;
   for (const Entrant& e : table.entrants)
     if (std::any_of(courses.begin(), courses.end(), [&](const PassageCourse& course) {

@@ -1,4 +1,5 @@
-// The page in a few sentences: who is right where, who is cheap there, what stands at the step that games take.
+// The page in a few sentences: which engine is right where, which is cheap there, and what stands at the step that
+// games take.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +39,7 @@ std::string by_count(const std::map<std::string, std::size_t>& counts) {
   return text;
 }
 
-// Of each engine the setting that is right on most scenes.
+// Each engine with the setting that is right on most scenes.
 std::string who_is_right(const ContestTable& table) {
   std::map<std::string, std::pair<std::string, std::size_t>> best;
   for (const Entrant& e : table.entrants) {
@@ -53,7 +54,7 @@ std::string who_is_right(const ContestTable& table) {
                      by_count(counts));
 }
 
-// Scenes on which nobody is wrong, and the one on which most are.
+// Scenes on which no engine is wrong, and the one on which most are.
 std::string where_all_are_right(const ContestTable& table) {
   std::vector<std::string> right;
   std::string hardest;

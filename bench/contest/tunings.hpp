@@ -1,4 +1,4 @@
-// Two rows an engine: as its library ships, and as its manual recommends. Each with its source.
+// Two rows per engine: as its library ships, and as its manual recommends. Each with its source.
 #pragma once
 
 #include <span>

@@ -11,7 +11,7 @@ void scale(Vec3& v, float by) {
   v = by * v;
 }
 
-// The state that a contact left, moved further along the way that it moved, by this factor.
+// Scales by this factor how far the contact moved its bodies from their states before.
 void restate(Contact& c, float factor) {
   for (int k = 0; k < 3; ++k) {
     c.post_a.x[k] = c.pre_a.x[k] + factor * (c.post_a.x[k] - c.pre_a.x[k]);

@@ -43,8 +43,8 @@ constexpr Erratum kErrata[] = {
     {"printed-E7", "P-Alg 1: no octree level below 1", "octree-invariants", "errata:E7"},
     {"printed-E8", "contacts resolved in the order of threads", "determinism", "errata:E8"},
 };
-// A race need not show in one run, because two orders may give the same bits. With some hundred contacts a frame that
-// is rare.
+// A race may not show in one run, because two orders may give the same bits. With some hundred contacts a frame that is
+// rare.
 constexpr int kRacingRuns = 5;
 
 core::Scene reversed(const core::Scene& scene) {

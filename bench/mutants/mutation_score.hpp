@@ -17,7 +17,7 @@ struct MutationRow {
   std::vector<std::string> caught_by = {};
   std::string why_not_run = {};  // empty when it ran
   bool is_caught = false;        // by the validator that it is meant for
-  std::string verdict = {};      // what that validator said; empty where nobody kept it
+  std::string verdict = {};      // what that validator said; empty where it was not kept
 };
 
 // A sound run that a validator rejected.

@@ -20,7 +20,8 @@ namespace {
 
 using reference::RigidMutant;
 
-// Of a random scene: a step that games take, one of engineers, and one between; long enough for bodies to land.
+// The step and length of a random scene: a step that games take, one that engineers take, and one between; long enough
+// for bodies to land.
 struct Pace {
   float dt_s;
   std::uint32_t frames;
@@ -54,7 +55,7 @@ core::Result<Specimen> record_mutant(const RigidMutant& mutant, const core::Scen
   return mutant.is_of_pipeline ? record_turning_specimen(scene, *engine) : record_rigid_specimen(scene, *engine);
 }
 
-// The laws that rejected it, with the words of the one that is meant for it.
+// Notes which laws rejected the subject, and what the law that is meant for it said.
 void judge_into(MutationRow& row, const Specimen& subject, const Specimen* baseline) {
   auto verdicts = judge_specimen(subject, baseline);
   if (!verdicts) {

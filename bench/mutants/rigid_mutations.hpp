@@ -13,12 +13,12 @@ namespace broadside::bench {
 
 std::vector<std::string> rigid_mutation_names();
 
-// Runs those that are wanted, and gives the row of each to finish, without is_caught.
+// Runs the mutations that are wanted, and gives each row to `finish`, without is_caught.
 core::Status run_rigid_mutations(const std::function<bool(const std::string& name)>& is_wanted,
                                  const std::function<void(MutationRow)>& finish);
 
-// Both on every scene of the mutants, and on random ones at three step sizes: what a law says against it is a
-// false alarm.
+// Runs both sound engines on every scene of the mutants, and on random scenes at three step sizes. A law that rejects
+// one of them is a false alarm.
 core::Status judge_sound_rigid(std::uint32_t random_scenes, MutationScore& score, const std::function<void()>& tick);
 
 // How many times judge_sound_rigid ticks.

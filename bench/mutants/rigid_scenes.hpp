@@ -13,8 +13,9 @@ namespace broadside::bench {
 // 4 and 5 meet in the air, off center, 6 rests on the floor and 7 on it, 8 is a static block, and 9 is a ball that
 // drops on it.
 // "rigid-stack" stands on the floor; "rigid-overlap" starts with bodies in each other; "rigid-offset" is a box on the
-// edge of another; "rigid-fast" and "rigid-blade" move farther in a step than what they meet is thick; "rigid-million"
-// spins at 1e6 rad/s; "rigid-bounce", "rigid-flight", "rigid-slide" and "rigid-spin-up" have an exact answer.
+// edge of another; in "rigid-fast" and "rigid-blade" a body moves farther in a step than the body that it meets is
+// thick; "rigid-million" spins at 1e6 rad/s; "rigid-bounce", "rigid-flight", "rigid-slide" and "rigid-spin-up" have an
+// exact answer.
 core::Result<core::Scene> rigid_scene(std::string_view name);
 
 // Boxes and spheres of random sizes, masses, spins and materials in a box of 4 m, from the seed, at the step dt.

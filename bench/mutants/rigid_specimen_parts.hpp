@@ -18,7 +18,7 @@ using core::Vec3;
 using core::WideQuat;
 using core::WideVec3;
 
-// The states in float32 are those in float64, rounded.
+// Sets the body's float32 states to its float64 states, rounded.
 inline void narrow(FrameRecord& frame, std::size_t body) {
   frame.position[body] = core::narrowed(frame.wide.position[body]);
   frame.orientation[body] = core::narrowed(frame.wide.orientation[body]);
@@ -80,7 +80,7 @@ void at_points(Specimen& r, const Fits& fits, const Change& change) {
   if (!is_any) r.is_spoilable = false;
 }
 
-// What the engine declares, but for these keys. A key that it does not know ends the program.
+// Replaces these keys of the engine's declaration. A key that it does not know ends the program.
 inline void declare(Specimen& r, const std::map<std::string, std::string>& lies) {
   std::map<std::string, std::string> all(r.header.declaration.declared().begin(),
                                          r.header.declaration.declared().end());

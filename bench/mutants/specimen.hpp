@@ -1,4 +1,4 @@
-// A recording in memory: what mutants leave and tamperings spoil.
+// A recording in memory: mutants make them, and tamperings spoil them.
 #pragma once
 
 #include <cstdint>

@@ -82,7 +82,7 @@ Scene balls() {
   return scene;
 }
 
-// Below the threshold speed of the scene, and above it once lengths are twice as large.
+// Bodies that approach below the scene's threshold speed, and above it once lengths are twice as large.
 Scene slow() {
   Scene scene = around_origin("two-body:slow", 120);
   scene.bodies = {body_at({-0.6F, 0, 0}, {0.1F, 0, 0}, 1.0F), body_at({0.6F, 0, 0}, {-0.1F, 0, 0}, 1.0F)};

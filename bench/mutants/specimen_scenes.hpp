@@ -1,4 +1,4 @@
-// The small scenes on which mutants and tamperings are tried; each has what some law needs to apply.
+// The small scenes on which mutants and tamperings are tried; each contains what some law needs in order to apply.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ ContactGeometry along(const World& w, Pair p, const ContactGeometry& sound, int 
   return g;
 }
 
-// The sound response, after which positions are moved by these factors times the sound displacement.
+// The sound response, with each body's displacement multiplied by its factor.
 void moved(Contact& c, float factor_a, float factor_b) {
   c.post_a.x = c.pre_a.x + factor_a * (c.post_a.x - c.pre_a.x);
   c.post_b.x = c.pre_b.x + factor_b * (c.post_b.x - c.pre_b.x);

@@ -1,4 +1,4 @@
-// Wrong engines: the pipeline with one stage replaced, and the validator that must see it.
+// Wrong engines: the pipeline with one stage replaced, and the validator that must reject it.
 #pragma once
 
 #include <memory>

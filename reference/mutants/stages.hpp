@@ -19,7 +19,7 @@
 
 namespace broadside::reference {
 
-// All that a stage may look at. `bodies` is the pipeline's own; the rest is what its stages hand on.
+// All that a stage may read. `bodies` is the pipeline's own; the rest is what one stage passes to the next.
 struct World {
   const core::Scene* scene = nullptr;
   Bodies bodies;
@@ -45,7 +45,7 @@ struct Application {
   const core::Material& m;
   const core::Parameters& p;
 
-  // The sound response, with what may be another material and other parameters.
+  // The sound response, with the given material and parameters, which may differ from the scene's.
   void apply(const core::Material& material, const core::Parameters& parameters) const {
     core::respond(c, g, w_a, w_b, material, parameters, core::Variant::kSound);
   }
@@ -64,7 +64,7 @@ struct Order {
   std::vector<std::uint32_t> color;  // one per pair
 };
 
-// The defaults are the sound forms, and call what the pipeline calls: core/method's formulas, its scene octree, its
+// The defaults are the sound stages, and call what the pipeline calls: core/method's formulas, its scene octree, its
 // coloring. With all of them, SerialPipeline and the pipeline give the same bits (tests/mutants).
 struct Stages {
   core::Kinematics (*integrate)(const World&, std::uint32_t body, core::Vec3 acceleration) = nullptr;

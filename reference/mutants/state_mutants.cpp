@@ -25,7 +25,7 @@ Kinematics sound_step(const World& w, std::uint32_t body, Vec3 acceleration) {
   return core::semi_implicit_euler(w.bodies.state[body], w.bodies.inverse_mass[body], acceleration, w.dt_s);
 }
 
-// To the 11 significant bits of float16, whatever the exponent.
+// Rounds to the 11 significant bits of float16, whatever the exponent.
 float to_half(float v) {
   int exponent = 0;
   const float fraction = std::frexp(v, &exponent);

@@ -29,7 +29,7 @@ Vec momentum_for(const RigidBody& b, Vec spin) {
   return r * (b.inertia * (transposed(r) * spin));
 }
 
-// Of a body that was turned without the gyroscopic torque: the angular velocity stays.
+// Leaves out the gyroscopic torque: after a turn the body keeps its angular velocity instead of its angular momentum.
 void keep_spin(RigidBody& b, Vec spin) {
   b.angular_momentum = momentum_for(b, spin);
 }

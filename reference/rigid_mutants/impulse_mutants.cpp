@@ -14,7 +14,7 @@ using plain::RigidBody;
 using plain::SolverPoint;
 using plain::Vec;
 
-// Gives the bodies of a point another impulse beside the one that they had, and notes it as told or not.
+// Gives the bodies of a point a further impulse. is_told: it is recorded with the point.
 void push(StagedWorld& w, SolverPoint& p, Vec impulse, bool is_told = true) {
   const auto give = [&](std::uint32_t i, Vec j) {
     if (core::is_face(i) || w.bodies_[i].is_static()) return;
@@ -31,7 +31,7 @@ Vec tangent_part(const SolverPoint& p) {
   return p.total_impulse - dot(p.total_impulse, p.at.normal) * p.at.normal;
 }
 
-// After the sound solve, one thing more at each point that carries an impulse.
+// The sound solve, and then one change at each point that carries an impulse.
 template <typename Change>
 void solve_and(StagedWorld& w, double h, const Change& change) {
   w.sound_solve_contacts(h);
@@ -45,7 +45,7 @@ void with_surface(StagedWorld& w, double h, const Change& change) {
   for (SolverPoint& p : w.points_) change(p.surface);
 }
 
-// All points solved to leave at this speed, whatever their gap.
+// Solves all points so that they separate at this speed, whatever their gap.
 void solve_for(StagedWorld& w, double (*least_speed)(const SolverPoint&, double h), double h) {
   for (SolverPoint& p : w.points_) p.least_speed = least_speed(p, h);
   plain::solve_velocities(w.points_, w.bodies_, 100);

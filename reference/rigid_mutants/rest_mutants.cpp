@@ -1,4 +1,4 @@
-// octree-cpu where bodies turn, with sleep and the sweep of fast bodies, of which one stage is replaced.
+// octree-cpu where bodies turn, with sleep and the sweep of fast bodies switched on, and one stage replaced.
 #include <array>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace {
 
 using core::RigidState;
 
-// Who falls is stopped for good after a second of the scene "rigid-nap".
+// In steps 60 to 89 of the scene "rigid-nap" the falling body is put back and stopped.
 void hold_in_the_air(StagedPipeline& p, float dt_s) {
   p.sound_fall_asleep(dt_s);
   if (p.step_number() < 60) return;
@@ -22,7 +22,7 @@ void hold_in_the_air(StagedPipeline& p, float dt_s) {
   }
 }
 
-// As if a body that no point of which moves by 4 m/s stood still.
+// Treats a body as still when no point of it moves at 4 m/s or faster.
 void stop_at_any_speed(StagedPipeline& p, float dt_s) {
   p.sound_fall_asleep(dt_s);
   for (std::uint32_t i = 0; i < p.bodies_.count(); ++i) {
@@ -33,7 +33,8 @@ void stop_at_any_speed(StagedPipeline& p, float dt_s) {
   }
 }
 
-// No contact tells of any body: with parts so short one might, by chance, where a fast ball is in the plate.
+// Finds no contact between bodies. Otherwise one might be found by chance, because the parts of a step are so short
+// that a fast ball may be inside the plate at the end of one.
 void touch_nobody(StagedPipeline& /*p*/) {}
 
 std::span<const RigidMutant> rest_table() {

@@ -1,4 +1,5 @@
-// Wrong engines of bodies that turn: plain-rigid or octree-cpu with one stage replaced, and the law that must see it.
+// Wrong engines of bodies that turn: plain-rigid or octree-cpu with one stage replaced, and the law that must reject
+// it.
 #pragma once
 
 #include <memory>
@@ -18,7 +19,7 @@ struct RigidMutant {
   std::string_view scene;  // where it shows: bench/mutants/rigid_scenes
   RigidStages stages;
   bool differs_from_run_to_run = false;
-  // Of pipeline_mutants() instead: the twin's stages.
+  // The twin's stages, for pipeline_mutants() and rest_mutants(), which leave the stages above alone.
   TurningStages turning = {};
   bool is_of_pipeline = false;
 };

@@ -10,7 +10,7 @@
 namespace broadside::reference {
 namespace {
 
-// The options of octree-cpu by default, but for the stages that are given.
+// octree-cpu's default options, except those that the given stages change.
 RigidPipelineOptions options_of(const TurningStages& stages) {
   RigidPipelineOptions options;
   options.sleeps = stages.sleeps;
@@ -21,7 +21,7 @@ RigidPipelineOptions options_of(const TurningStages& stages) {
   return options;
 }
 
-// Of what is told, so that what is told wrongly is not seen by its digest alone.
+// The digest of what is recorded, so that a wrong record is not found by its digest alone.
 std::uint64_t digest_of(const core::FrameRecord& f) {
   std::uint64_t sum = 0;
   for (std::uint32_t i = 0; i < f.position.size(); ++i)

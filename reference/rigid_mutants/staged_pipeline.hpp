@@ -1,4 +1,4 @@
-// octree-cpu where bodies turn, with its stages as a table of functions, of which a wrong engine replaces one.
+// octree-cpu where bodies turn, with its stages as a table of functions; a wrong engine replaces one of them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace broadside::reference {
 
 class StagedPipeline;
 
-// What is null is the pipeline's own stage.
+// Null: the pipeline's own stage.
 struct TurningStages {
   void (*place)(StagedPipeline&, float dt_s) = nullptr;
   core::Status (*find_candidates)(StagedPipeline&) = nullptr;
@@ -38,7 +38,7 @@ class StagedPipeline final : public RigidPipeline {
   core::Status load(const core::Scene& scene) override;
   [[nodiscard]] std::uint64_t run() const { return run_; }
   [[nodiscard]] const core::Scene& scene() const { return *scene_; }
-  // From 1, of the step that is being made.
+  // Number of the step that is being computed, from 1.
   [[nodiscard]] std::uint64_t step_number() const { return steps() + 1; }
 
   // Stages that a replaced one may call, and what they work on.
@@ -58,7 +58,7 @@ class StagedPipeline final : public RigidPipeline {
   using RigidPipeline::patches_;
   using RigidPipeline::points_;
   using RigidPipeline::sleepers_;
-  // Of the frame that was told before, and of the step that was placed before: for stages that lag.
+  // The last recorded frame and the step that was placed last, for stages that lag behind.
   core::FrameRecord last_told;
   std::vector<core::Box> last_boxes;
   std::vector<core::ContactPatch> last_touching;

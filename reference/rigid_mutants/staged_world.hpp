@@ -1,4 +1,4 @@
-// plain-rigid with its stages as a table of functions, of which a wrong engine replaces one.
+// plain-rigid with its stages as a table of functions; a wrong engine replaces one of them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace broadside::reference {
 
 class StagedWorld;
 
-// What is null is plain-rigid's own stage.
+// Null: plain-rigid's own stage.
 struct RigidStages {
   void (*find_points)(StagedWorld&, double h) = nullptr;
   void (*solve_impacts)(StagedWorld&, double h) = nullptr;
@@ -33,7 +33,7 @@ class StagedWorld final : public plain::PlainWorld {
 
   core::Status load(const core::Scene& scene) override;
   [[nodiscard]] std::uint64_t run() const { return run_; }
-  // From 1, of the step that is being made.
+  // Number of the step that is being computed, from 1.
   [[nodiscard]] std::uint64_t step_number() const { return steps() + 1; }
 
   // Stages that a replaced one may call, and what they work on.
@@ -48,7 +48,7 @@ class StagedWorld final : public plain::PlainWorld {
   using PlainWorld::box_of;
   using PlainWorld::points_;
   using PlainWorld::scene;
-  // Of the frame that was told before: for stages that lag.
+  // The last recorded frame, for stages that lag behind.
   core::FrameRecord last_told;
 
  protected:

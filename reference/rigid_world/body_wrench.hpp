@@ -1,4 +1,5 @@
-// The scene's wrenches on one body, as libraries take them: a force and a torque in the world, constant for a step.
+// The scene's wrenches on one body in the form that libraries read: a force and a torque in the world, constant for a
+// step.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ struct BodyWrench {
   plain::Vec torque_world;  // N m
   plain::Vec torque_body;   // N m
 
-  // In the world, of a body of this orientation.
+  // In the world, for a body of this orientation.
   [[nodiscard]] plain::Vec force(plain::Quaternion q) const { return force_world + plain::matrix(q) * force_body; }
   [[nodiscard]] plain::Vec torque(plain::Quaternion q) const { return torque_world + plain::matrix(q) * torque_body; }
   [[nodiscard]] bool is_none() const;

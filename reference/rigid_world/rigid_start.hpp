@@ -1,4 +1,4 @@
-// A body of the scene as engines of rigid bodies take it: in float64, about its center of mass.
+// A body of the scene in the form that engines of rigid bodies read: in float64, about its center of mass.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ struct RigidStart {
   BodyWrench wrench;  // none of a static body
 };
 
-// Every body, or why there is none: springs; a mesh without inertia in a scene whose bodies turn; an angular velocity
-// in one whose bodies translate.
+// The start of every body. Errors: springs; a mesh without inertia in a scene whose bodies turn; an angular velocity in
+// a scene whose bodies translate.
 core::Result<std::vector<RigidStart>> rigid_starts(const core::Scene& scene);
 
 }  // namespace broadside::reference

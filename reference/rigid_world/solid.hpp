@@ -1,4 +1,4 @@
-// The shape that a mesh of the scene is to engines of rigid bodies, decided by its geometry.
+// The shape that engines of rigid bodies use for a mesh of the scene, decided by the mesh's geometry.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ enum class SolidKind { kBox, kSphere, kCapsule, kCylinder, kConvex, kMesh };
 struct Solid {
   SolidKind kind = SolidKind::kMesh;
   std::shared_ptr<const core::Mesh> mesh;
-  // Of the primitives, which lie about the mesh's origin.
+  // Sizes of the primitives, which lie around the mesh's origin.
   core::Vec3 half_extents;     // m; of the box around it
   double radius_m = 0.0;       // of all but a box
   double half_length_m = 0.0;  // capsule: of its segment; cylinder: of its axis

@@ -1,4 +1,4 @@
-// What an engine of rigid bodies leaves for its frame: states in float64, and the totals of its points of contact.
+// What an engine of rigid bodies records for a frame: states in float64, and the totals of its points of contact.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ class WorldRecord {
   [[nodiscard]] bool turns() const { return scene_->motion == core::Motion::kRigid; }
   [[nodiscard]] std::vector<RigidState>& states() { return states_; }
 
-  // Before a step: what is now becomes the pose of detection, and the points of the last step go.
+  // Call before a step: the present state becomes the pose of detection, and the points of the last step are removed.
   void begin_step();
   // A point of contact of bodies or faces a and b, with the impulse (N s) of the whole step on a, and its normal from b
-  // to a. Turned here so that A is the lower body. `gap_m`: negative is penetration.
+  // to a. The order is changed here so that A is the lower body. `gap_m`: negative is penetration.
   void add_point(std::uint32_t a, std::uint32_t b, plain::Vec point, plain::Vec normal, double gap_m,
                  plain::Vec impulse);
-  // Of the broad phase, at detection, one a body; for engines that show theirs. They record kDetection.
+  // The broad phase's boxes at detection, one per body, for engines that expose them; such engines record kDetection.
   void set_boxes(std::vector<core::Box> boxes) { boxes_ = std::move(boxes); }
 
   // Bodies that translate keep the orientation that they were given, bit by bit.

@@ -53,8 +53,8 @@ class AngularMomentum final : public Validator {
     const double moved = finds_within_       ? ways_.way_m(body, length(arm))
                          : is_told_at_start_ ? 0.0
                                              : length(b.after.x - b.before.x) + m.h * length(b.after.w) * length(arm);
-    // The point lies between the two surfaces, which are |gap| apart along the normal: only what acts across has a
-    // moment that depends on where.
+    // The point lies between the two surfaces, which are |gap| apart along the normal: only an impulse across the
+    // normal has a moment that depends on where in the gap the point lies.
     const Vec3d n(p.normal);
     slack_[body] += size * moved + length(j - dot(j, n) * n) * std::abs(static_cast<double>(p.gap_m));
     // The point is recorded in float32.
@@ -67,12 +67,12 @@ class AngularMomentum final : public Validator {
     const BodyFacts& f = m.facts[i];
     if (!f.is_dynamic || !f.has_inertia) return;
     const BodyStep& b = m.bodies[i];
-    // Less what the scene's own torque gives.
+    // The change without what the scene's own torque gives.
     const Vec3d change = b.after.angular_momentum - b.before.angular_momentum - m.h * b.torque;
     // The gyroscopic torque may be that of the spin before or after the impulses.
     const double gyroscopic = m.h * (length(cross(b.before.w, b.before.angular_momentum)) +
                                      length(cross(b.after.w, b.after.angular_momentum)));
-    // What turning L back rounds is divided by the least moment, and multiplied by the largest one.
+    // The rounding of turning L back is divided by the least moment, and multiplied by the largest one.
     const double spin = length(b.before.w) + length(b.after.w) +
                         (length(b.before.angular_momentum) + length(b.after.angular_momentum)) / f.least_moment;
     const double scale = f.largest_moment * spin + scale_[i];

@@ -40,7 +40,7 @@ class Ballistic final : public Validator {
     const double pull = m.h * b.acceleration[k];
     // METHOD clips velocities, P(23).
     const bool is_clipped = is_method_ && std::abs(v0 + pull) >= v_max_;
-    // An engine may hold velocities in the body's axes: then each component is rounded as the whole.
+    // An engine may hold velocities in the body's axes: then each component is rounded relative to the whole velocity.
     const double off_v = substeps_ * (m.rounding_of(6) * m.h * length(b.acceleration) +
                                       m.rounding_of(kOfAVelocity) * (length(b.before.v) + length(b.after.v))) +
                          kSubnormal + m.h * b.acceleration_slack;

@@ -85,8 +85,8 @@ class ContactTruth final : public Validator {
     return poses_[i].has_value() && shapes_.knows(m.facts[i].mesh);
   }
 
-  // Within this a contact may be seen or not: slop, margin, what the two come closer in a step, and float32. Where it
-  // was found within the step its normal is that of then.
+  // Within this distance a contact may be reported or not: slop, margin, how far the two can approach in a step, and
+  // float32. A contact that was found within the step has the normal of that moment, so the bodies' whole ways count.
   [[nodiscard]] double band(const Motion& m, std::uint32_t a, std::uint32_t b) const {
     const auto way_m = [&](std::uint32_t i) {
       if (core::is_face(i)) return 0.0;
@@ -130,7 +130,7 @@ class ContactTruth final : public Validator {
              (points.empty() ? std::string("no point is reported") : std::to_string(points.size()) + " points are");
     };
     if (points.empty()) {
-      // Not above the deepest so far either: that is told.
+      // The bound must not exceed the deepest overlap so far either, because the verdict tells the deepest one.
       if (bound <= deepest_ && tally_.check_bound(std::max(0.0, bound), allowed)) return;
       deepest_ = std::max(deepest_, truth.depth());
       tally_.check(truth.depth(), {allowed, "m", kMissing}, Where::pair(m.step, pair.i, pair.j, "points"), worked);
@@ -159,7 +159,7 @@ class ContactTruth final : public Validator {
     const double size = length(Vec3d(p.normal));
     tally_.check(std::abs(size - 1.0), {rounding(8), "", "a unit normal in float32"}, where);
     if (!(std::abs(size - 1.0) < 0.1)) return;
-    // How deep the bodies are along the reported normal: least along the true one.
+    // How deep the bodies are along the reported normal. Along the true normal this is least.
     const Vec3d n = (p.a == pair.i ? 1.0 : -1.0) / size * Vec3d(p.normal);
     const OrientedBox& a = boxes_[pair.i];
     const OrientedBox& b = boxes_[pair.j];
@@ -177,7 +177,8 @@ class ContactTruth final : public Validator {
   }
 
   void judge_outside(const Motion& m, std::uint32_t i, const core::ContactPoint& p, double limit, const Where& where) {
-    // No farther from its shape than from a box around it? Of boxes and balls the two are one.
+    // The distance from a box around the shape is a lower bound of that from the shape; for boxes and balls it is
+    // exact.
     double away = distance_outside(boxes_[i], Vec3d(p.point));
     const core::Mesh& mesh = *header_.scene.meshes[m.facts[i].mesh];
     if (!is_its_own_box(m.facts[i].mesh, mesh)) {
@@ -242,7 +243,7 @@ class ContactTruth final : public Validator {
       tally_.check(depth - deepest, {allowed, "m", kGap}, at("points.gap"), worked);
   }
 
-  // Points of bodies that were not even near.
+  // Points of two bodies whose swept boxes do not meet.
   void judge_distant(const Motion& m, std::uint32_t index) {
     const core::ContactPoint& p = point(index);
     if (core::is_face(p.b) || p.impulse == core::Vec3{}) return;
@@ -252,7 +253,7 @@ class ContactTruth final : public Validator {
                    Where::pair(m.step, pair.i, pair.j, "points"));
   }
 
-  // Within a step of several substeps, and elsewhere than at its ends.
+  // Whether the bodies can have met inside a step of several substeps, although not at its ends.
   bool can_have_met(const Motion& m, core::Pair pair) {
     if (!has_substeps_) return false;
     std::vector<core::ContactPoint> own;

@@ -71,7 +71,7 @@ class EnergyGrowth final : public Validator {
     return 0.5 * f.mass_kg * dot(s.v, s.v) + 0.5 * dot(s.w, s.angular_momentum) - f.mass_kg * dot(m.gravity, s.x);
   }
 
-  // Of the scene's wrenches in this step, J.
+  // Work of the scene's wrenches in this step, J.
   [[nodiscard]] static double work(const Motion& m, std::uint32_t i) {
     const BodyStep& b = m.bodies[i];
     const Vec3d force = m.facts[i].mass_kg * (b.acceleration - m.gravity);
@@ -96,20 +96,20 @@ class EnergyGrowth final : public Validator {
     const double speed = std::max(length(b.before.v), length(b.after.v));
     double sum = 0.5 * weight * g * m.h * m.h;
     // A step that takes the gyroscopic torque as it was at the start changes the spin by h w x L, across w, and gains
-    // half of that times the change of w (explicit Euler; seen of two libraries, which gain all of it).
+    // half of that times the change of w (explicit Euler; seen in two libraries, which gain all of it).
     if (f.has_inertia) {
       const double l = m.h * std::max(length(cross(b.before.w, b.before.angular_momentum)),
                                       length(cross(b.after.w, b.after.angular_momentum)));
       sum += 0.5 * l * l / f.least_moment;
     }
-    // The same of a torque; where body axes turn, its work is that of the mean.
+    // The same for a torque; where body axes turn, its work is that of its mean over the step.
     if (!b.is_torque_free)
       sum += m.h * (length(b.torque) * length(b.after.w - b.before.w) +
                     b.torque_slack * std::max(length(b.before.w), length(b.after.w)));
     sum += f.mass_kg * b.acceleration_slack * length(b.after.x - b.before.x);
     if (!b.is_alone) {
-      // When in the step it bounced, or was thrown up by its spin, is not known: gravity acts on the way in and on the
-      // way out for up to h.
+      // The moment in the step at which the body bounced, or was thrown up by its spin, is not known: gravity acts for
+      // up to h on the way in and on the way out.
       const double rise = g > 0.0 ? std::max(0.0, -dot(b.after.v, m.gravity) / g) : 0.0;
       sum += weight * m.h * (std::max(rise, bounce_ * speed) + m.h * g);
       const double lifted = rate_ * depth_[i];
@@ -119,13 +119,13 @@ class EnergyGrowth final : public Validator {
     const double position = length(b.after.x) + length(b.before.x);
     const double spin = std::max(length(b.before.w), length(b.after.w));
     const double scale = magnitude + f.mass_kg * speed * speed + f.largest_moment * spin * spin;
-    // Error control lets each velocity and place be off by its accuracy, relative, and energy goes by their squares.
+    // Error control lets each velocity and place be off by its accuracy, relative, and energy depends on their squares.
     return sum + 2.0 * accuracy_ * scale + m.rounding_of(8 + 2 * accumulations_) * scale +
            m.rounding_of(4) * weight * position + kSubnormal;
   }
 
-  // A compliant contact stores energy and gives it back: no more than there ever was. Both without the work that the
-  // scene's wrenches did so far.
+  // A compliant contact stores energy and gives it back, so the energy may rise again, but not above the highest so
+  // far. Both energies are taken without the work that the scene's wrenches did so far.
   void judge_stored(const Motion& m, double before, double after, double allowed) {
     if (!has_most_) most_ = before;
     has_most_ = true;

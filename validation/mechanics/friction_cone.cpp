@@ -61,7 +61,7 @@ class FrictionCone final : public Validator {
     for (const core::ContactPoint& p : points) add(p.a, p), add(p.b, p);
   }
 
-  // At most how much the point's speed changed by the other impulses on the body: before or after this one acted.
+  // How much the other impulses on the body changed the point's speed at most, before or after this one acted.
   [[nodiscard]] double change_by_others(const Motion& m, std::uint32_t body, const core::ContactPoint& p) const {
     if (core::is_face(body)) return 0.0;
     const Change own = change_by(m, body, Vec3d(p.point), Vec3d(p.impulse));
@@ -81,7 +81,7 @@ class FrictionCone final : public Validator {
     return sum;
   }
 
-  // And how far the slip may be off because the point was found within the step.
+  // How far the slip may be off because the point was found within the step.
   [[nodiscard]] double change_by_way(const Motion& m, std::uint32_t body, const core::ContactPoint& p) const {
     if (!finds_within_ || core::is_face(body)) return 0.0;
     return ways_.speed_m_s(body, length(Vec3d(p.point) - m.bodies[body].before.x));
@@ -121,8 +121,8 @@ class FrictionCone final : public Validator {
     const double open = open_slip(m, p) + rounding(16) * length(relative);
     const double sliding = length(slip);
     const std::optional<Vec3d> before = slip_before(m, p, n, open);
-    // One that slid one way at the start and another at the end had both friction and its opposite: the least of their
-    // sum is judged of points that slid within 60 degrees of the same way.
+    // The friction of a point whose slip reversed within the step partly cancels in the total. So the lower limit is
+    // judged only for points whose slips at both ends lie within 60 degrees of each other.
     const bool slid_on = before && dot(*before, slip) >= 0.5 * length(*before) * sliding && length(*before) > 0.0;
     if (!(sliding > open) || drag <= off) {
       if (sliding > 4.0 * open && model_ == "cone" && slid_on)
@@ -138,8 +138,8 @@ class FrictionCone final : public Validator {
     if (model_ != "regularized" && slid_on) judge_least(mu, push, drag, open, sliding, off, where, worked);
   }
 
-  // Tangential velocity at the start; nothing where the point met the other in the step, beyond what gravity explains:
-  // in an impact it may have stuck, or slid another way than in the end.
+  // Tangential velocity at the start. Nothing where the surfaces approached faster than gravity explains: in an impact
+  // the point may have stuck, or slid in another direction than at the end.
   [[nodiscard]] static std::optional<Vec3d> slip_before(const Motion& m, const core::ContactPoint& p, Vec3d n,
                                                         double open) {
     const Vec3d at(p.point);

@@ -7,7 +7,7 @@
 namespace broadside::validation {
 namespace {
 
-// A step that turns farther is no longer of second order.
+// Where a step turns farther than this, its error is no longer of second order.
 constexpr double kLargestTurn = 0.1;
 
 class Gyroscopic final : public Validator {
@@ -28,8 +28,8 @@ class Gyroscopic final : public Validator {
       const Vec3d l0 = b.before.angular_momentum;
       const Vec3d l1 = b.after.angular_momentum;
       const double torque = std::max(length(cross(b.before.w, l0)), length(cross(b.after.w, l1)));
-      // A quaternion turns the inertia: 4 roundings and 12 operations, twice; the product with w. What turning L back
-      // rounds is divided by the least moment, and multiplied by the largest one.
+      // A quaternion turns the inertia: 4 roundings and 12 operations, twice; the product with w. The rounding of
+      // turning L back is divided by the least moment, and multiplied by the largest one.
       const double size = spin + std::max(length(l0), length(l1)) / m.facts[i].least_moment;
       // An engine that solves translations and turns together rounds a spin as it rounds the speed of the body's
       // points.
@@ -51,8 +51,8 @@ class Gyroscopic final : public Validator {
   }
 
  private:
-  // The energy of the spin is off by what the second order of two things costs: of the torque, h^2 T^2 / 2 over a
-  // moment, and as much of the orientation whose inertia says how fast the momentum spins.
+  // The energy of the spin is off by two terms of second order: that of the torque, h^2 T^2 / 2 over a moment, and as
+  // much again from the orientation, whose inertia relates momentum to spin.
   void judge_energy(const Motion& m, std::uint32_t i, double torque, double rounding) {
     const BodyStep& b = m.bodies[i];
     const double e0 = 0.5 * dot(b.before.w, b.before.angular_momentum);

@@ -15,10 +15,11 @@
 
 namespace broadside::validation {
 
-// Up to the first impulse between them, two bodies move by what they began with, by gravity and wrenches, and by what
-// others gave them. Those impulses are told as totals: the normal part only grows within a step, and friction may have
-// had any direction, up to its coefficient times that. So no point of a body was ever faster than the sum of these
-// magnitudes over its mass, and, about its center, than their moments at its reach over its least moment of inertia.
+// Up to the first impulse between them, two bodies move with their velocities at the start, changed by gravity,
+// wrenches and the impulses of other bodies. Those impulses are recorded as totals: the normal part only grows within a
+// step, and friction may have had any direction, with at most its coefficient times that magnitude. So no point of a
+// body was ever faster than the sum of these magnitudes over its mass, and, about its center, than their moments at its
+// reach over its least moment of inertia.
 class MeetingWithin {
  public:
   void read(const Motion& m, const core::Scene& scene, std::span<const core::ContactPoint> points) {
@@ -27,7 +28,7 @@ class MeetingWithin {
     for (const core::ContactPoint& p : points) add(m, p, most_n_s(p), pushes_);
   }
 
-  // How far the bodies' shapes can have come toward each other before they gave each other anything, m. own: the points
+  // How far the bodies' shapes can have approached each other before the first impulse between them, m. own: the points
   // between them.
   template <typename Points>
   [[nodiscard]] double way_m(const Motion& m, core::Pair pair, const Points& own) const {
@@ -59,7 +60,7 @@ class MeetingWithin {
     const double moment =
         length(b.before.angular_momentum) + m.h * (length(b.torque) + b.torque_slack) + push * f.reach_m;
     const double spin = turns ? moment / f.least_moment : length(b.before.w);
-    // No point of it is farther from where it was than twice its reach and the center's way.
+    // No point of the body moves farther than the center's way plus twice the body's reach.
     return m.h * speed + f.reach_m * std::min(2.0, m.h * spin);
   }
 

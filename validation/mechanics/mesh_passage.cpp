@@ -10,7 +10,7 @@ namespace broadside::validation {
 namespace {
 
 // Places, orientations and vertices about the center of mass are rounded to float32 for the arbiter: each by half a
-// unit of 2^-23, of two bodies at two times.
+// unit of 2^-23, for two bodies at two times.
 constexpr double kToFloat = 16.0 * 0x1p-24;
 
 core::Vec3 to_float(Vec3d v) {

@@ -15,11 +15,11 @@ class MeshPassage {
  public:
   explicit MeshPassage(const core::Scene& scene) : scene_(scene) {}
 
-  // No less than their depth at any time of this part of the step: 0 where they never touch. Between their first touch
-  // and their last one they move by so much; in the middle they are at most half of it deep, because at both of these
-  // times they only touch. moved_m: no two of their points come closer by more than this in it.
+  // An upper bound of their depth at any time in this part of the step; 0 where they never touch. At the first touch
+  // and at the last they only touch, so in between they are at most half as deep as they move from the one to the
+  // other. moved_m: no two of their points come closer by more than this in this part.
   double deepest_m(const Motion& motion, core::Pair pair, std::size_t part, double moved_m);
-  // Pairs whose swept boxes meet, so that the arbiter was asked.
+  // How many pairs the arbiter was asked about: those whose swept boxes meet.
   [[nodiscard]] std::uint64_t asked() const { return asked_; }
 
  private:

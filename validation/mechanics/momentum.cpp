@@ -64,7 +64,7 @@ class Momentum final : public Validator {
       const Vec3d expected = (f.mass_kg * m.h) * b.acceleration + given_[i].impulse;
       const double speed =
           length(b.before.v) + length(b.after.v) + m.h * length(b.acceleration) + given_[i].magnitude / f.mass_kg;
-      // What touches may be given impulses and relieved of them again, without a point that tells: those of one patch.
+      // A touching body may get impulses that are taken back later, so that no point records them: those of one patch.
       const double applied = given_[i].points + (b.is_alone ? 0.0 : kPointsOfAPatch);
       // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
       const double limit = m.rounding_of(kOfAxes + 2 * accumulations_ * applied) * f.mass_kg * speed +
@@ -99,7 +99,7 @@ class Momentum final : public Validator {
     for (std::uint32_t set = 0; set < n; ++set) {
       if (members_[set] < 2) continue;  // a body alone is ballistic's
       if (moving_[set] > 0) tally_.note_moved();
-      // Without a report every body of a set may have been pushed by every other.
+      // Where no points are recorded, every body of a set may have pushed every other.
       const double limit =
           m.rounding_of(4 + 2 * accumulations_ * static_cast<double>(members_[set])) * scale_[set] + slack_[set];
       tally_.check(length(change_[set] - expected_[set]), {limit, "N s", kOfSets},

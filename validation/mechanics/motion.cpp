@@ -35,7 +35,7 @@ bool do_boxes_meet(const core::Box& a, const core::Box& b) {
   return true;
 }
 
-// Around the body's own box at this pose, moved by the shift and grown, rounded outward.
+// The box around the body's own box at this pose, moved by the shift and grown, rounded outward.
 core::Box box_around(const BodyState& s, const BodyFacts& f, double grow, Vec3d shift) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   const Vec3d c = s.origin + s.r * f.box_center + shift;
@@ -210,8 +210,8 @@ core::Box MotionReader::predicted_box(std::size_t body) const {
   const BodyFacts& f = facts_[body];
   const BodyState& s = motion_.bodies[body].before;
   if (!f.is_dynamic) return box_around(s, f, margin_m_, {});
-  // No point of it is farther from where a translation takes it than its reach times the angle, nor than twice its
-  // reach. Free, the spin grows at most to where the energy is all about the smallest moment.
+  // A turn moves no point of the body by more than its reach times the angle, nor by more than twice its reach. The
+  // spin of a free body grows at most until all its energy is about the axis of the least moment.
   const double growth = f.has_inertia ? std::sqrt(f.largest_moment / f.least_moment) : 1.0;
   const double swing = f.reach_m * std::min(2.0, motion_.h * length(s.w) * growth);
   const double grow = swing + margin_m_;
@@ -240,7 +240,7 @@ void MotionReader::find_touchable() {
   for (std::size_t i = 0; i < facts_.size(); ++i) is_touchable_[i] = is_within(predicted_[i], d) ? 0 : 1;
   for (const core::Pair p : motion_.near)
     if (do_boxes_meet(predicted_[p.i], predicted_[p.j])) is_touchable_[p.i] = is_touchable_[p.j] = 1;
-  // What was deflected may meet what was not.
+  // A body that may have been deflected may meet others that were not.
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
     for (const core::Pair p : motion_.near) {

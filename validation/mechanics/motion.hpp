@@ -17,7 +17,7 @@
 
 namespace broadside::validation {
 
-// What stays the same of a body.
+// The properties of a body that never change.
 struct BodyFacts {
   bool is_dynamic = false;
   bool has_spring = false;
@@ -55,9 +55,10 @@ struct BodyState {
 struct BodyStep {
   BodyState before;
   BodyState after;
-  // Whether the body can have touched nothing: going where its start sends it, its box, grown by the margin, stays
-  // inside the domain and meets no other body, neither where that one's start sends it nor, if something may have
-  // deflected that one, where it went. Where this body itself was recorded afterwards excuses nothing.
+  // Whether the body cannot have touched anything: on the path that its start predicts, its box, grown by the margin,
+  // stays inside the domain and meets no other body, neither on that body's predicted path nor, if something may have
+  // deflected that body, on its recorded one. The recorded path of this body itself is not used, so a wrong motion
+  // cannot excuse itself.
   bool is_alone = false;
   // Of gravity and the scene's wrenches at the start of the step. What is constant in the body's axes turns with it:
   // over the step the mean differs by at most the slack.
@@ -118,9 +119,9 @@ class MotionReader {
   void complete(BodyState& state, std::size_t body) const;
   void find_neighbors();
   void find_pulls();
-  // Where the body's start sends it within the step, grown by the margin.
+  // The box of the body's predicted path within the step, grown by the margin.
   [[nodiscard]] core::Box predicted_box(std::size_t body) const;
-  // The same and where it was recorded afterwards.
+  // The same, joined with the boxes of its recorded poses.
   [[nodiscard]] core::Box swept_box(std::size_t body) const;
   // By body: whether it can have touched something.
   void find_touchable();

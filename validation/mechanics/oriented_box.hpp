@@ -1,4 +1,4 @@
-// A box in body axes around a shape, or a ball: what bounds depths and distances cheaply, before anything is measured
+// A box in body axes around a shape, or a ball: it bounds depths and distances cheaply, before they are measured
 // exactly.
 #pragma once
 
@@ -21,8 +21,8 @@ inline OrientedBox oriented_box(const BodyFacts& facts, const BodyState& state) 
 // How far the box reaches from its center along a unit direction, m.
 double reach_along(const OrientedBox& box, Vec3d direction);
 
-// At least by how much the shapes inside overlap; where it is negative, they are apart by minus that or more. It is the
-// least overlap along the normals of both boxes' faces and along the line of centers.
+// An upper bound of the overlap of the shapes inside; where it is negative, they are apart by minus that or more. It is
+// the least overlap along the normals of both boxes' faces and along the line of centers.
 double overlap_bound(const OrientedBox& a, const OrientedBox& b);
 
 // Distance of a point from the box or ball, m; 0 inside.

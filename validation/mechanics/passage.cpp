@@ -12,8 +12,8 @@
 namespace broadside::validation {
 namespace {
 
-// A depth that exceeds the limit for so short a part of the motion that it may reach this share of it is let pass: it
-// bounds the number of halvings, since the motion of each half is half as long.
+// A depth that exceeds the limit by at most this share of it, for a short part of the motion, may go unseen. This
+// bounds the number of halvings, because the motion of each half is half as long.
 constexpr double kUnseenShare = 0.125;
 
 class Passage final : public Validator {
@@ -65,7 +65,7 @@ class Passage final : public Validator {
     return {from.x + t * (to.x - from.x), q};
   }
 
-  // At most the distance: where boxes around the shapes are apart, theirs.
+  // A lower bound of the distance: where boxes around the shapes are apart, the distance of the boxes.
   [[nodiscard]] double distance_at(const Encounter& e, double t) const {
     const Motion& m = e.m;
     const core::Pair pair = e.pair;
@@ -91,8 +91,8 @@ class Passage final : public Validator {
         .distance_m;
   }
 
-  // Of a mesh that is not convex its vertices stand for it: how far the nearest is from the other body, or how deep the
-  // deepest is in it. No mesh is less deep than one of its vertices. At most the distance, as above.
+  // A mesh that is not convex is represented by its vertices: how far the nearest is from the other body, or how deep
+  // the deepest is in it. No mesh is less deep than any of its vertices. A lower bound of the distance, as above.
   [[nodiscard]] double distance_of_vertices(std::uint32_t mesh, Vec3d origin, Quatd q, const OrientedBox& box,
                                             const exact::ConvexCore& other) const {
     const Mat3d r = matrix_of(q);
@@ -125,9 +125,9 @@ class Passage final : public Validator {
     // A vertex in the middle of a plate is half of its thickness deep, and no vertex is deeper in it.
     const double allowed = is_by_vertices ? 0.25 * (knows_a ? fa : fb).smallest_side_m
                                           : 0.5 * std::min(fa.smallest_side_m, fb.smallest_side_m);
-    // What is not deep at the ends cannot have been much deeper between them: penetration judges the ends.
+    // Bodies that are not deep at the ends cannot have been much deeper in between; penetration judges the ends.
     if (moved <= allowed) return;
-    // So fast that the poses do not say which way it turned.
+    // The body turns so fast that its poses do not say which way it turned.
     if (std::max(e.turns(pair.i), e.turns(pair.j)) >= std::numbers::pi) return;
     const double first = overlap_bound(oriented_box(fa, e.from(pair.i)), oriented_box(fb, e.from(pair.j)));
     const double last = overlap_bound(oriented_box(fa, e.to(pair.i)), oriented_box(fb, e.to(pair.j)));
@@ -147,8 +147,8 @@ class Passage final : public Validator {
                  });
   }
 
-  // By the arbiter: what never touches passed nothing, and what touched for a short while only was not deep. Whether
-  // the rest were deep, two surfaces do not say.
+  // By the arbiter of first touches: meshes that never touch did not pass through each other, and those that touch for
+  // a short time were not deep. For the others two surfaces alone do not say how deep they were.
   void judge_meshes(const Encounter& e, double moved, double allowed) {
     const Motion& m = e.m;
     const core::Pair pair = e.pair;
@@ -171,8 +171,8 @@ class Passage final : public Validator {
     double unseen;
   };
 
-  // The deepest overlap found; at once when it breaks the limit. Where the certified bound, (d0 + d1 - M) / 2 for a
-  // motion of at most M, holds, no more is looked for.
+  // The deepest overlap found. The search ends as soon as one breaks the limit. Where the certified bound, (d0 + d1 -
+  // M) / 2 for a motion of at most M, holds, no more is looked for.
   [[nodiscard]] double deepest_between(const Search& s, Sample p, Sample q, double moved) const {
     const double found = std::max(-p.d, -q.d);
     if (found > s.limit || 0.5 * (p.d + q.d - moved) >= -s.limit - s.unseen) return found;

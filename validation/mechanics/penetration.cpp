@@ -79,7 +79,7 @@ class Penetration final : public Validator {
       }
   }
 
-  // Of any shape: no point of a mesh is farther out than its vertices.
+  // Valid for any shape: no point of a mesh is farther out than its vertices.
   [[nodiscard]] double depth_beyond(const BodyFacts& f, const BodyState& s, int axis, bool is_upper,
                                     double wall) const {
     double depth = -std::numeric_limits<double>::infinity();
@@ -112,7 +112,7 @@ class Penetration final : public Validator {
     const double depth = std::max(0.0, signed_depth);
     const double share = depth / size;
     const std::pair bodies(where.bodies[0], where.bodies[1]);
-    // What the scene itself put so deep may stay so.
+    // Bodies that the scene itself puts this deep may stay so.
     if (m.step == 1 && share > kClassCShare)
       if (const double start = depth_at_start(); start > kClassCShare * size) given_[bodies] = start + approach;
     const auto given = given_.find(bodies);

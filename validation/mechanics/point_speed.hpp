@@ -1,4 +1,4 @@
-// How fast points of bodies move, and what leaves that open: for laws about points of contact.
+// How fast points of bodies move, and how uncertain that is: for laws about points of contact.
 #pragma once
 
 #include "core/contact_point.hpp"
@@ -33,8 +33,8 @@ inline Change change_by(const Motion& m, std::uint32_t body, Vec3d point, Vec3d 
   return {(1.0 / f.mass_kg) * j, turns ? s.r * (f.inverse_inertia * moment) : Vec3d{}};
 }
 
-// By how much the point's speed at the end differs for the body's angular momentum in the orientation of the start
-// instead of that of the end, m/s: engines solve contacts in the one and record the other.
+// By how much the point's speed at the end differs, m/s, when the spin is computed from the body's angular momentum in
+// the orientation of the start instead of that of the end: engines solve contacts in the one and record the other.
 inline double change_by_turning(const Motion& m, std::uint32_t body, Vec3d point) {
   if (core::is_face(body) || !m.facts[body].has_inertia || !m.turns) return 0.0;
   const BodyState& s0 = m.bodies[body].before;

@@ -9,8 +9,8 @@
 namespace broadside::validation {
 namespace {
 
-// What may settle, as shares of a body's smallest side: rigid contacts a hundredth, compliant ones, which sink in, a
-// twentieth. Then a minute of creep may do as much again.
+// How far a body may settle, as a share of its smallest side: a hundredth on rigid contacts, a twentieth on compliant
+// ones, which sink in. A minute of creep afterwards may move it as far again.
 constexpr double kRigidShare = 0.01;
 constexpr double kCompliantShare = 0.05;
 constexpr double kMinute_s = 60.0;

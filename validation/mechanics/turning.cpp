@@ -10,7 +10,7 @@
 namespace broadside::validation {
 namespace {
 
-// h |w|, rad: a method of order p errs by its power p, which no longer shrinks from here on.
+// h |w|, rad. The error of a method of order p grows with the power p of it, which is no longer small beyond this.
 constexpr double kLargestUsefulTurn = 1.0;
 
 class Turning final : public Validator {
@@ -36,7 +36,7 @@ class Turning final : public Validator {
   }
 
  private:
-  // Of an engine that declares that its bodies translate.
+  // For an engine that declares that its bodies translate.
   void judge_held(const Motion& m, std::uint32_t i) {
     const double angle = angle_of(m.bodies[i].after.q * conjugate(m.bodies[i].before.q));
     tally_.check(angle, {m.rounding_of(16), "rad", "declared: bodies translate, and keep their orientation"},
@@ -63,7 +63,8 @@ class Turning final : public Validator {
       });
       return;
     }
-    // So fast that no angle follows from w. But it cannot stand still, unless it makes whole turns.
+    // The body turns so fast that no angle follows from w. But its orientation cannot stay the same, unless it makes
+    // whole turns.
     const double rest = std::abs(std::sin(0.5 * turn));
     if (rest <= m.rounding_of(16) * turn) return;
     tally_.require(angle_of(actual) > 0.0, "a body that spins does not keep its orientation bit by bit",

@@ -37,21 +37,22 @@ class Unilateral final : public Validator {
       const auto approach_at = [&](Moment moment) {
         return -dot(speed_at(m, p.a, at, moment) - speed_at(m, p.b, at, moment), n);
       };
-      // How fast they came, or, where another contact drove them on within the step, how fast they would have met
-      // without this point's impulse, or without all that these two gave each other.
+      // The speed at which the bodies approached at the start; or, where another contact drove them together within the
+      // step, the speed at which they would have met without this point's impulse, or without all impulses between the
+      // two.
       const double came = approach_at(Moment::kStart);
       Given own;
       own.add(m, p);
       const double gained = std::max(own.speed_at_point(p, m), given_[{p.a, p.b}].speed_at_point(p, m));
       const double left = approach_at(Moment::kEnd) + change_by_turning(m, p.a, at) + change_by_turning(m, p.b, at);
       double approach = std::max(came, left + gained);
-      // With substeps the impulses of a step come one after the other: this point may have been met before others had
-      // slowed its bodies, and after others had driven them on.
+      // With substeps the impulses of a step come one after the other: this point's impulse may have come before others
+      // slowed its bodies, and after others drove them together.
       if (has_substeps_) approach = std::max(approach, came + driven_by_others(m, evidence.frame.points, p));
       // Gravity may bring them together within the step.
       double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
       reach += arc_m(m, p, p.a) + arc_m(m, p, p.b);
-      // A point that was found within the step is told where its surfaces were at the start.
+      // A point that was found within the step is recorded where its surfaces were at the start.
       if (finds_within_) reach = std::max(reach, way_m(m, p, p.a) + way_m(m, p, p.b));
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
       tally_.check(p.gap_m, {limit, "m", kOrigin}, Where::pair(m.step, p.a, p.b, "points.gap"), [&] {
@@ -64,7 +65,7 @@ class Unilateral final : public Validator {
   core::Verdict conclude() override { return tally_.conclude("no point of contact with an impulse"); }
 
  private:
-  // What two bodies gave each other.
+  // The impulses between two bodies.
   struct Given {
     Change of_a;
     Change of_b;
@@ -107,8 +108,8 @@ class Unilateral final : public Validator {
                 std::uint32_t body, double sign) const {
     const auto listed = points_of_.find(body);
     if (core::is_face(body) || !m.facts[body].is_dynamic || listed == points_of_.end()) return 0.0;
-    // By reciprocity, how fast this point parts for a unit impulse elsewhere on the body is how fast that place moves
-    // for a unit impulse here.
+    // By reciprocity, the speed of this point due to a unit impulse elsewhere on the body equals the speed of that
+    // place due to a unit impulse here.
     const Change unit = change_by(m, body, Vec3d(p.point), sign * Vec3d(p.normal));
     double sum = 0.0;
     for (const std::uint32_t k : listed->second) {

@@ -1,5 +1,5 @@
-// How far bodies can have gone within a step: for laws about points that were found within it, and are told at its
-// start (detection_at = within).
+// How far bodies can have gone within a step: for laws about points that were found within it, and are recorded at the
+// pose of its start (detection_at = within).
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@
 
 namespace broadside::validation {
 
-// Whether points of this frame may have been found within the step: not where the trace says that it was taken at once.
+// Whether points of this frame may have been found within the step: not where the trace says that the step was taken at
+// once.
 inline bool finds_within(const core::TraceHeader& header, const core::FrameRecord& frame) {
   return frame.parts != 1 && header.declaration.text("detection_at") == "within";
 }
 
-// A body is at no moment of the step faster than it began, and what gravity and the magnitudes of all impulses on it
-// add to that; nor is its angular momentum larger than at first and with all their moments, which turns it the fastest
-// about the axis of its least moment of inertia.
+// At every moment of the step a body's speed is at most its speed at the start plus what gravity and the magnitudes of
+// all impulses on it add. Its angular momentum is at most that at the start plus the magnitudes of all moments; the
+// spin is largest if this is about the axis of the least moment of inertia.
 class WaysWithin {
  public:
   void read(const Motion& m, std::span<const core::ContactPoint> points) {
@@ -43,7 +44,7 @@ class WaysWithin {
     return core::is_face(body) ? 0.0 : h_ * (ways_[body].speed + ways_[body].spin * arm_m);
   }
 
-  // Of such a point: by how much its speed about the center may differ, m/s, because its arm is not that which is told.
+  // By how much the speed of such a point about the center may differ, m/s, because its arm is not the recorded one.
   [[nodiscard]] double speed_m_s(std::uint32_t body, double arm_m) const {
     return core::is_face(body) ? 0.0 : ways_[body].spin * way_m(body, arm_m);
   }

@@ -29,7 +29,7 @@ inline double truncation(double derivative, double h, double order, double t) {
 }
 
 // When in a step a contact begins, ends or turns from sliding to rolling is not known: its acceleration acts for up to
-// a step more or less, whatever the order, and the speed that is gained so lasts.
+// a step more or less, whatever the order, and the difference in speed remains.
 inline double one_step_late(double acceleration, const Motion& m) {
   return acceleration * m.h * time_of(m);
 }

@@ -72,7 +72,7 @@ Figures bounce(const core::Scene& scene, const Motion& m, double) {
     left -= up + fall;
     top *= e * e;
     fall = up = std::sqrt(2.0 * top / g);
-    // Each bounce comes up to one step early or late, and the apex after it is off by so much of its speed.
+    // Each bounce comes up to one step early or late, and the apex after it is off by the body's speed times that.
     lag += 2.0 * m.h * std::sqrt(2.0 * g * h0);
     // Arcs shorter than four steps are rest to a time stepper.
     if (up < 2.0 * m.h) return {};
@@ -80,7 +80,7 @@ Figures bounce(const core::Scene& scene, const Motion& m, double) {
   const double height = top - 0.5 * g * (left - up) * (left - up);
   const double actual = m.bodies[0].after.x.y - radius - scene.domain.min.y;
   ExactFigure f = touching("height", "m", std::abs(actual - height), lag + one_step_late(0.5 * g, m), 0.0);
-  // When in the step each bounce falls decides.
+  // The error depends on when in a step each bounce falls, and so has no order.
   f.has_order = false;
   return {f};
 }

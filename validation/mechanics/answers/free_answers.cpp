@@ -24,7 +24,7 @@ Figures flight(const core::Scene& scene, const Motion& m, double order) {
           smooth("velocity", "m/s", length(m.bodies[0].after.v - v), 0.0, rounding_over(m, 4, speed))};
 }
 
-// About a principal axis of a torque in the body's axes: w = w0 + T t / I, and half of that twice over is the angle.
+// A torque T about a principal axis, constant in body axes: w = w0 + T t / I; the angle is its integral.
 Figures spin_up(const core::Scene& scene, const Motion& m, double order) {
   const double t = time_of(m);
   const BodyFacts& f = m.facts[0];
@@ -51,7 +51,7 @@ double angle_between(const Mat3d& a, const Mat3d& b) {
   return 2.0 * std::asin(std::min(1.0, std::sqrt(sum / 8.0)));
 }
 
-// Error of the integral of the precession, rad: of the exact answer.
+// Error of the exact answer itself, rad: that of the precession's integral.
 constexpr double kQuadrature = 1e-8;
 
 // Attitudes are compared ten times a second: each takes an integral from the start.

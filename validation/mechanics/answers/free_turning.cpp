@@ -47,8 +47,8 @@ FreeTurning::FreeTurning(Vec3d moments, Vec3d w, Quatd start) {
   hand_ = is_even ? 1.0 : -1.0;
   moments_ = {part(moments, axis_[0]), part(moments, axis_[1]), part(moments, axis_[2])};
   const auto [a, b, c] = std::array{moments_.x, moments_.y, moments_.z};
-  // Landau and Lifshitz, Mechanics, section 37; where moments fall, two negative factors cancel.
-  // There time runs the other way round the same curve.
+  // Landau and Lifshitz, Mechanics, section 37. Where the ordered moments fall, two negative factors cancel, and time
+  // runs the other way along the same curve.
   rate_ = std::copysign(std::sqrt((c - b) * (squared - energy_2 * a) / (a * b * c)), c - a);
   parameter_ = (b - a) * (energy_2 * c - squared) / ((c - b) * (squared - energy_2 * a));
   amplitude_ = {std::sqrt((energy_2 * c - squared) / (a * (c - a))),

@@ -7,7 +7,7 @@
 namespace broadside::validation {
 namespace {
 
-// How far ahead or behind of its place in the impact a figure may be taken: two steps.
+// Whether a time is within two steps of the impact: there no figure is taken.
 bool is_near(double t, double event_s, const Motion& m) {
   return std::abs(t - event_s) <= 2.0 * m.h;
 }
@@ -18,7 +18,7 @@ Vec3d lowest_corner(const BodyFacts& f, const Mat3d& r) {
   for (int k = 0; k < 3; ++k) {
     const double half = k == 0 ? f.box_half.x : (k == 1 ? f.box_half.y : f.box_half.z);
     const Vec3d axis{r.row[0][k], r.row[1][k], r.row[2][k]};
-    // Corners of an edge that lies level share the impulse: its middle.
+    // The corners of a level edge share the impulse, so the edge's middle stands for them.
     if (std::abs(axis.y) > 1e-6) sum = sum + (axis.y > 0.0 ? -half : half) * axis;
   }
   return sum;
@@ -61,12 +61,13 @@ Figures billiards(const core::Scene& scene, const Motion& m, double) {
   if (is_near(t, meets, m)) return {};
   const Vec3d line = (1.0 / reach) * (between - (meets * speed) * along);  // unit, from the first to the second
   const Vec3d given = t < meets ? Vec3d{} : dot(v0, line) * line;
-  // Found up to a step early, the line of centers is off by as much of the way across; head on it is not.
+  // A contact may be found up to a step early, which turns the line of centers by the way across in a step; head on it
+  // does not turn.
   const double limit =
       speed * std::min(1.0, speed * m.h / reach) * std::min(1.0, 4.0 * offset / reach) + kClassA * speed;
   ExactFigure first = touching("velocity of the first", "m/s", length(m.bodies[0].after.v - (v0 - given)), limit, 0.0);
   ExactFigure second = touching("velocity of the second", "m/s", length(m.bodies[1].after.v - given), limit, 0.0);
-  // The part of a step that is left at the touch comes and goes with h.
+  // The part of the step that is left after the touch varies with h without an order.
   first.has_order = second.has_order = false;
   return {first, second};
 }
@@ -106,7 +107,7 @@ Figures first_touch(const core::Scene& scene, const Motion& m, double) {
   const double inertia = f.inertia.row[2].z;
   const double j = spin * lever / (1.0 / f.mass_kg + lever * lever / inertia);
   const double after = spin - j * lever / inertia;
-  // Braked up to a step early, the lever is another.
+  // Where the needle is stopped up to a step early, the lever differs.
   ExactFigure figure = touching("angular velocity after the touch", "rad/s", std::abs(s.w.z - after),
                                 std::abs(spin) * std::min(0.5, std::abs(spin) * m.h), 0.0);
   figure.has_order = false;

@@ -7,7 +7,7 @@
 namespace broadside::validation {
 namespace {
 
-// What settles: the slop, on the way in and on the way out.
+// How far bodies may settle: the slop, on the way in and on the way out.
 double settling(const core::Scene& scene) {
   return 2.0 * scene.parameters.delta_m;
 }
@@ -104,7 +104,7 @@ Figures ladder(const core::Scene& scene, const Motion& m, double) {
     return {touching("angle", "rad", std::abs(lean(s.r) - exact.angle),
                      growth * one_step_late(1.5 * body.g / body.length, m), growth * settling(scene) / body.length)};
   const double speed = body.x_rate(exact.angle) * exact.rate;
-  // The floor is smooth, so that it lasts until the ladder lies.
+  // The floor is smooth, so the phase after the wall lasts until the ladder lies.
   const double height = s.x.y - scene.domain.min.y;
   if (height < f.box_half.y + 2.0 * m.h * length(s.v)) return {};
   return {touching("speed away from the wall", "m/s", std::abs(s.v.x - speed), growth * body.g * m.h,
