@@ -16,7 +16,7 @@ core::Result<LaunchShape> long_contact_launch_shape();
 // Body-octree levels and patches of contact, after the broad phase. Asynchronous. Does nothing if the frame has no
 // pairs.
 core::Status launch_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
-// The same in two launches, for frames with frame.has_long_contacts or frame.follows_ways.
+// The same in two launches, in this order, for frames with frame.has_long_contacts or frame.follows_ways.
 core::Status launch_near_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
 core::Status launch_long_contacts(const ContactView& frame, const LaunchShape& shape, StreamHandle stream);
 

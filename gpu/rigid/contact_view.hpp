@@ -1,6 +1,6 @@
-// What the kernel is given, by value, that finds the contacts of a frame of turning bodies. It is the part of
-// RigidFrameView that knows nothing of the solver; so a change of the solver does not compile the shapes again, which
-// takes minutes.
+// The argument, by value, of the kernels that find the contacts of a frame of turning bodies. It is RigidFrameView
+// without the data of the solver, so a change of the solver does not compile the code of the shapes again, which takes
+// minutes.
 #pragma once
 
 #include <cstdint>
@@ -42,27 +42,28 @@ struct alignas(8) PatchEntry {
   std::uint32_t other = 0;  // the other body, or a face
 };
 
-// Each moved body's patches, in no order, and the impulses that the last substep left in them, with which the next step
-// begins. There are two: one of the step before, one of this step.
+// For each moved body the list of its patches, in no order, and for each patch the impulses that the last substep left:
+// the next step begins with them (warm start). There are two memories: one of the step before, one of this step.
 struct PatchMemory {
   std::uint32_t* begin = nullptr;    // [bodies]
   std::uint32_t* count = nullptr;    // [bodies]; 0 of bodies that never move
-  std::uint32_t* filled = nullptr;   // [bodies] entries that are there already
+  std::uint32_t* filled = nullptr;   // [bodies] entries written so far
   PatchEntry* entries = nullptr;     // [2 * patches]
   std::uint32_t* feature = nullptr;  // [4 * patches]; 0 = no point
   PackedVec3* impulse = nullptr;     // [4 * patches] N: friction on A, and w = along the normal
   core::KeptPatch* kept = nullptr;   // [patches]; null where no shape is a hull
 };
 
-// What a pair needs to know of a body to say what it does to the other one: core::Pusher.
+// The part of core::Pusher that changes from step to step: what a pair reads of one body to find how far that body may
+// push the other.
 struct alignas(16) PackedPusher {
-  PackedVec3 drift;   // w: what turning adds
-  PackedVec3 pushed;  // w: who drives it, as a word
+  PackedVec3 drift;   // w: swing_m, what turning adds
+  PackedVec3 pushed;  // w: index of the body that drives it, as bits
 };
 
 // What solving a frame's contacts took.
 struct SolveCounts {
-  std::uint32_t sweeps = 0;         // over all contacts, before the bodies move
+  std::uint32_t sweeps = 0;         // over all contacts before the bodies move, and over what pushes left
   std::uint32_t bounce_sweeps = 0;  // while contacts bounce
   std::uint32_t waits = 0;          // of all threads for each other
 };
@@ -73,14 +74,14 @@ struct RigidCounts {
   unsigned long long confirmed = 0;
   // Confirmed pairs whose patches are not carried along with their bodies: in ContactView::fresh.
   unsigned long long fresh = 0;
-  // Confirmed pairs that are not seen to pass by each other: in ContactView::near, and of finely cut hulls.
+  // Confirmed pairs that may touch: those in ContactView::near, then the two kinds of pairs in ContactView::hulls.
   unsigned long long near = 0;
   unsigned long long near_hulls = 0;
-  unsigned long long apart_hulls = 0;  // those that are clearly apart
+  unsigned long long apart_hulls = 0;  // pairs of hulls that are clearly apart
   unsigned long long patches = 0;
   unsigned long long listed = 0;  // places given out in the lists of bodies
   unsigned long long places = 0;  // of constraints: patches, and the gaps between colors
-  // Nonnegative floats as words, which are ordered like the floats. What is not finite is above all that is.
+  // Bits of nonnegative floats, which are ordered like the floats. Infinities and NaN are above all finite numbers.
   std::uint32_t largest_side = 0;
   std::uint32_t largest_coordinate = 0;
   std::uint32_t colors = 0;
@@ -89,15 +90,15 @@ struct RigidCounts {
   std::uint32_t stride = 0;
   std::uint32_t mass_ratio = 0;  // the largest of two bodies that touch, as a word
   std::uint32_t is_aborted = 0;
-  // Where all threads contribute to one number, in turns (team_sums.cuh).
+  // Numbers to which all threads contribute, in turns (team_sums.cuh).
   std::uint32_t largest[4][4] = {};
   unsigned long long sums[4] = {};
   SolveCounts done;
   // For scenes in which bodies sleep. Patches of sleeping bodies lie behind the others and are not solved.
   unsigned long long asleep_patches = 0;
   unsigned long long asleep_bodies = 0;
-  std::uint32_t woken = 0;  // 1: the frame begins again, for an island wakes
-  // The counts that the host was told, for the launch that follows: those above are zero again by then.
+  std::uint32_t woken = 0;  // 1: an island wakes, so the frame is repeated
+  // Copies of the counts that the host was told, for the launch after the solver, which finds those above cleared.
   std::uint32_t told_is_aborted = 0;
   unsigned long long told_patches = 0;
 };
@@ -109,15 +110,16 @@ struct RigidOutcome {
   unsigned long long stage_end_ns[core::kStageCount] = {};
 };
 
-// A pair whose patches are made. gaps: the place in ContactView::hull_gaps, or kNoGaps.
+// A pair whose patches are to be made. gaps: the place in ContactView::hull_gaps, or kNoGaps.
 struct NearPair {
   core::Pair pair;
   std::uint32_t gaps = 0;
 };
 inline constexpr std::uint32_t kNoGaps = 0xFFFFFFFFU;
 
-// The host plans a step before it knows how fast the step begins. For these paces its plan is the right one; at others
-// the frame is repeated. As words: of a calm step 0, of others the stride, and no less than 1.
+// The host plans a step before it knows how fast the step begins. Its plan is right for paces from `least` to `most`;
+// at other paces the frame is repeated. The pace is 0 where no body is faster than calm_m_s, otherwise the bits of the
+// stride, at least 1.
 struct PlannedPace {
   std::uint32_t calm_m_s = 0;
   std::uint32_t least = 0;
@@ -130,32 +132,32 @@ struct ContactView {
   core::Levels levels = core::Levels::kC;
   bool has_broad = true;           // else the levels test all pairs of bodies
   bool has_long_contacts = false;  // some shapes are hulls or meshes
-  bool follows_ways = false;       // patches of swept bodies that move far are followed on their way
+  bool follows_ways = false;       // some bodies are swept along their way, their path in the step
   core::Box domain;
 
   const RigidShapeView* shapes = nullptr;
   const std::uint32_t* shape_of_body = nullptr;
-  const std::uint8_t* is_swept = nullptr;  // [bodies] 1: its way is followed; where follows_ways
+  const std::uint8_t* is_swept = nullptr;  // [bodies] 1: swept; set where follows_ways
   const core::RigidMass* mass = nullptr;
   const core::Material* material = nullptr;
   const core::ContactShape* face_shapes = nullptr;  // [6]
   const core::ContactPose* face_poses = nullptr;    // [6]
 
-  std::uint8_t* asleep = nullptr;  // [bodies] 1: asleep; null where none ever is
+  std::uint8_t* asleep = nullptr;  // [bodies] 1: asleep; null where bodies never sleep
 
   const core::RigidState* before = nullptr;  // at the start of the step, which is the pose of detection
   // At detection, as core::RigidBodies has them.
   core::ContactPose* free_end = nullptr;
   PackedPusher* pushers = nullptr;
-  // core::PushWord: what candidates told in the step before, and what confirmed pairs passed on of it; and for the next
-  // step.
+  // core::PushWord, the strongest push of each body: noted along candidate pairs, and passed on along confirmed pairs.
+  // The old ones were noted in the step before, the others are for the next step.
   const unsigned long long* old_push = nullptr;
   const unsigned long long* old_passed_on = nullptr;
   unsigned long long* push = nullptr;
   unsigned long long* passed_on = nullptr;
   float* reach_m = nullptr;
   float* fall_m = nullptr;
-  std::uint32_t* pushed_m = nullptr;  // as a word: the reach of the neighbor that reaches farthest
+  std::uint32_t* pushed_m = nullptr;  // bits of a float, m: the largest reach of a neighbor
   core::Box* shape_boxes = nullptr;
   PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
 
@@ -163,10 +165,10 @@ struct ContactView {
   std::uint64_t pair_capacity = 0;
   const Counters* broad_counters = nullptr;
   AppendView<core::Pair> confirmed;
-  core::Pair* fresh = nullptr;  // [confirmed.capacity]; null where no shape is a hull: all pairs are
+  core::Pair* fresh = nullptr;  // [confirmed.capacity]; null where no shape is a hull: all pairs are fresh
   NearPair* near = nullptr;     // [confirmed.capacity]
-  // Of two finely cut hulls each, [confirmed.capacity]; those that are clearly apart from the end on. Null where no
-  // shape is a hull.
+  // Pairs of finely cut hulls that may touch, [confirmed.capacity]: the array is filled from its end with those that
+  // are clearly apart, from its beginning with the others. Null where no shape is a hull.
   core::Pair* hulls = nullptr;
   core::KnownGaps* hull_gaps = nullptr;
   AppendView<core::ContactPatch> patches;  // those of one pair follow each other
@@ -176,8 +178,8 @@ struct ContactView {
   RigidCounts* counts = nullptr;
   unsigned long long* barrier = nullptr;
   RigidOutcome* outcome = nullptr;
-  // A box that is longer, or farther out, than this was not foreseen when the cells of the broad phase were chosen:
-  // then the frame is repeated.
+  // The cells of the broad phase were chosen for boxes within these limits, bits of floats. A frame with a box that is
+  // longer, or farther from the origin, is repeated.
   std::uint32_t side_limit = 0;
   std::uint32_t coordinate_limit = 0;
   PlannedPace planned;

@@ -1,4 +1,4 @@
-// The parts of a step but its last one: they stay on the device until somebody asks for the frame.
+// All parts of a step except the last: they stay on the device until the frame is asked for.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ namespace broadside::gpu {
 
 class EarlierParts {
  public:
-  // Of the next step.
+  // Starts the next step: forgets the parts of the one before.
   void begin() { count_ = 0; }
-  // Copies on the device, in the stream's turn.
+  // Copies on the device, in the order of the stream.
   core::Status keep(const RigidLeft& part, StreamHandle stream);
   // last: the last part, as read back in full. It becomes the frame of the step (core::StepInParts).
   core::Status join(const core::RigidBodies& bodies, core::FrameRecord& last, core::RecordLevel level) const;
@@ -33,7 +33,7 @@ class EarlierParts {
     std::uint64_t pair_count = 0;
     RigidCounts counts;
   };
-  std::vector<std::unique_ptr<Part>> parts_;  // those behind count_ are room for later steps
+  std::vector<std::unique_ptr<Part>> parts_;  // those from count_ on are room for later steps
   std::size_t count_ = 0;
 };
 

@@ -21,7 +21,7 @@ constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 enum class LongTask : std::uint8_t { kContacts, kStopShort };
 
 struct LongView {
-  SweptView view;  // of contacts, its bodies alone
+  SweptView view;  // for kContacts only view.bodies is set
   LongTask task = LongTask::kContacts;
 };
 
@@ -43,7 +43,7 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
 }  // namespace
 
 core::Result<LaunchShape> long_contact_launch_shape() {
-  auto shape = contact_launch_shape();  // says whether this GPU can
+  auto shape = contact_launch_shape();  // an error if this GPU cannot launch it
   if (!shape.ok()) return shape.error();
   LaunchShape own{kThreads, 0, 0, 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(long_contact_kernel), own));

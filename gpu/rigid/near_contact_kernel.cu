@@ -1,6 +1,6 @@
-// The kernel that finds contacts first where shapes are hulls or meshes or where ways are followed: it lists the pairs
-// that are near, and makes the patches of most pairs of finely cut hulls. What all of its lanes run is small enough to
-// stay in the caches for instructions, which the code of all shapes is not.
+// The first of two kernels that find contacts where shapes are hulls or meshes or where bodies are swept: it lists the
+// pairs that are near, and makes the patches of most pairs of finely cut hulls. Its code is small enough to stay in the
+// instruction caches; the code of all shapes is not.
 #include "gpu/rigid/contact_launch.hpp"
 #include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/kernel_launch.cuh"
@@ -21,7 +21,7 @@ __global__ void __launch_bounds__(kThreads, kBlocksPerMultiprocessor)
 }  // namespace
 
 core::Result<LaunchShape> near_contact_launch_shape() {
-  auto shape = contact_launch_shape();  // says whether this GPU can
+  auto shape = contact_launch_shape();  // an error if this GPU cannot launch it
   if (!shape.ok()) return shape.error();
   LaunchShape own{kThreads, 0, 0, 0};
   BROADSIDE_TRY(fit(reinterpret_cast<const void*>(near_contact_kernel), own));

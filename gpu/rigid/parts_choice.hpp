@@ -1,5 +1,5 @@
-// In how many parts a step of turning bodies is taken on the GPU, and with which numbers each is solved. As in the
-// twin.
+// Chooses in how many parts a step of turning bodies is taken on the GPU, and the solver's numbers for each part. The
+// same choice as the twin's.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace broadside::gpu {
 
-// The device finds how fast a step begins while it takes the first part. So the plan is that of the step before; where
-// that is not the right one, the part is taken again.
+// The device finds how fast a step begins only while it takes the first part. So the first part is taken with the plan
+// of the step before, and taken again where that plan is wrong.
 class PartsChoice {
  public:
   PartsChoice() = default;
@@ -29,7 +29,7 @@ class PartsChoice {
 
   [[nodiscard]] std::uint32_t count() const { return plan_.parts; }
 
-  // Of a part. The view has gravity and solver.
+  // Sets the numbers of one part. view.gravity_m_s2 and view.solver must be set already.
   void fill(RigidFrameView& view, float step_s, bool is_first) const {
     view.step_s = step_s;
     view.dt_s = step_s / static_cast<float>(plan_.parts);
@@ -45,7 +45,7 @@ class PartsChoice {
     view.planned = is_first ? planned(calm_m_s) : PlannedPace{};
   }
 
-  // Plans the step anew, from what its first part told. Whether the plan was another one.
+  // Plans the step again, from what its first part reported. Returns whether the plan has changed.
   bool replan(const RigidCounts& told, const RigidFrameView& view) {
     const core::Pace pace{from_word(told.fastest_m_s), from_word(told.stride)};
     const core::StepPlan before = plan_;

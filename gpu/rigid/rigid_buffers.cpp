@@ -161,7 +161,8 @@ core::Status RigidBuffers::load(std::span<const core::RigidState> states, bool m
   return barrier_.fill_bytes(0);
 }
 
-// The two memories are swapped, and each grows when it is its turn.
+// How many patches the arrays of this step have room for. The two memories are swapped after every step, and only the
+// memory of the present step grows, so their capacities may differ.
 std::size_t RigidBuffers::patch_room() const {
   return std::min({may_sleep_ ? sleep_.now.capacity() : patches_.capacity(), patches_.capacity(), ranks_.capacity(),
                    patch_colors_.capacity(), impulses_.capacity() / 4, by_color_.capacity() / 2,

@@ -15,11 +15,11 @@ namespace broadside::gpu {
 class RigidBuffers {
  public:
   core::Status load(std::span<const core::RigidState> states, bool may_sleep, bool has_hulls);
-  // Forgets for how long bodies have been still.
+  // Wakes all bodies, and forgets for how long they have been still.
   core::Status wake_all();
   // Makes room for what the aborted frame needed.
   core::Status grow(const RigidCounts& demanded);
-  // Keeps the step: the state after it becomes the state before the next one.
+  // Call when a step is kept: the state after it becomes the state before the next one.
   void advance(const RigidCounts& kept);
   void fill(RigidFrameView& view) const;
   [[nodiscard]] std::uint64_t bytes() const;

@@ -15,10 +15,9 @@
 
 namespace broadside::gpu {
 
-// A frame is four launches beside its broad phase, one more where shapes are hulls or meshes or where ways are
-// followed, two more where bodies sleep; all are asynchronous. Each is a kernel of its own, so that none has the
-// registers of another. A kernel does nothing when it finds that the frame is aborted; the solver's kernel then tells
-// the host.
+// A frame is four launches beside its broad phase, one more where shapes are hulls or meshes or where bodies are swept,
+// two more where bodies may sleep; all are asynchronous. Each launch is a kernel of its own, so that none needs the
+// registers of another. A kernel that finds the frame aborted does nothing; the solver's kernel then tells the host.
 
 core::Result<LaunchShape> constraint_launch_shape();
 
@@ -36,7 +35,7 @@ core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& 
 // The substeps. blocks: at most those of the shape, for frame.solve_team.
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle stream);
 
-// Where bodies sleep, behind the contacts and behind the substeps.
+// Only where bodies may sleep: launch_wake after the contacts, launch_fall_asleep after the substeps.
 core::Result<LaunchShape> sleep_launch_shape();
 core::Status launch_wake(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 core::Status launch_fall_asleep(const RigidFrameView& frame, const LaunchShape& shape, StreamHandle stream);
@@ -49,7 +48,7 @@ struct RigidDigestView {
   const core::RigidState* detected = nullptr;
   const core::RigidState* state = nullptr;
   const core::RigidMass* mass = nullptr;
-  const core::Vec3* static_spin = nullptr;  // rad/s, of bodies that never turn
+  const core::Vec3* static_spin = nullptr;  // rad/s, of static bodies, as the scene gives it
   const core::Pair* confirmed = nullptr;
   const core::ContactPatch* patches = nullptr;
   const core::Vec3* impulses = nullptr;

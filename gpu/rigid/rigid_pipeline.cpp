@@ -61,9 +61,9 @@ struct RigidPipeline::Impl {
   std::uint64_t steps_slept = 0;
   std::uint64_t launches = 0;
   float dt_s = 0.0F;    // of the step
-  float part_s = 0.0F;  // of the last part that was kept
+  float part_s = 0.0F;  // length of the last part that was kept
   PartsChoice parts;
-  std::uint32_t part = 1;  // that is being taken
+  std::uint32_t part = 1;  // the part that is being taken
   EarlierParts earlier_parts;
 
   [[nodiscard]] bool has_broad() const;
@@ -76,10 +76,10 @@ struct RigidPipeline::Impl {
   core::Status launch_contacts_of_scene();
   core::Status launch_all();
   core::Result<bool> is_kept();
-  // The frame is kept: the next one starts from the state that it ended in.
   [[nodiscard]] RigidLeft left() const { return left_of(bodies, buffers, pairs, last_pairs, last); }
   [[nodiscard]] bool was_in_parts() const { return parts.count() > 1 && steps > 0; }
   core::Status read_back_joined(core::FrameRecord& frame, core::RecordLevel level) const;
+  // The frame is kept: the next one starts from the state that it ended in.
   void take_frame();
 };
 
@@ -102,7 +102,7 @@ RigidPipeline::RigidPipeline(const RigidPipelineOptions& options) : impl_(std::m
 }
 RigidPipeline::~RigidPipeline() = default;
 
-// As in the twin: without level 0 a broad phase has nothing to start from.
+// As in the twin: with broad=brute the levels test all pairs, and there is no broad phase.
 bool RigidPipeline::Impl::has_broad() const {
   return options.broad != Broad::kBrute;
 }
@@ -124,7 +124,7 @@ core::Status RigidPipeline::Impl::load_broad() {
   return wait_for_device("clearing the broad phase");
 }
 
-// Cells for boxes of these sizes and places.
+// Chooses cells for boxes of these sizes and places.
 core::Status RigidPipeline::Impl::refit(const RigidCounts& counts) {
   const auto side = std::bit_cast<float>(counts.largest_side);
   const auto coordinate = std::bit_cast<float>(counts.largest_coordinate);
@@ -250,13 +250,13 @@ core::Status RigidPipeline::Impl::launch_all() {
   const SolveTeamChoice solve = choose_solve_team(solve_shape, view.body_count, options.may_cluster);
   view.solve_team = solve.kind;
   BROADSIDE_TRY(launch_place(view, contact_shape, stream));
-  // Cells are chosen from boxes of earlier frames. The first frame has none, and with cells of no size a box would look
-  // for partners in billions of them: so there is no broad phase. The kernels behind it find that the boxes are too
-  // large for their cells, and the frame is repeated.
+  // Cells are chosen from boxes of earlier frames. At the first frame there are none, and with cells of size 0 a box
+  // would look for partners in billions of cells. So the broad phase is left out: the kernels after it find that the
+  // boxes are too large for their cells, and the frame is repeated.
   const bool lacks_cells = start() != Start::kTiles && start() != Start::kOctree && facts.largest_side_m == 0.0F;
   if (has_broad() && !lacks_cells) BROADSIDE_TRY(launch_pairs(pairs_view, pairs_launch, stream));
   BROADSIDE_TRY(launch_contacts_of_scene());
-  // Without gravity nothing says how slow is slow, and nobody sleeps.
+  // The speed below which bodies are still follows from gravity; without gravity it is 0, and no body sleeps.
   const bool may_sleep = options.sleeps && view.sleep.speed_m_s > 0.0F;
   launches += may_sleep ? 7 : 5;
   if (may_sleep) BROADSIDE_TRY(launch_wake(view, sleep_shape, stream));
@@ -266,8 +266,8 @@ core::Status RigidPipeline::Impl::launch_all() {
   return wait_for_stream(stream, "a frame");
 }
 
-// After an abort there is room for what was too small, and an island that was touched is awake. So the frame is
-// launched again from the same state.
+// Returns whether the frame is kept. After an abort, arrays that were too small have grown, and an island that was
+// touched is awake; the frame is then launched again from the same state.
 core::Result<bool> RigidPipeline::Impl::is_kept() {
   last = outcome[0].counts;
   if (last.is_aborted == 0) return true;
@@ -289,7 +289,7 @@ core::Result<bool> RigidPipeline::Impl::is_kept() {
 void RigidPipeline::Impl::take_frame() {
   unsigned long long begin_ns = outcome[0].begin_ns;
   for (std::size_t k = 0; k < core::kStageCount; ++k) {
-    // The broad phase ends where the kernel behind it begins; boxes and pairs are timed together.
+    // The broad phase ends where the kernel after it begins; boxes and pairs are timed together.
     const unsigned long long end_ns = k == 0 ? begin_ns : outcome[0].stage_end_ns[k];
     times[k] = {core::kStageNames[k], times[k].seconds + static_cast<double>(end_ns - begin_ns) * 1e-9};
     begin_ns = end_ns;
@@ -320,7 +320,7 @@ core::Status RigidPipeline::Impl::run_part() {
 
 core::Status RigidPipeline::step(float dt_s) {
   Impl& d = *impl_;
-  // For how long bodies have been still is counted in steps of one length.
+  // The time for which a body has been still is counted in steps, so all steps counted must have one length.
   if (dt_s != d.dt_s) BROADSIDE_TRY(d.buffers.wake_all());
   d.dt_s = dt_s;
   d.times = {};

@@ -36,10 +36,11 @@ class RigidPipeline final : public core::Dynamics, public core::FrameOnDevice {
 
   // Refuses what the twin refuses.
   core::Status load(const core::Scene& scene) override;
-  // Five launches: boxes, candidate pairs, contacts, constraints, substeps; contacts are two where shapes are hulls or
-  // meshes or where ways are followed, and where bodies sleep there are two more. They are repeated from the same state
-  // when there was too little room, when a cell of the broad phase was too small, or when a sleeping island wakes.
-  // Synchronizes. An error when a body's numbers are no longer finite.
+  // Five launches: boxes, candidate pairs, contacts, constraints, substeps. Contacts take two launches where shapes are
+  // hulls or meshes or where bodies are swept; where bodies may sleep there are two more. All are repeated from the
+  // same state when an array was too small, when a cell of the broad phase was too small, when the step needs another
+  // number of parts, or when a sleeping island wakes. Synchronizes. Returns an error when a body's box is no longer
+  // finite.
   core::Status step(float dt_s) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override;

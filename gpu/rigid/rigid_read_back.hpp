@@ -1,4 +1,4 @@
-// What a frame of turning bodies left on the device, brought to the host.
+// Copies what a frame of turning bodies left on the device to the host.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace broadside::gpu {
 
-// Of a step that was kept, or a part of one.
+// What a step that was kept, or a part of one, left on the device.
 struct RigidLeft {
   const core::RigidBodies& bodies;
   const DeviceBuffer<core::RigidState>& state;     // in which it ended
@@ -41,9 +41,9 @@ inline RigidLeft left_of(const core::RigidBodies& bodies, const RigidBuffers& bu
           counts};
 }
 
-// The digest, as the twin has it, added up on the device. Synchronizes.
+// The digest, equal to the twin's, added up on the device. Synchronizes.
 core::Result<std::uint64_t> rigid_digest_of(const RigidLeft& left, const LaunchShape& shape, StreamHandle stream);
-// Sorted as the twin's.
+// Fills the frame, in the twin's order.
 core::Status read_back_rigid(const RigidLeft& left, core::FrameRecord& frame);
 
 }  // namespace broadside::gpu

@@ -1,4 +1,5 @@
-// What a scene of turning bodies fixes, on the device: shapes with their tables, masses, materials, wrenches, faces.
+// Device memory of what does not change during a run of turning bodies: shapes with their tables, masses, materials,
+// wrenches, faces.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What the kernels of a frame of turning bodies are given, by value: where everything of one simulation lies on the
-// device. RIGID 8; the twin is reference/octree_cpu/rigid.
+// The argument, by value, of the kernels of a frame of turning bodies: the numbers of the step, and pointers to all
+// device memory of one simulation. RIGID 8; the twin is reference/octree_cpu/rigid.
 #pragma once
 
 #include <cstdint>
@@ -34,9 +34,9 @@ struct alignas(16) BodyColors {
   std::uint32_t colored = 0;     // how many of its patches have a color
 };
 
-// core::SolverBody, but for its mass, in words of 16 bytes. Words that sweeps over patches read come first, and among
-// these the ones that they also write: 32 bytes, which is the least that memory gives at once. w: the version of the
-// velocities, and of the place that moving the body gave it (stages/rigid/versions.cuh).
+// core::SolverBody without its mass, in words of 16 bytes. First come the words that sweeps over patches write: 32
+// bytes, the least that memory transfers at once. Then come those that sweeps only read. w: the version of the
+// velocities, or of the place to which the body was moved (stages/rigid/versions.cuh).
 struct alignas(128) PackedSolverBody {
   PackedVec3 v;
   PackedVec3 angular_momentum;
@@ -50,7 +50,7 @@ struct alignas(128) PackedSolverBody {
 static_assert(sizeof(PatchRank) == 16 && sizeof(BodyColors) == 16 && sizeof(PackedSolverBody) == 128,
               "read and written in words of 16 bytes");
 
-// How a body moves as a substep begins, with its gravity and wrenches.
+// A body's velocities in a substep after gravity and wrenches, before any impulse.
 struct alignas(32) PackedStart {
   PackedVec3 driven_v;
   PackedVec3 driven_angular_momentum;
@@ -66,10 +66,10 @@ struct RigidFrameView : ContactView {
   core::Vec3 gravity_m_s2;
   core::Material face_material;
   core::SoftSettings solver;
-  // By core::SolveKind: of a substep, and how many there are.
+  // By core::SolveKind: the numbers of a substep, and how many substeps there are.
   core::SoftStep soft[std::size(core::kSolveKinds)];
   std::uint32_t substeps[std::size(core::kSolveKinds)] = {};
-  float calm_m_s = 0.0F;  // a step is calm in which nothing is faster; below 0: none is
+  float calm_m_s = 0.0F;  // a step in which nothing is faster is calm; below 0: no step is
 
   const core::RigidWrench* wrench = nullptr;  // null: none
 
@@ -85,13 +85,14 @@ struct RigidFrameView : ContactView {
   std::uint64_t place_capacity = 0;
   PackedVec3* constraints = nullptr;  // constraint_tiles.cuh
   float* changes = nullptr;           // [places] J, of the last sweep (core::squared_change)
-  // [2 * patches] The lists of moved bodies: places of a body's patches in the order of colors, each as 2 * place, + 1
-  // where the body is B.
+  // [2 * patches] For each moved body the places of its patches in the order of colors: 2 * place where the body is the
+  // patch's A, 2 * place + 1 where it is B.
   std::uint32_t* by_color = nullptr;
   PackedSolverBody* bodies = nullptr;  // [bodies + 1]; the last one stands for every face: it never moves
-  float* inverse_mass = nullptr;       // [bodies + 1] of these; 0 of those that sleep, too
+  float* inverse_mass = nullptr;       // [bodies + 1] of these; 0 for sleeping bodies, too
   PackedStart* starts = nullptr;       // [bodies + 1] of the substep
-  // [bodies + 1] While contacts bounce: the latest sweep, counted over the step, that has to visit the body's patches.
+  // [bodies + 1] In sweeps that visit only patches of bodies that have changed: the latest sweep, counted over the
+  // step, that has to visit the body's patches.
   std::uint32_t* stirred = nullptr;
   // [bodies] The latest relaxation along directions, named by its first sweep, that has visited a patch of the body.
   std::uint32_t* relaxed = nullptr;

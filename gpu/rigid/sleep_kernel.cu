@@ -1,4 +1,4 @@
-// The kernels of a frame of turning bodies that let them sleep, and wake them.
+// The kernels of a frame of turning bodies that wake sleeping bodies and put bodies to sleep.
 #include "gpu/rigid/rigid_kernel.hpp"
 #include "gpu/runtime/cuda_check.hpp"
 #include "gpu/runtime/kernel_launch.cuh"

@@ -18,11 +18,11 @@ struct AsleepPatch {
 };
 
 struct SleepView {
-  float speed_m_s = 0.0F;             // below which a body is still; 0: nobody sleeps
-  bool decides = true;                // who falls asleep: the last part of a step
-  float share = 1.0F;                 // of what they gave in the part before, that sleeping contacts give in this one
+  float speed_m_s = 0.0F;             // below which a body is still; 0: no body sleeps
+  bool decides = true;                // bodies may fall asleep: in the last part of a step
+  float share = 1.0F;                 // impulses of sleeping contacts in this part over those in the part before
   std::uint32_t* still = nullptr;     // [bodies] steps in a row
-  std::uint32_t* island = nullptr;    // [bodies] of who sleeps: the lowest of its bodies
+  std::uint32_t* island = nullptr;    // [bodies] of a sleeping body: the lowest body of its island
   std::uint32_t* parent = nullptr;    // [bodies] union-find over the patches of a step
   std::uint32_t* restless = nullptr;  // [bodies] 1: the island with this lowest body wakes, or does not sleep yet
   const AsleepPatch* old = nullptr;   // those that slept when the step began

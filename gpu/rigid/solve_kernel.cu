@@ -7,8 +7,8 @@
 namespace broadside::gpu {
 namespace {
 
-// Blocks of a warp for each of a multiprocessor's four schedulers, two of them resident: that leaves 255 registers a
-// thread, enough for a patch and both its bodies.
+// A block has one warp for each of a multiprocessor's four schedulers, and two blocks are resident: that leaves 255
+// registers a thread, enough for a patch and both its bodies.
 constexpr std::uint32_t kThreads = 32 * SolveShared::kMostWarps;
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
 // Not every GPU has clusters of more than 8 blocks.

@@ -1,4 +1,4 @@
-// Stops bodies on the way of a step where they would pass through each other: the twin of
+// Stops a body partway through its step where it would pass through another body: the twin of
 // reference/octree_cpu/rigid/sweep_stage.hpp.
 #pragma once
 
@@ -15,13 +15,13 @@
 
 namespace broadside::gpu {
 
-// Its pairs are those whose boxes of whole ways overlap, which needs a search of its own. A step in which no body moves
-// far skips it.
+// A body's way is its path in the step. Candidates are the pairs whose boxes around their whole ways overlap, which
+// takes a broad phase of its own. A step in which no body moves far skips it.
 class SweepStage {
  public:
   core::Status load(const core::RigidBodies& bodies);
-  // Call after the substeps of a frame that is kept. after: set back along the way where a body must stop.
-  // Synchronizes.
+  // Call after the substeps of a frame that is kept. after: the states that the substeps left; a body that must stop is
+  // set back along its way. Synchronizes.
   core::Status stop_short(const ContactView& frame, core::RigidState* after, StreamHandle stream);
 
   // How many bodies were set back since load; a body counts once for each step.

@@ -11,7 +11,7 @@ namespace broadside::gpu {
 
 core::Result<LaunchShape> swept_launch_shape();
 
-// How far each body went, and boxes of its way. Asynchronous.
+// Computes how far each body went, and a box around its way. Asynchronous.
 core::Status launch_ways(const SweptView& view, StreamHandle stream);
 // Stops bodies, given the pairs whose boxes overlap. Asynchronous.
 core::Status launch_stop_short(const SweptView& view, const LaunchShape& shape, StreamHandle stream);

@@ -16,7 +16,7 @@ namespace broadside::gpu {
 
 class ToldFrame {
  public:
-  // Another scene was loaded.
+  // Call when another scene was loaded.
   void forget() { is_ready_ = is_told_ = false; }
   // The columns are valid until the next step or load, and as long as the buffers of the simulation. The first call
   // after a step launches and waits; later calls in the same step return the same columns.
@@ -51,7 +51,7 @@ class ToldFrame {
   DeviceBuffer<core::Vec3> static_spin_;
   bool is_ready_ = false;  // of the loaded scene: masses are there, bodies have room
   bool is_told_ = false;
-  std::uint64_t step_ = 0;  // that frame_ is of
+  std::uint64_t step_ = 0;  // the step of frame_
   core::DeviceFrame frame_;
 };
 

@@ -11,7 +11,7 @@
 
 namespace broadside::gpu {
 
-// One array a column, because some libraries take packed rows alone. Units and frame are those of the trace.
+// One array a column, because some libraries take packed rows only. Units and frame are those of the trace.
 struct ToldBodies {
   core::Vec3* position = nullptr;  // of the mesh's origin
   core::Quat* orientation = nullptr;
@@ -32,8 +32,8 @@ struct ToldPoints {
 struct ToldView {
   std::uint32_t body_count = 0;
   std::uint64_t patch_count = 0;
-  const core::RigidState* state = nullptr;     // that the step came to
-  const core::RigidState* detected = nullptr;  // that it began with
+  const core::RigidState* state = nullptr;     // at the end of the step
+  const core::RigidState* detected = nullptr;  // at its start
   const core::RigidMass* mass = nullptr;
   const core::Vec3* static_spin = nullptr;  // rad/s
   const core::ContactPatch* patches = nullptr;
@@ -43,7 +43,7 @@ struct ToldView {
   // Both 0 before a launch, and after it.
   std::uint32_t* point_count = nullptr;
   std::uint32_t* blocks_done = nullptr;
-  std::uint32_t* told_points = nullptr;  // the host's memory: points that were told
+  std::uint32_t* told_points = nullptr;  // in the host's memory: how many points were written
 };
 
 // Asynchronous.

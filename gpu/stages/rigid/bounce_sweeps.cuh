@@ -14,7 +14,8 @@ struct LoadedBounce {
   bool bounces = false;
 };
 
-// The whole patch, where it is known already that it is visited.
+// A patch for a sweep over stirred bodies. is_whole: it is known to be visited, so all of it is loaded; otherwise only
+// the indices of its bodies are.
 struct LoadedStirred {
   LoadedWay of;
   bool is_whole = false;
@@ -24,9 +25,10 @@ __device__ __forceinline__ void note_relaxed(const RigidFrameView& f, std::uint3
   if (body < f.body_count) f.relaxed[body] = since;
 }
 
-// Relaxes the contacts of stirred bodies again. Along directions also those that sweeps since `since` have visited:
-// they follow their directions by `share`. A change of more than `done` stirs the patch's bodies for the next sweep.
-// Contributes the largest change of a point's speed, and along directions that of f.changes.
+// Relaxes the contacts of stirred bodies again. With conjugate directions it also visits the patches that this
+// relaxation has visited already, whose first sweep is `since`: their impulses first follow their last direction by
+// `share`. A patch that changes by more than `done` stirs its bodies for the next sweep. Contributes the largest change
+// of a point's speed and, with directions, the largest of f.changes.
 __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const RigidFrameView& f,
                                               const core::SoftStep& soft, std::uint32_t since, std::uint32_t sweep,
                                               float done, float share, const TeamSums& sums) {
@@ -96,16 +98,16 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
              [&](std::uint32_t place) {
                if (has_directions) f.changes[place] = 0.0F;
              },
-             // An earlier color of this sweep may have stirred its bodies since it was loaded.
+             // An earlier color of this sweep may have stirred the patch's bodies since it was loaded.
              [&](const LoadedStirred& loaded) { return !loaded.is_whole && is_stirred(loaded.of.patch.c); }});
   __syncwarp();
   sums.bring_largest(TeamSums::kFirst, largest);
   if (has_directions) sums.bring_largest(TeamSums::kSecond, largest_change);
 }
 
-// Points that came fast leave. is_first: notes how much impulse each patch may give, and which patches bounce: the
-// sweeps behind it change the impulses of these alone, so no other one begins to. Contributes the largest change of a
-// point's speed.
+// Gives points that approached fast their speed of rebound. is_first: notes which patches bounce, and how much impulse
+// each of them may give. Later sweeps change the impulses of these patches only, so no other patch starts to bounce.
+// Contributes the largest change of a point's speed.
 __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const RigidFrameView& f, bool is_first,
                                                float done, const TeamSums& sums) {
   float largest = 0.0F;
@@ -152,8 +154,9 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
   sums.bring_largest(TeamSums::kFirst, largest);
 }
 
-// The end of a substep with impacts: core::drop_impacts for all, core::drop_impulses for patches of bodies that were
-// stirred since sweep `since`. The impulses that are left are added to the totals where all others are.
+// Ends a substep with impacts: core::drop_impulses for patches of bodies that were stirred for sweep `since` or a later
+// one, core::drop_impacts for all others. The impulses that are left are added to the totals later, with those of all
+// patches (begin_substep).
 __device__ __forceinline__ void drop_all_impacts(const SolveTeam& team, const RigidFrameView& f, std::uint32_t since) {
   each_place(team, f, [&](const TileSlot& slot, std::uint64_t /*place*/) {
     core::PatchConstraint c;

@@ -1,9 +1,9 @@
-// The places of a large color that a sweep visits, where it visits few.
+// Finds the few places of a large color that a sweep has to visit.
 //
-// While contacts bounce, a sweep visits the patches of stirred bodies: a few in a hundred. A lane that has several
-// places of a color one after the other mostly finds that it may pass, but in nearly each of its turns another lane of
-// its warp has a patch to solve. So a warp looks through several turns at once first, and then solves what it has
-// chosen, 32 at a time.
+// While contacts bounce, a sweep visits the patches of stirred bodies: a few in a hundred. A lane has several places of
+// a large color, one in each of its turns, and can pass over most of them; but in nearly every turn some lane of its
+// warp has a patch to solve. So a warp first looks through several turns at once, and then solves the patches that it
+// has chosen, 32 at a time.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace broadside::gpu {
 
-// What was loaded ahead is what the patch needs.
+// For sweeps that never have to load a patch again: what was loaded ahead stays right.
 struct NeverStale {
   template <typename Loaded>
   __device__ bool operator()(const Loaded& /*loaded*/) const {
@@ -24,10 +24,10 @@ struct NeverStale {
   }
 };
 
-// Of a sweep that visits those of which is_visited(slot) says so, which may be asked of any place; pass(place) is
-// called for the others of large colors. is_stale(loaded): whether the patch has to be loaded again, because an earlier
-// color of the sweep has changed what was loaded ahead. is_used: whether large colors are looked through first; the
-// same for all threads.
+// Which patches a sweep visits: those for which is_visited(slot) is true. It may be called for any place. pass(place)
+// is called for the other places of large colors. is_stale(loaded): whether the patch has to be loaded again, because
+// an earlier color of the sweep has changed what was loaded ahead. is_used: whether large colors are looked through
+// first; the same for all threads.
 template <typename IsVisited, typename Pass, typename IsStale>
 struct Visits {
   bool is_used = false;
@@ -56,12 +56,13 @@ class ChosenTurns {
   __device__ __forceinline__ ColorTurn choose(const Visits& visits) {
     std::uint32_t* const chosen = team_.chosen();
     count_ = 0;
-    __syncwarp();  // nobody reads the places of before any more
+    __syncwarp();  // all lanes have read the places chosen before
     for (std::uint32_t turn = 0; turn < kTurns; turn += kTogether) {
       bool has[kTogether];
       bool is_chosen[kTogether];
       std::uint32_t place[kTogether];
-      // Any place can be asked, so that the loads of all turns are on their way together.
+      // is_visited is called for every turn, if need be for place 0, so that the loads of all turns are in flight
+      // together.
 #pragma unroll
       for (std::uint32_t k = 0; k < kTogether; ++k) {
         place[k] = scanned_.place + k * team_.threads();

@@ -1,22 +1,23 @@
 // Loops over constraints and bodies while contacts are solved.
 //
-// A sweep solves patches in the order of their colors. Unless there are some hundred thousand patches, its time is that
-// of what a patch waits for and of its own chain of operations. So all of the solver serves to shorten these two:
-// - A patch waits for its two bodies alone, and a body for its patches (versions.cuh). A substep of soft steps in which
-//   nothing bounces has no barrier.
-// - Lanes that wait go on together (wait_until). Where each went on as soon as it could, a warp ran what is behind the
-//   wait several times.
+// A sweep solves patches in the order of their colors. Unless there are some hundred thousand patches, its time is the
+// time for which patches wait for each other plus the chain of operations of each patch. Everything below serves to
+// shorten these two:
+// - A patch waits only for its two bodies, and a body only for its patches (versions.cuh). A substep of soft steps in
+//   which nothing bounces has no barrier.
+// - Lanes that wait go on together (wait_until). When each lane went on as soon as it could, a warp ran the code after
+//   the wait several times.
 // - The four points of a patch and both its bodies lie in registers: loops over points have a fixed length, without a
 //   branch (core::each_point_or_zeros), and a thread may have 255 registers.
-// - A thread loads its next constraint ahead, and works out then what follows from where the bodies are, gaps and how
-//   fast they may close (core::goals_of): once the bodies are ready only velocities are loaded.
-// - No pass goes over all constraints beside the sweeps: the next sweep adds up totals, and the last relaxation notes
+// - A thread loads its next constraint ahead, and computes what follows from the bodies' places alone: gaps, and how
+//   fast they may close (core::goals_of). Once the bodies are ready, only velocities are loaded.
+// - No loop but the sweeps goes over all constraints: the next sweep adds up totals, and the last relaxation notes
 //   which points bounce.
-// - Impulses that are known beforehand need no colors (kept_impulses.cuh), and while contacts bounce, a sweep visits
-//   patches whose bodies have just changed (bounce_sweeps.cuh). Which these are changes while it goes on, so colors of
-//   such a sweep have barriers between them.
-// - A patch that came too slowly to bounce has no restitution in the step, which lies in a word that all sweeps read
-//   (core::note_approach): approaches and totals are read of the others alone.
+// - Impulses that are known beforehand need no colors (kept_impulses.cuh). While contacts bounce, a sweep visits only
+//   patches whose bodies have just changed (bounce_sweeps.cuh); this set changes during the sweep, so there are
+//   barriers between its colors.
+// - A patch that approaches too slowly to bounce gets restitution 0 for the step (core::note_approach). Restitution
+//   lies in a word that all sweeps read, so approaches and totals are read only of patches that may bounce.
 #pragma once
 
 #include "core/method/rigid/patch_constraint.hpp"
@@ -30,13 +31,13 @@
 namespace broadside::gpu {
 
 // work(i) for every body, always by the same thread. No barrier. The last threads have the first bodies, so that few
-// threads have both patches and bodies: those wait for bodies' versions while others solve patches.
+// threads have both patches and bodies: the threads of bodies wait for versions while others solve patches.
 template <typename Work>
 __device__ __forceinline__ void each_body(const SolveTeam& team, const RigidFrameView& f, const Work& work) {
   for (std::uint64_t i = team.size() - 1 - team.spread_rank(); i < f.body_count; i += team.size())
     work(static_cast<std::uint32_t>(i));
 }
-// The same of load(i), once ready(i, loaded).
+// The same as work(i, loaded), with loaded = load(i), once ready(i, loaded) is true.
 template <typename Load, typename Ready, typename Work>
 __device__ __forceinline__ void each_body_in_turn(const SolveTeam& team, const RigidFrameView& f, const Load& load,
                                                   const Ready& ready, const Work& work) {
@@ -51,7 +52,8 @@ __device__ __forceinline__ void each_body_in_turn(const SolveTeam& team, const R
   }
 }
 
-// work(slot, place) for every constraint, in any order: it reads bodies alone. No barrier.
+// work(slot, place) for every constraint, in any order, so it must not change a body that another constraint reads. No
+// barrier.
 template <typename Work>
 __device__ __forceinline__ void each_place(const SolveTeam& team, const RigidFrameView& f, const Work& work) {
   for (std::uint64_t place = team.spread_rank(); place < f.counts->places; place += team.size())
@@ -61,17 +63,17 @@ __device__ __forceinline__ void each_place(const SolveTeam& team, const RigidFra
 // What a thread waits for before it goes on with the next color, in sweeps with barriers.
 enum class ColorWait : std::uint8_t { kNothing, kTeam, kBlock };
 
-// Of a sweep whose work writes all itself.
+// For a sweep whose work writes everything itself.
 struct KeepsNothing {
   template <typename Loaded>
   __device__ void operator()(const TileSlot& /*slot*/, std::uint32_t /*place*/, const Loaded& /*loaded*/) const {}
 };
 
-// work(slot, place, loaded) for every patch, in the order of colors. A patch waits until placed(loaded) has where its
-// bodies are, and until ready(loaded) has their velocities, for nothing else. load(slot) gives what is needed of the
-// constraint, aim(slot, loaded) works out what no velocity is needed for, and keep(slot, place, loaded) writes what no
-// other patch waits for. A warp solves 32 patches of one color, then its next 32: all of the grid's warps go through
-// the places in this order, so one of them can always go on.
+// work(slot, place, loaded) for every patch, in the order of colors. load(slot) loads what is needed of the constraint.
+// A patch waits only until placed(loaded) has loaded its bodies' places, and until ready(loaded) has loaded their
+// velocities. In between, aim(slot, loaded) computes what needs no velocity; after work, keep(slot, place, loaded)
+// writes what no other patch waits for. A warp solves 32 patches of one color, then its next 32. All warps of the grid
+// go through the places in this order, so one of them can always go on.
 template <typename Load, typename Placed, typename Aim, typename Ready, typename Work, typename Keep>
 __device__ __forceinline__ void each_place_in_turn(const SolveTeam& team, const RigidFrameView& f, const Load& load,
                                                    const Placed& placed, const Aim& aim, const Ready& ready,
@@ -100,15 +102,16 @@ __device__ __forceinline__ void each_place_in_turn(const SolveTeam& team, const 
 }
 
 // work(slot, place, loaded) color by color, for the patches that a sweep visits, with a barrier between two colors and
-// none at the end. keep(slot, place, loaded) writes what no other patch waits for, once the thread has arrived at the
-// barrier: a barrier waits until all that was written before it can be seen. load(slot) gives what work needs of the
-// constraint, and of its bodies what no sweep changes. A thread loads its next constraint right after its last one,
-// mostly some colors ahead: nobody but this thread writes it during a sweep.
+// none at the end. keep(slot, place, loaded) writes what no other patch waits for. It is called after the thread has
+// arrived at the barrier, because a barrier waits until everything written before it is visible. load(slot) loads what
+// work needs of the constraint, and what no sweep changes of its bodies. A thread loads its next constraint right after
+// its last one, mostly some colors ahead; it may, because only this thread writes that constraint during a sweep.
 //
-// Both are called at one place each: they are long, and with a copy of load at every barrier the solver's code was
-// several times what a multiprocessor keeps of it, so that warps waited for instructions.
+// load and work are each called at one place of the code, because they are long: with a copy of load at every barrier
+// the solver's code was several times larger than a multiprocessor's instruction cache, and warps waited for
+// instructions.
 //
-// visits: Visits of those that the sweep chooses in large colors, where nothing is loaded ahead.
+// visits: which patches the sweep chooses in large colors (Visits). There nothing is loaded ahead.
 template <typename Load, typename Work, typename Keep, typename Visited>
 __device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, const RigidFrameView& f, const Load& load,
                                                       const Work& work, const Keep& keep, const Visited& visits) {
@@ -124,7 +127,7 @@ __device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, con
   for (std::uint32_t color = 0;;) {
     if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
     owes = false;
-    // Not before the thread arrives at the barrier after its last turn of a color.
+    // A load ahead waits until the thread has arrived at the barrier after its last turn of a color.
     const bool loads = wait != ColorWait::kNothing || turn.color == color;
     if (loads && !is_loaded && turn.color != kNoColor) {
       loaded = load(TileSlot(f.constraints, turn.place));
@@ -164,7 +167,8 @@ __device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, con
   if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
 }
 
-// work(a, b) changes the velocities of a patch's two bodies, of which the rest is there already.
+// Loads the velocities of a patch's bodies, calls work(), which changes a and b, and stores them. All other parts of a
+// and b have been loaded.
 template <typename Work>
 __device__ __forceinline__ void with_velocities(const SolveTeam& team, const RigidFrameView& f,
                                                 const core::PatchConstraint& c, core::SolverBody& a,

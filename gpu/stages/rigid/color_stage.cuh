@@ -12,12 +12,12 @@
 
 namespace broadside::gpu {
 
-// Patches of sleeping bodies lie behind these, and have no color.
+// The number of patches that are solved. Patches of sleeping bodies lie after these and have no color.
 __device__ inline std::uint64_t solved_patches(const RigidFrameView& f) {
   return f.counts->patches - f.counts->asleep_patches;
 }
 
-// How many of this body's patches come before this one.
+// How many of this body's patches are colored before this one; kNotMoved for a body that never moves.
 __device__ inline std::uint32_t rank_among(const RigidFrameView& f, std::uint32_t body, std::uint32_t patch,
                                            std::uint64_t priority) {
   if (!is_moved(f, body)) return kNotMoved;
@@ -87,8 +87,8 @@ __device__ inline std::uint32_t try_color(const RigidFrameView& f, const PatchRa
   return color;
 }
 
-// A patch waits only for the earlier patches of its bodies. A body's word is read as of one moment, so there is no
-// barrier. All blocks are resident, and the first patch of all waits for none; so every patch gets a color.
+// A patch waits only for the earlier patches of its bodies. A body's word is read as a whole, so no barrier is needed.
+// All blocks are resident, and the first of all patches waits for no other one; so every patch gets a color.
 template <typename Team>
 __device__ void color_patches(const Team& team, const RigidFrameView& f) {
   const std::uint64_t patches = solved_patches(f);
@@ -148,8 +148,8 @@ __device__ inline void place_colors(const RigidFrameView& f) {
   f.counts->places = next;
 }
 
-// Enters a patch's place in the list of one of its bodies, and the other way around. The list is in the order of
-// colors, and no two of a body's patches have the same color. A body that does not move has no list.
+// Writes a patch's place into the list of one of its bodies, and its rank in that list into the patch. The list is in
+// the order of colors; no two of a body's patches have the same color. A body that does not move has no list.
 __device__ inline void list_by_color(const RigidFrameView& f, std::uint32_t body, std::uint32_t color,
                                      std::uint32_t place, std::uint32_t side) {
   const TileSlot slot(f.constraints, place);

@@ -1,5 +1,5 @@
-// Where the numbers of constraints lie: in words of 16 bytes, in tiles of 32 constraints, word by word. So the lanes of
-// a warp load neighboring words, and a sweep loads only what it reads.
+// The layout of constraints in memory: tiles of 32 constraints, which have word after word of 16 bytes for all 32. So
+// the lanes of a warp load neighboring words, and a sweep loads only the words that it reads.
 #pragma once
 
 #include <cstdint>

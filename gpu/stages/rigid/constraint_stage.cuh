@@ -14,8 +14,8 @@
 
 namespace broadside::gpu {
 
-// For each point of a patch the first one with its feature that these bodies had in the step before, patch by patch; or
-// none.
+// For each point of a patch: the first point with the same feature that its two bodies had in the step before, in the
+// order of patches and points; kForgotten if there is none.
 constexpr std::uint32_t kForgotten = 0xFFFFFFFFU;
 struct RememberedPoints {
   std::uint32_t at[kFourPoints] = {kForgotten, kForgotten, kForgotten, kForgotten};
@@ -51,7 +51,7 @@ __device__ inline void recall(const RigidFrameView& f, const core::SoftStep& sof
   });
 }
 
-// The numbers with which the step is solved.
+// The core::SolveKind of the step: the index of its numbers in f.soft and f.substeps.
 __device__ inline int step_kind(const RigidFrameView& f) {
   const bool is_calm = __uint_as_float(f.counts->fastest_m_s) <= f.calm_m_s;
   const float ratio = __uint_as_float(f.counts->mass_ratio);
@@ -109,7 +109,7 @@ __device__ void finish_bodies(const Team& team, const RigidFrameView& f) {
   for (std::uint64_t k = team.spread_rank(); k < f.body_count; k += team.size()) {
     const auto i = static_cast<std::uint32_t>(k);
     core::SolverBody body = load_body(f, i);
-    // A sleeping body is not moved, and its patches are others.
+    // core::is_moved is false for a sleeping body, whose patches are not among the constraints.
     if (core::is_moved(body) && !is_pushed_body(f, i))
       core::forget_pushes(body, f.before[i], f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i,
                           f.soft[kind].dt_s, f.substeps[kind]);

@@ -1,5 +1,5 @@
 // Loads and stores constraints of patches, part by part. All four points are loaded, whether the patch has them or not,
-// because a load that waits for the number of points costs more than one too many.
+// because a load that waits for the number of points costs more than a load that is not needed.
 #pragma once
 
 #include "core/method/rigid/conjugate_directions.hpp"
@@ -23,7 +23,7 @@ class TileSlot {
       : first_(constraints + place / kTile * (kTile * kConstraintWords) + place % kTile) {}
 
   __device__ PackedVec3& at(std::uint32_t word) const { return first_[word * kTile]; }
-  // One number of a word whose four numbers are used one by one.
+  // The four numbers of a word that has one number for each point.
   __device__ void load_each(std::uint32_t word, float (&numbers)[kFourPoints]) const {
     const PackedVec3 w = at(word);
     numbers[0] = w.v.x;
@@ -39,7 +39,7 @@ class TileSlot {
   PackedVec3* first_;
 };
 
-// Which bodies, where their points are, and what is to be done there.
+// The indices of the bodies, the number of points, the slop and the fastest push.
 __device__ __forceinline__ void load_bodies(const TileSlot& slot, core::PatchConstraint& c) {
   const PackedVec3 bodies = slot.at(kPatchBodies);
   const std::uint32_t packed = __float_as_uint(bodies.v.x);
@@ -50,7 +50,7 @@ __device__ __forceinline__ void load_bodies(const TileSlot& slot, core::PatchCon
   c.fastest_push_m_s = bodies.w;
 }
 
-// The directions, and the surface, which lies in the same words.
+// The directions, and the surface, which lies in the same words. Returns the vector from A's center of mass to B's.
 __device__ __forceinline__ core::Vec3 load_directions(const TileSlot& slot, core::PatchConstraint& c) {
   const PackedVec3 normal = slot.at(kNormal);
   const PackedVec3 tangent = slot.at(kTangent);
@@ -71,8 +71,8 @@ __device__ __forceinline__ void load_levers(const TileSlot& slot, core::PatchCon
   }
 }
 
-// across: from load_directions. B's arm is the same difference as when the constraint was made, so it has the same
-// bits.
+// across: from load_directions. B's arm is computed by the same subtraction as when the constraint was made, so it has
+// the same bits.
 __device__ __forceinline__ void set_centers(core::Vec3 center_a, core::Vec3 across, core::PatchConstraint& c) {
   c.center_a = center_a;
   c.center_b = center_a - across;
@@ -158,14 +158,15 @@ __device__ __forceinline__ void store_impulses(const TileSlot& slot, const core:
   });
 }
 
-// What bodies are given when the next substep begins. Levers and directions have been loaded.
+// Stores the sum of the patch's impulses, which its bodies get when the next substep begins (warm start). Levers and
+// directions must have been loaded.
 __device__ __forceinline__ void store_given(const TileSlot& slot, const core::PatchConstraint& c,
                                             std::uint32_t version) {
   const core::WorldPushOf<float> given = core::whole_push(c);
   store_versioned(slot.at(kGiven), given.impulse, version);
   store_versioned(slot.at(kGiven + 1), given.moment, version);
 }
-// The same, of the version that is there now.
+// That sum, in whichever version is there now.
 struct LoadedGiven {
   Versioned impulse;
   Versioned moment;
@@ -178,7 +179,8 @@ __device__ __forceinline__ LoadedGiven load_given(const TileSlot& slot) {
   return {load_versioned(slot.at(kGiven)), load_versioned(slot.at(kGiven + 1))};
 }
 
-// Impulses that may be the last ones of a substep. version: of what the next one begins with.
+// Stores impulses that may be the last ones of a substep. version: that of the impulses with which the next substep
+// begins.
 __device__ __forceinline__ void store_kept_impulses(const TileSlot& slot, const core::PatchConstraint& c,
                                                     std::uint32_t version) {
   store_impulses(slot, c);
@@ -233,8 +235,8 @@ __device__ __forceinline__ void store_totals(const TileSlot& slot, const core::P
   for (std::uint32_t i = 0; i < 3; ++i) slot.store_each(kTotals + i, all[i]);
 }
 
-// What tells whether a point bounces, for a patch that may; a patch that may not has no restitution in this step. Call
-// after load_directions.
+// Loads what decides whether a point bounces, if the patch may bounce; a patch that may not has restitution 0 in this
+// step. Call after load_directions.
 __device__ __forceinline__ void load_impact(const TileSlot& slot, core::PatchConstraint& c) {
   if (!(c.surface.restitution > 0.0F)) return;
   load_approach(slot, c);
@@ -262,8 +264,8 @@ __device__ __forceinline__ void store_triples(const TileSlot& slot, std::uint32_
   }
 }
 
-// What relaxation keeps of a patch from sweep to sweep. kBouncesNot: of a patch that does not bounce; the budget of the
-// others is what is left of a positive number.
+// The budget of impulse that a patch that bounces has left from sweep to sweep. kBouncesNot marks a patch that does not
+// bounce: no budget is so low, because a budget is the rest of a positive number.
 constexpr float kBouncesNot = -3.402823e38F;
 __device__ __forceinline__ float load_budget(const TileSlot& slot) {
   return slot.at(kRelaxed).v.x;
@@ -280,7 +282,7 @@ __device__ __forceinline__ void store_relaxed(const TileSlot& slot, std::uint32_
   slot.at(kRelaxed) = {{0.0F, 0.0F, 0.0F}, __uint_as_float(since)};
 }
 
-// For a patch that is pushed apart: its impulses before the push. Nothing for others.
+// Stores the impulses before the push of a patch that is pushed apart; for other patches only a mark.
 __device__ __forceinline__ void store_before_push(const TileSlot& slot, const core::PatchConstraint& c,
                                                   bool is_pushed) {
   if (!is_pushed) {
@@ -302,12 +304,12 @@ __device__ __forceinline__ PatchOrder load_order(const TileSlot& slot, core::Sol
   b.inverse_mass = word.w;
   return {PlaceInOrder(__float_as_uint(word.v.x)), PlaceInOrder(__float_as_uint(word.v.y))};
 }
-// side: 0 of A, 1 of B.
+// side: 0 for A, 1 for B.
 __device__ inline void store_order(const TileSlot& slot, std::uint32_t side, PlaceInOrder order) {
   (side == 0 ? slot.at(kOrder).v.x : slot.at(kOrder).v.y) = __uint_as_float(order.word());
 }
 
-// The whole constraint, when it was made, but for its order. Points that the patch does not have are zeros.
+// Stores a constraint that was just made, except its order. Points that the patch does not have are zeros.
 __device__ inline void store_constraint(const TileSlot& slot, core::PatchConstraint& c, core::Vec3 across,
                                         const core::SolverBody& a, const core::SolverBody& b) {
   for (int k = c.count; k < core::kManifoldPoints; ++k) c.points[k] = {};

@@ -29,7 +29,7 @@ __device__ inline bool are_followed(const ContactView& f, core::Pair pair) {
   return f.is_swept[pair.i] != 0 || f.is_swept[pair.j] != 0;
 }
 
-// Half of the least thickness of the thinner one.
+// Half of the least thickness of the thinner body.
 __device__ inline float thinner_m(const ContactView& f, core::Pair pair) {
   const float a = f.shapes[f.shape_of_body[pair.i]].half_thickness_m;
   const float b = f.shapes[f.shape_of_body[pair.j]].half_thickness_m;

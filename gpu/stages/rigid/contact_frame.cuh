@@ -10,7 +10,7 @@
 
 namespace broadside::gpu {
 
-// False where there is nothing to make patches of: the frame will be repeated.
+// Returns false if the frame will be repeated, so that no patches are to be made.
 template <typename Team>
 __device__ bool confirm_first(const Team& grid, const ContactView& f) {
   mark(f, grid.rank() == 0, core::Stage::kBroad);
@@ -21,13 +21,13 @@ __device__ bool confirm_first(const Team& grid, const ContactView& f) {
   return f.counts->confirmed <= f.confirmed.capacity;
 }
 
-// All of it, where no shape is a hull or a mesh and no ways are followed.
+// All patches, where no shape is a hull or a mesh and no body is swept.
 __device__ inline void run_short_contacts(const ContactView& f) {
   const GridTeam grid(f.barrier);
   if (confirm_first(grid, f)) make_short_patches(grid, f);
 }
 
-// Else this first, which knows no shapes but boxes and hulls, and then run_long_contacts.
+// Otherwise this is run first, which has no code of shapes except boxes and hulls, and then run_long_contacts.
 __device__ inline void run_near_contacts(const ContactView& f) {
   const GridTeam grid(f.barrier);
   if (!confirm_first(grid, f)) return;

@@ -1,6 +1,6 @@
-// Applies impulses that are known beforehand to the bodies: a thread a body, which goes through its patches in the
-// order of their colors, without a barrier. The bits are those of a sweep color by color, because such impulses do not
-// depend on velocities and no two patches of a body have one color.
+// Applies impulses that are known beforehand to the bodies. Each body has a thread, which goes through the body's
+// patches in the order of their colors, without a barrier. The bits are those of a sweep color by color, because such
+// impulses do not depend on velocities and no two patches of a body have one color.
 #pragma once
 
 #include <utility>
@@ -12,7 +12,7 @@
 
 namespace broadside::gpu {
 
-// A patch as its body's thread loads it; which of its bodies the thread works for; and what the loader adds.
+// A patch as the thread of one of its bodies loads it; `loaded` is what the caller's load returned.
 template <typename Loaded>
 struct KnownPatch {
   core::PatchConstraint c;
@@ -22,13 +22,14 @@ struct KnownPatch {
 
 struct NothingMore {};
 
-// load(slot, patch) loads what push(patch, loaded) makes a core::WorldPush of. Centers are loaded here.
+// load(slot, patch) loads what push(patch, loaded) needs to compute the core::WorldPush of the patch. Centers are
+// loaded here.
 template <typename Load, typename Push>
 __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                     const Load& load, const Push& push) {
   using Known = KnownPatch<decltype(load(TileSlot(nullptr, 0), std::declval<core::PatchConstraint&>()))>;
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
-  const std::uint32_t count = core::is_moved(body) ? f.memory.count[i] : 0;  // who sleeps is not moved
+  const std::uint32_t count = core::is_moved(body) ? f.memory.count[i] : 0;  // a sleeping body is not moved
   const auto load_known = [&](std::uint32_t place_and_side) {
     const TileSlot slot(f.constraints, place_and_side / 2);
     Known known;
@@ -53,8 +54,8 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
   }
 }
 
-// The impulses of the substep before, which have this version: core::warm_start. They are mostly there, so lanes do not
-// wait together.
+// Applies the impulses of the substep before, which have this version: core::warm_start. They are mostly there already,
+// so lanes do not wait together (wait_until).
 __device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                    std::uint32_t version) {
   struct Known {
@@ -72,7 +73,7 @@ __device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std:
       });
 }
 
-// The impulses as they are, after sweeps that did not note what they are together.
+// Applies the impulses as they are now, after sweeps that did not store their sum (store_given).
 __device__ __forceinline__ void give_present_impulses(const RigidFrameView& f, std::uint32_t i,
                                                       core::SolverBody& body) {
   give_known_impulses(
@@ -87,13 +88,13 @@ __device__ __forceinline__ void give_present_impulses(const RigidFrameView& f, s
       [](const core::PatchConstraint& c, NothingMore /*none*/) { return core::whole_push(c); });
 }
 
-// Of each point.
+// The last direction of each point: core::PatchWay::way.
 struct KnownWays {
   float of[kFourPoints][3] = {};
 };
 
-// A step along the last directions: core::push_along. since: only of patches that this relaxation has visited; 0 = of
-// all, before the bodies move.
+// Applies a step along the last directions: core::push_along. since: the first sweep of a relaxation, only whose
+// patches take part; 0 = all patches, before the bodies move.
 __device__ __forceinline__ void give_step_along(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
                                                 float share, std::uint32_t since) {
   give_known_impulses(

@@ -7,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// Makes room in the lists; no color is taken yet.
+// Reserves room for the list of each body, and marks all its colors as free.
 template <typename Team>
 __device__ void begin_lists(const Team& team, const RigidFrameView& f) {
   for (std::uint64_t i = team.rank(); i < f.body_count; i += team.size()) {

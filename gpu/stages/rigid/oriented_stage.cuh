@@ -1,4 +1,4 @@
-// Candidate pairs whose body-octree nodes overlap, in body axes; a thread a pair. RIGID 8.3.
+// Confirms candidate pairs whose body-octree nodes overlap, in body axes; one thread for each pair. RIGID 8.3.
 #pragma once
 
 #include "core/method/rigid/oriented_levels.hpp"

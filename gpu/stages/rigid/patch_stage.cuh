@@ -1,5 +1,5 @@
-// Patches of contact of confirmed pairs, and of bodies at faces of the domain; a thread a pair, a thread a body, or,
-// where shapes are meshes, or hulls that need all edges, a warp. RIGID 8.4.
+// Makes patches of contact: of confirmed pairs, and of bodies at faces of the domain. Each pair or body has one thread,
+// or a warp where shapes are meshes, or hulls whose edges must all be tried. RIGID 8.4.
 #pragma once
 
 #include "core/contact.hpp"
@@ -23,7 +23,8 @@
 namespace broadside::gpu {
 
 // Appends the patches of a pair, one after the other, in the order in which they were made. Called by a whole warp: one
-// atomic serves all of its lanes. kept: to be carried along from here, where it is one patch, or null.
+// atomic serves all of its lanes. kept: what the next step needs to carry the patch along, if there is exactly one;
+// otherwise null.
 __device__ inline void add_patches(const ContactView& f, std::uint32_t a, std::uint32_t b, const core::Manifold* found,
                                    int count, const core::KeptPatch* kept = nullptr) {
   const unsigned long long first = warp_append(static_cast<unsigned>(count), &f.counts->patches);
@@ -49,7 +50,7 @@ __device__ inline core::NearReach near_reach(const ContactView& f, core::Pair pa
   return {f.fall_m[pair.i] + f.fall_m[pair.j], f.pushers[pair.i].pushed.v, f.pushers[pair.j].pushed.v};
 }
 
-// Whether a patch leads to no contact in this step. Unknown where these lanes leave the pair.
+// Whether a patch leads to no contact in this step. kUnknown if lanes of this kind leave the pair to others.
 template <typename Lanes>
 __device__ core::QuickAnswer is_passing(const ContactView& f, core::Pair pair, const core::Manifold& found) {
   const RigidShapeView& a = f.shapes[f.shape_of_body[pair.i]];
@@ -71,7 +72,8 @@ __device__ core::QuickAnswer is_passing(const ContactView& f, core::Pair pair, c
                                         core::near_m(found.normal, near_reach(f, pair)));
 }
 
-// Returns how many patches the pair has; kLeft where these lanes leave it. known: gaps of two hulls, or null.
+// Returns how many patches the pair has; kLeft if lanes of this kind leave it to others. known: gaps of two hulls, or
+// null.
 template <typename Lanes>
 __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifold* found,
                             const core::KnownGaps* known = nullptr) {
@@ -97,7 +99,8 @@ __device__ int touch_bodies(const ContactView& f, core::Pair pair, core::Manifol
   return core::add_end_patches<Lanes>(a, path_a, b, path_b, swing_m, found, kept, known);
 }
 
-// How far a face is looked for. A body at rest may be driven into it as fast as its fastest neighbor comes.
+// The distance up to which a face is tested. A body at rest may be driven into a face as fast as its fastest neighbor
+// approaches.
 __device__ inline float reach_to_face_m(const ContactView& f, std::uint32_t body) {
   return __uint_as_float(f.pushed_m[body]) + f.reach_m[body];
 }
@@ -122,8 +125,8 @@ __device__ inline core::PairAhead ahead_of(const ContactView& f, core::Pair pair
           f.pushers[pair.i].drift.w + f.pushers[pair.j].drift.w, !f.follows_ways || !are_followed(f, pair)};
 }
 
-// By one lane: drops pairs that a few bounds decide, so that nobody makes patches of a pair that has none. gaps: what
-// is known of those that stay.
+// By one lane. Returns false if a few bounds show that the pair has no patches, which saves the search for them. gaps:
+// of a pair that may touch, what was found out on the way.
 template <typename Lanes>
 __device__ bool may_touch(const ContactView& f, core::Pair pair, core::KnownGaps& gaps) {
   if (is_idle(f, pair.i) && is_idle(f, pair.j)) return false;
@@ -145,7 +148,8 @@ __device__ inline const core::KeptPatch* kept_of_last_step(const ContactView& f,
   return kept;
 }
 
-// Whether the pair's patch of the step before is carried to where its bodies are: then it is in found.
+// Whether the pair's patch of the step before can be carried along with its bodies. If so, `found` is that patch at
+// their present poses.
 __device__ inline bool is_carried(const ContactView& f, core::Pair pair, core::Manifold& found,
                                   const core::KeptPatch*& kept) {
   if (f.asleep != nullptr || (is_idle(f, pair.i) && is_idle(f, pair.j))) return false;
@@ -158,7 +162,7 @@ __device__ inline bool is_carried(const ContactView& f, core::Pair pair, core::M
                                           ahead.near.falls_m, found);
 }
 
-// Passes on what confirmed pairs were told, carries patches along, and lists the pairs that need new ones.
+// Passes pushes on along confirmed pairs, carries patches along, and lists the pairs that need new patches.
 template <typename Team>
 __device__ void carry_patches(const Team& team, const ContactView& f) {
   each_item_by_warps(team, f.counts->confirmed, false, [&](std::uint64_t k, bool is_item) {
@@ -173,16 +177,17 @@ __device__ void carry_patches(const Team& team, const ContactView& f) {
   });
 }
 
-// What is kept of the patches of two finely cut hulls: where there are more, some are of the end of the step.
+// Adds the patches of two finely cut hulls. A single patch can be carried along in the next step; if there are more,
+// some are of the end of the step, and none is carried.
 __device__ inline void add_hull_patches(const ContactView& f, core::Pair pair, const core::Manifold* found, int count) {
   core::KeptPatch kept;
   if (count == 1) kept = core::kept_patch(found[0], pose_of(f, pair.i), pose_of(f, pair.j));
   add_patches(f, pair.i, pair.j, found, count, count == 1 ? &kept : nullptr);
 }
 
-// Lists those pairs that may touch: of the fresh ones where there are hulls, else of all confirmed ones, whose pushes
-// it then passes on. They get lists of their own; otherwise lanes whose pairs do not touch would wait for the others.
-// Hulls that are clearly apart take another way than those that overlap, so they lie apart.
+// Lists the pairs that may touch: from the fresh pairs where there are hulls, otherwise from all confirmed pairs, along
+// which it also passes pushes on. Without the lists, lanes whose pairs do not touch would wait for the others. Hulls
+// that are clearly apart run other code than hulls that overlap, so these two are listed apart.
 template <typename Lanes, typename Team>
 __device__ void list_near_pairs(const Team& team, const ContactView& f) {
   constexpr bool kIsSpread = Lanes::kKnowsLongShapes;
@@ -268,7 +273,8 @@ __device__ void make_face_patches_of_hulls(const Team& team, const ContactView& 
   });
 }
 
-// Patches of pairs of hulls, a lane a pair; what lanes leave is added to the other near pairs.
+// Makes the patches of pairs of hulls, one lane for each pair. A pair that its lane leaves is added to the other near
+// pairs.
 template <typename Team>
 __device__ void make_hull_patches(const Team& team, const ContactView& f) {
   const std::uint64_t near = f.counts->near_hulls;
@@ -288,11 +294,11 @@ __device__ void make_hull_patches(const Team& team, const ContactView& f) {
   });
 }
 
-// Patches of the other near pairs, and of bodies that are no hulls at faces, a warp for each. Its lanes share the loops
-// over corners, edges, faces and triangles, and the code is fetched once for all of them.
+// Makes the patches of the other near pairs, and at faces those of bodies that are no hulls; a warp for each. Its lanes
+// share the loops over corners, edges, faces and triangles, and the code is fetched once for all of them.
 template <typename Team>
 __device__ void make_long_patches(const Team& team, const ContactView& f) {
-  // Pairs and bodies each for themselves: the few pairs are spread over all warps.
+  // Pairs and bodies have a loop each, so that the few pairs are spread over all warps.
   const auto is_one = [](std::uint64_t, bool is_item) { return is_item; };
   each_item_in_step(team, f.counts->near, is_one, [&](std::uint64_t own_k, unsigned of) {
     const NearPair own = f.near[__shfl_sync(kFullWarp, own_k, of)];

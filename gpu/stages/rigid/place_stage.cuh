@@ -1,5 +1,5 @@
-// Swept boxes of turned bodies, which contain all that each body can fill within the step, and everything else that
-// begins a step. RIGID 8.2 and 8.7.
+// Starts a step: computes the swept box of each turned body, which contains all that the body can fill within the step,
+// and all other values with which a step begins. RIGID 8.2 and 8.7.
 #pragma once
 
 #include "core/method/rigid/motion_reach.hpp"

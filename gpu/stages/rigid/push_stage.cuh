@@ -1,4 +1,5 @@
-// What bodies do to each other in the next step, told along candidate pairs, and passed on along confirmed ones.
+// How far bodies may push each other in the next step: pushes are noted along candidate pairs, and passed on along
+// confirmed pairs.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ __device__ inline void raise_both(const ContactView& f, core::Pair pair, const c
   if (const unsigned long long push = core::push_by(b, a, restitution); push != 0) atomicMax(&pushes[pair.j], push);
 }
 
-// Notes what the candidates may do to each other in the next step.
+// Notes how far the bodies of a candidate pair may push each other in the next step.
 __device__ inline void note_pushes(const ContactView& f, core::Pair pair) {
   raise_both(f, pair, pusher_of(f, pair.i), pusher_of(f, pair.j), f.push);
 }
@@ -33,7 +34,7 @@ __device__ inline core::Pusher told_pusher(const ContactView& f, std::uint32_t b
   return core::told_of(pusher_of(f, body), push, f.pushers[core::pusher_of(push)].drift.v);
 }
 
-// Notes what a confirmed pair passes on of that. Behind a barrier.
+// Notes the pushes that a confirmed pair passes on. Call after note_pushes of all candidates and a barrier.
 __device__ inline void pass_on_pushes(const ContactView& f, core::Pair pair) {
   raise_both(f, pair, told_pusher(f, pair.i), told_pusher(f, pair.j), f.passed_on);
 }

@@ -1,4 +1,4 @@
-// Takes back what pushed patches apart within a substep: core/method/rigid/pushed_apart.hpp.
+// Takes back the impulses that pushed patches apart within a substep: core/method/rigid/pushed_apart.hpp.
 #pragma once
 
 #include "core/method/rigid/pushed_apart.hpp"
@@ -23,7 +23,8 @@ __device__ __forceinline__ void take_back_impulses(const SolveTeam& team, const 
   });
 }
 
-// A body that moved returns to the velocity that it had in the substep before any impulse. Call after a barrier.
+// Sets a moved body back to the velocity that it had in the substep before any impulse, and applies the impulses that
+// its patches have now. Call after a barrier.
 __device__ __forceinline__ void go_back_to_start(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body) {
   const PackedStart& start = f.starts[i];
   if (core::is_moved(body)) {

@@ -1,4 +1,5 @@
-// The digest of a frame of turning bodies: the sum that the twin adds up. A launch of its own, when somebody asks.
+// The digest of a frame of turning bodies: the sum that the twin adds up. A launch of its own, made when a digest is
+// asked for.
 #pragma once
 
 #include "core/method/frame_digest.hpp"

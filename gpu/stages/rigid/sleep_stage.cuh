@@ -147,7 +147,7 @@ __device__ void fall_asleep(const Team& team, const RigidFrameView& f) {
   }
 }
 
-// For the next step.
+// Stores the patches of sleeping bodies for the next step.
 template <typename Team>
 __device__ void note_asleep_patches(const Team& team, const RigidFrameView& f, std::uint64_t patches) {
   for (std::uint64_t of_warp = team.rank() - lane(); of_warp < patches; of_warp += team.size()) {

@@ -1,5 +1,5 @@
-// The substeps of a step: the same loop as reference/octree_cpu/rigid/soft_solver.cpp. What the twin does to all
-// contacts in loops of their own is done here where they are at hand already, with the same bits.
+// The substeps of a step: the same loop as reference/octree_cpu/rigid/soft_solver.cpp. Some loops of the twin over all
+// contacts are merged here into other loops that have loaded the contacts already, with the same bits.
 #pragma once
 
 #include "core/math/order_free_sum.hpp"
@@ -17,22 +17,22 @@
 
 namespace broadside::gpu {
 
-// One step's numbers, and what its threads bring together.
+// The numbers of one step, and the values to which its threads contribute.
 struct Solve {
   core::SoftStep soft;
   bool may_bounce = false;
   bool forgets_blows = false;
   bool has_way = false;  // several sweeps along conjugate directions
   TeamSums sums;
-  std::uint32_t sweep = 0;   // of all sweeps of bounces in this step
+  std::uint32_t sweep = 0;   // the present sweep over stirred bodies, counted over the step
   bool owes_totals = false;  // the impulses of the substep before are to be added to the totals
   SolveCounts done;
 
-  // Whether sweeps may go on once all has relaxed.
+  // Whether more sweeps may follow the relaxation of all contacts.
   [[nodiscard]] __device__ bool may_stir() const { return may_bounce || core::may_begin(soft); }
 };
 
-// Behind a barrier.
+// The largest first number of this turn, which ends here. Call after a barrier.
 __device__ __forceinline__ float largest_of_turn(const SolveTeam& team, Solve& solve) {
   const float largest = solve.sums.largest(TeamSums::kFirst);
   solve.sums.end_turn(team);
@@ -54,7 +54,8 @@ __device__ __forceinline__ float sum_of_changes(const SolveTeam& team, const Rig
   return change;
 }
 
-// Behind a barrier; ends with one. Returns the fastest push.
+// Sweeps along conjugate directions until little changes. Call after a barrier; ends with one. Returns the fastest
+// push.
 __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   core::DirectionShare directions;
   float share = 0.0F;
@@ -83,11 +84,11 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
   }
 }
 
-// What sweeps over stirred bodies are for.
+// Why bodies are stirred.
 enum class Stirred : std::uint8_t { kPushed, kBouncing };
 
-// Sweeps over patches of stirred bodies until one changes no point's speed by more than `done`. At one place for both,
-// because it is long.
+// Sweeps over patches of stirred bodies until one sweep changes no point's speed by more than `done`. It is called at
+// one place for both kinds, because its code is long and inlined.
 __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                                  Stirred of, float done) {
   const std::uint32_t most = of == Stirred::kPushed ? solve.soft.most_relax_sweeps : solve.soft.most_stop_sweeps;
@@ -115,8 +116,8 @@ __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const Ri
   }
 }
 
-// fastest: the approach of what bounces. The same as the second half of StepConstraints::bounce of the twin. Begins
-// behind a barrier and ends with one.
+// fastest: the fastest approach of points that bounce. The same as the second half of StepConstraints::bounce of the
+// twin. Call after a barrier; ends with one.
 __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve, float fastest,
                                            float done) {
   float largest = fastest;
@@ -128,28 +129,28 @@ __device__ __forceinline__ void bounce_all(const SolveTeam& team, const RigidFra
   }
 }
 
-// The same as StepConstraints::relax_pushed and bounce of the twin. Begins behind a barrier and ends with one.
+// The same as StepConstraints::relax_pushed and bounce of the twin. Call after a barrier; ends with one.
 __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve,
                                             bool is_pushed, float fastest_push) {
-  std::uint32_t since = 0xFFFFFFFFU;  // no sweep: no patch forgets its impulses
+  std::uint32_t since = 0xFFFFFFFFU;  // no sweep is as late: no patch drops its impulses
   for (Stirred of = is_pushed ? Stirred::kPushed : Stirred::kBouncing;; of = Stirred::kBouncing) {
     float fastest = 0.0F;
     float done = 0.0F;
     if (of == Stirred::kPushed) {
       done = core::relax_done_m_s(solve.soft, fastest_push);
     } else {
-      const float relaxed = solve.sums.largest(TeamSums::kSecond);  // of those that are stirred
+      const float relaxed = solve.sums.largest(TeamSums::kSecond);  // the largest change that stirred bodies
       fastest = largest_of_turn(team, solve);
       if (!(fastest > 0.0F) && !(relaxed > solve.soft.begins_m_s)) return;
       done = core::kBounceDone * fastest;
       if (relaxed > 0.0F) done = fmaxf(done, solve.soft.stirring_m_s);
     }
-    // A bounce so slow that its share vanishes has no sweeps.
+    // If the bounce is so slow that its share rounds to 0, there are no sweeps.
     const bool has_sweeps = of == Stirred::kPushed || done > 0.0F;
     if (of == Stirred::kBouncing && has_sweeps && solve.forgets_blows) since = solve.sweep;
     if (has_sweeps) relax_until_done(team, f, solve, of, done);
     if (of == Stirred::kBouncing) {
-      // Sweeps over what pushes left may meet what came fast, too.
+      // Sweeps over what pushes left may also close points that approached fast.
       if (!(fastest > 0.0F) && !solve.may_bounce) return;
       if (has_sweeps) bounce_all(team, f, solve, fastest, done);
       break;
@@ -163,7 +164,7 @@ __device__ __forceinline__ void end_substep(const SolveTeam& team, const RigidFr
   team.sync();
 }
 
-// What contacts ask of a body later: how it moves once the substep has driven it.
+// Stores the velocities that the substep's gravity and wrenches gave a body, if its contacts read them later.
 __device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_t i, const core::SolverBody& driven,
                                            const Solve& solve) {
   PackedStart& start = f.starts[i];
@@ -172,7 +173,7 @@ __device__ __forceinline__ void note_start(const RigidFrameView& f, std::uint32_
   start.driven_angular_momentum = {driven.angular_momentum, 0.0F};
 }
 
-// Sweeps over all contacts before the bodies move. Begins without a barrier. Returns the fastest push.
+// Sweeps over all contacts before the bodies move. Needs no barrier before it. Returns the fastest push.
 __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   if (solve.has_way) {
     team.sync();
@@ -187,16 +188,16 @@ __device__ __forceinline__ float sweep_all(const SolveTeam& team, const RigidFra
   return fastest_push;
 }
 
-// Loads a body's velocities once its last patch has left them.
+// Loads a body's velocities. Returns whether its last patch has written them.
 __device__ __forceinline__ bool try_last_velocity(const RigidFrameView& f, std::uint32_t i, std::uint32_t version,
                                                   core::SolverBody& body) {
   return try_velocity(f.bodies[i], version, body) || !core::is_moved(body) || f.memory.count[i] == 0;
 }
 
-// Gravity, and the impulses of the substep before.
+// Gives all bodies gravity, wrenches and the impulses of the substep before.
 __device__ __forceinline__ void begin_bodies(const SolveTeam& team, const RigidFrameView& f, const Solve& solve) {
   const std::uint32_t before = team.version();
-  team.end_version();  // patches wait for what is written now
+  team.end_version();  // patches wait for the versions written below
   each_body_in_turn(
       team, f,
       [&](std::uint32_t i) {
@@ -230,12 +231,12 @@ __device__ __forceinline__ void move_bodies(const SolveTeam& team, const RigidFr
       });
 }
 
-// With soft steps in which nothing bounces there is no barrier: what waits, waits for versions.
+// Soft steps in which nothing bounces have no barrier: threads wait for versions instead.
 __device__ __forceinline__ void run_substep(const SolveTeam& team, const RigidFrameView& f, Solve& solve) {
   begin_bodies(team, f, solve);
   const float fastest_push = sweep_all(team, f, solve);
   const bool is_pushed = fastest_push > solve.soft.kept_push_m_s;
-  solve.sweep += 2;  // above what was stirred by the last sweep before
+  solve.sweep += 2;  // above the sweep for which the last one before stirred bodies
   if (is_pushed) {
     take_back_impulses(team, f, solve.sweep);
     team.sync();

@@ -40,11 +40,11 @@ class SolveTeam : public GridPlaces {
   // From this color on each color has at most as many patches as the first block has threads, and that block solves
   // them alone. In a loose heap most colors are such.
   [[nodiscard]] __device__ std::uint32_t alone_from() const { return alone_from_; }
-  // The colors before this one are large, or smaller than a later one that is: a thread has several turns in a large
-  // color.
+  // The last large color is the one before this. Colors before it are treated as large, too. In a large color a thread
+  // has several turns.
   [[nodiscard]] __device__ std::uint32_t chosen_until() const { return chosen_until_; }
   [[nodiscard]] __device__ std::uint32_t* chosen() const { return shared_.chosen[threadIdx.x / 32]; }
-  // How many solve a color that the first block does not solve alone.
+  // How many threads solve a color that the first block does not solve alone.
   [[nodiscard]] __device__ std::uint32_t threads() const { return threads_; }
 
   // This thread's first place in this color or a later one. Every sweep gives the same places to the same threads.
@@ -55,7 +55,7 @@ class SolveTeam : public GridPlaces {
     }
     return {};
   }
-  // Its first place in this color, if it has one.
+  // This thread's first place in this color, if it has one.
   [[nodiscard]] __device__ __forceinline__ ColorTurn turn_in(std::uint32_t color) const {
     const std::uint32_t threads = threads_of(color);
     const ColorPlaces places =
@@ -89,7 +89,7 @@ class SolveTeam : public GridPlaces {
       barrier_.wait();
     ++waits_;
   }
-  // With which version of velocities the present sweep begins, and the next one (versions.cuh).
+  // The versions of velocities with which the present sweep and the next one begin (versions.cuh).
   [[nodiscard]] __device__ std::uint32_t version() const { return version_; }
   [[nodiscard]] __device__ std::uint32_t next_version() const { return version_ + colors_ + 1; }
   // By all threads.
@@ -101,7 +101,7 @@ class SolveTeam : public GridPlaces {
   [[nodiscard]] __device__ std::uint32_t waits() const { return waits_; }
 
  private:
-  // A guess: with one or two turns a patch that was loaded ahead should be solved as soon. Not measured apart.
+  // A guess: with one or two turns, loading patches ahead should be as fast as choosing them. Not measured by itself.
   static constexpr std::uint32_t kTurnsToChooseFrom = 2;
 
   [[nodiscard]] __device__ std::uint32_t threads_of(std::uint32_t color) const {

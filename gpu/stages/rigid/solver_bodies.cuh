@@ -8,7 +8,8 @@
 
 namespace broadside::gpu {
 
-// What no sweep changes of a body. Behind a barrier.
+// Loads what no sweep changes and contacts read: inertia, and the motion since the start of the step. Call after a
+// barrier.
 __device__ __forceinline__ void load_place(const PackedSolverBody& from, core::SolverBody& b) {
   const core::Vec3 along = from.inertia_along.v;
   const core::Vec3 across = from.inertia_across.v;
@@ -17,13 +18,13 @@ __device__ __forceinline__ void load_place(const PackedSolverBody& from, core::S
   b.turned = from.turned.v;
 }
 
-// Behind a barrier.
+// Call after a barrier.
 __device__ __forceinline__ void load_velocity(const PackedSolverBody& from, core::SolverBody& b) {
   b.v = from.v.v;
   b.angular_momentum = from.angular_momentum.v;
 }
 
-// What directions are given to. Behind a barrier.
+// Loads the mass and the velocities, which is all that a step along directions needs. Call after a barrier.
 __device__ __forceinline__ core::SolverBody load_moving(const RigidFrameView& f, std::uint32_t i) {
   core::SolverBody b;
   b.inverse_mass = f.inverse_mass[i];
@@ -31,7 +32,7 @@ __device__ __forceinline__ core::SolverBody load_moving(const RigidFrameView& f,
   return b;
 }
 
-// All that no sweep changes, behind a barrier or by the thread that moves the body.
+// Loads everything that no sweep changes. Call after a barrier, or from the thread that moves the body.
 __device__ __forceinline__ core::SolverBody load_moved(const RigidFrameView& f, std::uint32_t i) {
   core::SolverBody b;
   load_place(f.bodies[i], b);
@@ -46,14 +47,14 @@ __device__ inline void store_moved(const RigidFrameView& f, std::uint32_t i, con
   f.bodies[i].q_rest = b.orientation.rest;
 }
 
-// Behind a barrier.
+// Call after a barrier.
 __device__ __forceinline__ core::SolverBody load_body(const RigidFrameView& f, std::uint32_t i) {
   core::SolverBody b = load_moved(f, i);
   load_velocity(f.bodies[i], b);
   return b;
 }
 
-// Before the step; the first versions are 0.
+// Call before the step. The first versions are 0.
 __device__ inline void begin_body(const RigidFrameView& f, std::uint32_t i, const core::SolverBody& b) {
   f.bodies[i].v = {b.v, 0.0F};
   f.bodies[i].angular_momentum = {b.angular_momentum, 0.0F};

@@ -19,39 +19,39 @@ struct LoadedPatch {
   PatchOrder order;
 };
 
-// And its impulses before the sweep.
+// A patch with its impulses before the sweep and its last direction.
 struct LoadedWay {
   LoadedPatch patch;
   core::PatchWay way;
 };
 
-// Its bodies' places are loaded later.
+// Loads a patch without its bodies' places.
 __device__ __forceinline__ LoadedPatch load_unplaced(const TileSlot& slot) {
   LoadedPatch loaded;
   loaded.c = load_for_sweep(slot);
   loaded.order = load_order(slot, loaded.a, loaded.b);
   return loaded;
 }
-// Behind a barrier.
+// Call after a barrier.
 __device__ __forceinline__ LoadedPatch load_patch(const RigidFrameView& f, const TileSlot& slot) {
   LoadedPatch loaded = load_unplaced(slot);
   load_place(f.bodies[loaded.c.a], loaded.a);
   load_place(f.bodies[loaded.c.b], loaded.b);
   return loaded;
 }
-// Whether its bodies have moved, to places of this version. Loads these.
+// Loads its bodies' places. Returns whether they are of this version, so that the bodies have been moved.
 __device__ __forceinline__ bool try_places(const RigidFrameView& f, std::uint32_t version, LoadedPatch& p) {
   const bool has_a = try_place(f.bodies[p.c.a], version, p.a) || !core::is_moved(p.a);
   const bool has_b = try_place(f.bodies[p.c.b], version, p.b) || !core::is_moved(p.b);
   return has_a && has_b;
 }
-// Without a barrier, between two motions of its bodies: their places as they are.
+// Loads a patch with its bodies' places as they are. Needs no barrier, but its bodies must not be moved meanwhile.
 __device__ __forceinline__ LoadedPatch load_patch_now(const RigidFrameView& f, const TileSlot& slot) {
   LoadedPatch loaded = load_unplaced(slot);
   (void)try_places(f, 0, loaded);
   return loaded;
 }
-// Of sweeps that load bodies' places with the patch.
+// For sweeps that load the bodies' places with the patch.
 struct IsPlaced {
   template <typename Loaded>
   __device__ bool operator()(const Loaded& /*loaded*/) const {
@@ -59,7 +59,7 @@ struct IsPlaced {
   }
 };
 
-// Loads the velocities of a patch's bodies, once the patches before it have written them.
+// Loads the velocities of a patch's bodies. Returns whether the patches before it have written them.
 __device__ __forceinline__ bool try_velocities(const SolveTeam& team, const RigidFrameView& f, LoadedPatch& p) {
   const VelocityVersions of_a(team.version(), team.next_version(), p.order.of_a);
   const VelocityVersions of_b(team.version(), team.next_version(), p.order.of_b);
@@ -67,14 +67,15 @@ __device__ __forceinline__ bool try_velocities(const SolveTeam& team, const Rigi
   const bool has_b = of_b.try_load(f.bodies[p.c.b], p.b);
   return has_a && has_b;
 }
-// For the patches after it.
+// Stores the velocities for the patches after it.
 __device__ __forceinline__ void give_velocities(const SolveTeam& team, const RigidFrameView& f, const LoadedPatch& p) {
   VelocityVersions(team.version(), team.next_version(), p.order.of_a).store(f.bodies[p.c.a], p.a);
   VelocityVersions(team.version(), team.next_version(), p.order.of_b).store(f.bodies[p.c.b], p.b);
 }
 
-// As a substep's first sweep finds it: nothing slides yet. owes_totals: the substep before left its impulses to be
-// added to the totals. Notes the impulses of what is pushed apart, and returns how fast it is pushed, m/s.
+// Prepares a patch for the first sweep of a substep: no point slides yet. owes_totals: the impulses of the substep
+// before are still to be added to the totals. If the patch is pushed apart, its impulses before that are noted. Returns
+// how fast it is pushed, m/s.
 __device__ __forceinline__ float begin_substep(const TileSlot& slot, LoadedPatch& loaded, const core::SoftStep& soft,
                                                bool owes_totals) {
   core::PatchConstraint& c = loaded.c;
@@ -91,7 +92,7 @@ __device__ __forceinline__ float begin_substep(const TileSlot& slot, LoadedPatch
   return push;
 }
 
-// A substep's only sweep. Brings the fastest push.
+// A substep's only sweep. Contributes the fastest push.
 __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
                                            bool owes_totals, const TeamSums& sums) {
   float fastest_push = 0.0F;
@@ -111,7 +112,7 @@ __device__ __forceinline__ void sweep_once(const SolveTeam& team, const RigidFra
   if (core::takes_back_pushes(soft)) sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
 
-// Of the patch's bodies, as the substep drives them before any impulse.
+// The motion of the patch's bodies after the substep's gravity and wrenches, before any impulse.
 __device__ __forceinline__ core::PatchMotion driven_motion(const RigidFrameView& f, const LoadedPatch& p) {
   const PackedStart& a = f.starts[p.c.a];
   const PackedStart& b = f.starts[p.c.b];
@@ -120,10 +121,10 @@ __device__ __forceinline__ core::PatchMotion driven_motion(const RigidFrameView&
                                 core::fused_product(p.b.inverse_inertia, b.driven_angular_momentum.v));
 }
 
-// A sweep of several along conjugate directions. The impulses follow the last direction by `share` before, except in
-// the first sweep; what that does to the bodies was done by give_step_along. Brings the largest change of a point's
-// speed, that of f.changes, and, in the first sweep, the largest speed of a point before any impulse and the fastest
-// push.
+// One of several sweeps along conjugate directions. Except in the first sweep, a patch's impulses first follow the last
+// direction by `share`; give_step_along has applied that step to the bodies already. Contributes the largest change of
+// a point's speed, the largest of f.changes and, in the first sweep, the largest speed of a point before any impulse
+// and the fastest push.
 __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
                                             bool is_first, bool owes_totals, float share, const TeamSums& sums) {
   float largest_speed = 0.0F;
@@ -171,12 +172,12 @@ __device__ __forceinline__ void sweep_along(const SolveTeam& team, const RigidFr
   if (core::takes_back_pushes(soft)) sums.bring_largest(TeamSums::kFourth, fastest_push);
 }
 
-// Bodies whose patches the sweep has to visit. Those that never move are not stirred.
+// Marks a body whose patches sweep `sweep` has to visit. Bodies that never move are not marked.
 __device__ __forceinline__ void stir(const RigidFrameView& f, std::uint32_t body, std::uint32_t sweep) {
   if (body < f.body_count && f.mass[body].inverse_mass > 0.0F) f.stirred[body] = sweep;
 }
 
-// Of a patch after the bodies moved.
+// Sets the goals of a patch after the bodies moved, and its masses where they have turned far.
 __device__ __forceinline__ void set_goals_after_motion(const TileSlot& slot, const core::SoftStep& soft,
                                                        LoadedPatch& p) {
   const bool sets_masses = core::has_turned_far(p.a) || core::has_turned_far(p.b);
@@ -186,8 +187,9 @@ __device__ __forceinline__ void set_goals_after_motion(const TileSlot& slot, con
   store_mobility(slot, p.c);
 }
 
-// Each contact once, while the last bodies move. stirs: what bounces stirs its bodies for this sweep, and its fastest
-// approach is brought; so does what changes by more than soft.stirring_m_s, and the largest such change is brought.
+// Relaxes each contact once; the last bodies may still be moving meanwhile. stirs: a patch that bounces, or that
+// changes by more than soft.stirring_m_s, stirs its bodies for sweep `sweep`; the fastest approach of a bounce and the
+// largest such change are contributed.
 __device__ __forceinline__ void relax_all(const SolveTeam& team, const RigidFrameView& f, const core::SoftStep& soft,
                                           bool stirs, std::uint32_t sweep, const TeamSums& sums) {
   float fastest = 0.0F;

@@ -120,7 +120,7 @@ __device__ inline void run_stop_short(const SweptView& s) {
       else
         shorten_at_faces(s, static_cast<std::uint32_t>(k - s.pair_count));
     }
-    // No thread reads it any more: the round that did was two barriers ago.
+    // No thread reads this word any more: the round that read it was two barriers ago.
     if (grid.rank() == 0) s.counts->has_changed[(round + 1) % 3] = 0;
     grid.sync();
     take_round(grid, s, round);

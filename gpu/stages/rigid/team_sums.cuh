@@ -9,8 +9,8 @@ namespace broadside::gpu {
 
 // A turn has four parts: threads contribute their numbers, by whole warps; a barrier of the team; all read the result;
 // all end the turn. There are words for four turns. After the barrier of a turn its own words are read, those of the
-// next turn may be written by threads that go on, and those of the turn after that are cleared; nobody reads or writes
-// these before the next barrier.
+// next turn may be written by threads that go on, and those of the turn after that are cleared; no thread reads or
+// writes these before the next barrier.
 class TeamSums {
  public:
   // Up to four numbers can be contributed in one turn.

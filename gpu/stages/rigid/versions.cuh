@@ -3,21 +3,22 @@
 // Bodies' velocities, bodies' places and the impulses that patches keep lie in words of 16 bytes, each with the number
 // of its version, and such a word is read and written whole.
 //
-// The patches of a body change its velocities one after the other, in the order of their colors. Each knows how many
-// come before it, so it knows the version that it waits for, and writes the next one. A sweep begins with the same
-// version of all bodies, and the last patch of each body writes the one with which the next sweep begins. That is the
-// one for which the body's own thread waits to move it, and to begin the next substep. A body without patches keeps an
-// older version, which nobody asks for.
+// The patches of a body change its velocities one after the other, in the order of their colors. Each patch knows how
+// many patches come before it, so it knows the version that it waits for, and it writes the next one. A sweep begins
+// with the same version of all bodies, and the last patch of each body writes the version with which the next sweep
+// begins. The body's own thread waits for that version before it moves the body, and before it begins the next substep.
+// A body without patches keeps an older version, for which no thread waits.
 //
-// A moved body's place gets the version with which the sweep behind the motion begins, whose patches wait for it. The
-// impulses that this sweep keeps get the same one, for which bodies wait as the next substep begins.
+// When a body is moved, its place gets the version with which the sweep after the motion begins, and the patches of
+// that sweep wait for it. The impulses that this sweep keeps get the same version, and bodies wait for it when the next
+// substep begins.
 //
-// Nothing is overwritten that is still needed. A body moves when all its patches have swept, so nobody reads its place
-// any more; and it begins a substep when all its patches have relaxed and it has read their impulses, which they write
-// again only after that substep's sweep.
+// Nothing is overwritten that is still needed. A body is moved when all its patches have swept, so no patch reads its
+// old place any more. It begins a substep when all its patches have relaxed; it has read their impulses by then, which
+// they write again only after that substep's sweep.
 //
-// A barrier waits for the slowest warp, and before it arrives a thread's writes must be seen by all: on an H100 that
-// takes 760 of the 850 clocks of a cluster's barrier.
+// A barrier, in contrast, waits for the slowest warp, and before a thread arrives its writes must be visible to all
+// others: on an H100 that takes 760 of the 850 clocks of a cluster's barrier.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +32,8 @@
 
 namespace broadside::gpu {
 
-// By a whole warp: until ready() of each lane that waits was true once. The lanes go on together; else each would run
-// alone what is behind the wait.
+// By a whole warp: waits until ready() has been true once for each lane that waits. The lanes then go on together;
+// otherwise each lane would run the code after the wait alone.
 template <typename Ready>
 __device__ __forceinline__ void wait_until(bool waits, const Ready& ready) {
   while (__any_sync(kFullWarp, waits)) {
@@ -55,7 +56,7 @@ __device__ __forceinline__ void store_versioned(PackedVec3& to, core::Vec3 v, st
                          {__float_as_uint(v.x), __float_as_uint(v.y), __float_as_uint(v.z), version});
 }
 
-// What a contact changes of a body. Returns whether it is of this version.
+// Loads what a contact changes of a body. Returns whether it is of this version.
 __device__ __forceinline__ bool try_velocity(const PackedSolverBody& from, std::uint32_t version, core::SolverBody& b) {
   const Versioned v = load_versioned(from.v);
   const Versioned spin = load_versioned(from.angular_momentum);
@@ -69,7 +70,8 @@ __device__ __forceinline__ void store_velocity(PackedSolverBody& to, const core:
   store_versioned(to.angular_momentum, b.angular_momentum, version);
 }
 
-// What moving a body changes, but for its orientation, which no contact reads. Returns whether it is of this version.
+// Loads what moving a body changes, except its orientation, which no contact reads. Returns whether it is of this
+// version.
 __device__ __forceinline__ bool try_place(const PackedSolverBody& from, std::uint32_t version, core::SolverBody& b) {
   const Versioned along = load_versioned(from.inertia_along);
   const Versioned across = load_versioned(from.inertia_across);

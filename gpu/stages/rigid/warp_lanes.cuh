@@ -1,5 +1,5 @@
 // The lanes of a warp share the long loops of contacts: core/method/rigid/lanes.hpp, with the same bits as one lane.
-// All lanes of a whole warp come to each of these functions with the same values.
+// All lanes of a whole warp call each function of WarpLanes, with the same arguments.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace broadside::gpu {
 
-// The value that lane `from` has; lanes may ask different lanes.
+// The value that lane `from` has; each lane may name another `from`.
 template <typename T>
 __device__ __forceinline__ T of_lane(const T& own, unsigned from) {
   static_assert(sizeof(T) % sizeof(unsigned) == 0);
@@ -24,10 +24,10 @@ __device__ __forceinline__ T of_lane(const T& own, unsigned from) {
   return out;
 }
 
-// Where the lanes' shares of a list lie in it.
+// Where each lane's share of a list lies in it: prefix sums of the lanes' counts.
 struct LaneShares {
   unsigned own = 0;
-  unsigned end = 0;  // behind the lane's share
+  unsigned end = 0;  // one past the lane's share
   unsigned all = 0;  // of all lanes
 
   __device__ explicit LaneShares(unsigned count) : own(count), end(count) {
@@ -141,8 +141,8 @@ struct WarpLanes {
     }
   }
 
-  // The lanes hold the top of the stack and open its entries at once. What they find replaces the entries, in order.
-  // Leaves wait until nothing is left before them.
+  // The lanes share a stack. Each lane opens one of the top entries, all at once, and what they find replaces these
+  // entries, in order. Leaves stay on the stack until all of the top entries are leaves.
   template <typename Open, typename Items, typename Measure, typename Take>
   __device__ static void walk(const Open& open, const Items& items, const Measure& measure, const Take& take) {
     // Entry e of the stack is held by lane e % 32.
@@ -152,10 +152,10 @@ struct WarpLanes {
     core::NodePair slots[kSlots];
     slots[0] = {};
     for (unsigned count = 1; count > 0;) {
-      // Fewer at once where room is scarce: an entry that is opened alone leaves at most one more a level.
+      // Fewer entries at once where room is scarce: an entry that is opened alone adds at most one entry a level.
       const unsigned at_once = min(min(32U, count), max(1U, (kRoom - count) / 64U));
       const unsigned holder = (count - 1 - lane()) % 32;  // of the entry that is lane() below the top
-      const unsigned below_top = holder;                  // the same both ways: of the entry that this lane holds
+      const unsigned below_top = holder;                  // of the entry that this lane holds: the same formula
       core::NodePair pair;
       if (below_top < at_once) pair = slots[(count - 1 - below_top) / 32];
       pair = {__shfl_sync(kFullWarp, pair.a, holder), __shfl_sync(kFullWarp, pair.b, holder)};
@@ -192,7 +192,7 @@ struct WarpLanes {
     }
   }
 
-  // Each lane holds one of the items.
+  // Up to 32 items, one in each lane.
   template <typename Item>
   struct Handful {
     int count = 0;
@@ -270,7 +270,7 @@ struct WarpLanes {
   __device__ static int first_of(unsigned lanes) { return __ffs(static_cast<int>(lanes)) - 1; }
   __device__ static unsigned behind(int of) { return of == 31 ? 0 : kFullWarp << (of + 1); }
 
-  // Items of all leaves, 32 at once.
+  // Measures the items of all leaves, 32 at once.
   template <typename Items, typename Measure, typename Take>
   __device__ static void measure_leaves(core::NodePair pair, bool has_one, const Items& items, const Measure& measure,
                                         const Take& take) {
@@ -287,7 +287,7 @@ struct WarpLanes {
   }
 };
 
-// The same for hulls alone; what needs all edges of two of them is left.
+// The same for hulls alone; pairs of hulls whose edges must all be tried are left to WarpLanes.
 struct WarpLanesOfHulls : WarpLanes {
   static constexpr bool kLeavesHardPairs = true;
 };

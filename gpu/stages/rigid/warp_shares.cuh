@@ -8,14 +8,14 @@
 
 namespace broadside::gpu {
 
-// How many items each warp takes at once, 32 at most, so that all warps have as many in as few rounds as can be.
+// How many items each warp takes at once, 32 at most: equal shares for all warps, in the fewest rounds.
 __device__ inline std::uint64_t even_share(std::uint64_t items, std::uint64_t warps) {
   const std::uint64_t rounds = max((items + 32 * warps - 1) / (32 * warps), std::uint64_t{1});
   return (items + rounds * warps - 1) / (rounds * warps);
 }
 
 // Calls work(k, is_item) by whole warps, for all items; where is_item is false k is no item. is_spread: each warp gets
-// as few items as can be, so that few items are spread over all warps. Not for short items: more warps then fetch the
+// as few items as possible, so that few items are spread over all warps. Not for short items: more warps then fetch the
 // code, which takes longer than the wait.
 template <typename Team, typename Work>
 __device__ __forceinline__ void each_item_by_warps(const Team& team, std::uint64_t items, bool is_spread,
@@ -28,9 +28,10 @@ __device__ __forceinline__ void each_item_by_warps(const Team& team, std::uint64
   }
 }
 
-// The same for items that are all long, a warp each. All warps of a block begin together, so that code that one of them
-// fetches is there for the others. prepare(k, is_item), by whole warps, says whether the lane has an item; then
-// work(lane that has it) is called for one after the other.
+// The same for items that are all long; each gets a whole warp. All warps of a block begin together, so that code that
+// one of them fetches is there for the others. prepare(k, is_item), called by whole warps, returns whether the lane has
+// an item; then work(k, of) is called for these items in turn, with the calling lane's own k and the lane `of` that has
+// the item.
 template <typename Team, typename Prepare, typename Work>
 __device__ __forceinline__ void each_item_in_step(const Team& team, std::uint64_t items, const Prepare& prepare,
                                                   const Work& work) {
