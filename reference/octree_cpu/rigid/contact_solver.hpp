@@ -1,4 +1,4 @@
-// A solver of the turning candidate: it takes states over one step, with gravity, wrenches and contact. RIGID 8.5.
+// A contact solver for bodies that turn: it advances states by one step, with gravity, wrenches and contact. RIGID 8.5.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ struct RigidStep {
   core::Material face_material;
   core::Vec3 gravity_m_s2;
   float dt_s = 0.0F;
-  // By body, or empty: 1 = asleep. The patches of a sleeping body are those of the step before, and give this share of
-  // the impulses that they gave there. No awake body has a patch with it.
+  // By body, or empty: 1 = asleep. The patches of a sleeping body are those of the step before, and their impulses are
+  // those of that step times asleep_share. No awake body has a patch with a sleeping one.
   std::span<const std::uint8_t> asleep;
   float asleep_share = 1.0F;
   bool is_calm = false;  // as the step began: core::is_calm
-  core::StepPlan plan;   // of the step that this is, or is a part of
+  core::StepPlan plan;   // of the whole step, where this is a part of one
 };
 
 // Of one patch, by point: N s on A, of the whole step.
@@ -52,7 +52,7 @@ class ContactSolver {
   virtual void advance(std::span<core::RigidState> states, std::span<const core::ContactPatch> patches,
                        const RigidStep& step) = 0;
 
-  // How it wants a step to be taken, with a call of advance for each part; as core::plan_of_step.
+  // In how many parts a step is to be taken, with a call of advance for each: core::plan_of_step.
   [[nodiscard]] virtual core::StepPlan plan_of_step(float largest_mass_ratio, bool is_calm, float stride,
                                                     bool are_swept) const = 0;
 
@@ -61,7 +61,7 @@ class ContactSolver {
 
   [[nodiscard]] virtual SolverSweeps sweeps_done() const = 0;
 
-  // Forgets the steps before: the next one begins without impulses.
+  // Forgets the steps before: the next one begins without a warm start.
   virtual void forget() = 0;
 };
 

@@ -31,7 +31,7 @@ class ImpulseMemory {
     return std::span(points_).subspan(4 * static_cast<std::size_t>(patch), 4);
   }
 
-  // Replaces the memory: first the patches, sorted by (a, b); then their points, in any order.
+  // Replaces the memory: begin with the patches, sorted by (a, b), then keep for each of their points, in any order.
   void begin(std::span<const core::ContactPatch> patches);
   void keep(std::uint32_t patch, int point, const RememberedPoint& remembered) {
     points_[4 * static_cast<std::size_t>(patch) + static_cast<std::size_t>(point)] = remembered;

@@ -6,8 +6,8 @@
 
 namespace broadside::reference {
 
-// Below twice this many, handing work to threads costs more than doing it: a patch or a body takes some hundred
-// nanoseconds, waking a worker some microseconds.
+// A loop of fewer than twice this many iterations runs on one thread, because handing work to threads would cost more
+// than doing it: a patch or a body takes some hundred nanoseconds, waking a worker some microseconds.
 inline constexpr std::size_t kTurnsPerTask = 64;
 // The same for tiles of patches; a tile takes as long as two or three patches one by one.
 inline constexpr std::size_t kTilesPerTask = 16;

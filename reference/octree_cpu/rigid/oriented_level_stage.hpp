@@ -1,4 +1,4 @@
-// Pairs of turned bodies whose body-octree nodes overlap at the last level of the chosen setting: RIGID 8.3.
+// Finds pairs of turned bodies whose body-octree nodes overlap at the last level of the chosen setting: RIGID 8.3.
 #pragma once
 
 #include <atomic>
@@ -15,15 +15,15 @@ namespace broadside::reference {
 class OrientedLevelStage {
  public:
   // candidates: sorted pairs. confirmed: those of them that may come to touch within the step, sorted. Both functions
-  // also note in bodies.push what candidates may do to each other in the next step.
+  // also note in bodies.push how far candidates may push each other in the next step.
   void confirm(core::RigidBodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
                std::vector<core::Pair>& confirmed);
 
-  // The published start: every pair of bodies, without a broad phase before it. Two static bodies are no pair, nor are
-  // two bodies whose boxes of the whole step do not overlap.
+  // The published start: every pair of bodies, without a broad phase before it. Leaves out two static bodies, and two
+  // bodies whose boxes of the whole step do not overlap.
   void confirm_all(core::RigidBodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
 
-  // Counts since reset_counts(). They are sums of integers, so no order of threads shows in them.
+  // Counts since reset_counts(). They are sums of integers, so they do not depend on the order of threads.
   [[nodiscard]] std::uint64_t pairs_tested() const { return pairs_tested_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t box_tests() const { return box_tests_.load(std::memory_order_relaxed); }
   void reset_counts() { pairs_tested_ = box_tests_ = 0; }

@@ -10,7 +10,7 @@
 namespace broadside::reference {
 namespace {
 
-constexpr std::uint32_t kFewColors = 64;  // of a word: a body with more patches has them one after another
+constexpr std::uint32_t kFewColors = 64;  // the bits of a word; further patches of a body get ascending colors
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void PatchColoring::color(std::span<const core::ContactPatch> patches, std::span
   by_priority_.resize(patches.size());
   for (std::uint32_t k = 0; k < patches.size(); ++k)
     by_priority_[k] = {core::color_priority({patches[k].a, patches[k].b}), k};
-  // The patches of a pair of meshes have one priority; among them the index decides.
+  // The patches of a pair have the same priority; among them the index decides.
   std::sort(by_priority_.begin(), by_priority_.end(), [](const Ranked& p, const Ranked& q) {
     return p.priority != q.priority ? p.priority < q.priority : p.patch < q.patch;
   });

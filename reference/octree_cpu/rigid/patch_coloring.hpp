@@ -15,7 +15,7 @@ namespace broadside::reference {
 // 1993).
 class PatchColoring {
  public:
-  // Bodies of inverse mass 0 and faces are in conflict with nothing.
+  // Patches that share only a face or a body of inverse mass 0 may have the same color.
   void color(std::span<const core::ContactPatch> patches, std::span<const core::RigidMass> masses);
 
   // Indices of patches by color, by index within a color.

@@ -1,4 +1,4 @@
-// The kernels over tiles of patches, as text that is compiled once for each instruction set.
+// The kernels over tiles of patches. This text is compiled once for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -55,7 +55,7 @@ struct LaneBody {
     Lanes::load_words(at, 12, inverse_mass, moved.x, moved.y, moved.z);
     Lanes::load_words(at, 16, turned.x, turned.y, turned.z, ignored);
   }
-  // Writes the velocities of bodies that move, of these lanes: bit k is lane k.
+  // Writes the velocities of the moved bodies in `lanes`: bit k is lane k.
   void store(core::SolverBody* bodies, const std::uint32_t (&ids)[kTileLanes], unsigned lanes = kAllLanes) const {
     float* at[kTileLanes];
     for (std::uint32_t lane = 0; lane < kTileLanes; ++lane) at[lane] = reinterpret_cast<float*>(bodies + ids[lane]);
@@ -83,10 +83,11 @@ template <typename Lanes>
 void clear(std::byte* tiles, std::size_t tile, std::uint32_t still) {
   Tile<Lanes>& t = *new (tiles + tile * sizeof(Tile<Lanes>)) Tile<Lanes>{};
   for (std::uint32_t lane = 0; lane < kTileLanes; ++lane) t.a[lane] = t.b[lane] = still;
-  for (core::PatchPointOf<Lanes>& p : t.patch.points) p.normal_mass = p.slip_mobility = 1.0F;  // others divide by them
+  for (core::PatchPointOf<Lanes>& p : t.patch.points)
+    p.normal_mass = p.slip_mobility = 1.0F;  // lanes without a patch divide by them
 }
 
-// visit(x, y) for every number x of a tile's patch and the same number y of one patch.
+// visit(x, y) for every number x of the patches of a tile and the number y of one patch that corresponds to it.
 template <typename Patches, typename Patch, typename Visit>
 void each_number(Patches& many, Patch& one, const Visit& visit) {
   const auto vector = [&](auto& of_many, auto& of_one) {
@@ -216,7 +217,7 @@ void relax(const TileRange& range, const core::SoftStep& step, float* changes) {
   });
 }
 
-// Of a patch: what a sweep changes.
+// The numbers of a tile's patches that a sweep changes.
 template <typename Lanes>
 class PointImpulses {
  public:
@@ -226,7 +227,7 @@ class PointImpulses {
       points_[k] = {p.normal_impulse, p.tangent_impulse_1, p.tangent_impulse_2, p.slides};
     }
   }
-  // Gives these back to lanes for which it is asked.
+  // Restores these numbers in the lanes where is_asked is true.
   void restore(const core::TruthOf<Lanes>& is_asked, core::PatchOf<Lanes>& patch) const {
     const core::TruthOf<Lanes> is_not = !is_asked;
     for (int k = 0; k < patch.count; ++k) {
@@ -248,7 +249,7 @@ class PointImpulses {
   Point points_[core::kManifoldPoints];
 };
 
-// Lanes of which a body is stirred.
+// The lanes that have a stirred body.
 template <typename Lanes>
 unsigned stirred_lanes(const Tile<Lanes>& t, const StirredSweep& sweep) {
   unsigned lanes = 0;
@@ -269,8 +270,8 @@ void stir(const Tile<Lanes>& t, const LaneBody<Lanes>& a, const LaneBody<Lanes>&
   }
 }
 
-// Lanes that follow the last direction go on along it; the others, which the sweep visits for the first time, begin
-// without one.
+// The impulses of `followers` follow their last direction. The other lanes, which these sweeps have not visited before,
+// begin without a direction.
 template <typename Lanes>
 void follow(Tile<Lanes>& t, unsigned followers, float share) {
   const core::TruthOf<Lanes> begins = core::TruthOf<Lanes>::of_lanes(~followers);

@@ -25,7 +25,7 @@ struct TileRange {
 
 // What a sweep along conjugate directions reads and writes.
 struct SweepWay {
-  bool is_one_of_many = true;  // else there are no directions
+  bool is_one_of_many = true;  // one of several sweeps; otherwise there are no directions
   bool is_first = true;        // of its substep: there is no direction yet
   float share = 0.0F;          // of the last direction, which the impulses follow before the sweep
   float* speeds = nullptr;     // [tiles] the largest change of a point's speed, m/s
@@ -34,7 +34,7 @@ struct SweepWay {
 
 // What a sweep over the patches of stirred bodies reads and writes.
 struct StirredSweep {
-  std::uint32_t number = 0;           // bodies that this sweep or a later one has to visit are stirred
+  std::uint32_t number = 0;           // of this sweep: it visits patches of bodies with stirred >= number
   float done_m_s = 0.0F;              // a larger change stirs a patch's bodies for the next sweep
   float share = 0.0F;                 // of the last direction
   std::uint32_t* stirred = nullptr;   // [bodies] the last sweep that has to visit the body's patches
@@ -43,7 +43,7 @@ struct StirredSweep {
   float* changes = nullptr;           // [tiles][kTileLanes] core::squared_change
 };
 
-// The functions over tiles for one instruction set. They alone know how a tile lies in memory.
+// The functions over tiles for one instruction set. No other code knows the layout of a tile in memory.
 struct PatchKernels {
   const char* name;
   std::size_t tile_bytes;
@@ -53,16 +53,17 @@ struct PatchKernels {
   core::PatchConstraint (*get)(const std::byte* tiles, std::size_t tile, std::uint32_t lane);
 
   // The stages of soft_contact.hpp.
-  // Notes gaps; by tile the fastest point's speed, and by place core::fastest_push.
+  // Stores the gaps in the tiles, and writes the speed of the fastest point by tile, core::fastest_push by place.
   void (*begin_sweeps)(const TileRange& range, const core::SoftStep& step, float* speeds, float* pushes);
   void (*warm_start)(const TileRange& range);
   void (*sweep)(const TileRange& range, const core::SoftStep& step, const SweepWay& way);
   void (*push_along)(const TileRange& range, float share);
-  // Notes by place the largest change of a point's speed, m/s.
+  // Writes by place the largest change of a point's speed, m/s.
   void (*relax)(const TileRange& range, const core::SoftStep& step, float* changes);
-  // The same where a body is stirred, or along directions where it was since these sweeps began.
+  // The same, only of patches that have a stirred body and, with directions, of those that had one since these sweeps
+  // began.
   void (*relax_stirred)(const TileRange& range, const core::SoftStep& step, const StirredSweep& sweep);
-  // What a step along these directions does to the bodies.
+  // Applies to the bodies the next step along the directions of relax_stirred.
   void (*push_stirred)(const TileRange& range, const StirredSweep& sweep);
   void (*end_substep)(const TileRange& range);
 };

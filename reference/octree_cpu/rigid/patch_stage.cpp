@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kPairsOfBlock = 64;
 constexpr std::size_t kBodiesOfBlock = 256;
 
-// Calls make(k, block) for each k below count, and returns how many blocks were filled. Joined in order they have what
-// they were given in the order of k.
+// Calls make(k, block) for each k below count, and returns how many blocks were filled. Their items, joined block by
+// block, are in the order of k.
 template <typename Block, typename Make>
 std::size_t fill_in_order(std::size_t count, std::size_t of_block, std::vector<Block>& blocks, const Make& make) {
   const std::size_t block_count = (count + of_block - 1) / of_block;
@@ -93,7 +93,8 @@ bool PatchStage::is_passing(const core::RigidBodies& bodies, core::Pair pair, co
   return core::passes_by(found, a.contact, path_a, b.contact, path_b, bodies.reach_m[i] + bodies.reach_m[j], near_m);
 }
 
-// What was kept of the pair's patch, if that patch may stand for a new one: then it is in out, where its bodies are.
+// Returns what was kept of the pair's patch if it can be carried along with its bodies, otherwise null. Sets `out` to
+// that patch at their present poses.
 const core::KeptPatch* PatchStage::carry(const core::RigidBodies& bodies, core::Pair pair, const core::PairAhead& ahead,
                                          core::Manifold& out) const {
   const auto [i, j] = pair;
@@ -135,7 +136,7 @@ void PatchStage::touch_pair(const core::RigidBodies& bodies, core::Pair pair, Bl
   }
   kept = core::add_end_patches(a, bodies.path(i), b, bodies.path(j), ahead.swing_m, found, kept, known);
   for (int n = 0; n < kept; ++n) block.patches.push_back({i, j, found[n]});
-  // Where there are more, some are of the end of the step.
+  // Only a single patch is kept: where there are more, some are of the end of the step.
   if (keeps_patches_ && kept == 1 && core::has_quick_answers(a, b))
     block.kept.push_back({pair, core::kept_patch(found[0], bodies.pose(i), bodies.pose(j))});
 }
@@ -153,8 +154,8 @@ void PatchStage::touch_bodies(const core::RigidBodies& bodies, std::span<const c
   for (std::size_t n = 0; n < blocks; ++n) patches_carried_ += pair_blocks_[n].carried;
 }
 
-// How far a face is looked for: a body at rest may be driven into it as fast as its fastest neighbor comes. A face has
-// no end that a body could pass by, so looking too far costs time and nothing else.
+// The distance up to which a face is tested: a body at rest may be driven into a face as fast as its fastest neighbor
+// approaches. A face has no end that a body could pass by, so a distance that is too large costs time and nothing else.
 void PatchStage::find_pushed_reach(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed) {
   pushed_reach_m_.assign(bodies.count(), 0.0F);
   for (const auto [i, j] : confirmed) {

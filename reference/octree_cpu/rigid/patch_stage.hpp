@@ -1,4 +1,4 @@
-// The patches of contact of a step: of confirmed pairs of bodies and of bodies at faces of the domain. RIGID 8.4.
+// Makes the patches of contact of a step: of confirmed pairs of bodies and of bodies at faces of the domain. RIGID 8.4.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace broadside::reference {
 
 class PatchStage {
  public:
-  // keeps_patches: not where bodies sleep, whose patches others keep.
+  // keeps_patches: whether patches are carried along from step to step; not where bodies may sleep.
   void load(const core::Scene& scene, bool keeps_patches);
   // confirmed: sorted pairs. asleep: by body; pairs without an awake body are left out.
   void touch_bodies(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
@@ -28,7 +28,7 @@ class PatchStage {
   // before those with faces. Static bodies touch no face, and sleeping ones are left out.
   void touch_faces(const core::RigidBodies& bodies, std::span<const core::Pair> confirmed,
                    std::span<const std::uint8_t> asleep, std::vector<core::ContactPatch>& patches);
-  // Of pairs, after touch_bodies.
+  // The patches of pairs, after touch_bodies.
   [[nodiscard]] std::span<const core::ContactPatch> of_bodies() const { return of_pairs_; }
   // Since load.
   [[nodiscard]] std::uint64_t patches_made() const { return patches_made_; }
@@ -62,12 +62,12 @@ class PatchStage {
   core::Box domain_;
   std::array<core::ContactShape, core::kFaceCount> face_shapes_;
   std::array<core::ContactPose, core::kFaceCount> face_poses_;
-  // One list for each run of pairs or bodies, filled by one thread. Joined in order they are sorted.
+  // One list for each run of pairs or bodies, filled by one thread. Joined in this order they are sorted.
   std::vector<Block> pair_blocks_;
   std::vector<Block> face_blocks_;
   std::vector<core::ContactPatch> of_pairs_;
   std::vector<core::ContactPatch> of_faces_;
-  // Of pairs of hulls, sorted; of this step and of the one before.
+  // Patches to carry along, of pairs of hulls, sorted: of this step and of the one before.
   bool keeps_patches_ = false;
   std::vector<KeptOfPair> kept_;
   std::vector<KeptOfPair> last_kept_;

@@ -21,7 +21,7 @@ class PatchTiles {
 
   explicit PatchTiles(const PatchKernels& kernels) : kernels_(&kernels) {}
 
-  // Makes room for these patches. Lanes without one touch the body `still`, which never moves.
+  // Makes room for these patches. Lanes without a patch name the body `still`, which never moves.
   void arrange(std::span<const core::ContactPatch> patches, const PatchColoring& coloring, std::uint32_t still);
 
   [[nodiscard]] const PatchKernels& kernels() const { return *kernels_; }

@@ -1,4 +1,4 @@
-// What bodies do to each other in the next step: core/method/rigid/pushed_motion.hpp.
+// How far bodies may push each other in the next step: core/method/rigid/pushed_motion.hpp.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace broadside::reference {
 
-// Notes in bodies.push what the two bodies of a candidate pair may do to each other. From any thread.
+// Notes in bodies.push how far the two bodies of a candidate pair may push each other. May be called from any thread.
 void note_pushes(core::RigidBodies& bodies, core::Pair pair);
 
-// After all candidates: notes in bodies.passed_on what of that the confirmed pairs pass on.
+// Call after note_pushes of all candidates. Notes in bodies.passed_on the pushes that confirmed pairs pass on.
 void pass_on_pushes(core::RigidBodies& bodies, std::span<const core::Pair> confirmed);
 
 }  // namespace broadside::reference

@@ -1,4 +1,4 @@
-// What the twin says of itself where bodies turn.
+// The declaration and the equivalence card of the twin where bodies turn.
 #pragma once
 
 #include <string>

@@ -72,7 +72,7 @@ core::Status RigidPipeline::step(float dt_s) {
   const core::Pace pace = core::pace_of(bodies_, bodies_.state, dt_s);
   is_calm_ = core::is_calm(pace, scene_->gravity_m_s2, dt_s);
   plan_ = solver_->plan_of_step(mass_ratio_, is_calm_, pace.stride, !bodies_.is_swept.empty());
-  // For how long bodies have been still is counted in steps of one length.
+  // The time for which a body has been still is counted in steps, so all steps counted must have one length.
   if (dt_s != dt_s_) sleepers_.wake_all();
   const float part_s = dt_s / static_cast<float>(plan_.parts);
   times_ = {};
@@ -115,7 +115,7 @@ core::Status RigidPipeline::run_stages(float dt_s, float ended_step_s) {
   return core::Done{};
 }
 
-// Notes the pose of detection, how far each body can come from there, and a box that contains all of that.
+// Stores the pose of detection, how far each body can move from there, and a box that contains all of its places.
 void RigidPipeline::place(float dt_s) {
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, bodies_.count(), 256), [&](const auto& range) {
     for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
@@ -167,7 +167,7 @@ void RigidPipeline::touch_faces() {
   if (sleepers_.is_anybody_asleep()) keep_sleeping_patches();
 }
 
-// A body that wakes may touch others that sleep.
+// A body that wakes may touch others that sleep, so this repeats until no island wakes.
 void RigidPipeline::wake() {
   while (sleepers_.wake_touched(patch_stage_.of_bodies())) touch_bodies();
 }

@@ -39,9 +39,10 @@ struct RigidPipelineOptions {
   int threads = 0;      // 0 = all
 };
 
-// A step detects contacts at its start, as far ahead as bodies can come within it, and moves bodies last. Where masses
-// are far apart it does so part by part. The bits are the same for any number of threads: every parallel loop writes to
-// slots of its own, and what depends on an order is done in a fixed one.
+// A step detects contacts at its start, for all places that bodies can reach within it, and moves bodies last. A step
+// may be taken in several parts, each of which does this anew: where masses are far apart, or bodies move far. The bits
+// are the same for any number of threads: every parallel loop writes to slots of its own, and what depends on an order
+// is done in a fixed one.
 class RigidPipeline : public core::Dynamics {
  public:
   explicit RigidPipeline(RigidPipelineOptions options);
@@ -54,7 +55,7 @@ class RigidPipeline : public core::Dynamics {
   [[nodiscard]] std::uint32_t groups() const override;
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override { return times_; }
   [[nodiscard]] std::vector<core::Counter> counters() const override;
-  // Whether a body counts as still depends on the scene.
+  // The speed below which a body counts as still depends on the scene.
   [[nodiscard]] core::Declaration declaration_for(const core::Scene& scene) const;
 
  protected:
@@ -65,10 +66,10 @@ class RigidPipeline : public core::Dynamics {
   virtual void touch_bodies();
   virtual void touch_faces();
   virtual void respond(float dt_s);
-  // Where bodies sleep: before the response, and after it.
+  // Only where bodies may sleep: wake before the response, fall_asleep after it.
   virtual void wake();
   virtual void fall_asleep(float dt_s);
-  // Where fast bodies are swept.
+  // Only where bodies are swept.
   virtual core::Status stop_short();
   virtual void tell_points();
   // The last stage: it may change what is recorded.
@@ -87,8 +88,8 @@ class RigidPipeline : public core::Dynamics {
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
  private:
-  // A step, or a part of one.
-  // Of a part of a step. ended_step_s: the length of the step that it ends; 0 where it ends none.
+  // Runs the stages of a step, or of a part of one. ended_step_s: the length of the step that this ends; 0 if a further
+  // part follows.
   core::Status run_stages(float dt_s, float ended_step_s);
   void read_back_part(core::FrameRecord& frame, core::RecordLevel level);
   [[nodiscard]] std::uint64_t digest() const;
@@ -102,12 +103,12 @@ class RigidPipeline : public core::Dynamics {
   OrientedLevelStage level_stage_;
   std::unique_ptr<ContactSolver> solver_;
   std::array<core::StageTime, core::kStageCount> times_{};
-  std::vector<core::ContactPatch> last_patches_;  // of the step before, where bodies sleep
+  std::vector<core::ContactPatch> last_patches_;  // of the step before, where bodies may sleep
   float dt_s_ = 0.0F;                             // of the step
   float part_s_ = 0.0F;                           // of the last part that was taken
   std::uint64_t steps_ = 0;
   float mass_ratio_ = 1.0F;  // core::largest_mass_ratio
-  bool is_calm_ = false;     // as the step began
+  bool is_calm_ = false;     // whether the step began calm
   core::StepPlan plan_;      // of the step
   core::StepInParts earlier_parts_;
 };

@@ -27,7 +27,7 @@ void Sleepers::wake_all() {
 
 bool Sleepers::wake_touched(std::span<const ContactPatch> patches) {
   if (count_ == 0) return false;
-  is_restless_.assign(asleep_.size(), 0);  // by the lowest body of an island: it wakes
+  is_restless_.assign(asleep_.size(), 0);  // by the lowest body of an island; 1: the island wakes
   bool wakes = false;
   const auto touch = [&](std::uint32_t sleeper, std::uint32_t other) {
     if (core::is_face(sleeper) || asleep_[sleeper] == 0) return;
@@ -49,7 +49,7 @@ bool Sleepers::wake_touched(std::span<const ContactPatch> patches) {
   return true;
 }
 
-// Paths are halved while they are followed.
+// The root of a body's tree (union-find). Paths are halved while they are followed.
 std::uint32_t Sleepers::root(std::uint32_t body) {
   while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
   return body;

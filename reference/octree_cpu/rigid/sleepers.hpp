@@ -11,7 +11,7 @@
 
 namespace broadside::reference {
 
-// The result is a function of the states and patches that it is shown, and not of the order in which bodies came to
+// The result is a function of the states and patches that the calls pass in, not of the order in which bodies came to
 // touch.
 class Sleepers {
  public:
@@ -27,7 +27,8 @@ class Sleepers {
 
   // Call before the response. Wakes each island that a patch of an awake body touches. Returns whether one woke.
   bool wake_touched(std::span<const core::ContactPatch> patches);
-  // Call after the response. Stops islands of the patches whose bodies have all been still for long enough: they sleep.
+  // Call after the response. Puts to sleep, and stops, each island whose bodies have all been still for long enough;
+  // patches connect bodies to islands.
   void fall_asleep(core::RigidBodies& bodies, std::span<const core::ContactPatch> patches, core::Vec3 gravity_m_s2,
                    float dt_s);
 
@@ -37,7 +38,7 @@ class Sleepers {
   std::vector<std::uint8_t> asleep_;
   std::vector<std::uint8_t> is_static_;
   std::vector<std::uint32_t> still_;   // steps in a row
-  std::vector<std::uint32_t> island_;  // of who sleeps: the lowest of its bodies
+  std::vector<std::uint32_t> island_;  // of a sleeping body: the lowest body of its island
   std::vector<std::uint32_t> parent_;  // while islands are found
   std::vector<std::uint8_t> is_restless_;
   std::uint32_t count_ = 0;

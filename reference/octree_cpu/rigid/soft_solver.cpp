@@ -42,7 +42,8 @@ float SoftSolver::sweep_until_done(const core::SoftStep& numbers) {
   for (std::uint32_t k = 1;; ++k) {
     work_.each_range_by_color([&](const TileRange& range) { kernels_.sweep(range, numbers, way); });
     ++sweeps_done_;
-    // The last word is a sweep's: it leaves every impulse in its cone.
+    // The last change is a sweep's, not a step along directions, because a sweep leaves every impulse in its friction
+    // cone.
     if (k >= numbers.most_sweeps || largest_speed() <= done) return done;
     way.is_first = false;
     way.share = share.after(core::order_free_sum(changes_));

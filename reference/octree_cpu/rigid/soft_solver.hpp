@@ -27,7 +27,7 @@ class SoftSolver final : public ContactSolver {
 
  private:
   void substep(const RigidStep& step, const core::SoftStep& numbers, core::SolveKind kind);
-  // Returns up to which change of a point's speed its sweeps go, m/s.
+  // Returns the change of a point's speed, m/s, at or below which its sweeps end.
   float sweep_until_done(const core::SoftStep& numbers);
   void relax(const core::SoftStep& numbers);
   [[nodiscard]] float largest_speed() const;
@@ -37,8 +37,8 @@ class SoftSolver final : public ContactSolver {
   StepConstraints work_;
   std::uint64_t sweeps_done_ = 0;
   std::vector<float> pushes_;   // by place: core::fastest_push
-  std::vector<float> speeds_;   // by tile: the largest of a loop
-  std::vector<float> changes_;  // by place: squared, of the last sweep
+  std::vector<float> speeds_;   // by tile: the largest speed, or change of one, that a loop found
+  std::vector<float> changes_;  // by place: core::squared_change of the last sweep
   std::vector<float> relaxed_;  // by place: what relaxation changed, m/s
 };
 

@@ -25,7 +25,7 @@ float largest_of(std::span<const float> values) {
 
 }  // namespace
 
-// The impulses that these two bodies gave each other in the last substep of the step before.
+// Sets the impulses to those that these two bodies gave each other in the last substep of the step before (warm start).
 void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c) const {
   const auto remembered = memory_.of(patch.a, patch.b);
   for (int k = 0; k < c.count; ++k) {
@@ -40,7 +40,8 @@ void StepConstraints::recall(const core::ContactPatch& patch, PatchConstraint& c
   }
 }
 
-// The patches that are to be solved. Notes the impulses that the others go on with.
+// Returns the patches that are to be solved. For the others, those of sleeping bodies, stores the impulses that they
+// keep.
 std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const core::ContactPatch> patches,
                                                               const RigidStep& step) {
   const std::span<const std::uint8_t> asleep = step.asleep;
@@ -50,7 +51,7 @@ std::span<const core::ContactPatch> StepConstraints::awake_of(std::span<const co
   if (std::find(asleep.begin(), asleep.end(), 1) == asleep.end()) return patches;
   for (std::uint32_t k = 0; k < patches.size(); ++k) {
     const core::ContactPatch& patch = patches[k];
-    // How far behind the first patch of its pair this one is: the same as when it was remembered.
+    // The index of this patch among those of its pair. It was the same when the patch was remembered.
     std::uint32_t nth = 0;
     while (nth < k && patches[k - nth - 1].a == patch.a && patches[k - nth - 1].b == patch.b) ++nth;
     const bool is_awake = asleep[patch.a] == 0 && (core::is_face(patch.b) || asleep[patch.b] == 0);
@@ -146,8 +147,8 @@ void StepConstraints::finish(std::span<core::RigidState> states, std::span<const
   });
 }
 
-// Patches of one color, and patches in any order, may stir the same body that never moves; and several threads may stir
-// a body that bounces at once, all with the same number.
+// Several threads may stir one body at the same time, so the store is atomic; all of them store the same number. Bodies
+// that never move are not stirred.
 void StepConstraints::stir(std::size_t place, std::uint32_t sweep) {
   for (const std::uint32_t body : {touched_[place].a, touched_[place].b})
     if (core::is_moved(bodies_[body])) std::atomic_ref(stirred_[body]).store(sweep, std::memory_order_relaxed);
@@ -269,7 +270,7 @@ void StepConstraints::bounce(const core::SoftStep& numbers, std::span<const floa
   float done = core::kBounceDone * fastest;
   if (stir_what_relaxed(relaxed, numbers.stirring_m_s)) done = std::max(done, numbers.stirring_m_s);
   if (!(done > 0.0F)) return;
-  // A share of the impulse that stopped them is given back, so that impulse must be known well.
+  // A bounce gives back a share of the impulse that stopped its points, so that impulse is made accurate first.
   bounce_sweeps_ += relax_until_done(numbers, done, numbers.most_stop_sweeps);
   float largest = fastest;
   for (std::uint32_t k = 0; k < numbers.most_bounce_sweeps && largest > done; ++k) {

@@ -73,7 +73,8 @@ core::Status SweepStage::find_pairs(const core::RigidBodies& bodies) {
       for (std::uint32_t j = i + 1; j < bodies.count(); ++j)
         if (core::overlaps(boxes_[i], boxes_[j])) near.push_back({i, j});
   }
-  // Bodies that do not move farther than the thinner one is thick pass through nothing.
+  // Two bodies that do not move farther than the thinner one is thick cannot pass through each other, so they are left
+  // out.
   for (const Pair p : near) {
     if (!bodies.are_followed(p) || (bodies.is_static[p.i] != 0 && bodies.is_static[p.j] != 0)) continue;
     if (core::moves_far(core::length_of(way(bodies, p.i)), core::length_of(way(bodies, p.j)), bodies.thinner_m(p)))

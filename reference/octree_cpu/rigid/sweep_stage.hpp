@@ -1,4 +1,4 @@
-// Stops bodies on the way of a step where they would pass through each other: core/method/rigid/sweep.hpp.
+// Stops a body partway through its step where it would pass through another body: core/method/rigid/sweep.hpp.
 #pragma once
 
 #include <array>
@@ -26,7 +26,8 @@ class SweepStage {
 
   // make_broad_phase: empty = every pair is looked at.
   void load(const core::Scene& scene, const core::RigidBodies& bodies, const MakeBroadPhase& make_broad_phase);
-  // From bodies.detected to bodies.state, which is set back along the way where a body must stop.
+  // Follows each body's way from bodies.detected to bodies.state; the state of a body that must stop is set back along
+  // it.
   core::Status stop_short(core::RigidBodies& bodies);
 
   // How many bodies were set back since load; a body counts once for each step.
@@ -42,12 +43,12 @@ class SweepStage {
   std::array<core::ContactShape, core::kFaceCount> face_shapes_;
   std::array<core::ContactPose, core::kFaceCount> face_poses_;
   MakeBroadPhase make_broad_phase_;
-  std::unique_ptr<core::BroadPhase> broad_phase_;  // from the first step on in which a body is fast
+  std::unique_ptr<core::BroadPhase> broad_phase_;  // made at the first step in which a body is fast
   float thinnest_m_ = 0.0F;                        // half of the least thickness of all bodies
   std::vector<core::Box> boxes_;                   // of the whole way
   std::vector<core::Pair> pairs_;
   std::vector<std::uint32_t> at_faces_;  // bodies whose ways lead to a face of the domain
-  std::vector<std::uint32_t> parts_;     // by body: of its way, that it may go
+  std::vector<std::uint32_t> parts_;     // by body: how many of the core::kPartsOfWay parts of its way it may go
   std::vector<std::uint32_t> next_parts_;
   std::vector<std::uint8_t> is_changed_;
   std::uint64_t stopped_ = 0;
