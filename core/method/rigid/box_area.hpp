@@ -16,10 +16,12 @@
 
 namespace broadside::core::box_detail {
 
-// A parallelogram that a rectangle cuts has at most eight corners; and one point more that an axis shows.
+// A parallelogram that is cut by a rectangle has at most eight corners. There is room for one more point, which the
+// axis shows.
 inline constexpr int kRoom = 9;
 
-// A face of a box: half sides along its two axes, which make a right-handed frame with the axis that it is across.
+// A face of a box: half sides along its two axes, which make a right-handed frame with the axis that is normal to the
+// face.
 struct BoxFace {
   int face = 0;
   int u_axis = 0;
@@ -52,18 +54,19 @@ struct FlatPoint {
   float u = 0.0F;
   float w = 0.0F;
   float gap_m = 0.0F;
-  // Who made it: bits 0 to 7 the point, as below; bits 8 to 15 the edge from here to the next corner.
+  // Where it comes from: bits 0 to 7 are the point's number, as below; bits 8 to 15 are the line from here to the next
+  // corner.
   std::uint32_t made_by = 0;
 };
 
 // Lines of the drawing: 0 to 3 are edges of the incident face, from its corner k on; 4 to 7 sides of the reference.
-// Points: 0 to 3 are corners of the incident face; kCut + 4 line + side is where a side cuts a line; kShown is told
-// apart.
+// Points: 0 to 3 are corners of the incident face; kCut + 4 line + side is where a side cuts a line; kShown marks the
+// point that the axis shows.
 inline constexpr std::uint32_t kSideLine = 4;
 inline constexpr std::uint32_t kCut = 8;
 inline constexpr std::uint32_t kShown = 0xFF;
 
-// Marks names of the reference's corners, which are none of the incident face's.
+// Marks names of the reference's corners, so that they differ from those of the incident face's corners.
 inline constexpr std::uint32_t kReferenceCorner = 0x20000000U;
 
 struct FlatArea {
@@ -71,8 +74,8 @@ struct FlatArea {
   FlatPoint points[kRoom];
 };
 
-// Keeps what is at most slack_m beyond the side: of line `side`, across u or w, at `half` on its upper or lower side.
-// As clip() of face_clipping.hpp.
+// Keeps the part that is at most slack_m beyond a side of the reference: line `side`, which is across u or w at the
+// distance `half`, on the upper or the lower side. Works like clip() of face_clipping.hpp.
 BROADSIDE_HD void cut_by_side(const FlatArea& area, FlatArea& kept, bool across_u, bool is_upper, float half,
                               std::uint32_t side, float slack_m) {
   const auto height = [&](const FlatPoint& p) {
@@ -94,7 +97,7 @@ BROADSIDE_HD void cut_by_side(const FlatArea& area, FlatArea& kept, bool across_
     const bool makes_corner = is_cut && inside < 0.0F;
     if (is_in && kept.count < kRoom) {
       kept.points[kept.count] = here;
-      // A corner that lies on the side is no cut; what follows it is the side.
+      // A corner that lies on the side is no cut; the line that follows it is the side.
       if (is_cut && !makes_corner) kept.points[kept.count].made_by = (here.made_by & 0xFFU) | ((kSideLine + side) << 8);
       ++kept.count;
     }
@@ -113,13 +116,12 @@ BROADSIDE_HD void cut_by_side(const FlatArea& area, FlatArea& kept, bool across_
   }
 }
 
-// What both faces have in common, seen along `outward`, a unit direction out of the reference's body that its face
-// looks along.
+// Both faces, seen along `outward`: a unit direction out of the reference's body, toward which its face looks.
 struct FlatView {
   BoxFace reference;
   BoxFace incident;
   Vec3 outward;
-  // Parts of outward along u and w: none where it is the face's own normal, but for rounding.
+  // Components of outward along u and w: 0 to within rounding where outward is the face's own normal.
   float out_u = 0.0F;
   float out_w = 0.0F;
   float out_plane = 0.0F;
@@ -216,10 +218,10 @@ BROADSIDE_HD std::uint32_t key_of(const FlatView& v, const BoxPolytope& referenc
   return reference_is_a ? feature_key(plane, name) : feature_key(name, plane);
 }
 
-// The four that FourKept (contact_points.hpp) keeps, by numbers: the deepest, the farthest from it across the normal,
-// the one of the largest triangle with both, the one farthest outside that triangle. Of equal ones the first, in the
-// order of the area's corners. Areas are measured in the plane of the face; seen along the normal
-// all shrink by the same factor.
+// The numbers of the four points that FourKept (contact_points.hpp) would keep: the deepest, the farthest from it
+// across the normal, the one of the largest triangle with both, the one farthest outside that triangle. Among equal
+// ones the first is taken, in the order of the area's corners. Areas are measured in the plane of the face; seen along
+// the normal, all of them shrink by the same factor.
 BROADSIDE_HD int pick_four(const FlatArea& area, float out_u, float out_w, float reach_m, int (&picked)[4]) {
   FlatPoint p[3];
   float turn = 1.0F;

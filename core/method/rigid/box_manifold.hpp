@@ -1,8 +1,8 @@
 // The manifold of two boxes, given the direction in which they are farthest apart.
 //
-// The points and keys are those that polytope_manifold.hpp makes of the same boxes seen as polytopes; box_area.hpp and
-// box_nearest.hpp are shorter ways to them. The keys must be the same too, because they order the points of a patch,
-// and a response solves points in that order.
+// The points and keys are the same as those that polytope_manifold.hpp makes of the boxes as polytopes; box_area.hpp
+// and box_nearest.hpp compute them faster. The keys must be the same too, because they order the points of a patch, and
+// a response solves points in that order.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ namespace broadside::core {
 
 namespace box_detail {
 
-// Points in the order of their keys. So their order stays while the same four points are kept.
+// Inserts a point in the order of the keys, so that the order stays while the same four points are kept.
 BROADSIDE_HD void add_in_order(Manifold& out, const ManifoldPoint& p) {
   int place = out.count;
   for (; place > 0 && p.feature < out.points[place - 1].feature; --place) out.points[place] = out.points[place - 1];
@@ -76,8 +76,9 @@ BROADSIDE_HD_CALLED void box_manifold(const BoxPolytope& a, const BoxPolytope& b
                feature_key(edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
                            edge_name(static_cast<std::uint32_t>(b0), static_cast<std::uint32_t>(b1)))};
   } else if (!is_shown && axis.gap_m <= 0.0F && (area.count > 0 || axis.gap_m < -2.0F * rounding_m)) {
-    // Where boxes overlap the deepest corner is over the face, whatever rounding says; unless they just touch, edge at
-    // edge, and rounding alone says that they overlap. Then it may lie a whole side beside the face.
+    // Where boxes overlap, the deepest corner is over the face, whatever rounding says. This does not hold where they
+    // just touch, edge at edge, and rounding alone says that they overlap: then that corner may lie a whole side beside
+    // the face.
     has_witness = true;
     witness = {(view.reference.middle + deepest.u * view.reference.u) +
                    (deepest.w * view.reference.w + (0.5F * deepest.gap_m) * outward),

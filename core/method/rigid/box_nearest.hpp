@@ -22,7 +22,7 @@ struct NearestCorner {
   float squared_m2 = 3.402823e38F;
   int corner = 0;
   Vec3 nearest;  // in the axes of the other box, from its center
-  Vec3 beyond;   // from there to the corner, in the same axes: 0 along an axis in whose range the corner is
+  Vec3 beyond;   // from there to the corner, in the same axes: 0 along an axis where the corner is within the box
 };
 
 BROADSIDE_HD_CALLED NearestCorner nearest_corner(const BoxPolytope& corners, const BoxPolytope& solid) {

@@ -20,7 +20,8 @@ inline constexpr float kSameNormal = 0.99F;
 
 namespace capsule_detail {
 
-// The point of a capsule's surface beside an end of its segment, on the side that looks in a direction.
+// The point of a capsule's surface beside an end of its segment, on the side that looks in a direction. False if the
+// segment is too steep against that direction.
 BROADSIDE_HD bool line_end(const PlacedShape& capsule, int end, Vec3 towards, Vec3& out) {
   const Vec3 axis = capsule.axes[capsule.shape->axis];
   const Vec3 across = towards - dot(towards, axis) * axis;
@@ -44,7 +45,8 @@ BROADSIDE_HD void capsules(const PlacedShape& a, const PlacedShape& b, float rou
   if (distance > rounding_m) {
     out.normal = direction.normal;
   } else {
-    // Segments that cross are parted along the direction across both; parallel ones along any direction across them.
+    // Segments that cross are separated along the direction perpendicular to both; parallel ones along any direction
+    // perpendicular to them.
     const Vec3 across = cross(sa.half, sb.half);
     const float squared = dot(across, across);
     const bool is_parallel =

@@ -2,7 +2,7 @@
 // gradient method for interactive contact force problems (2010), with the rule of Fletcher and Reeves. RIGID 8.5.
 //
 // One sweep carries an impulse from one contact to the next. A stack of n bodies takes some n^2 sweeps, and a mass n
-// times that of its support some n. Along conjugate directions it takes the square root of that.
+// times that of its support takes some n. Along conjugate directions the number of sweeps is the square root of that.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -45,14 +45,14 @@ BROADSIDE_HD Number squared_change(const PatchOf<Number>& c, const PatchWayOf<Nu
 }
 
 // How much of the last direction is added (Fletcher and Reeves). The arguments are the squared changes of the first
-// sweep of a substep, of the last one and of this one; 0 where there was none. The answer is 0, which starts the
-// directions anew, where changes grow or are larger than at first: with friction a sweep need not lower an energy, and
-// a direction may lead on and on.
+// sweep of a substep, of the last one and of this one; 0 where there was none. The answer is 0, which restarts the
+// directions, where changes grow or are larger than at first: with friction a sweep need not lower an energy, and
+// without restarts a direction might be followed without end.
 BROADSIDE_HD constexpr float share_of_direction(float first_change, float last_change, float change) {
   return last_change > 0.0F && change <= last_change && change <= first_change ? change / last_change : 0.0F;
 }
 
-// Of one run of sweeps.
+// The shares of directions in one run of sweeps.
 class DirectionShare {
  public:
   // The share that follows a sweep. change: the sum of squared_change over all patches.
@@ -68,8 +68,8 @@ class DirectionShare {
   float last_change_ = 0.0F;
 };
 
-// Whether sweeps go on along directions. Where only one sweep holds the bodies none do: neither it, nor those that
-// bounce.
+// Whether sweeps alternate with steps along directions. Where only one sweep holds the bodies, none do, not even those
+// of a bounce.
 BROADSIDE_HD constexpr bool has_directions(const SoftStep& step) {
   return step.most_sweeps > 1;
 }

@@ -15,10 +15,10 @@
 
 namespace broadside::core {
 
-// Of bodies that are apart by axis_gap_m along an axis, and whose nearest points lie beside the faces that are over
-// each other: whether points of these faces, the least of whose gaps is least_m, stand for the nearest ones. A patch of
-// that one point alone lets its bodies come down to each side of it. Before, a brick that fell on another one at 9 m/s,
-// tilted by a degree and 5 mm to the side, was held at one corner and ended 9 cm deep.
+// For bodies that are apart by axis_gap_m along an axis, and whose nearest points, distance_m apart, lie beside the
+// faces that are over each other: whether points of these faces, whose least gap is least_m, can stand for the nearest
+// points. A patch of the nearest point alone would let the bodies tilt down on each side of it. Before, a brick that
+// fell on another one at 9 m/s, tilted by a degree and 5 mm to the side, was held at one corner and ended 9 cm deep.
 BROADSIDE_HD constexpr bool is_nearly_shown(float axis_gap_m, float least_m, float distance_m) {
   constexpr float kShare = 0x1p-4F;
   return axis_gap_m >= (1.0F - kShare) * distance_m && least_m <= (1.0F + kShare) * distance_m;
@@ -47,19 +47,20 @@ BROADSIDE_HD constexpr std::uint32_t feature_key(std::uint32_t of_a, std::uint32
 // from it, the one that makes the largest triangle with both, and the one farthest outside that triangle. Distances are
 // those across the normal. The result does not depend on the order of the candidates.
 //
-// tilt: by how much round bodies turn within a step, rad; 0 = areas decide, as above. Otherwise the deepest is kept,
-// and then what such a turn would bring down farthest below where those that are kept hold the body (brought_down).
-// Three simpler rules failed. With all candidates counted alike, the four points of a bunny on the floor were far apart
-// and high up, and between them it rolled 7 cm into the floor. With those counted alike that a turn of the step brings
-// down, a card that landed flat kept a corner of its upper side, farther out by a hair, in place of the one below that
-// stood on the floor, and rolled over that one. With areas, in which points count less that are high over the deepest
-// one, a corner that a bunny stood on was left out because it lay between others, which were 1 to 4 cm over the floor:
-// it rolled 13 mm into the floor.
+// tilt: by how much round bodies turn within a step, rad; 0 = areas decide, as above. Otherwise the deepest candidate
+// is kept, and then the one that such a turn would bring farthest below the height at which the kept points hold the
+// body (brought_down). Three simpler rules failed. When all candidates counted alike, the four points of a bunny on the
+// floor were far apart and high up, and between them it rolled 7 cm into the floor. When all candidates that a turn of
+// the step brings down counted alike, a card that landed flat kept a corner of its upper side, which was slightly
+// farther out, in place of the corner below it that stood on the floor, and rolled over that one. When areas decided,
+// with less weight for points high above the deepest one, a corner that a bunny stood on was left out because it lay
+// between others that were 1 to 4 cm over the floor, and the bunny rolled 13 mm into the floor.
 //
 // apart_m: candidates of many small faces may lie on one line. If this is not 0, the third and fourth point are those
 // farthest from the segment and from the triangle of those before, and a point that is not farther than this is left
-// out. Areas prefer points a little beside a line to its far end: a cylinder that lay on a floor of triangles had its
-// deepest point, which rounding chose, one end, and two more between them. It stood on half its line.
+// out. With areas alone, points a little beside a line are preferred to its far end: a cylinder that lay on a floor of
+// triangles kept its deepest point, which rounding chose, one end of its line, and two points between both. So only
+// half of its line was supported.
 class FourKept {
  public:
   BROADSIDE_HD FourKept(Vec3 normal, float reach_m, float tilt, float apart_m = 0.0F)
@@ -69,8 +70,8 @@ class FourKept {
   [[nodiscard]] BROADSIDE_HD_CALLED Rated rate(const ManifoldPoint& candidate) const {
     Rated rated;
     if (!(candidate.gap_m <= reach_m_)) return rated;
-    // One corner may come with several triangles; where the common area is a line but for rounding, one edge may
-    // cross one side twice.
+    // A corner may come with several triangles; and where the common area is a line to within rounding, an edge may
+    // cross a side twice.
     bool is_kept = false;
     for (int earlier = 0; earlier < count_; ++earlier) is_kept |= kept_[earlier].feature == candidate.feature;
     if (is_kept) return rated;
@@ -103,7 +104,7 @@ class FourKept {
 
   BROADSIDE_HD void keep(const ManifoldPoint& chosen) { kept_[count_++] = chosen; }
 
-  // In the order of their keys: the same while the same four are kept.
+  // In the order of their keys, so the order stays while the same four points are kept.
   BROADSIDE_HD void tell(Manifold& out) const {
     out.count = count_;
     for (int k = 0; k < count_; ++k) {
@@ -117,8 +118,9 @@ class FourKept {
  private:
   [[nodiscard]] BROADSIDE_HD Vec3 across(Vec3 d) const { return d - dot(n_, d) * n_; }
 
-  // By how much a turn brings the candidate below what holds the body, m: the point, segment or triangle of those that
-  // are kept, at its place next to the candidate. Where the turn is too small, less the larger it would have to be.
+  // By how much a turn brings the candidate below what holds the body, m: the kept point, segment or triangle, at its
+  // place nearest to the candidate. Where the candidate is higher than that, a positive value, which is smaller the
+  // larger the height is against the turn.
   [[nodiscard]] BROADSIDE_HD_CALLED float brought_down(const ManifoldPoint& candidate) const {
     const Vec3 from_first = across(candidate.point - kept_[0].point);
     float squared = dot(from_first, from_first);
@@ -144,7 +146,7 @@ class FourKept {
     return turned_m * (share * share);
   }
 
-  // Whether x is over the triangle of the three that are kept, and the gap of their plane there.
+  // Whether x is over the triangle of the three kept points. If so, held_m is the gap of their plane there.
   [[nodiscard]] BROADSIDE_HD bool held_inside(Vec3 x, float& held_m) const {
     float whole = 0.0F;
     float sum_m = 0.0F;
@@ -162,7 +164,7 @@ class FourKept {
     return true;
   }
 
-  // Across the normal, from the segment between two that are kept.
+  // The squared distance across the normal from the segment between two kept points.
   [[nodiscard]] BROADSIDE_HD float squared_to_side(Vec3 x, int from, int to) const {
     const Vec3 side = across(kept_[to].point - kept_[from].point);
     const Vec3 d = across(x - kept_[from].point);
@@ -199,7 +201,7 @@ BROADSIDE_HD void keep_four_of(Manifold& out, float reach_m, float tilt, const F
   four.tell(out);
 }
 
-// The same of candidates that have numbers: at(k) gives one, of those that has(k) says.
+// The same for numbered candidates: at(k) gives number k. Only those with has(k) count.
 template <typename Lanes, typename At, typename Has>
 BROADSIDE_HD void keep_four_by(Manifold& out, int count, float reach_m, float tilt, const At& at, const Has& has,
                                float apart_m = 0.0F) {
@@ -213,8 +215,8 @@ BROADSIDE_HD void keep_four_by(Manifold& out, int count, float reach_m, float ti
   four.tell(out);
 }
 
-// The same of candidates of which few are near: make(k) gives number k, whose gap is gap(k). Where more are near than a
-// handful holds, they are made in each round anew.
+// The same for candidates of which few are near: make(k) gives number k, whose gap is gap(k). If there may be more near
+// ones than a Handful holds, they are made anew in each round.
 template <typename Lanes, typename Gap, typename Make>
 BROADSIDE_HD void keep_four_near(Manifold& out, int count, float reach_m, float tilt, const Gap& gap,
                                  const Make& make) {
@@ -234,7 +236,7 @@ BROADSIDE_HD void keep_four_near(Manifold& out, int count, float reach_m, float 
   four.tell(out);
 }
 
-// A turn of 2 rad/s within a step of 60 Hz, rad; chosen by depths of heaps. With an eighth, which bodies reach that
+// A turn of 2 rad/s within a step of 60 Hz, rad; chosen by depths of heaps. With an eighth, the turn of bodies that
 // fall onto each other at 10 m/s, points far out and high up count more: 1000 bunnies, 100 frames, are 6.1 mm deep in
 // the floor, and not 3.9.
 inline constexpr float kTurnOfStep = 0x1p-5F;

@@ -14,7 +14,7 @@
 
 namespace broadside::core {
 
-// Of two shapes the one of the lower kind takes the part of A, so that each family of pairs is written once.
+// Of two shapes, the one of the lower kind is A, so that each family of pairs is written once.
 enum class ContactKind : std::uint32_t { kSphere, kCapsule, kBox, kCylinder, kHull, kMesh, kHalfSpace };
 
 // A face of a hull has at most this many corners; a larger face is stored as several faces in one plane.
@@ -41,15 +41,16 @@ struct alignas(16) HullWay {
 };
 
 struct HullView {
-  const Vec3* vertices = nullptr;  // mesh coordinates, m; those on the hull
+  const Vec3* vertices = nullptr;  // mesh coordinates, m; only those on the hull
   const HullFace* faces = nullptr;
   const std::uint32_t* corners = nullptr;  // of faces: indices of vertices
   const HullEdge* edges = nullptr;
   // The ways from each corner, corner by corner, and where to find them (hull_climb.hpp). Both are null for hulls that
-  // are made while contacts are found.
+  // are built during contact detection.
   const HullWay* ways = nullptr;
   const std::uint32_t* guide = nullptr;
-  // As `corners`: the face beyond the side from this corner to the next one, or the face itself where there is none.
+  // Indexed like `corners`: the face beyond the side from this corner to the next one, or the face itself where there
+  // is none.
   const std::uint32_t* beyond = nullptr;
   std::uint32_t vertex_count = 0;
   std::uint32_t face_count = 0;
@@ -63,9 +64,9 @@ struct TriangleNode {
   std::uint32_t first = 0;
   Vec3 max;
   std::uint32_t count = 0;  // of triangles; 0 = an inner node
-  // The surfaces of the node's triangles look only in directions of a cone about this unit direction: the cosine of its
-  // half angle, or -1 where that angle is a right one or more. Johnson and Cohen, Spatialized Normal Cone Hierarchies
-  // (2001).
+  // The surfaces of the node's triangles look only in directions of a cone around the unit direction `looking`.
+  // least_looking is the cosine of the cone's half angle, or -1 where that angle is a right angle or more. Johnson and
+  // Cohen, Spatialized Normal Cone Hierarchies (2001).
   Vec3 looking;
   float least_looking = -1.0F;
 };
@@ -80,7 +81,7 @@ struct MeshView {
   std::uint32_t vertex_count = 0;
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;
-  bool is_closed = false;  // and has an inside: neither open nor crossing itself
+  bool is_closed = false;  // it has an inside: it is neither open nor crosses itself
 };
 
 struct ContactShape {
@@ -117,7 +118,7 @@ struct PlacedShape {
   Vec3 center;
   TurnedAxes axes;
   const NearestOfHulls* known_gap =
-      nullptr;  // to the other one, where both are hulls and somebody has it: known_gaps.hpp
+      nullptr;  // to the other shape, where both are hulls and it is known: known_gaps.hpp
 };
 
 BROADSIDE_HD PlacedShape placed_shape(const ContactShape& shape, const ContactPose& pose, Vec3 origin) {
@@ -127,8 +128,8 @@ BROADSIDE_HD PlacedShape placed_shape(const ContactShape& shape, const ContactPo
 
 // How far rounding can move a gap: the unit roundoff, times the lengths from which the gap is computed, times the
 // number of roundings in a row from coordinates to gap. A corner takes three products and sums in each of two turns and
-// two shifts; a direction that is a normalized cross product takes ten; a plane's height five; a quaternion is of
-// length 1 to two roundings.
+// two shifts; a direction that is a normalized cross product takes ten; a plane's height five; a quaternion has length
+// 1 to within two roundings.
 inline constexpr float kContactRoundings = 32.0F;
 
 BROADSIDE_HD float contact_rounding_m(const PlacedShape& a, const PlacedShape& b) {

@@ -14,8 +14,8 @@ BROADSIDE_HD int lowest_corner(const Polytope& p, Vec3 direction) {
   return Polytope::Lanes::first_least(p.corner_count(), [&](int k) { return p.height(k, local); }).item;
 }
 
-// The part of a body that may be within a distance of the other one: corners and edges up to a height above the body's
-// lowest corner along a direction, seen from the other body.
+// The part of a body that may be within some distance of the other body: its corners and edges up to a height above its
+// lowest corner along a direction that points away from the other body.
 struct Layer {
   Vec3 direction;  // as local() gives it
   float top = 3.402823e38F;
@@ -33,7 +33,7 @@ BROADSIDE_HD Layer layer_of(const Polytope& p, Vec3 direction, float thickness_m
   return {local, p.height(lowest_corner(p, direction), local) + thickness_m};
 }
 
-// Where the point of the segment from p to q nearest to x is: 0 at p, 1 at q.
+// Where on the segment from p to q the point nearest to x is: 0 at p, 1 at q.
 BROADSIDE_HD float share_nearest(Vec3 x, Vec3 p, Vec3 q) {
   const Vec3 along = q - p;
   const float squared = dot(along, along);

@@ -43,7 +43,8 @@ BROADSIDE_HD constexpr Vec3 turned_back(const TurnedAxes& axes, Vec3 v) {
   return {dot(axes.x, v), dot(axes.y, v), dot(axes.z, v)};
 }
 
-// A unit vector across the unit vector n: along the axis that n is farthest from, less its part along n.
+// A unit vector across the unit vector n: the coordinate axis that n is farthest from, less its component along n,
+// normalized.
 BROADSIDE_HD Vec3 unit_across(Vec3 n) {
   const float x = n.x < 0.0F ? -n.x : n.x;
   const float y = n.y < 0.0F ? -n.y : n.y;

@@ -1,8 +1,8 @@
 // A cylinder against capsules, boxes, hulls and cylinders.
 //
 // The separating axis is searched with a prism in place of the cylinder. Pass by pass, the prism's corners are gathered
-// where the last pass touched. Each axis is measured with the reach of the round body, so no prism makes a gap too
-// wide, and the last prism is round to two roundings.
+// where the last pass touched. The gap along each axis is measured with the extent of the round body, so no prism makes
+// a gap too wide. The last prism differs from the round body by two roundings.
 //
 // The points are those of the round surfaces: the ends of the line on which a lying cylinder touches; the sixteen
 // corners of an end that lies on a face (they turn with the body, so they keep their names); and the deepest point,
@@ -42,7 +42,8 @@ BROADSIDE_HD CylinderPolytope polytope_of(const PlacedShape& p, CylinderPolytope
   return cylinder_polytope(p, pass, towards);
 }
 
-// A face of which points may be taken: any of a box or hull, the ends of a cylinder, none of a segment.
+// Whether corners of a face may be points: true for any face of a box or hull and for the ends of a cylinder, never for
+// a segment.
 template <typename Polytope>
 BROADSIDE_HD bool is_flat(const Polytope& p, int) {
   return p.face_count() > 0;
@@ -67,7 +68,8 @@ struct Candidates {
     add({p - (0.5F * from.gap_m) * from.normal, from.gap_m,
          is_on_a ? feature_key(name, from.name) : feature_key(from.name, name)});
   }
-  // Where several points are equally deep, the one that was found need not be over the other body.
+  // Adds a point if it is on both surfaces: where several points of a body are equally deep, the one that was found
+  // need not be over the other body.
   BROADSIDE_HD_CALLED void add_if_on_both(Vec3 middle, float gap_m, std::uint32_t key, const PlacedShape& a,
                                           const PlacedShape& b) {
     const Vec3 half = (0.5F * gap_m) * normal;
@@ -82,7 +84,7 @@ BROADSIDE_HD bool is_round(const PlacedShape& p) {
   return p.shape->kind == ContactKind::kCapsule || p.shape->kind == ContactKind::kCylinder;
 }
 
-// Ends of a line of one body beside the line of the other, however deep the bodies are in each other.
+// Adds the ends of one body's line that lie beside the other body's line, however deep the bodies are in each other.
 BROADSIDE_HD_CALLED void add_beside(Candidates& out, const Vec3 ends[2], const Vec3 others[2], bool is_a) {
   for (int end = 0; end < 2; ++end) {
     const float share = share_nearest(ends[end], others[0], others[1]);
@@ -99,8 +101,8 @@ BROADSIDE_HD_CALLED void add_beside(Candidates& out, const Vec3 ends[2], const V
   }
 }
 
-// A line over the round end of a cylinder (0 = lower, 1 = upper), seen along the normal: cut by the rim, in closed
-// form.
+// Adds the part of a line that lies over the round end of a cylinder (0 = lower, 1 = upper), seen along the normal. The
+// line is clipped by the rim in closed form.
 BROADSIDE_HD_CALLED bool add_line_over_end(Candidates& out, const Vec3 ends[2], const PlacedShape& cylinder, int end,
                                            bool line_is_a) {
   const Vec3 n = line_is_a ? out.normal : -out.normal;  // out of the cylinder
@@ -139,7 +141,8 @@ BROADSIDE_HD_CALLED bool add_line_over_end(Candidates& out, const Vec3 ends[2], 
   return true;
 }
 
-// The line on which a lying capsule or cylinder touches: clipped by the other's face, or its ends.
+// Adds the line on which a lying capsule or cylinder touches, clipped by the other body's face, or else the ends of the
+// line.
 template <typename Polytope>
 BROADSIDE_HD_CALLED void add_line(Candidates& out, const PlacedShape& round, const PlacedShape& other,
                                   const Polytope& polytope, bool is_a) {
@@ -174,7 +177,8 @@ BROADSIDE_HD_CALLED Vec3 lowest_point(const PlacedShape& c, Vec3 towards) {
   return size > 0.0F ? end + (c.shape->radius_m / size) * across : end;
 }
 
-// The edge of the other body that is deepest in a lying cylinder, as long as it is beside it: its ends.
+// Adds the ends of the other body's edge that is deepest in a lying cylinder, or of the part of the edge that lies
+// between the cylinder's end planes.
 template <typename Polytope>
 BROADSIDE_HD_CALLED void add_edge_inside(Candidates& out, const PlacedShape& cylinder, const Polytope& polytope) {
   const Vec3 n = out.normal;
@@ -215,7 +219,7 @@ BROADSIDE_HD_CALLED void add_edge_inside(Candidates& out, const PlacedShape& cyl
   }
 }
 
-// What an end of the cylinder and a face have in common.
+// Adds the area that an end of the cylinder and a face have in common.
 template <typename Polytope>
 BROADSIDE_HD_CALLED void add_end_on_face(Candidates& out, const CylinderPolytope& cylinder, const Polytope& polytope) {
   const float upright = dot(out.normal, cylinder.along);
@@ -242,7 +246,7 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
   out.count = 0;
   Vec3 n = cylinder.center - other.center;
   SeparatingAxis axis;
-  EdgeCrossing crossing;  // of the axis, where it is across two edges
+  EdgeCrossing crossing;  // of the axis's edges, where the axis is across two edges
   CylinderPolytope prism = cylinder_polytope(cylinder, 0, n);
   Polytope polytope = polytope_of(other, kind, 0, n);
   for (int pass = 0; pass < kRimPasses; ++pass) {
@@ -252,7 +256,8 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
       polytope = polytope_of(other, kind, pass, crosses ? crossing.on_b - other.center : n);
     }
     const SeparatingAxis found = separating_axis(prism, polytope, rounding_m, reach_m + ball);
-    // Of two gaps that differ by rounding alone the later pass is taken, because it knows better where its edges are.
+    // If two gaps differ by rounding alone, the later pass is taken, because its edges are closer to where the bodies
+    // touch.
     if (found.kind == AxisKind::kEdges && !(found.gap_m < axis.gap_m - rounding_m))
       crossing = crossing_of(prism, polytope, found);
     if (axis.kind == AxisKind::kNone || found.gap_m > axis.gap_m) axis = found;
@@ -281,14 +286,15 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
   }
   const std::uint32_t rim_key = feature_key(edge_name(0, upright > 0.0F ? 1 : 2), edge_name(0, 0));
   if (points.least_gap() > shown && axis.kind == AxisKind::kEdges) {
-    // Where the last rims are coarse, chords may cross although the rims do not.
+    // Where the last prisms are coarse, their chords may cross although the rims do not.
     const Vec3 error = crossing.on_a - crossing.on_b - axis.gap_m * n;
     if (dot(error, error) <= 16.0F * rounding_m * rounding_m) {
       const Vec3 middle = middle_of(crossing.on_a, crossing.on_b, n, axis.gap_m, false);
       points.add(polytope_detail::with_balls({middle, axis.gap_m, rim_key}, n, 0.0F, ball));
     }
   }
-  // Where the bodies overlap the deepest corner is over the face whose normal it is, whatever rounding says.
+  // Where the bodies overlap, the deepest corner is over the face that the normal belongs to, even if rounding says
+  // otherwise.
   const float gap = axis.gap_m - ball;
   if (points.least_gap() > shown && gap <= 0.0F) {
     const int lowest = lowest_corner(polytope, -n);
@@ -306,10 +312,10 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
     points.add(polytope_detail::with_balls(last, n, 0.0F, ball));
   }
   if (points.least_gap() > shown) {
-    // Apart, from corner to corner or from corner to rim: the direction between nearest points, on finer and finer
-    // rims.
+    // The bodies are apart, and their nearest points are two corners, or a corner and a point of a rim. The normal is
+    // the direction between these points, which is found with finer and finer rims.
     NearestDirection near;
-    // Each fineness twice, because the nearest points of two rims move along both as either gets finer.
+    // Each fineness is used twice, because refining either rim moves the nearest points along both.
     for (int pass = 0; pass < 2 * kRimPasses - 1; ++pass) {
       const int fineness = (pass + 1) / 2;
       prism = cylinder_polytope(cylinder, fineness, pass == 0 ? -n : near.features.on_a - cylinder.center);
@@ -334,7 +340,7 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
 
 }  // namespace cylinder_detail
 
-// The cylinder is A here, whatever the kinds' order.
+// The cylinder is A here, whatever the order of the kinds.
 template <typename Lanes>
 BROADSIDE_HD_CALLED void cylinder_manifold(const PlacedShape& cylinder, const PlacedShape& other, float rounding_m,
                                            float reach_m, Manifold& out) {

@@ -1,5 +1,6 @@
-// A cylinder for the search of axes and features: a prism of sixteen corners at each end, which lie on the true rims
-// and can be gathered where the cylinder touches; its reach along a direction is that of the round body.
+// A cylinder as a polytope for the search of axes and features: a prism with sixteen corners at each end. The corners
+// lie on the true rims, and can be gathered where the cylinder touches. Its extent along a direction is that of the
+// round body.
 #pragma once
 
 #include <cmath>
@@ -15,8 +16,8 @@ namespace broadside::core {
 
 inline constexpr int kRimCorners = 16;
 
-// Passes of gathering corners. Pass 0 is the even prism. In each later pass the corners that lie close together, about
-// the given direction, span the gap between two corners of the pass before. After the last one a chord is off the rim
+// Passes of gathering corners. Pass 0 is the even prism. In each later pass, the corners that lie close together around
+// the given direction span the arc between two corners of the pass before. After the last pass a chord is off the rim
 // by the radius times (0.001 rad)^2 / 8, which is two roundings.
 inline constexpr int kRimPasses = 4;
 
@@ -109,7 +110,8 @@ struct CylinderPolytope {
     return dot(direction, center) - (fabsf(on_axis) * half_length + radius * length(direction - on_axis * along));
   }
   BROADSIDE_HD float least_at(int, Vec3 direction) const { return least(direction); }
-  // An end where it looks less than 45 degrees away, else the nearest side.
+  // An end face if its normal is less than 45 degrees from the direction, else the side that looks along the direction
+  // most.
   BROADSIDE_HD int support_face(Vec3 direction) const {
     const float on_axis = dot(direction, along);
     if (fabsf(on_axis) >= 0.70710678F) return on_axis > 0.0F ? 1 : 0;
@@ -126,8 +128,8 @@ struct CylinderPolytope {
   }
 };
 
-// pass 0: even, in the directions of the body's axes. Later passes: about `towards`, the direction from the axis to
-// where the cylinder touches; where that has no part across the axis, even again.
+// pass 0: even, in the directions of the body's axes. Later passes: gathered around `towards`, the direction from the
+// axis to where the cylinder touches; even again if that direction has no part across the axis.
 BROADSIDE_HD_CALLED CylinderPolytope cylinder_polytope(const PlacedShape& p, int pass, Vec3 towards) {
   const int axis = p.shape->axis;
   CylinderPolytope out;

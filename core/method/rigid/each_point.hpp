@@ -28,7 +28,7 @@ BROADSIDE_HD void each_point_back(const Patch& c, const Work& work) {
 }
 
 // The same, but on a GPU also for points that the patch does not have, without a branch. All their numbers are zeros,
-// and so is what they add: no bit changes where that is added to a number that is not -0.
+// so they add zeros: that changes no bit of a sum that is not -0.
 template <typename Patch, typename Work>
 BROADSIDE_HD void each_point_or_zeros(const Patch& c, const Work& work) {
 #if defined(__CUDACC__)
@@ -40,7 +40,7 @@ BROADSIDE_HD void each_point_or_zeros(const Patch& c, const Work& work) {
 #endif
 }
 
-// Whether to leave out what no lane needs. On a GPU a branch costs more than what it would leave out.
+// Whether to skip work that no lane needs. On a GPU a branch costs more than the work that it would skip.
 BROADSIDE_HD constexpr bool is_left_out(bool needs_none) {
 #if defined(__CUDACC__)
   (void)needs_none;

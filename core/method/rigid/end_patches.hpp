@@ -1,9 +1,9 @@
-// Patches that only the end of a step shows: where a body that turns comes down on the other one.
+// Patches that are found only at the end of a step, where a body that turns comes down on another one.
 //
 // Contacts are detected at the start of a step. A corner that turns into the other body within the step is on no patch
 // there. Before, a bunny that lands rolled into the floor by 7 cm, and small cubes that spin under large ones ended a
-// tenth of their side deep. So bodies that turn are looked at a second time, where they end if they touch nothing. An
-// overlap that is found there is moved back, with each body, to the start of the step.
+// tenth of their side deep. So contacts of bodies that turn are detected a second time, where the bodies end if they
+// touch nothing. An overlap that is found there is moved back, with each body, to the start of the step.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -47,14 +47,14 @@ BROADSIDE_HD bool is_foreseen(const ManifoldPoint& p, float end_gap_m, const Man
 }  // namespace end_detail
 
 // Adds patches to those of the start, found[0 .. count), and returns how many there are then, kPatchesOfPair at most;
-// kLeft where these lanes leave the pair.
-// swing_m: how far turning moves points of both bodies. known: what surely_passes told, or null.
+// kLeft if the lane leaves the pair. swing_m: how far turning moves points of both bodies. known: what surely_passes
+// found, or null.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                         const ContactPath& b, float swing_m, Manifold* found, int count,
                                         const KnownGaps* known = nullptr) {
-  // In sizes of the smaller body. Points nearer to each other than kNear count as one. Of a point deeper than kDeepest
-  // nobody can tell from which side it came, so it is left out.
+  // In sizes of the smaller body. Points nearer to each other than kNear count as one. It is not known from which side
+  // a point deeper than kDeepest came, so such a point is left out.
   constexpr float kNear = 0x1p-3F;
   constexpr float kDeepest = 0x1p-2F;
   const bool is_plane = shape_b.kind == ContactKind::kHalfSpace;
@@ -85,8 +85,8 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
     for (int i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
       const MovedBack at = moved_back(m.normal, p, a, b);
-      // At the start the bodies may overlap more along this normal than they do: the gap is bounded below. A plane has
-      // no end, so its point is where the body is.
+      // At the start the bodies may overlap more along this normal than they do: the gap is bounded below. A plane is
+      // unbounded, so the point is placed where the body is.
       const Vec3 middle = is_plane ? at.on_a - (0.5F * at.gap_m) * m.normal : 0.5F * (at.on_a + at.on_b);
       const ManifoldPoint back{middle, fmaxf(at.gap_m, least_m), p.feature};
       if (!end_detail::is_foreseen(back, p.gap_m, found, at_start, a, b, kNear * size_m, unseen))

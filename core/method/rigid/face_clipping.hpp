@@ -1,6 +1,6 @@
 // What two faces have in common, seen along the normal of the contact: the points of a manifold of polytopes.
 //
-// The face of one body, the incident one, is cut by the sides of the other's, the reference (Sutherland and Hodgman,
+// The incident face of one body is clipped by the sides of the reference face of the other one (Sutherland and Hodgman,
 // Reentrant Polygon Clipping, 1974). Corners of the result are corners of either face or crossings of their edges.
 #pragma once
 
@@ -45,9 +45,9 @@ BROADSIDE_HD void load_face(const Polytope& p, int face, ClippedFace<kRoom>& out
   }
 }
 
-// Keeps what lies behind the plane through `start` with the outward direction `out` (of any length), or at most
-// rounding_m in front: corners that lie on the side stay corners. `side` is the name of that side. kept: room to work
-// in, whatever it holds; to begin one anew for each side costs more than to cut.
+// Keeps the part behind the plane through `start` with the outward direction `out` (of any length), or at most
+// rounding_m in front: corners that lie on the side stay corners. `side` is the name of that side. kept: working space,
+// whatever it holds; making a new one for each side would cost more than the clipping.
 template <int kRoom>
 BROADSIDE_HD void clip(ClippedFace<kRoom>& face, ClippedFace<kRoom>& kept, Vec3 start, Vec3 out, std::uint32_t side,
                        float rounding_m) {
@@ -77,7 +77,7 @@ BROADSIDE_HD void clip(ClippedFace<kRoom>& face, ClippedFace<kRoom>& kept, Vec3 
       kept.corners[kept.count++] = {from + (inside / (inside - outside)) * (to - from), feature_key(here.leaving, side),
                                     leaves ? side : here.leaving};
   }
-  // Not all of the room: most of it is empty.
+  // Corner by corner: most of the room is empty.
   face.count = kept.count;
   BROADSIDE_KEPT_LOOP
   for (int k = 0; k < kept.count; ++k) face.corners[k] = kept.corners[k];

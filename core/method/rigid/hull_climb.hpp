@@ -1,5 +1,5 @@
-// The corner of a hull that is lowest along a direction, found by going down its edges from a corner near it. On the
-// way it looks at a dozen of a hull's hundreds of corners.
+// The corner of a hull that is lowest along a direction, found by going down its edges from a corner near it. This
+// visits a dozen of a hull's hundreds of corners.
 #pragma once
 
 #include <cmath>
@@ -11,15 +11,15 @@
 
 namespace broadside::core {
 
-// Directions are sorted into the cells of a cube's six sides, kGuideCells to a side each way. HullView::guide begins
-// with a corner for each cell, the lowest one along its middle. Then it has, for each corner and behind the last one,
-// where in HullView::ways those from that corner begin.
+// Directions are sorted into cells on the six sides of a cube, kGuideCells each way. HullView::guide begins with a
+// corner for each cell: the lowest one along the cell's middle direction. Then comes, for each corner, where its ways
+// begin in HullView::ways, and the end of the last corner's ways.
 inline constexpr int kGuideCells = 8;
 inline constexpr std::uint32_t kGuideStarts = 6 * kGuideCells * kGuideCells;
 
 namespace climb_detail {
 
-// Which of the cells between -most and most. Products are compared, because a quotient may be no number.
+// Which of the cells between -most and most x is in. Products are compared, because a quotient may be NaN.
 BROADSIDE_HD std::uint32_t cell_of(float x, float most) {
   std::uint32_t cell = 0;
   for (int k = 1 - kGuideCells / 2; k < kGuideCells / 2; ++k)
@@ -57,8 +57,9 @@ BROADSIDE_HD std::uint32_t climb_start(const HullView& hull, Vec3 direction) {
   return hull.guide[(side * kGuideCells + u) * kGuideCells + w];
 }
 
-// From `from` on. direction: body axes, of any length. Steps are compared by differences along edges, which are as
-// exact as an edge is short; so where it stops, no corner is lower but for rounding.
+// Goes down from the corner `from`. direction: in body axes, of any length. Steps are compared by height differences
+// along edges, whose rounding is small because edges are short. So where the search stops, no corner is lower by more
+// than rounding.
 BROADSIDE_HD_CALLED std::uint32_t climb_down(const HullView& hull, Vec3 direction, std::uint32_t from) {
   const std::uint32_t* const begins = hull.guide + kGuideStarts;
   std::uint32_t here = from;
@@ -79,8 +80,8 @@ BROADSIDE_HD_CALLED std::uint32_t climb_down(const HullView& hull, Vec3 directio
   return here;
 }
 
-// Half as many steps lead there from the guide's corner as from one that was lowest along another direction of the same
-// search.
+// The lowest corner. From the guide's corner it takes half as many steps as from a corner that was lowest along another
+// direction of the same search.
 BROADSIDE_HD_CALLED std::uint32_t lowest_along(const HullView& hull, Vec3 direction) {
   return climb_down(hull, direction, climb_start(hull, direction));
 }

@@ -1,9 +1,9 @@
 // A lower and an upper bound of the distance of two hulls, and a lower bound of their overlap; by one lane.
 //
 // Gilbert, Johnson and Keerthi, A fast procedure for computing the distance between complex objects in
-// three-dimensional space (1988): a simplex of the difference of both hulls moves toward the origin. Both numbers hold
-// after every step, whatever rounding did before: the lower one is the gap along a direction, the upper one the
-// length of a sum of differences of corners whose weights are shares of 1.
+// three-dimensional space (1988): a simplex of the difference of both hulls moves toward the origin. Both bounds hold
+// after every step, whatever rounding did before: the lower one is the gap along a direction, the upper one the length
+// of a sum of differences of corners whose weights are shares of 1.
 #pragma once
 
 #include <cmath>
@@ -20,13 +20,13 @@ namespace broadside::core {
 
 struct HullGap {
   Vec3 normal;                      // unit, from B to A, in axes of the world
-  float least_m = -3.402823e38F;    // the hulls are apart by at least this much along it
-  float most_m = 3.402823e38F;      // and two of their points are no farther from each other
-  float overlap_m = -3.402823e38F;  // a ball of this radius fits around the origin in the difference: depth is no less
+  float least_m = -3.402823e38F;    // a lower bound of the distance: the gap along the normal
+  float most_m = 3.402823e38F;      // an upper bound of the distance: that of two of their points
+  float overlap_m = -3.402823e38F;  // a lower bound of the depth: a ball this large is in the difference, at the origin
 };
 
-// The nearest points of two hulls are sums of corners with these weights, the same for both; 4: it is one point, inside
-// both; 0: they were not found.
+// The nearest points of two hulls are sums of corners with these weights, the same for both hulls. A count of 4: both
+// points are one, inside both hulls. 0: they were not found.
 struct NearestCorners {
   int count = 0;
   float weights[4] = {};
@@ -39,7 +39,8 @@ struct NearestOfHulls {
   NearestCorners corners;
 };
 
-// Nearer than so many allowances for rounding a direction between points may be mostly rounding.
+// Where points are nearer to each other than this many allowances for rounding, the direction between them may be
+// mostly rounding.
 inline constexpr float kClearlyApartRoundings = 4.0F;
 
 struct PlacedHull {
@@ -50,8 +51,8 @@ struct PlacedHull {
 
 namespace gap_detail {
 
-// The unit direction of x, the point of the simplex nearest to the origin. It must be across the whole simplex;
-// rounding in the sum of the corners tilts it, the more the nearer x is to the origin.
+// The unit direction of x, the point of the simplex nearest to the origin. It must be perpendicular to the whole
+// simplex. Rounding in the sum of the corners tilts it, and the more, the nearer x is to the origin.
 BROADSIDE_HD Vec3 across(const Simplex& simplex, Vec3 x, float length_of_x) {
   const Vec3 n = (1.0F / length_of_x) * x;
   if (simplex.count < 2) return n;
@@ -69,9 +70,10 @@ BROADSIDE_HD Vec3 across(const Simplex& simplex, Vec3 x, float length_of_x) {
 
 }  // namespace gap_detail
 
-// A search for the nearest points of two hulls that have ways. It may stop at a bound and go on later, to the same end.
+// A search for the nearest points of two hulls that have ways. It may stop at a bound and go on later, with the same
+// result as if it had not stopped.
 struct HullSearch {
-  Vec3 between;     // from A's center to B's, in A's axes, as all below
+  Vec3 between;     // from A's center to B's, in A's axes, as are all vectors below
   TurnedAxes turn;  // of B
   Vec3 n;           // unit: the direction in which it looks
   std::uint32_t of_a = 0;
@@ -131,8 +133,8 @@ BROADSIDE_HD bool move_nearer(HullSearch& s, Vec3 corner, float slack_m) {
 
 }  // namespace gap_detail
 
-// Stops where they are apart by more than stop_m, or both numbers are within `thin` of the larger one or slack_m of
-// each other.
+// Stops when the hulls are apart by more than stop_m, or when the bounds differ by no more than slack_m or the share
+// `thin` of the larger one.
 BROADSIDE_HD_CALLED void search_on(const HullView& hull_a, const HullView& hull_b, HullSearch& search, float stop_m,
                                    float thin, float slack_m) {
   constexpr int kMostSteps = 32;

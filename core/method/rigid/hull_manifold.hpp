@@ -1,5 +1,5 @@
-// The manifold of two hulls. Where they are clearly apart, the search for their nearest points has found the direction
-// in which they are farthest apart already, so only the two faces that look along it are tried.
+// The manifold of two hulls. Where they are clearly apart, the search for their nearest points has already found the
+// direction in which they are farthest apart, so only the two faces that look along it are tried.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +60,7 @@ BROADSIDE_HD_CALLED float gap_over_face(const Hull& reference, const Hull& other
 }
 
 // The axis of hulls that are apart by least_m along n, and hardly farther along any other direction. Like
-// separating_axis it prefers a face whose gap is as wide but for rounding.
+// separating_axis it prefers a face whose gap is as wide to within rounding.
 template <typename Hull>
 BROADSIDE_HD SeparatingAxis axis_near(const Hull& a, const Hull& b, Vec3 n, float least_m, float rounding_m) {
   const int face_a = a.support_face(-n);
@@ -78,7 +78,7 @@ BROADSIDE_HD SeparatingAxis axis_near(const Hull& a, const Hull& b, Vec3 n, floa
 
 }  // namespace hull_detail
 
-// out.count is kLeft where these lanes leave the pair.
+// out.count is kLeft if the lane leaves the pair to lanes that share its loops (OneLaneOfHulls).
 template <typename Lanes>
 BROADSIDE_HD void hull_manifold(HullPolytopeOf<Lanes> a, const HullPolytopeOf<Lanes>& b, float rounding_m,
                                 float reach_m, Manifold& out) {

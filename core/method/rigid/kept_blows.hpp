@@ -1,11 +1,11 @@
 // Impacts are not carried to the next substep. A substep begins with the impulses that the one before ended with. For a
-// body at rest these are right. A body that an impact has just stopped is pushed off again by them, and sweeps have to
-// take that back. Where masses are far apart they cannot: 61 N s that stopped 8 kg through a cube of 16 g on the floor
-// are taken back by 0.1 N s a sweep. So patches of bodies that a bounce reached begin the next substep without an
-// impulse.
+// body at rest these impulses are right. But they push a body that an impact has just stopped away again, and sweeps
+// have to take that back. Where masses are far apart they cannot: 61 N s that stopped 8 kg through a cube of 16 g on
+// the floor are taken back by 0.1 N s a sweep. So patches of bodies that a bounce reached begin the next substep
+// without an impulse.
 //
-// Before, only the patches that bounced were dropped, and the floor's push below was kept: 8 kg that had come to rest
-// left with 2 m/s.
+// Before, only the impulses of patches that bounced were dropped, and the floor's impulse on the cube was kept: the 8
+// kg that had come to rest left at 2 m/s.
 #pragma once
 
 #include <cstdint>

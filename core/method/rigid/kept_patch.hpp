@@ -1,9 +1,9 @@
-// Patches of finely cut hulls that are carried along with their bodies, and not made anew, while the two hardly move
-// against each other. To make one takes some 70,000 operations; to carry it turns and shifts its points. Of the patches
-// of 1000 bunnies that rest five of six are carried (soft steps, frames 600 to 900).
+// Patches of finely cut hulls that are carried along with their bodies, and not made anew, while the two bodies hardly
+// move against each other. Making a patch takes some 70,000 operations; carrying it only turns and shifts its points.
+// Of the patches of 1000 bunnies that rest five of six are carried (soft steps, frames 600 to 900).
 //
-// What is carried is compared with where it was made, not with the step before, so errors do not add up: a gap is off
-// by no more than kept_within_m. Without gravity that is 0, and all patches are made anew.
+// The motion of the bodies is measured since the patch was made, not since the step before, so errors do not add up: a
+// gap is off by no more than kept_within_m. Without gravity that is 0, and all patches are made anew.
 #pragma once
 
 #include <cmath>
@@ -36,7 +36,7 @@ BROADSIDE_HD constexpr PoseOfOther pose_of_other(const ContactPose& a, const Con
   return {turned_back(turned_axes(a.q), b.x - a.x), turn_between(a.q, b.q)};
 }
 
-// No point of B, within outer_b_m of its center of mass, has moved farther against A. m.
+// An upper bound, m, of how far any point of B, which reaches outer_b_m from its center of mass, has moved against A.
 BROADSIDE_HD float moved_between(const PoseOfOther& before, const PoseOfOther& now, float outer_b_m) {
   const Quat turn = turn_between(before.q, now.q);
   const float half_chord = length(Vec3{turn.x, turn.y, turn.z});  // the sine of half of the turn
@@ -72,7 +72,7 @@ BROADSIDE_HD KeptPatch kept_patch(const Manifold& m, const ContactPose& a, const
   return kept;
 }
 
-// The patch where its bodies have brought it.
+// Moves the patch to where its bodies are now.
 BROADSIDE_HD void carry(const KeptPatch& kept, const ContactPose& a, const ContactPose& b, Manifold& out) {
   const TurnedAxes axes_a = turned_axes(a.q);
   const TurnedAxes axes_b = turned_axes(b.q);
@@ -87,24 +87,24 @@ BROADSIDE_HD void carry(const KeptPatch& kept, const ContactPose& a, const Conta
 }
 
 // How far two bodies may have moved against each other since their patch was made: a share of falls_m, which is how far
-// gravity moves both in a step, so that it scales with the step. Of bodies that are smaller than they fall a share of
-// their size.
+// gravity moves both in a step, so that it scales with the step. For bodies that are small against that, it is a share
+// of their size.
 BROADSIDE_HD float kept_within_m(const ContactShape& a, const ContactShape& b, float falls_m) {
   constexpr float kShareOfFalls = 0x1p-3F;
   constexpr float kShareOfSize = 0x1p-10F;
   return fminf(kShareOfFalls * falls_m, kShareOfSize * fminf(a.size_m, b.size_m));
 }
 
-// Whether a pair is one whose patches may be carried in this step: of finely cut hulls, neither of them followed on its
-// way, and both slow. Faster ones may meet in other points, or pass by each other.
+// Whether a pair is one whose patches may be carried in this step: both are finely cut hulls, neither is followed on
+// its way (sweep.hpp), and both are slow. Faster ones may meet at other points, or pass by each other.
 BROADSIDE_HD bool may_be_carried(const ContactShape& a, const ContactShape& b, const PairAhead& ahead) {
   constexpr float kMostReach = 1.5F;  // of what gravity alone gives
   return ahead.may_pass && has_quick_answers(a, b) && ahead.reach_m <= kMostReach * ahead.near.falls_m &&
          ahead.swing_m <= unseen_m(a, b);
 }
 
-// Carries a patch to where its bodies are, if it may stand for a new one. outer_b_m: no point of B is farther from its
-// center of mass.
+// Carries a patch to where its bodies are, if it may be used in place of a new one. outer_b_m: no point of B is farther
+// from B's center of mass.
 BROADSIDE_HD bool carried(const KeptPatch& kept, const ContactShape& shape_a, const ContactPose& a,
                           const ContactShape& shape_b, const ContactPose& b, float outer_b_m, float falls_m,
                           Manifold& out) {
@@ -112,7 +112,7 @@ BROADSIDE_HD bool carried(const KeptPatch& kept, const ContactShape& shape_a, co
   if (!(moved_between(kept.made_at, pose_of_other(a, b), outer_b_m) < kept_within_m(shape_a, shape_b, falls_m)))
     return false;
   carry(kept, a, b, out);
-  // One that is farther than bodies fall would be asked whether they pass by each other.
+  // A patch with a larger gap than the bodies fall would have to be tested for whether they pass by each other.
   return least_gap_m(out) <= falls_m;
 }
 

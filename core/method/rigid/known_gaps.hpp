@@ -1,6 +1,6 @@
-// Distances of two hulls at those poses of a step for which the patches of most pairs need them. On a GPU the lanes of
-// a warp share the work of one pair's patches, but cannot share the search for a distance. So a lane finds the
-// distances of a pair first, for as many pairs at once as there are lanes, and hands them on.
+// Distances of two hulls at the poses of a step at which the patches of most pairs need them. On a GPU the lanes of a
+// warp share the work of one pair's patches, but cannot share the search for a distance. So each lane first finds the
+// distances of a pair of its own, for as many pairs at once as there are lanes, and passes them on.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -17,7 +17,7 @@ namespace broadside::core {
 struct alignas(16) KnownGaps {
   bool are_known = false;
   NearestOfHulls start;  // exact_hull_gap
-  HullBounds deep_end;   // hull_bounds for end_patches.hpp: both where they end; only of bodies that turn by so much
+  HullBounds deep_end;   // hull_bounds where both end, for end_patches.hpp; only of bodies that turn enough
 };
 
 // End patches less deep than this are not looked for: the patches of the start suffice.
@@ -26,8 +26,8 @@ BROADSIDE_HD float unseen_m(const ContactShape& a, const ContactShape& b) {
   return kUnseen * (b.kind == ContactKind::kHalfSpace ? a.size_m : fminf(a.size_m, b.size_m));
 }
 
-// A pair before its patches are made. swing_m: how far turning moves points of both bodies. may_pass: else it is not
-// asked whether the bodies pass by each other.
+// A pair before its patches are made. swing_m: how far turning moves points of both bodies. may_pass: if false, whether
+// the bodies pass by each other is not tested.
 struct PairAhead {
   float reach_m = 0.0F;
   NearReach near;
@@ -35,7 +35,7 @@ struct PairAhead {
   bool may_pass = true;
 };
 
-// Of hulls that have quick answers: whether they surely pass by each other. If not, gaps.
+// Whether two hulls that have quick answers surely pass by each other. If not, sets gaps.
 BROADSIDE_HD_CALLED bool hulls_surely_pass(const ContactShape& shape_a, const ContactPath& a,
                                            const ContactShape& shape_b, const ContactPath& b, const PairAhead& ahead,
                                            KnownGaps& gaps) {
@@ -50,8 +50,8 @@ BROADSIDE_HD_CALLED bool hulls_surely_pass(const ContactShape& shape_a, const Co
   return false;
 }
 
-// Whether no patch of a pair leads to a contact in this step; found out without making the patches. If one may, gaps
-// has what was found out on the way.
+// Whether no patch of a pair leads to a contact in this step; decided without making the patches. If one may, gaps has
+// the distances that were found on the way.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool surely_passes(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                 const ContactPath& b, const PairAhead& ahead, KnownGaps& gaps) {

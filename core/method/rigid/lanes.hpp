@@ -1,6 +1,7 @@
-// Who runs the long loops of contacts: over corners, edges and faces of hulls, and over triangles of meshes. On the
-// host it is one lane, item by item. On a GPU the lanes of a warp share the items (gpu/stages/rigid/warp_lanes.cuh).
-// The bits are the same, because the result of each loop is a function of the items and their order alone.
+// The lanes that run the long loops of contacts: over corners, edges and faces of hulls, and over triangles of meshes.
+// On the host one lane does all items in turn. On a GPU the lanes of a warp share the items
+// (gpu/stages/rigid/warp_lanes.cuh). The bits are the same, because the result of each loop is a function of the items
+// and their order alone.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace broadside::core {
 
-// Larger first; of equal ones the lower key, so that the order of candidates does not matter.
+// The larger value is better; of equal values the lower key, so that the order of candidates does not matter.
 BROADSIDE_HD constexpr bool is_better(float value, std::uint32_t key, float best, std::uint32_t best_key) {
   return value > best || (value == best && key < best_key);
 }
@@ -72,7 +73,7 @@ struct OneLane {
   // The least of the lanes' values.
   BROADSIDE_HD static float least_of_lanes(float own) { return own; }
 
-  // For how many items has(k) is true.
+  // The number of items for which has(k) is true.
   template <typename Has>
   BROADSIDE_HD static int count_of(int count, const Has& has) {
     int with = 0;
@@ -102,9 +103,9 @@ struct OneLane {
     each_with(count, has, visit);
   }
 
-  // Goes down two trees from nodes {0, 0}, in the order of a stack. open(pair, below) returns how many pairs to go on
-  // with, at most two, or kLeaf. Of a leaf, measure(pair, item) gives something with a count for each of its
-  // items(pair), and take(it) gets those whose count is above 0.
+  // Walks down two trees from nodes {0, 0}, in the order of a stack. open(pair, below) returns how many pairs to go on
+  // with, at most two, or kLeaf. For each item of a leaf, of which there are items(pair), measure(pair, item) gives a
+  // result with a count, and take gets the results whose count is above 0.
   static constexpr int kLeaf = -1;
   template <typename Open, typename Items, typename Measure, typename Take>
   BROADSIDE_HD static void walk(const Open& open, const Items& items, const Measure& measure, const Take& take) {
@@ -153,7 +154,7 @@ struct OneLane {
       BROADSIDE_KEPT_LOOP
       for (int k = 0; k < count; ++k) change(items[k]);
     }
-    // The place of the first item of the least value, as OneLane::first_least, and what is at a place.
+    // The place of the first item of the least value, as OneLane::first_least. at(place) gives the item itself.
     template <typename Value>
     BROADSIDE_HD FirstLeast first_least(const Value& value) const {
       return OneLane::first_least(count, [&](int k) { return value(items[k]); });
@@ -179,13 +180,13 @@ struct OneLaneOfShortShapes : OneLane {
   static constexpr bool kKnowsLongShapes = false;
 };
 
-// One lane of many, each with a pair of hulls. Where loops over all edges are asked for, it leaves the pair to lanes
-// that share them: the others would wait for it.
+// One lane of many, each of which has its own pair of hulls. If a pair needs loops over all edges, the lane leaves it
+// to lanes that share these loops, because the other lanes would wait for it.
 struct OneLaneOfHulls : OneLane {
   static constexpr bool kLeavesHardPairs = true;
 };
 
-// In place of a count: the pair was left.
+// Returned in place of a count: the lane has left the pair to lanes that share its loops.
 inline constexpr int kLeft = -1;
 
 // For a pair of shapes: the lanes of the shape whose loops are shared, if there is one.

@@ -2,8 +2,8 @@
 //
 // The contract. Normals are units and point from B to A. A point's gap is at most reach_m. The deepest point of a
 // convex pair has the signed distance of the bodies to contact_rounding_m. The four points of a patch do not depend on
-// the order in which they were found. Turned, moved, tiny or huge shapes give finite numbers. float32, + - * / and
-// square root alone, no allocation: so the bits are the same on host and device.
+// the order in which they were found. The numbers are finite for shapes that are turned, moved, tiny or huge. Only
+// float32, + - * / and square root are used, and nothing is allocated, so the bits are the same on host and device.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -26,7 +26,7 @@ namespace broadside::core {
 
 namespace manifold_detail {
 
-// The lower kind is a.
+// a is the shape of the lower kind.
 template <typename Lanes>
 BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                 Manifold* out) {
@@ -78,9 +78,9 @@ BROADSIDE_HD_CALLED int ordered(const PlacedShape& a, const PlacedShape& b, floa
 }  // namespace manifold_detail
 
 // Writes the patches of the pair to out[0 .. kPatchesOfPair) and returns how many there are. reach_m: points that are
-// apart by up to this much count too, so that a solver can stop bodies before they touch. Lanes (lanes.hpp): all of
-// them make this call together; kLeft where they leave the pair. known_gap: exact_hull_gap of the two hulls at these
-// poses, or null.
+// apart by up to this much count too, so that a solver can stop bodies before they touch. Lanes (lanes.hpp): all lanes
+// make this call together; the result is kLeft if they leave the pair. known_gap: exact_hull_gap of the two hulls at
+// these poses, or null.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED int make_manifolds(const ContactShape& shape_a, const ContactPose& pose_a,
                                        const ContactShape& shape_b, const ContactPose& pose_b, float reach_m,

@@ -2,9 +2,9 @@
 //
 // A point is inside where a ray from it crosses the surface an odd number of times. Which triangles the ray crosses is
 // decided without rounding: coordinates are float32, so in float64 their differences and products are exact, and a sum
-// of two of them has the right sign. What lies on an edge counts for one of its two triangles, whatever their order, so
-// a ray never slips between triangles. Where along the ray a triangle lies is rounded; that matters only to points on
-// the surface, whose depth is 0.
+// of two of them has the right sign. A ray through an edge counts for exactly one of the edge's two triangles, whatever
+// their order, so a ray never slips between triangles. The position of a triangle along the ray is rounded; that
+// matters only to points on the surface, whose depth is 0.
 #pragma once
 
 #include <cmath>
@@ -58,7 +58,7 @@ BROADSIDE_HD bool crosses(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
 
 // p: mesh coordinates. The mesh is closed.
 BROADSIDE_HD_CALLED bool is_inside(const MeshView& mesh, Vec3 p) {
-  if (p.x < mesh.nodes[0].min.x) return false;  // every line through it begins outside
+  if (p.x < mesh.nodes[0].min.x) return false;  // the whole mesh is at larger x, so p is outside
   std::uint32_t open[inside_detail::kOpenOfTree];
   int count = 0;
   open[count++] = 0;
@@ -97,8 +97,8 @@ BROADSIDE_HD float squared_to_box(Vec3 p, Vec3 low, Vec3 high) {
 
 }  // namespace inside_detail
 
-// Looks no farther than within_m; where nothing is that near the distance stays the largest number. Of triangles that
-// are equally near it takes the first.
+// The point of the surface nearest to p. The search goes no farther than within_m; if nothing is that near, the
+// distance stays the largest number. Of triangles that are equally near, the first is taken.
 BROADSIDE_HD_CALLED NearestOfMesh nearest_of_mesh(const MeshView& mesh, Vec3 p, float within_m) {
   NearestOfMesh best;
   float limit = within_m * within_m;

@@ -1,10 +1,11 @@
 // Meshes that are not convex, against each other, convex shapes and planes.
 //
 // A tree over the triangles finds those that are near. Each triangle is a sheet with two faces and is treated like any
-// polytope. Of a pair of triangles only contacts in front of both are kept: the normal must lie between a triangle's
-// own normal and those beyond its convex edges, so that the inner edges of a smooth surface make no contacts. Where
-// closed meshes overlap by more than their triangles are large, sheets no longer show it: there the vertices inside the
-// other mesh are points, with the shortest way out. Points are merged into patches by normal, the deepest first.
+// polytope. For a pair of triangles, only contacts in front of both are kept: the normal must lie between a triangle's
+// own normal and those of the triangles beyond its convex edges, so that the inner edges of a smooth surface make no
+// contacts. Where closed meshes overlap by more than the size of their triangles, sheets no longer find the overlap;
+// there, vertices inside the other mesh are points, with the shortest way out. Points are merged into patches by
+// normal, the deepest first.
 #pragma once
 
 #include <cmath>
@@ -49,15 +50,15 @@ BROADSIDE_HD bool looks(const PlacedShape& mesh, std::uint32_t t, Vec3 normal, V
          dot(normal, direction) > 0.0F;
 }
 
-// Whether there is a direction in which b looks and against which a looks. There is one when the angle between one
-// normal and the opposite of the other is at most the sum of how far both surfaces look aside. The last term is far
-// more than normals are off from length 1.
+// Whether a and b look at each other along some direction. They do when the angle between one normal and the opposite
+// of the other is at most the sum of how far both surfaces look aside. The last term allows for much more than the
+// error of the normals' lengths.
 BROADSIDE_HD bool may_look_at_each_other(float least_a, Vec3 normal_a, float least_b, Vec3 normal_b) {
   const float aside = sqrtf((1.0F - least_a * least_a) * (1.0F - least_b * least_b));
   return -dot(normal_a, normal_b) >= least_a * least_b - aside - 0x1p-14F;
 }
 
-// The same of any two triangles of two nodes.
+// The same for any two triangles of two nodes.
 BROADSIDE_HD bool may_look_at_each_other(const PlacedShape& a, const TriangleNode& of_a, const PlacedShape& b,
                                          const TriangleNode& of_b) {
   if (of_a.least_looking < 0.0F || of_b.least_looking < 0.0F) return true;
@@ -66,7 +67,7 @@ BROADSIDE_HD bool may_look_at_each_other(const PlacedShape& a, const TriangleNod
 }
 
 // Whether boxes of two nodes are apart by more than reach_m along an axis of either body. Six of the fifteen axes are
-// enough: a pair too many costs time and nothing else.
+// enough: a pair that is kept in vain costs only time.
 BROADSIDE_HD bool are_apart(const PlacedShape& a, Vec3 center_a, Vec3 half_a, const PlacedShape& b, Vec3 center_b,
                             Vec3 half_b, float reach_m) {
   const Vec3 d = (a.center + turned(a.axes, center_a)) - (b.center + turned(b.axes, center_b));
@@ -89,7 +90,7 @@ BROADSIDE_HD std::uint32_t key_in_mesh(std::uint32_t key, std::uint32_t triangle
   return feature_key(key, triangle + 1);
 }
 
-// Of a body and one triangle.
+// Drops the manifold of a body and one triangle if the triangle's surface does not look along the normal.
 BROADSIDE_HD void keep_if_seen(Manifold& m, const PlacedShape& mesh, std::uint32_t t, Vec3 normal) {
   if (m.count > 0 && !looks(mesh, t, normal, m.normal)) m.count = 0;
   for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(m.points[k].feature, t);
@@ -197,7 +198,7 @@ BROADSIDE_HD_CALLED void convex_against(const PlacedShape& a, const PlacedShape&
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
-// Two triangles. Nothing where they are farther apart than seen_m.
+// The manifold of two triangles; no points where they are farther apart than seen_m.
 BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, const PlacedShape& b, std::uint32_t j,
                                          float rounding_m, float reach_m, float seen_m, Manifold& m) {
   const TrianglePolytope of_a = triangle_polytope(a, i);
@@ -214,8 +215,8 @@ BROADSIDE_HD_CALLED void triangles_touch(const PlacedShape& a, std::uint32_t i, 
   for (int k = 0; k < m.count; ++k) m.points[k].feature = key_in_mesh(key_in_mesh(m.points[k].feature, i), j);
 }
 
-// Triangles that are no farther apart than ahead_m. Once there is no more room, also none that are farther apart than
-// all points that are kept.
+// Adds the points of triangles that are no farther apart than ahead_m. Once there is no more room, triangles that are
+// farther apart than all kept points are skipped, too.
 template <typename Lanes>
 BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                       float ahead_m, Touches& out) {
@@ -248,8 +249,8 @@ BROADSIDE_HD_CALLED void mesh_against(const PlacedShape& a, const PlacedShape& b
   Lanes::walk(open, items, measure, [&](const Manifold& m) { take_all<Lanes>(m, rounding_m, out); });
 }
 
-// A vertex of one mesh that is inside the other one, and its shortest way out. Sheets do not find it: two triangles
-// that are behind each other touch nowhere. is_a: the vertex is A's.
+// Whether a vertex of one mesh is inside the other one; if so, its point, with the shortest way out. Sheets do not find
+// it, because two triangles that are behind each other do not touch. is_a: the vertex is A's.
 BROADSIDE_HD bool vertex_inside(const PlacedShape& of_vertex, std::uint32_t vertex, const PlacedShape& solid, bool is_a,
                                 float rounding_m, Manifold& out) {
   const Vec3 x = of_vertex.center + turned(of_vertex.axes, of_vertex.shape->mesh.vertices[vertex]);
@@ -301,8 +302,8 @@ BROADSIDE_HD_CALLED void add_vertices_inside(const PlacedShape& a, const PlacedS
     }
 }
 
-// First what overlaps, then from near to far. Triangles farther away than the points that are kept are not looked at
-// once there is no more room. The points do not depend on the order.
+// Begins with overlaps, and goes on from near to far. Once there is no more room, triangles farther away than all kept
+// points are skipped. The points do not depend on the order.
 template <typename Lanes>
 BROADSIDE_HD void meshes_touch(const PlacedShape& a, const PlacedShape& b, float rounding_m, float reach_m,
                                Touches& out) {

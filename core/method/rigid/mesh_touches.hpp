@@ -1,4 +1,4 @@
-// Points of a pair of meshes: the deepest ones are kept while they are found, in any order, and merged into patches by
+// Points of a pair of meshes. They are found in any order; the deepest ones are kept, and then merged into patches by
 // normal.
 #pragma once
 
@@ -14,13 +14,14 @@
 
 namespace broadside::core {
 
-// The most patches of a pair of bodies. A convex pair has one; meshes have the four deepest of different normals.
+// The most patches of a pair of bodies. A convex pair has one patch; meshes have the four deepest ones with different
+// normals.
 inline constexpr int kPatchesOfPair = 4;
 
 // Points whose normals are within 26 degrees (this cosine) of that of the deepest one are one patch.
 inline constexpr float kSamePatch = 0.9F;
 
-// When patches are made, this many points of a pair of meshes are looked at, the deepest ones.
+// Patches are made from this many points of a pair of meshes, the deepest ones.
 inline constexpr int kMeshPoints = 48;
 
 namespace mesh_detail {
@@ -32,14 +33,14 @@ struct Touch {
 
 struct Touches {
   int count = 0;
-  float shallowest_m = 3.402823e38F;  // with no room left, the gap of the least deep point
+  float shallowest_m = 3.402823e38F;  // once there is no room left, the gap of the least deep point
   Touch all[kMeshPoints];
 
   // Keeps the deepest points; the order of calls does not matter. A point that several triangles share is kept once,
   // with the normal of the deepest of them, or, of equally deep ones, of the lowest key.
   template <typename Lanes>
   BROADSIDE_HD void add(const Touch& t, float rounding_m) {
-    // The last point that is the same one.
+    // The last kept point that is at the same place as t, with the same normal.
     const FirstLeast same = Lanes::first_least(count, [&](int k) {
       const Vec3 apart = t.point.point - all[k].point.point;
       const bool is_same =
@@ -56,8 +57,8 @@ struct Touches {
       shallowest_m = -Lanes::first_least(count, [&](int k) { return -all[k].point.gap_m; }).value;
   }
 
-  // Nodes that are farther apart than this have only points that find no room. A point is at most 3 roundings nearer
-  // than the surface that it is on, and boxes are off by one: twice that is allowed for.
+  // Nodes that are farther apart than this have only points for which there is no room. A point is at most 3 roundings
+  // nearer than its surface, and boxes are off by one rounding; twice the sum of both is allowed for.
   BROADSIDE_HD float seen_m(float reach_m, float rounding_m) const {
     return fminf(reach_m, fmaxf(shallowest_m, 0.0F) + 8.0F * rounding_m);
   }
@@ -71,7 +72,8 @@ BROADSIDE_HD void take_all(const Manifold& m, float rounding_m, Touches& out) {
   for (int k = 0; k < m.count; ++k) out.add<Lanes>({m.normal, m.points[k]}, rounding_m);
 }
 
-// The deepest point that has no patch yet begins one, and takes along all points that share its normal.
+// Makes the patches: the deepest point that has no patch yet begins one, together with all other such points that share
+// its normal.
 template <typename Lanes>
 BROADSIDE_HD int patches_of(Touches& touches, float rounding_m, float reach_m, Manifold* out) {
   int patches = 0;

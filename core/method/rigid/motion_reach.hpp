@@ -1,4 +1,4 @@
-// Where a body can come within a step: contacts are found that far ahead, RIGID 8.7.
+// How far a body can move within a step: contacts are looked for that far ahead, RIGID 8.7.
 #pragma once
 
 #include <cmath>
@@ -18,18 +18,18 @@ struct ShapeBalls {
   float inner_m = 0.0F;
 };
 
-// What a body does within a step while it touches nothing, from what gravity and its wrench give.
+// The motion of a body within a step while it touches nothing, under gravity and its wrench.
 struct FreeMotion {
   Vec3 drift;            // of the center by its velocity alone, m
-  Vec3 fall;             // what the gained velocity adds to it, at most, m
-  float swing_m = 0.0F;  // what turning adds: the farthest that a point leaves the moved shape
+  Vec3 fall;             // the most that the velocity gained in the step adds to it, m
+  float swing_m = 0.0F;  // added by turning: the farthest that a point gets outside the moved shape
 
   // How far ahead contacts are looked for, in whatever direction the body is pushed.
   BROADSIDE_HD float reach_m() const { return (length(drift) + length(fall)) + swing_m; }
 };
 
-// Turned by whatever angle, the shape stays between its two balls; so a sphere adds nothing, however fast it spins.
-// What an impulse of this step adds to the motion counts from the next step on.
+// However far it turns, the shape stays between its two balls; so the swing of a sphere is 0, however fast it spins. An
+// impulse of this step counts only from the next step on.
 BROADSIDE_HD FreeMotion free_motion(const RigidState& s, const RigidMass& mass, ShapeBalls balls, Vec3 gravity_m_s2,
                                     const RigidWrench& wrench, float dt_s) {
   FreeMotion m;
@@ -41,20 +41,20 @@ BROADSIDE_HD FreeMotion free_motion(const RigidState& s, const RigidMass& mass, 
   return m;
 }
 
-// For how many steps, this one among them, candidates are looked for, so that a body that is going to be struck is
-// known in time (pushed_motion.hpp). half_thickness_m: of the body. One that moves farther than that in a step drives
-// several others within it, and each step before tells of it only to those that the last ones would be driven to.
-// Before, of six cubes in a row, 3 cm apart, of which the first was struck at 20 m/s, two ended 13 cm deep in each
-// other.
+// For how many steps, this one included, candidate pairs are looked for, so that a body that is going to be struck is
+// known in time (pushed_motion.hpp). half_thickness_m: of the body. A body that moves farther than that in a step
+// drives several others within the step, and each earlier step passes its push on only to those bodies that the last
+// ones to get it would be driven to. Before, of six cubes in a row, 3 cm apart, of which the first was struck at 20
+// m/s, two ended 13 cm deep in each other.
 BROADSIDE_HD int steps_ahead(const FreeMotion& m, float half_thickness_m) {
   return length(m.drift) > half_thickness_m ? 4 : 2;
 }
 
-// The box of all that a shape with this box may fill within so many steps: where it is, and where it drifts and falls
-// to. It also covers what is as near, in whatever direction, as gravity moves the body in a step. Patches so near are
-// always kept (near_m), because a blow passes within a step through bodies that touch. Before, a brick 0.2 mm beside a
-// row that was struck at 20 m/s was no candidate, and was entered by 64 mm. The box is grown by more than the rounding
-// of this step's sums; nothing is promised to the last bit of the steps behind it.
+// The box of the space that a shape with this box may fill within this many steps: where it is, and where it drifts and
+// falls to. To every side it also covers the distance that gravity moves the body in a step. Patches so near are always
+// kept (near_m), because a blow passes within a step through bodies that touch. Before, a brick 0.2 mm beside a row
+// that was struck at 20 m/s was in no candidate pair, and a body entered it by 64 mm. The box is grown by more than the
+// rounding of this step's sums; for the steps after it, rounding is not covered to the last bit.
 BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m, int steps) {
   const float near_m = length(m.fall);
   Box swept;
@@ -77,7 +77,7 @@ BROADSIDE_HD Box swept_box(const Box& box, const FreeMotion& m, int steps) {
   return swept;
 }
 
-// Whether a body of this box that may come so far reaches the face (0 to 5: -x +x -y +y -z +z) of the domain.
+// Whether a body with this box that may move by reach_m reaches the face (0 to 5: -x +x -y +y -z +z) of the domain.
 BROADSIDE_HD bool may_reach_face(const Box& box, float reach_m, const Box& domain, std::uint32_t face) {
   const int axis = static_cast<int>(face / 2);
   const bool is_inside =

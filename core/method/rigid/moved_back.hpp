@@ -14,8 +14,8 @@ BROADSIDE_HD Vec3 arm_at_start(const ContactPath& path, Vec3 arm) {
   return turned(turned_axes(path.start.q), turned_back(turned_axes(path.end.q), arm));
 }
 
-// Where a point of a manifold of the end is on each body at the start, relative to A's center of mass there, and the
-// gap between both along the normal of the end.
+// The point of each body's surface that is a point of a manifold at the end, as it was at the start, relative to A's
+// center of mass there; and the gap between both along the normal at the end.
 struct MovedBack {
   Vec3 on_a;
   Vec3 on_b;

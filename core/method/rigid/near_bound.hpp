@@ -1,8 +1,9 @@
-// A lower and an upper bound of the distance of two polytopes. What is farther than the upper one need not be looked
-// at.
+// A lower and an upper bound of the distance of two polytopes. Features that are farther apart than the upper bound
+// need not be tried.
 //
 // Gilbert, An iterative procedure for computing the minimum of a quadratic form on a convex set (1966): a point of the
-// difference of both bodies moves toward the corner that is farthest against it, and stays on the segment between.
+// difference of both bodies moves toward the corner that is farthest in the opposite direction, to the point of the
+// segment between them that is nearest to the origin.
 #pragma once
 
 #include <cmath>
@@ -16,8 +17,8 @@
 
 namespace broadside::core {
 
-// Whether looking for a bound costs less than trying all pairs of edges: not for boxes and for the prisms that stand
-// for cylinders.
+// Whether finding a bound costs less than trying all pairs of edges. It does not for boxes, and for the prisms that
+// stand for cylinders.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD bool has_many_edges(const PolytopeA& a, const PolytopeB& b) {
   constexpr int kManyEdgePairs = 4096;
@@ -27,7 +28,7 @@ BROADSIDE_HD bool has_many_edges(const PolytopeA& a, const PolytopeB& b) {
 struct NearBound {
   Vec3 parting;             // unit, from B to A
   float parted_m = 0.0F;    // the bodies are apart by at least this much along it
-  float farthest_m = 0.0F;  // and their distance is at most this
+  float farthest_m = 0.0F;  // their distance is at most this
 };
 
 template <typename Polytope>
@@ -35,7 +36,7 @@ inline constexpr bool kIsHull = false;
 template <typename Lanes>
 inline constexpr bool kIsHull<HullPolytopeOf<Lanes>> = true;
 
-// Of hulls that have ways.
+// For hulls that have ways (HullView::ways).
 template <typename LanesA, typename LanesB>
 BROADSIDE_HD NearestOfHulls nearest_of(const HullPolytopeOf<LanesA>& a, const HullPolytopeOf<LanesB>& b,
                                        float rounding_m) {
@@ -43,7 +44,7 @@ BROADSIDE_HD NearestOfHulls nearest_of(const HullPolytopeOf<LanesA>& a, const Hu
   return exact_hull_gap({a.hull, a.center, a.axes}, {b.hull, b.center, b.axes}, rounding_m);
 }
 
-// Of bodies that are parted by parted_m > 0 along the unit direction.
+// For bodies that are apart by parted_m > 0 along the unit direction `parting`.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED NearBound near_bound(const PolytopeA& a, const PolytopeB& b, Vec3 parting, float parted_m,
                                          float rounding_m) {

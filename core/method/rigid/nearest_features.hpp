@@ -1,7 +1,7 @@
 // The nearest points of two polytopes that are apart, by their corners and edges.
 //
 // Separating axes find a corner over a face. The other cases are two edges, a corner and an edge, and two corners. All
-// of them are tried; of large hulls, those that near_bound.hpp leaves.
+// such pairs are tried; for large hulls, only those that near_bound.hpp leaves.
 #pragma once
 
 #include <cmath>
@@ -156,14 +156,14 @@ BROADSIDE_HD NearestFeatures nearest_edges(const PolytopeA& a, const Layer& near
   return best;
 }
 
-// The part of d across an edge. A difference of two points is off by the rounding of where they are along the edge, and
+// The component of d perpendicular to an edge. Rounding moves the two points whose difference is d along the edge, and
 // that error, times the edge's length, would be an error of the gap.
 BROADSIDE_HD Vec3 without(Vec3 d, Vec3 along) {
   const float squared = dot(along, along);
   return squared > 0.0F ? d - (dot(d, along) / squared) * along : d;
 }
 
-// Across both edges, and across the longer one to the last digit; on the side of `between`.
+// The unit direction perpendicular to both edges, and to the longer one to the last digit; on the side of `between`.
 BROADSIDE_HD Vec3 across_edges(Vec3 u, Vec3 v, Vec3 between) {
   const bool u_is_longer = dot(u, u) > dot(v, v);
   Vec3 n = cross(u, v);
@@ -181,9 +181,9 @@ struct NearestDirection {
   NearestFeatures features;
 };
 
-// Tries only features that may be nearer than reach_m, given a direction that parts the bodies by parted_m; if there
-// are none the gap stays -infinity. Where two pairs of features are equally near but for rounding, or two ways to
-// compute the direction differ, the direction along which the bodies are farther apart is taken.
+// Tries only features that may be nearer than reach_m, given a direction that separates the bodies by parted_m; if
+// there are none, the gap stays the lowest number. Where two pairs of features are equally near to within rounding, or
+// two ways to compute the direction differ, the direction along which the bodies are farther apart is taken.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED NearestDirection nearest_direction(const PolytopeA& a, const PolytopeB& b, Vec3 parting,
                                                        float parted_m, float rounding_m, float reach_m) {

@@ -1,9 +1,9 @@
 // The body octrees of turned bodies against each other, RIGID 8.3: nodes are boxes in body axes, tested by separating
 // axes at the levels of core/method/levels.hpp.
 //
-// Rounding never separates boxes that overlap, and never separates parents when it does not separate their children:
-// each level is grown by a slack of its own. So A, B and C agree bit for bit, and all that they confirm passes level1
-// and flat.
+// Rounding never separates boxes that overlap, nor parents whose children it does not separate, because each level is
+// grown by a slack of its own. So A, B and C agree bit for bit, and every pair that they confirm passes level1 and
+// flat.
 #pragma once
 
 #include <cmath>
@@ -25,13 +25,14 @@ struct RelativePose {
   float slack_m = 0.0F;  // more than rounding moves a gap by
 };
 
-// Roundings of a gap along any of the 15 axes, in units of 2^-24 of the lengths from which it is computed. Quaternions
-// to axes are 12, their products 24 in each of two turns, sums 6, and all of that twice where an axis is a cross
-// product: below 128. A slack is two such errors, 256: then a level that is grown by one slack more separates nothing
-// that the next one does not.
+// Roundings of a gap along any of the 15 axes, in units of 2^-24 of the lengths from which it is computed. Going from
+// quaternions to axes takes 12, the products of axes 24 in each of two turns, the sums 6, and all of that counts twice
+// where an axis is a cross product: below 128. A slack is two such errors, 256: then a level that is grown by one slack
+// more than the next one separates nothing that the next one does not separate.
 inline constexpr float kGapRoundings = 256.0F;
 
-// Nodes are boxes from the center of mass. size: no corner of a node is farther from there.
+// Nodes are boxes relative to the center of mass. size_a_m, size_b_m: no corner of a node is farther from the center of
+// mass.
 BROADSIDE_HD RelativePose relative_pose(const ContactPose& a, float size_a_m, const ContactPose& b, float size_b_m,
                                         float grow_m) {
   const TurnedAxes axes_a = turned_axes(a.q);
@@ -81,7 +82,7 @@ BROADSIDE_HD constexpr float level_grow_m(const RelativePose& p, int level) {
   return p.grow_m + (level == 2 ? 1.0F : (level == 1 ? 2.0F : 3.0F)) * p.slack_m;
 }
 
-// They count their tests and stop at the first pair that is not apart, as in core/method/levels.hpp.
+// The functions below count their tests and stop at the first pair that is not apart, as in core/method/levels.hpp.
 template <typename Tests>
 BROADSIDE_HD bool oriented_level1_overlaps(const NodeBoxes& a, const NodeBoxes& b, const RelativePose& pose,
                                            Tests& tests) {

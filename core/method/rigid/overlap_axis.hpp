@@ -1,12 +1,12 @@
-// The separating axis of two finely cut hulls that overlap, from a point that both have: only what of either body is
-// near that point can make the narrowest axis.
+// The separating axis of two finely cut hulls that overlap, found from a common point: only faces and edges near that
+// point can make the axis of least overlap.
 //
 // Along a unit direction n the overlap of A and B is the sum of how deep the point is in A and in B, each measured from
 // the highest corner toward the other body. Neither is negative, and neither is less than the point's depth under the
-// nearest face of that body. So a face of A under which the point is deeper than the best overlap so far, less the
-// least depth in B, is no better axis. Along the directions of an edge, which lie between the normals of its two faces,
-// the depth is a sine where it is positive: it is least at an end, so an edge matters only where one of its faces does.
-// Bodies at rest overlap by a hair, and three of 649 faces of a bunny are as near.
+// nearest face of that body. So a face of A is no better axis if the point is deeper under it than the best overlap so
+// far, less the least depth in B. Along the directions of an edge, which lie between the normals of its two faces, the
+// depth is a sine where it is positive: it is least at an end, so an edge matters only where one of its faces does.
+// Bodies at rest overlap very little, and only three of the 649 faces of a bunny are as near as that.
 #pragma once
 
 #include <cmath>
@@ -27,11 +27,12 @@ namespace broadside::core {
 
 namespace overlap_detail {
 
-// With as many faces near the point, which is all that a handful holds, the hulls are deep in each other, or flat: all
-// faces are tried then.
+// If this many faces are near the point, which is all that a Handful holds, there may be more of them. The hulls are
+// then deep in each other, or flat, and all faces are tried.
 inline constexpr int kMostNearFaces = 32;
 
-// The same sum of corners in either body, and half the way between both: what the sums lost to rounding.
+// The common point: the mean of the weighted sums of corners of either body, which differ by rounding alone; and half
+// the distance between both sums.
 struct CommonPoint {
   Vec3 x;
   float off_m = 0.0F;
@@ -55,15 +56,15 @@ BROADSIDE_HD CommonPoint common_point(const Hull& a, const Hull& b, const Neares
   return {0.5F * (in_a + in_b), 0.5F * length(in_a - in_b)};
 }
 
-// A hull around the point.
+// One of the hulls, as seen from the common point.
 template <typename Hull>
 struct Around {
   const Hull& hull;
   Vec3 point;                // in body axes
   std::uint32_t corner = 0;  // near the point: where searches for other corners begin
   int nearest = 0;           // the face
-  float inside_m = 0.0F;     // along no direction is the point less deep in it
-  float most_m = 0.0F;       // faces under which the point is deeper do not matter
+  float inside_m = 0.0F;     // the point is at least this deep in the hull along every direction
+  float most_m = 0.0F;       // faces do not matter if the point is deeper under them
 
   BROADSIDE_HD float depth(int face) const { return -hull.height_over(face, point); }
   BROADSIDE_HD std::uint32_t lowest(Vec3 direction, std::uint32_t from) const {
@@ -80,8 +81,7 @@ struct NearFace {
 template <typename Hull>
 using NearFaces = typename Hull::Lanes::template Handful<NearFace>;
 
-// The faces under which the point is no deeper than most_m; false: there is none, or may be more than there is room
-// for.
+// The faces under which the point is no deeper than most_m; False if there is none, or if there may be more than fit.
 template <typename Hull>
 BROADSIDE_HD_CALLED bool find_near_faces(const Around<Hull>& body, float most_m, NearFaces<Hull>& found) {
   (void)found.fill_with(
@@ -95,7 +95,7 @@ BROADSIDE_HD_CALLED bool find_near_faces(const Around<Hull>& body, float most_m,
 template <typename Hull>
 BROADSIDE_HD void note_nearest(Around<Hull>& body, NearFace nearest, float off_m, float rounding_m) {
   body.nearest = nearest.face;
-  // Near a sharp corner a point that is outside by a hair is farther from the hull than from each plane, but no farther
+  // Near a sharp corner, a point that is slightly outside is farther from the hull than from each plane, but no farther
   // than from the sum of corners.
   body.inside_m = nearest.depth_m > rounding_m ? nearest.depth_m - rounding_m : -(off_m + rounding_m);
 }
@@ -111,7 +111,7 @@ BROADSIDE_HD NearFace nearest_of_all(const Around<Hull>& body) {
   return {least.item, least.value};
 }
 
-// By one lane: how far the other hull is in front of a face.
+// How far the other hull is in front of a face; by one lane.
 template <typename Hull>
 BROADSIDE_HD_CALLED float gap_over(const Around<Hull>& reference, const Around<Hull>& other, int face) {
   const Vec3 out = reference.hull.face_normal(face);
@@ -129,7 +129,7 @@ BROADSIDE_HD_CALLED NearFace widest_of(const Around<Hull>& reference, const Arou
   return near.at(near.first_least([](const NearFace& f) { return -f.gap_m; }).item);
 }
 
-// Of the faces that were measured the one that looks along a direction most.
+// Among the faces that were measured, the one that looks along a direction most.
 template <typename Hull>
 BROADSIDE_HD int facing(const Hull& hull, const NearFaces<Hull>& near, Vec3 direction) {
   const Vec3 local = hull.local(direction);
@@ -224,9 +224,9 @@ BROADSIDE_HD_CALLED SeparatingAxis axis_of_edges(const NearEdges<Hull>& near_a, 
 
 }  // namespace overlap_detail
 
-// near: exact_hull_gap of hulls that have ways and are not clearly apart. False where it has no point that both have,
-// or too many faces are near that: then axis is not told. As separating_axis does it takes a face where that is as wide
-// but for rounding, of A before of B.
+// near: exact_hull_gap of hulls that have ways and are not clearly apart. False if the search has found no common
+// point, or too many faces are near that point: then axis is not set. Like separating_axis it prefers a face whose gap
+// is as wide to within rounding, and faces of A to faces of B.
 template <typename Hull>
 BROADSIDE_HD_CALLED bool overlap_axis(const Hull& a, const Hull& b, const NearestOfHulls& near, float rounding_m,
                                       SeparatingAxis& axis) {
@@ -234,8 +234,8 @@ BROADSIDE_HD_CALLED bool overlap_axis(const Hull& a, const Hull& b, const Neares
   if (near.corners.count == 0 || near.gap.least_m > kClearlyApartRoundings * rounding_m) return false;
   const CommonPoint p = common_point(a, b, near.corners);
   if (!(p.off_m < 3.0e38F)) return false;  // weights of a sliver may be anything
-  // The bodies overlap no more than along the axis of the search for the point, so no face that is deeper than that
-  // matters.
+  // The bodies overlap no more than along the axis that the search for the point ended with, so a face does not matter
+  // if the point is deeper under it than that.
   const float first_m = -near.gap.least_m;
   const float farthest_m = first_m + p.off_m + 3.0F * rounding_m;
   Around<Hull> in_a{a, a.local_point(p.x), near.corners.of_a[0]};
@@ -249,7 +249,7 @@ BROADSIDE_HD_CALLED bool overlap_axis(const Hull& a, const Hull& b, const Neares
     in_a.most_m = (overlap_m - in_b.inside_m) + rounding_m;
     in_b.most_m = (overlap_m - in_a.inside_m) + rounding_m;
   };
-  // Nor more than along the axes of the nearest faces.
+  // They overlap no more than along the axes of the nearest faces, either.
   const float of_nearest_m =
       Hull::Lanes::first_least(2, [&](int k) {
         return k == 0 ? -gap_over(in_a, in_b, in_a.nearest) : -gap_over(in_b, in_a, in_b.nearest);

@@ -1,5 +1,5 @@
-// Patches of bodies that pass by each other. Contacts are looked for in every direction as far ahead as bodies can
-// come. But a body that flies past a corner must not be stopped by the plane through that corner.
+// Patches of bodies that pass by each other. Contacts are looked for in every direction, as far ahead as bodies can
+// move. But a body that flies past a corner must not be stopped by the plane through that corner.
 #pragma once
 
 #include "core/attributes.hpp"
@@ -26,8 +26,8 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
   return least;
 }
 
-// Whether two bodies that are apart at the start are apart at these poses too, on the same side. The answer is no where
-// one went through the other, and where they are too far apart to tell. Unknown where these lanes leave the pair.
+// Whether two bodies that are apart at the start are apart at these poses too, on the same side. The answer is kNo if
+// one went through the other, or if they are too far apart to tell, and kUnknown if the lane leaves the pair.
 template <typename Lanes>
 BROADSIDE_HD QuickAnswer is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
                                         const ContactShape& shape_b, const ContactPose& b, float reach_m) {
@@ -46,8 +46,8 @@ BROADSIDE_HD QuickAnswer is_still_apart(const Manifold& start, const ContactShap
 }
 
 // Whether a patch leads to no contact in this step, whether both bodies move freely or something holds one of them
-// where it is. A patch nearer than near_m is kept in any case, because so near it may carry what rests on it. Unknown
-// where these lanes leave the pair.
+// where it is. A patch nearer than near_m is kept in any case, because a patch so near may bear a resting body.
+// kUnknown if the lane leaves the pair.
 template <typename Lanes>
 BROADSIDE_HD QuickAnswer whether_passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
                                            const ContactShape& shape_b, const ContactPath& b, float reach_m,
@@ -64,18 +64,19 @@ BROADSIDE_HD QuickAnswer whether_passes_by(const Manifold& start, const ContactS
   return answer;
 }
 
-// The same of lanes that leave no pair.
+// The same for lanes that leave no pair.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool passes_by(const Manifold& start, const ContactShape& shape_a, const ContactPath& a,
                             const ContactShape& shape_b, const ContactPath& b, float reach_m, float near_m) {
   return whether_passes_by<Lanes>(start, shape_a, a, shape_b, b, reach_m, near_m) == QuickAnswer::kYes;
 }
 
-// Of a patch that is kept because something may push a body there, though free motion passes by: takes the plane that
-// lies between the bodies where free motion leads them, if one lies between them all the way. It guards against the
-// push and stops nobody who passes by. Before, a cube that fell past the corner of another one at 4 m/s was stopped by
-// the plane through that corner, 3 cm beside it. Boxes alone: one direction tells of them whether a plane parts them.
-// falls_m: a patch nearer than this may carry what rests on it.
+// For a patch that is kept because something may push a body there, although free motion passes it by: replaces its
+// plane by the one that separates the bodies at the end of their free motion, if that plane separates them all the way.
+// The new plane guards against the push, and does not stop bodies that pass by. Before, a cube that fell past the
+// corner of another one at 4 m/s was stopped by the plane through that corner, 3 cm beside it. Only for boxes, because
+// for them one direction tells whether a plane separates them. falls_m: a patch nearer than this may bear a resting
+// body.
 template <typename Lanes = OneLane>
 BROADSIDE_HD void let_pass(Manifold& kept, const ContactShape& shape_a, const ContactPath& a,
                            const ContactShape& shape_b, const ContactPath& b, float reach_m, float falls_m) {

@@ -44,7 +44,7 @@ struct PatchPointOf {
   Number tangent_total_1 = 0.0F;
   Number tangent_total_2 = 0.0F;
   Number approach_m_s = 0.0F;      // at the start of the step, positive where the bodies come nearer
-  TruthOf<Number> slides = false;  // in this substep, from when static friction did not hold it
+  TruthOf<Number> slides = false;  // in this substep, since static friction first did not hold it
 };
 using PatchPoint = PatchPointOf<float>;
 
@@ -61,13 +61,13 @@ struct PatchOf {
   VectorOf<Number> normal;  // unit, from B to A
   VectorOf<Number> tangent_1;
   VectorOf<Number> tangent_2;
-  // From each center of mass to the patch's center, the middle of its points, at the start of the step.
+  // From each body's center of mass to the patch's center, which is the middle of its points, at the start of the step.
   VectorOf<Number> center_a;
   VectorOf<Number> center_b;
   TwistMobilityOf<Number> mobility;
   std::conditional_t<std::is_same_v<Number, float>, Material, LaneMaterial<Number>> surface;  // of both, combined
   Number slop_m = 0.0F;            // the depth at which the patch rests
-  Number fastest_push_m_s = 0.0F;  // at which an overlap is pushed apart without gravity
+  Number fastest_push_m_s = 0.0F;  // the largest speed of pushing an overlap apart, where there is no gravity
   Number budget_n_s = 0.0F;        // of normal impulses that a bounce may still give
   int count = 0;
   PatchPointOf<Number> points[kManifoldPoints];
@@ -98,7 +98,8 @@ BROADSIDE_HD VectorOf<Number> arm_b(const PatchOf<Number>& c, const PatchPointOf
   return c.center_b + in_world<Number>(c, p.lever.x, p.lever.y, p.lever.z);
 }
 
-// How far the patch reaches from the centers of mass: of its smaller moved body, m. What is small is measured in it.
+// The distance of the patch's farthest point from the center of mass of its body, m: the smaller of both distances, of
+// bodies that can move. Lengths of the patch that should be small, such as the slop, are shares of it.
 BROADSIDE_HD float reach_of(const PatchConstraint& c, const SolverBody& a, const SolverBody& b) {
   float of_a = 0.0F;
   float of_b = 0.0F;
@@ -146,7 +147,7 @@ BROADSIDE_HD void set_mobility(PatchOf<Number>& c, const Body& a, const Body& b)
   each_point(c, [&](int k) { set_masses(c.mobility, c.points[k]); });
 }
 
-// The same, for those lanes for which it is asked.
+// The same, only in lanes where is_asked.
 template <typename Number, typename Body>
 BROADSIDE_HD void set_mobility_where(TruthOf<Number> is_asked, PatchOf<Number>& c, const Body& a, const Body& b) {
   const TwistMobilityOf<Number> now = mobility_of(c, a, b);
@@ -163,10 +164,10 @@ BROADSIDE_HD void set_mobility_where(TruthOf<Number> is_asked, PatchOf<Number>& 
   });
 }
 
-// Whether a body has turned so far in the step, in rad, that the masses of its start no longer hold. A slender body
-// that turns across itself becomes as much lighter to a point as it is longer than thick, and a sweep does not converge
-// with masses that are twice too large. Before, a needle that struck a plate at 100 m/s ended with numbers that are not
-// finite.
+// Whether a body has turned so far in the step, in rad, that the effective masses of the start no longer hold. When a
+// slender body turns across its axis, the effective mass at a point may fall by the ratio of its length to its
+// thickness, and a sweep does not converge with masses that are twice too large. Before, a needle that struck a plate
+// at 100 m/s ended with numbers that are not finite.
 template <typename Body>
 BROADSIDE_HD auto has_turned_far(const Body& body) {
   constexpr float kFar_rad = 0x1p-8F;
@@ -224,7 +225,7 @@ BROADSIDE_HD void store(Body& body, const VectorOf<typename Body::Number>& v,
   body.angular_momentum = pick(is_moved(body), body.angular_momentum + gain, body.angular_momentum);
 }
 
-// The same in world axes.
+// A sum of impulses and of their moments, in world axes.
 template <typename Number>
 struct WorldPushOf {
   VectorOf<Number> impulse;
@@ -232,7 +233,7 @@ struct WorldPushOf {
 };
 template <typename Number>
 BROADSIDE_HD WorldPushOf<Number> in_world(const PatchOf<Number>& c, const PatchPushOf<Number>& given) {
-  // Plus 0: what is too small to be a number is 0 and not -0, whatever zeros came after it.
+  // Plus 0, so that a sum that underflows is 0 and not -0, whatever zeros were added after it.
   const VectorOf<Number> none;
   const VectorOf<Number> push = none + given.push;
   const VectorOf<Number> moment = none + given.moment;
@@ -258,12 +259,12 @@ struct PatchMotionOf {
 };
 using PatchMotion = PatchMotionOf<float>;
 
-// Of velocities in world axes.
+// The relative motion by velocities in world axes.
 template <typename Number, typename Vector>
 BROADSIDE_HD PatchMotionOf<Number> motion_of(const PatchOf<Number>& c, const Vector& v_a, const Vector& w_a,
                                              const Vector& v_b, const Vector& w_b) {
   const Vector speed = plus_cross(v_a, w_a, c.center_a) - plus_cross(v_b, w_b, c.center_b);
-  // Plus 0: no number is -0, and none becomes so by what is added.
+  // Plus 0, so that no number is -0; adding to them makes none -0 either.
   const Vector none;
   return {{none + in_patch(c, speed), none + in_patch(c, w_a - w_b)}, {}};
 }
@@ -288,8 +289,8 @@ BROADSIDE_HD VectorOf<Number> impulse_of(const PatchOf<Number>& c, Number normal
 
 // How far the end of an arm went while its body turned by this vector, rad. Sine and 1 - cosine come from their series,
 // which are off by a hundredth at 2.4 rad and are not used beyond. Below a thousandth of a radian the first order is
-// enough. Before there was a second order, a corner that swings past the lowest point of its circle went on down: small
-// cubes that spin under heavy ones were pushed into the floor, and came out of it with energy.
+// enough. Before, all arcs were followed to first order, so a corner that swung past the lowest point of its circle
+// went on downward: small cubes that spin under heavy ones were pushed into the floor, and came out of it with energy.
 template <typename Vector>
 BROADSIDE_HD auto swings_far(const Vector& turned) {
   return dot(turned, turned) > 0x1p-20F;
@@ -322,7 +323,8 @@ class PatchGaps {
     turned_2_ = fused_dot(c.tangent_2, turned);
   }
 
-  // Of point k. To first order in the patch's axes, like the point's speeds; along the arcs where a body turned far.
+  // The gap of point k. It is followed to first order in the patch's axes, like the point's speeds, and along the arcs
+  // where a body turned far.
   BROADSIDE_HD Number operator()(int k) const {
     const PatchPointOf<Number>& p = c_.points[k];
     const Number near = p.gap_m + less_product(plus_product(moved_, turned_1_, p.lever.z), turned_2_, p.lever.y);

@@ -15,7 +15,7 @@ namespace broadside::core {
 // A's motion less B's.
 template <typename Number>
 struct TwistOf {
-  VectorOf<Number> speed;  // of what is at the patch's center, m/s
+  VectorOf<Number> speed;  // at the patch's center, m/s
   VectorOf<Number> turn;   // rad/s
 };
 
@@ -52,8 +52,9 @@ struct SymmetricOf {
   BROADSIDE_HD VectorOf<Number> z() const { return {xz, yz, zz}; }
 };
 
-// How a twist changes: by an impulse of 1 N s on A at the patch's center, and as much against it on B; and by a moment
-// of 1 N m s about an axis. The turn that an impulse gives is the transpose of the speed that a moment gives.
+// How a twist changes: by an impulse of 1 N s on A at the patch's center, with the opposite impulse on B; and by a
+// moment of 1 N m s about an axis. The matrix of turns that impulses give is the transpose of the matrix of speeds that
+// moments give.
 template <typename Number>
 struct TwistMobilityOf {
   SymmetricOf<Number> speed_by_push;   // 1/kg

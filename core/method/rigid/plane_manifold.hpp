@@ -48,8 +48,8 @@ BROADSIDE_HD Vec3 rim_corner(const PlacedShape& c, bool is_upper, int k) {
 }
 
 // A lying cylinder rolls on the two ends of its lowest line. A standing one has the eight corners of its lower end,
-// which turn with it, so that they keep their names. Where that end is tilted so far that its other side is out of
-// reach, its true lowest point is added, because it tips over the round rim.
+// which turn with it, so that they keep their names. Where that end is tilted so far that its higher side is out of
+// reach, its true lowest point is added, because the cylinder tips over the round rim.
 BROADSIDE_HD void cylinder_over_plane(const PlacedShape& c, Vec3 n, Vec3 on_plane, float reach_m, Manifold& out) {
   const int axis = c.shape->axis;
   const Vec3 along = c.axes[axis];
@@ -88,7 +88,7 @@ BROADSIDE_HD_CALLED void plane_manifold(const PlacedShape& a, const PlacedShape&
           out, hull.corner_count(), reach_m, kTurnOfStep, [&](int k) { return dot(n, hull.corner(k) - on_plane); },
           [&](int k) { return over(hull.corner(k), corner(k)); });
     }
-  if constexpr (Lanes::kLeavesHardPairs) return;  // of hulls alone
+  if constexpr (Lanes::kLeavesHardPairs) return;  // these lanes have only hulls
   switch (a.shape->kind) {
     case ContactKind::kSphere:
       return keep_four(out, 1, reach_m, [&](int) { return over(a.center - a.shape->radius_m * n, 0); });

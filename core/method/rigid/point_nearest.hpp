@@ -13,7 +13,7 @@
 
 namespace broadside::core {
 
-// Of a solid B and a point: the signed distance (negative inside), and the unit direction from the surface to the
+// For a solid B and a point: the signed distance (negative inside), and the unit direction from the surface to the
 // point; inside, the direction of the shortest way out.
 struct PointDistance {
   float gap_m = 0.0F;
@@ -60,7 +60,8 @@ BROADSIDE_HD PointDistance point_to_box(const PlacedShape& box, Vec3 p, float ro
   return {gap, is_upper ? box.axes[axis] : -box.axes[axis], face_name(name)};
 }
 
-// Of a capsule's segment, without its ball. From a point on the segment the way out is across it.
+// The distance to a capsule's segment, without its ball. From a point on the segment the way out is perpendicular to
+// it.
 BROADSIDE_HD PointDistance point_to_segment(const PlacedShape& capsule, Vec3 p, float rounding_m) {
   const int axis = capsule.shape->axis;
   const Vec3 local = turned_back(capsule.axes, p - capsule.center);
@@ -73,7 +74,7 @@ BROADSIDE_HD PointDistance point_to_segment(const PlacedShape& capsule, Vec3 p, 
   return {distance, turned(capsule.axes, (1.0F / distance) * from), name};
 }
 
-// The exact round solid.
+// The distance to the exact round solid.
 BROADSIDE_HD PointDistance point_to_cylinder(const PlacedShape& cylinder, Vec3 p, float rounding_m) {
   const int axis = cylinder.shape->axis;
   const float half_length = cylinder.shape->half_length_m;
@@ -104,7 +105,7 @@ BROADSIDE_HD PointDistance point_to_cylinder(const PlacedShape& cylinder, Vec3 p
 
 namespace hull_detail {
 
-// Between the sides of a face, seen along its normal. Body axes.
+// Whether the point lies between the sides of a face, seen along its normal. Body axes.
 BROADSIDE_HD bool is_over(const HullView& hull, std::uint32_t f, Vec3 p) {
   const HullFace& face = hull.faces[f];
   for (std::uint32_t k = 0; k < face.corner_count; ++k) {
@@ -163,7 +164,7 @@ BROADSIDE_HD PointDistance point_to_hull(const PlacedShape& placed, Vec3 p, floa
   return {distance, turned(placed.axes, (1.0F / distance) * from), name};
 }
 
-// Of the whole body, with the ball around a sphere's center or a capsule's segment.
+// The distance to the whole body, with the ball around a sphere's center or a capsule's segment.
 BROADSIDE_HD PointDistance point_to_solid(const PlacedShape& solid, Vec3 p, float rounding_m) {
   PointDistance out;
   switch (solid.shape->kind) {

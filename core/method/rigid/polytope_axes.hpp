@@ -1,4 +1,4 @@
-// The separating axis of two polytopes of any kind: across the faces of either, and across an edge of each.
+// The separating axis of two polytopes of any kind: normal to a face of either, or perpendicular to an edge of each.
 //
 // Only edges whose normals meet on the sphere of directions make a face of the difference of both bodies (Gregorius,
 // The Separating Axis Test between Convex Polyhedra, 2013); the others are skipped. Unlike there, the gap of an axis
@@ -19,8 +19,8 @@ namespace broadside::core {
 
 namespace axes_detail {
 
-// Edges of the two, each between two faces, as arcs between normals on the sphere of directions: do they cross?
-// b_left and b_right are negated normals.
+// Whether two edges, one of each body, cross as arcs on the sphere of directions; an edge's arc joins the normals of
+// its two faces. b_left and b_right are negated normals.
 BROADSIDE_HD bool arcs_cross(Vec3 a_left, Vec3 a_right, Vec3 b_left, Vec3 b_right) {
   const Vec3 across_a = cross(a_right, a_left);
   const Vec3 across_b = cross(b_right, b_left);
@@ -31,15 +31,16 @@ BROADSIDE_HD bool arcs_cross(Vec3 a_left, Vec3 a_right, Vec3 b_left, Vec3 b_righ
   return cba * dba <= 0.0F && adc * bdc <= 0.0F && cba * bdc >= 0.0F;
 }
 
-// A direction across an edge between two faces: is it between their normals? Around the edge of a sheet every one is.
+// Whether a direction across the edge between two faces lies between their normals. Around the edge of a sheet every
+// direction does.
 BROADSIDE_HD bool lies_between(Vec3 n, Vec3 left, Vec3 right) {
   const Vec3 middle = cross(left, right);
   if (left + right == Vec3{}) return true;
   return dot(n, left + right) > 0.0F && dot(middle, cross(left, n)) >= 0.0F && dot(middle, cross(n, right)) >= 0.0F;
 }
 
-// The face that looks most at a point comes first: its gap is near the widest. A face that is in front of one of the
-// last corners that stood out by no more than the best gap so far is passed over.
+// The face that looks most at a point comes first: its gap is near the widest. A face is skipped if one of the last few
+// lowest corners is less far in front of it than the best gap so far: then its gap is no wider.
 template <typename Reference, typename Other>
 BROADSIDE_HD_CALLED SeparatingAxis axis_of_faces(const Reference& reference, const Other& other, bool reference_is_a,
                                                  float rounding_m) {
@@ -76,13 +77,14 @@ BROADSIDE_HD_CALLED SeparatingAxis axis_of_faces(const Reference& reference, con
   return best;
 }
 
-// Up to so many pairs of edges (two boxes have 144) all are tried without a look at where they are.
+// Up to this many pairs of edges (two boxes have 144), all pairs are tried, wherever the edges are.
 inline constexpr int kFewEdgePairs = 256;
 
-// Edges of large hulls are compared while there are at most so many pairs of them (0.05 s on a slow core). Beyond, and
-// that is deep inside each other, those farthest inside are left out: a depth is then that across a face.
+// Edges of large hulls are compared while there are at most so many pairs of them (0.05 s on a slow core). There are
+// more only where bodies are deep inside each other; then the edges farthest inside are left out, and the depth is that
+// across a face.
 inline constexpr int kMostEdgePairs = 1 << 16;
-// After these a layer is as thick as rounding.
+// After this many halvings a layer is as thin as rounding.
 inline constexpr int kMostHalvings = 24;
 
 template <typename Polytope>
@@ -98,17 +100,17 @@ BROADSIDE_HD int edges_in(const Polytope& p, const Layer& layer) {
   return Polytope::Lanes::count_of(p.edge_count(), [&](int k) { return is_in(p, layer, k); });
 }
 
-// How far a body reaches in all directions from where its mesh's origin is; 0 where that is not inside.
+// The radius of the largest ball about the mesh's origin inside the body; 0 if the origin is not inside.
 template <typename Hull>
 BROADSIDE_HD float inner_radius_m(const Hull& p) {
   const float least = Hull::Lanes::first_least(p.face_count(), [&](int k) { return p.hull.faces[k].offset_m; }).value;
   return least > 0.0F ? least : 0.0F;
 }
 
-// How far above a body's lowest corner along the axis of the best face, which overlaps, edges may lie that make a wider
-// axis of at least -farthest_m and at most apart_m. Their points are on it, A's lower by the overlap. So of an axis
-// within a right angle of that of the face A's point is no higher than B's highest. Others are narrower than the balls
-// in both bodies overlap along them, unless both are flat.
+// For bodies that overlap along the axis of the best face: how far above a body's lowest corner along that axis edges
+// may lie that make a wider axis, with a gap of at least -farthest_m and at most apart_m. The points of two such edges
+// lie on their axis, A's lower by the overlap. So for an axis within a right angle of that of the face, A's point is no
+// higher than B's highest. Along other axes the balls inside both bodies overlap by more, unless both bodies are flat.
 template <typename HullA, typename HullB>
 BROADSIDE_HD float layer_of_overlap_m(const HullA& a, const HullB& b, const SeparatingAxis& best, float farthest_m,
                                       float apart_m) {
@@ -155,8 +157,8 @@ BROADSIDE_HD PlacedEdge place(const Polytope& p, int k) {
   return out;
 }
 
-// The unit direction from B to A across two edges that make a face of the difference of both bodies. False: they make
-// none, or are parallel.
+// Sets n to the unit direction from B to A across two edges that make a face of the difference of both bodies. False if
+// they make none, or are parallel.
 BROADSIDE_HD_CALLED bool across(const PlacedEdge& a, bool a_is_solid, const PlacedEdge& b, bool b_is_solid, Vec3& n) {
   if (a_is_solid && b_is_solid && !arcs_cross(a.left, a.right, -b.left, -b.right)) return false;
   const Vec3 product = cross(a.along, b.along);
@@ -170,7 +172,7 @@ BROADSIDE_HD_CALLED bool across(const PlacedEdge& a, bool a_is_solid, const Plac
 
 }  // namespace axes_detail
 
-// Of two segments alone, which have no faces, there may be none.
+// For two segments, which have no faces, there may be no axis.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const PolytopeB& b, float rounding_m,
                                                    float reach_m) {
@@ -180,8 +182,8 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
   if (best.kind == AxisKind::kNone || faces_of_b.gap_m > best.gap_m + rounding_m) best = faces_of_b;
   if (best.gap_m > reach_m) return best;
   SeparatingAxis edges;
-  // An axis across two edges matters where it is wider than that across the best face, so its edges are at most as far
-  // apart as the bodies, apart, may be to have points, or overlapping, as they are deep.
+  // An axis across two edges matters only if its gap is wider than that of the best face. So its edges are no farther
+  // apart than reach_m if the bodies are apart, and no farther than the overlap if they overlap.
   float farthest = 1.0e18F;
   Layer near_a;
   Layer near_b;
@@ -190,13 +192,14 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
     if (has_many_edges(a, b) && best.gap_m > 0.0F) {
       bound = near_bound(a, b, best.normal, best.gap_m, rounding_m);
       bound.farthest_m = fminf(reach_m, bound.farthest_m + 3.0F * rounding_m);
-      // No axis is wider than the bodies are apart.
+      // No axis has a gap wider than the distance of the bodies.
       if (!(bound.farthest_m > best.gap_m + 4.0F * rounding_m)) return best;
     }
     farthest = bound.farthest_m + rounding_m;
     float thickness = farthest - bound.parted_m;
     if constexpr (kIsHull<PolytopeA> && kIsHull<PolytopeB>) {
-      // No axis parts them, so of those that matter the edges are no farther apart than the bodies are deep.
+      // No face's axis separates the bodies, so edges that matter are no farther apart than the larger of the bound of
+      // the distance and the overlap.
       if (has_many_edges(a, b) && !(best.gap_m > 0.0F)) {
         const float apart_m = near_bound(a, b, best.normal, best.gap_m, rounding_m).farthest_m + 4.0F * rounding_m;
         farthest = fminf(bound.farthest_m, fmaxf(apart_m, -best.gap_m)) + rounding_m;
@@ -212,7 +215,7 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
   } else {
     near_a.direction = near_b.direction = {0.0F, 0.0F, 0.0F};
   }
-  // Edges of B a handful at a time, so that each of A is visited once for many.
+  // Edges of B are taken a Handful at a time, so that an edge of A is visited once for many of them.
   using axes_detail::PlacedEdge;
   using Lanes = LanesOf<PolytopeA, PolytopeB>;
   typename Lanes::template Handful<PlacedEdge> of_b;

@@ -1,5 +1,5 @@
-// The manifold of two polytopes, of which each point may carry a ball (a capsule is a segment with one), once the
-// direction in which they are farthest apart is known.
+// The manifold of two polytopes, given the direction in which they are farthest apart. A ball may be around each point
+// of a polytope: a capsule is a segment with such balls.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,8 @@ namespace broadside::core {
 
 namespace polytope_detail {
 
-// Balls around the points: surfaces move towards each other, the middle by half the difference.
+// Adds the balls around the points: the surfaces move towards each other, and the middle moves by half the difference
+// of the radii.
 BROADSIDE_HD ManifoldPoint with_balls(ManifoldPoint p, Vec3 normal, float ball_a_m, float ball_b_m) {
   if (ball_a_m == 0.0F && ball_b_m == 0.0F) return p;
   p.point = p.point + (0.5F * (ball_b_m - ball_a_m)) * normal;
@@ -52,8 +53,8 @@ BROADSIDE_HD_CALLED void area_of(const PolytopeA& a, const PolytopeB& b, const S
   if (area.count == 0) common_area(b, faces.of_b, a, faces.of_a, axis.normal, false, rounding_m, area);
 }
 
-// The corner of the other body that is deepest along the axis, if it is over the reference's face (where bodies
-// overlap: but for rounding). The incident face may lack it where a hull has many faces.
+// The corner of the other body that is deepest along the axis, if it is over the reference's face; where bodies overlap
+// it is, whatever rounding says. Where a hull has many faces, this corner need not be one of the incident face.
 template <typename Reference, typename Incident>
 BROADSIDE_HD_CALLED bool corner_over_face(const Reference& reference, const Incident& incident,
                                           const SeparatingAxis& axis, int face, bool reference_is_a, float rounding_m,
@@ -85,9 +86,9 @@ struct NearestPoints {
 };
 
 // Points whose gap is at most reach_m, after the balls are counted. The distance of the deepest one is that of the
-// bodies: where two corners, or a corner and an edge, are nearest, the axis is wider than it and gives way to the
-// direction between them, but for faces over each other that are nearly as near (is_nearly_shown). nearest: their
-// nearest points, or nothing.
+// bodies: where two corners, or a corner and an edge, are nearest, no axis shows this distance, and the direction
+// between them becomes the normal, unless faces over each other are nearly as near (is_nearly_shown). nearest: the
+// bodies' nearest points, or null.
 template <typename PolytopeA, typename PolytopeB>
 BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& b, const SeparatingAxis& axis,
                                            float ball_a_m, float ball_b_m, float rounding_m, float reach_m,
@@ -121,7 +122,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     // Every direction around the edge of a sheet is one of its normals, so another corner may be deeper.
     if constexpr (PolytopeA::kIsSheet || PolytopeB::kIsSheet)
       is_crossing &= dot(axis.normal, crossing.on_a - crossing.on_b) <= axis.gap_m + 2.0F * rounding_m;
-    // Overlapping edges cross but for rounding.
+    // Edges of bodies that overlap cross each other, whatever rounding says.
     has_witness = is_crossing || axis.gap_m <= 0.0F;
     witness = {middle_of(crossing.on_a, crossing.on_b, axis.normal, axis.gap_m, ball_a_m > ball_b_m), axis.gap_m,
                feature_key(edge_name(static_cast<std::uint32_t>(a0), static_cast<std::uint32_t>(a1)),
@@ -133,7 +134,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     if (axis.kind == AxisKind::kFaceOfB)
       has_witness = polytope_detail::corner_over_face(b, a, axis, axis.of_b, false, rounding_m, witness);
   }
-  // A point as deep as the axis says: then its gap is the distance.
+  // Whether there is a point as deep as the axis says; its gap is then the distance.
   const bool is_shown = has_witness || polytope_detail::least_gap(area) <= axis.gap_m + 2.0F * rounding_m;
   if (nearest != nullptr && (!is_shown || axis.kind == AxisKind::kPoints)) {
     has_witness = true;
@@ -146,7 +147,7 @@ BROADSIDE_HD_CALLED void polytope_manifold(const PolytopeA& a, const PolytopeB& 
     }
     const NearestDirection near =
         nearest_direction(a, b, axis.normal, axis.gap_m, rounding_m, reach_m + balls_m + 2.0F * rounding_m);
-    if (!(near.gap_m > -3.0e38F)) return;  // nothing is so near
+    if (!(near.gap_m > -3.0e38F)) return;  // no features are within reach
     const float distance_m = sqrtf(near.features.squared_m2);
     // Where bodies overlap, or touch so that the direction would be rounding alone, the axis is kept.
     const bool is_wider = axis.gap_m > 0.0F && near.gap_m > axis.gap_m;

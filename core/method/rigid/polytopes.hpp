@@ -40,7 +40,7 @@ struct BoxPolytope {
     right = 2 * (axis == 2 ? 1 : 2) + ((k >> 1) & 1);
   }
   BROADSIDE_HD Vec3 face_normal(int k) const { return (k & 1) != 0 ? axes[k / 2] : -axes[k / 2]; }
-  // Of the plane of a face, along its normal.
+  // The height of a face's plane along its normal.
   BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + half[k / 2]; }
   BROADSIDE_HD Vec3 local_point(Vec3 x) const { return x; }
   BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(face_normal(k), x) - face_height(k); }
@@ -149,7 +149,7 @@ struct TrianglePolytope {
   BROADSIDE_HD int support_face(Vec3 direction) const { return dot(normal, direction) >= 0.0F ? 0 : 1; }
 };
 
-// LanesOfHull: who goes through its corners, edges and faces.
+// LanesOfHull: the lanes that share loops over its corners, edges and faces (lanes.hpp).
 template <typename LanesOfHull>
 struct HullPolytopeOf {
   using Lanes = LanesOfHull;
@@ -174,7 +174,8 @@ struct HullPolytopeOf {
   }
   BROADSIDE_HD Vec3 face_normal(int k) const { return turned(axes, hull.faces[k].normal); }
   BROADSIDE_HD float face_height(int k) const { return dot(face_normal(k), center) + hull.faces[k].offset_m; }
-  // Heights over faces, of points that local_point() has prepared: as exact, and cheaper where points are few.
+  // Heights over faces of points that local_point() has prepared: as exact as in world axes, and cheaper where points
+  // are few.
   BROADSIDE_HD Vec3 local_point(Vec3 x) const { return turned_back(axes, x - center); }
   BROADSIDE_HD float height_over(int k, Vec3 x) const { return dot(hull.faces[k].normal, x) - hull.faces[k].offset_m; }
   // In body axes, from the hull's own center. Only differences of heights of one hull have a meaning.

@@ -1,11 +1,12 @@
 // Patches that overlap by more than their load explains are pushed apart within a substep. The push moves their bodies,
 // but must not stay as speed. So once the bodies have moved, these patches return to the impulses that the substep
-// began with, and the bodies to the velocities that follow. If nothing else happened nothing is left, to the last bit;
-// otherwise relaxation finds the rest.
+// began with, and the bodies to the velocities that follow from these. If nothing else happened, nothing of the push is
+// left, to the last bit; otherwise relaxation solves for the rest.
 //
-// Before, one sweep of relaxation took back what pushed, and that is what one contact can see of it: ten cubes at rest
-// in a row, each 4 cm deep in the next, parted with 8.1 J. This holds for calm steps, and without gravity. In others it
-// takes fewer sweeps to go on from where the push is kept (SoftSettings::even).
+// Before, one sweep of relaxation took back the push, and such a sweep takes back only what a single contact sees of
+// it: ten cubes at rest in a row, each 4 cm deep in the next, parted with 8.1 J. Pushes are taken back in calm steps,
+// and without gravity. In other steps, keeping the push and going on from there takes fewer sweeps
+// (SoftSettings::even).
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@
 
 namespace broadside::core {
 
-// Sweeps of relaxation over what was pushed and over what these change end with one that changes no speed by more than
-// this share of the fastest push.
+// Sweeps of relaxation visit patches that were pushed, and patches that these sweeps change. They end with one that
+// changes no speed by more than this share of the fastest push.
 inline constexpr float kRelaxDone = 0x1p-10F;
 
 BROADSIDE_HD constexpr float relax_done_m_s(const SoftStep& step, float fastest_push_m_s) {
@@ -27,9 +28,10 @@ BROADSIDE_HD constexpr float relax_done_m_s(const SoftStep& step, float fastest_
   return done > step.least_relax_m_s ? done : step.least_relax_m_s;
 }
 
-// How fast the points of a patch are pushed, beyond twice what their springs yield to the impulses that they begin
-// with: the largest, m/s; 0 = none is. Twice, because where a light body bears a heavy one the load itself is not known
-// to a few percent, and what is taken back from it makes it sway. gap_m(k): of a point, at the start of the substep.
+// The largest speed at which a point of a patch is pushed, m/s, beyond twice what its spring yields to the impulse that
+// the substep begins with; 0 if none is. Twice, because where a light body bears a heavy one, the load is known only to
+// within a few percent, and taking back a part of the load makes the body sway. gap_m(k): the gap of point k at the
+// start of the substep.
 template <typename Number, typename Gap>
 BROADSIDE_HD Number fastest_push(const PatchOf<Number>& c, const SoftStep& step, const Gap& gap_m) {
   Number fastest = 0.0F;
@@ -50,8 +52,8 @@ BROADSIDE_HD constexpr bool takes_back_pushes(const SoftStep& step) {
   return step.kept_push_m_s < std::numeric_limits<float>::max();
 }
 
-// Whether what pushed the patch is taken back. Without gravity nothing says how much would be little, and what the push
-// did to others is to vanish too: then all patches' is, where one of them is pushed.
+// Whether the push of a patch is taken back. Without gravity nothing says which push is small, and the effect of pushes
+// on other bodies must vanish, too. So if one patch is pushed, all patches go back to their earlier impulses.
 BROADSIDE_HD constexpr bool is_taken_back(float push_m_s, const SoftStep& step) {
   return push_m_s > step.kept_push_m_s || !(step.gravity_m_s2 > 0.0F);
 }

@@ -1,11 +1,11 @@
 // Where a body may be driven within a step by what strikes it; contacts are looked for there too. RIGID 8.7.
 //
-// A body that is struck moves on within the same step, and may then meet what its own motion never led to. So each pair
-// of a step's candidates, whose boxes are swept over two steps, tells the next step which body comes toward which.
-// Before, a cube at rest that was struck at 3 m/s ended 5 cm deep in the one below it.
+// A body that is struck moves on within the same step, and may then meet bodies that its own motion does not lead to.
+// So each pair of a step's candidates, whose boxes are swept over two steps, tells the next step which body comes
+// toward which. Before, a cube at rest that was struck at 3 m/s ended 5 cm deep in the one below it.
 //
-// What a body is told it passes on within the same step to what is near it. Before, the first of two cubes that touch
-// was struck at 20 m/s, and drove the second one 24 mm into a third, 5 cm beyond.
+// A body passes on a push that it gets to its neighbors, within the same step. Before, when the first of two touching
+// cubes was struck at 20 m/s, it drove the second one 24 mm into a third cube, 5 cm beyond.
 #pragma once
 
 #include <bit>
@@ -20,8 +20,8 @@
 namespace broadside::core {
 
 // The strongest push that a body may be given, as one word: the upper half is how far it drives the body in a step (m,
-// the bits of a nonnegative float), the lower half the body that comes. So a stronger push is a larger word, and the
-// largest of several does not depend on their order. 0 = none.
+// the bits of a nonnegative float), the lower half is the body that strikes it. So a stronger push is a larger word,
+// and the largest of several does not depend on their order. 0 = none.
 using PushWord = std::uint64_t;
 
 BROADSIDE_HD constexpr float push_m(PushWord push) {
@@ -31,28 +31,28 @@ BROADSIDE_HD constexpr std::uint32_t pusher_of(PushWord push) {
   return static_cast<std::uint32_t>(push);
 }
 
-// The share of b's speed toward a that a takes over: what it has if both stick together after the impact, and up to
-// twice that if they bounce.
+// The share of b's speed toward a that a gets by an impact: if both bodies stick together, the speed that they then
+// have; if they bounce, up to twice that.
 BROADSIDE_HD constexpr float share_of_push(float inverse_mass_a, float inverse_mass_b, float restitution) {
   if (!(inverse_mass_a > 0.0F)) return 0.0F;
   return (1.0F + restitution) * (inverse_mass_a / (inverse_mass_a + inverse_mass_b));
 }
 
-// What a pair needs to know of one of its bodies to say what that body does to the other.
+// What is needed of one body of a pair to compute the push that it gives the other.
 struct Pusher {
   Vec3 x;                     // of the center of mass, m
-  Vec3 drift;                 // by its velocity, of a step, m
-  Vec3 pushed;                // by what drives this body, m
+  Vec3 drift;                 // how far its velocity moves it in a step, m
+  Vec3 pushed;                // how far a pusher drives this body, m
   float swing_m = 0.0F;       // what turning adds
   float inverse_mass = 0.0F;  // 1/kg
   std::uint32_t body = 0;
   std::uint32_t pusher = 0;  // the body that drives it
 };
 
-// What b does to a in the next step: by b's own motion, or by the motion that something is about to give b, unless that
-// something is a. Bodies that move apart push nothing. Before, a body that fell on another was told of its own push,
-// which leads nowhere, in place of the one that came from above: in a heap, cubes that were struck again ended up to 46
-// mm deep in those that they had just left.
+// The push that b gives a in the next step: by b's own motion, or by the motion that another body is about to give b,
+// unless that other body is a. Bodies that move apart push nothing. Before, a body that fell on another one got back
+// its own push, which leads nowhere, in place of the one that came from above: in a heap, cubes that were struck again
+// ended up to 46 mm deep in those that they had just left.
 BROADSIDE_HD PushWord push_by(const Pusher& a, const Pusher& b, float restitution) {
   const float share = share_of_push(a.inverse_mass, b.inverse_mass, restitution);
   const Vec3 own = b.drift - a.drift;
@@ -66,20 +66,21 @@ BROADSIDE_HD PushWord push_by(const Pusher& a, const Pusher& b, float restitutio
   return (static_cast<PushWord>(std::bit_cast<std::uint32_t>(strength)) << 32) | (is_given ? b.pusher : b.body);
 }
 
-// A push that is told to a body and one that is passed on to it.
+// The stronger of a push that a body gets directly and one that is passed on to it.
 BROADSIDE_HD constexpr PushWord stronger_push(PushWord a, PushWord b) {
   return a > b ? a : b;
 }
 
-// The push, m, in the direction in which the pusher now moves against the body. drift: of each, in a step.
+// The push, m, in the direction in which the pusher now moves against the body. drift, drift_of_pusher: how far each
+// moves in a step.
 BROADSIDE_HD Vec3 pushed_way(PushWord push, Vec3 drift, Vec3 drift_of_pusher) {
   const Vec3 way = drift_of_pusher - drift;
   const float size = length(way);
   return size > 0.0F ? (push_m(push) / size) * way : Vec3{};
 }
 
-// The body with the push that it was told for the next step, where that is the stronger one. drift_of_pusher: of the
-// body that comes.
+// The body, with the push that it got for the next step where that one is stronger. drift_of_pusher: of the body that
+// strikes it.
 BROADSIDE_HD Pusher told_of(Pusher body, PushWord push, Vec3 drift_of_pusher) {
   if (!(push_m(push) > length(body.pushed))) return body;
   body.pushed = pushed_way(push, body.drift, drift_of_pusher);
@@ -87,8 +88,9 @@ BROADSIDE_HD Pusher told_of(Pusher body, PushWord push, Vec3 drift_of_pusher) {
   return body;
 }
 
-// How far the push may take a body along a direction of length 1. Without friction a body that is struck moves along
-// the normal of the contact, which may be any that faces the pusher; so it ends in the ball whose diameter is the push.
+// How far the push may take a body along a direction of length 1. Without friction, a body that is struck moves along
+// the normal of the contact, which may be any normal that faces the pusher; so its motion ends in the ball whose
+// diameter is the push.
 BROADSIDE_HD float pushed_reach_m(Vec3 pushed, Vec3 direction) {
   return 0.5F * (length(pushed) + dot(pushed, direction));
 }
@@ -104,14 +106,15 @@ BROADSIDE_HD Box pushed_box(Box box, Vec3 pushed) {
   return box;
 }
 
-// How near two bodies may come that do not move toward each other: by gravity, and by pushes of others.
+// How far two bodies may approach each other although their own motion does not lead them there: by gravity, and by
+// pushes of others.
 struct NearReach {
   float falls_m = 0.0F;  // of both
   Vec3 pushed_a;
   Vec3 pushed_b;
 };
 
-// A patch whose gap is at most this is kept though free motion leads past it. normal: from b to a.
+// A patch whose gap is at most this is kept even if free motion passes it by. normal: from b to a.
 BROADSIDE_HD float near_m(Vec3 normal, const NearReach& near) {
   return near.falls_m + (pushed_reach_m(near.pushed_a, -normal) + pushed_reach_m(near.pushed_b, normal));
 }

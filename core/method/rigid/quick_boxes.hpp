@@ -1,8 +1,8 @@
-// What one direction tells of two boxes. Most pairs that may meet within a step do not, and one plane shows it without
-// making their patches.
+// Decisions about two boxes by one direction. Most pairs that may meet within a step do not, and one plane shows that
+// without making their patches.
 //
-// The plane must part the boxes at the start, where both end, and where one of them ends and the other stays. Then it
-// parts them on every way between these poses that does not turn: each body passes by on its own side.
+// The plane must separate the boxes at the start, where both end, and where one of them ends and the other one stays.
+// Then it separates them on every way between these poses that does not turn: each body passes by on its own side.
 #pragma once
 
 #include <cmath>
@@ -46,8 +46,8 @@ BROADSIDE_HD bool parts_ends(Vec3 n, const ContactShape& shape_a, const ContactP
          gap_of_boxes(shape_a, a.start, shape_b, b.end, n) > 0.0F;
 }
 
-// Whether two boxes have no patch at the start of a step, or only one that leads to no contact. near_m: a patch
-// that is farther apart than this is not kept for being near, whatever its normal.
+// Whether two boxes have no patch at the start of a step, or only one that leads to no contact. near_m: a patch with a
+// gap larger than this, whatever its normal, is too far to be kept for nearness alone (near_m of pushed_motion.hpp).
 BROADSIDE_HD bool boxes_surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                                     const ContactPath& b, float reach_m, float near_m) {
   const PlacedShape start_a = placed_shape(shape_a, a.start, a.start.x);

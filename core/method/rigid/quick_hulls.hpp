@@ -1,6 +1,6 @@
-// What bounds of the distance tell of two finely cut hulls. Most pairs that may meet within a step do not, and bounds
-// show it without making their patches. Bounds never decide otherwise than patches would: within rounding of a limit
-// the answer is kUnknown.
+// Decisions about two finely cut hulls by bounds of their distance. Most pairs that may meet within a step do not, and
+// bounds show that without making their patches. Bounds never decide differently than patches would: within rounding of
+// a limit the answer is kUnknown.
 #pragma once
 
 #include <cmath>
@@ -33,12 +33,12 @@ inline constexpr float kMargin = 4.0F;
 // differ by more than ten degrees: a gap is off by one allowance, and a direction by the root of twice that over the
 // distance.
 inline constexpr float kClearlyApart = 64.0F;
-// Where the lower bound along a direction is nearer to the upper one than this share, the direction is within ten
-// degrees of that between the nearest points.
+// Where the lower bound along a direction is less than the upper one by no more than this share, the direction is
+// within ten degrees of that between the nearest points.
 inline constexpr float kThin = 0x1p-6F;
 // Each of two such normals is then within twenty degrees of the normal of a patch.
 inline constexpr float kSameSide = 0.77F;
-// The longest difference between such a normal and that of a patch, both of length 1: that of 25 degrees.
+// The largest length of the difference between such a normal and that of a patch, both of length 1: 25 degrees apart.
 inline constexpr float kNormalOff = 0.45F;
 
 BROADSIDE_HD bool is_clear(const HullBounds& b) {
@@ -96,14 +96,14 @@ BROADSIDE_HD bool surely_apart(const HullBounds& bounds, float reach_m) {
   return bounds.gap.least_m > reach_m + quick_detail::kMargin * bounds.rounding_m;
 }
 
-// How far apart patches at later poses are looked for: far enough that two bodies are still seen that move apart by all
-// of their reach.
+// The largest gap of patches that are looked for at later poses: large enough for two bodies that move apart by all of
+// their reach.
 BROADSIDE_HD float seen_reach_m(float reach_m) {
   return 2.0F * reach_m;
 }
 
 // Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near: as for near_m. pair
-// and search: of their start; the search is left as far as it came.
+// and search: those at the start; the search may go on later from where it stops here.
 BROADSIDE_HD bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
                               const ContactPath& b, const HullPair& pair, HullSearch& search, float reach_m,
                               const NearReach& near) {

@@ -1,4 +1,4 @@
-// Settings of octree-cpu and octree-gpu that the published method has and bodies that turn have not.
+// Refuses settings of octree-cpu and octree-gpu that exist in the published method and not for bodies that turn.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the engines whose stages are those of RIGID 8 say of themselves where bodies turn.
+// What the engines with the stages of RIGID 8 declare of themselves where bodies turn.
 #pragma once
 
 #include <string_view>

@@ -20,13 +20,14 @@ struct RigidWrench {
   friend constexpr bool operator==(const RigidWrench&, const RigidWrench&) = default;
 };
 
-// A part of a step turns a body by at most this much, rad: the error of one part is then below (1/2)^5 / 120.
+// In one part of a step a body turns by at most this much, rad: the error of one part is then below (1/2)^5 / 120.
 inline constexpr float kLargestTurnOfPart = 1.0F;
-// A body that turns by more than so many parts a step is integrated no better: no law could tell how often it went
-// around.
+// The most parts of a step. A body that would need more is turned by this many parts of the largest turn, and no
+// farther: no law could tell how often it went around.
 inline constexpr int kMostTurnParts = 64;
 
-// Gravity and wrenches. Body axes are those at the start. A static body is returned unchanged.
+// The state after gravity and wrenches have acted for dt. Wrenches in body axes act along the axes at the start. A
+// static body is returned unchanged.
 BROADSIDE_HD RigidState accelerated(RigidState s, const RigidMass& mass, Vec3 gravity_m_s2, const RigidWrench& wrench,
                                     float dt_s) {
   if (!(mass.inverse_mass > 0.0F)) return s;
@@ -38,8 +39,8 @@ BROADSIDE_HD RigidState accelerated(RigidState s, const RigidMass& mass, Vec3 gr
 }
 
 // An upper bound of the angular speed, rad/s, that a body can reach while it turns freely. Twice its energy is w . L,
-// which stays, and |w|^2 is at most that times the largest eigenvalue of the inverse inertia, of which the trace is a
-// bound. So a needle that tumbles is taken to be as fast as its slenderness allows and no faster.
+// which is constant, and |w|^2 is at most that times the largest eigenvalue of the inverse inertia, which its trace
+// bounds. So the bound for a needle that tumbles is no larger than its slenderness requires.
 BROADSIDE_HD float fastest_spin_rad_s(const RigidMass& mass, Quat q, Vec3 angular_momentum) {
   const float trace = (mass.inverse_inertia.xx + mass.inverse_inertia.yy) + mass.inverse_inertia.zz;
   const float twice_energy = dot(turned_inverse_inertia(mass, q, angular_momentum), angular_momentum);
@@ -56,7 +57,7 @@ BROADSIDE_HD constexpr float dot(Quat a, Quat b) {
   return ((a.w * b.w + a.x * b.x) + a.y * b.y) + a.z * b.z;
 }
 
-// dq/dt = 1/2 w q, with w of the angular momentum in the orientation q.
+// dq/dt = 1/2 w q, where w follows from the angular momentum in the orientation q.
 BROADSIDE_HD constexpr Quat orientation_rate(const RigidMass& mass, Vec3 angular_momentum, Quat q) {
   const Vec3 h = 0.5F * turned_inverse_inertia(mass, q, angular_momentum);
   return {-((h.x * q.x + h.y * q.y) + h.z * q.z), (h.x * q.w + h.y * q.z) - h.z * q.y,
@@ -69,7 +70,7 @@ struct RestedQuat {
   Quat rest;
 };
 
-// a + b and what the sum rounds away, exactly (Knuth 1969, TwoSum: for any sizes of a and b).
+// a + b, and in `rest` exactly what the sum rounds away (Knuth 1969, TwoSum: for any sizes of a and b).
 BROADSIDE_HD constexpr float sum_with_rest(float a, float b, float& rest) {
   const float sum = a + b;
   const float b_part = sum - a;
@@ -80,8 +81,8 @@ BROADSIDE_HD constexpr float sum_with_rest(float a, float b, float& rest) {
 
 // The sum of q and dq, of length 1. The change is computed whole before it is added, and what the addition rounds away
 // is kept; so the error of a step is that of the change, far below an ulp of q. An error of the length alone turns
-// nothing, so 1 / sqrt(1 + e) to second order is enough; e is the fifth order of the turn. But the axes of a body, and
-// with them normals, are off by four times what the length is off, so by how much is found in double: in float32 the
+// nothing, so 1 / sqrt(1 + e) to second order is enough; e is of the fifth order of the turn. But the error of the
+// length appears fourfold in the axes of a body, and with them in normals, so it is computed in double: in float32 the
 // square is rounded as coarsely as the length itself, and normals were not of length 1 to within four ulps.
 BROADSIDE_HD constexpr RestedQuat moved_on_sphere(RestedQuat s, Quat dq) {
   const auto square = [](float x) { return static_cast<double>(x) * x; };
@@ -102,7 +103,7 @@ BROADSIDE_HD constexpr RestedQuat turned_part(const RigidMass& mass, Vec3 angula
   Quat outer;  // the sum of the first and the last rate
   Quat inner;  // of those between
   Quat rate;
-  // One copy of a rate's code: unrolled, a GPU fetches four times as much for one run through it.
+  // The loop is not unrolled: a GPU would fetch four times as much code for one run through it.
 #if defined(__CUDACC__)
 #pragma unroll 1
 #endif
@@ -134,8 +135,8 @@ BROADSIDE_HD RestedQuat turned(const RigidMass& mass, Vec3 angular_momentum, Res
   return s;
 }
 
-// Moves and turns freely for dt: the position by the velocity, the orientation by the angular momentum, which both
-// stay. A static body is returned unchanged.
+// Moves and turns freely for dt: the position by the velocity, the orientation by the angular momentum. Both of these
+// stay the same. A static body is returned unchanged.
 BROADSIDE_HD RigidState advance(RigidState s, const RigidMass& mass, float dt_s) {
   if (!(mass.inverse_mass > 0.0F)) return s;
   s.x = s.x + dt_s * s.v;

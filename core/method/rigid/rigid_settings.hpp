@@ -22,8 +22,8 @@ inline SoftSettings soft_settings_of(const Settings& settings) {
   return substeps > 0 ? with_substeps(soft, static_cast<std::uint32_t>(substeps)) : soft;
 }
 
-// Whether "thresholds=fixed" is set: the scene's thresholds, in place of those that scale with bodies, gravity and
-// step.
+// For "thresholds=fixed": the settings with the scene's thresholds, in place of those that scale with bodies, gravity
+// and step.
 inline SoftSettings with_fixed_thresholds(SoftSettings soft, const Scene& scene) {
   soft.limits.fixed_slop_m = scene.parameters.delta_m;
   soft.fixed_bounce_from_m_s = scene.parameters.v_threshold_m_s;

@@ -1,6 +1,6 @@
 // The state of a turning body, and what its motion needs of its mass. RIGID 8.1.
 //
-// Host and device give the same bits, so formulas in this room use + - * / and sqrt alone: sine, cosine and the like
+// Host and device give the same bits, so formulas in this folder use + - * / and sqrt alone: sine, cosine and the like
 // are rounded differently by every library.
 #pragma once
 
@@ -61,7 +61,7 @@ BROADSIDE_HD constexpr Vec3 angular_velocity(const RigidMass& mass, const RigidS
   return turned_inverse_inertia(mass, s.q, s.angular_momentum);
 }
 
-// Of the mesh: where its vertices are measured from.
+// The position of the mesh's origin, from which its vertices are measured.
 BROADSIDE_HD constexpr Vec3 mesh_origin(const RigidMass& mass, const RigidState& s) {
   return s.x - rotate(s.q, mass.center_of_mass);
 }

@@ -20,10 +20,10 @@ struct SeparatingAxis {
   AxisKind kind = AxisKind::kNone;
   int of_a = 0;  // the face or edge
   int of_b = 0;
-  bool has_faces = false;  // these are the faces that look along it most
+  bool has_faces = false;  // face_of_a and face_of_b are the faces that look along it most
   int face_of_a = 0;
   int face_of_b = 0;
-  bool has_ends = false;  // these are the corners of both edges, which have no numbers then
+  bool has_ends = false;  // ends_of_a and ends_of_b are the corners of both edges, which then have no numbers
   int ends_of_a[2] = {};
   int ends_of_b[2] = {};
 };
@@ -66,10 +66,10 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis_of_boxes(const PlacedShape& a
   }
   if (other.gap_m > best.gap_m + rounding_m) best = other;
   if (best.gap_m > reach_m) return best;
-  // Edge axes are first rated by their products' parts in the axes of either box, which are the cosines that are known
-  // already: only an axis is computed whose gap may exceed that of the best face by more than rounding. A cosine is off
-  // by twelve roundings, and each of the two lengths that it multiplies is part of those of rounding_m: together 17 of
-  // 32.
+  // Edge axes are first rated by the components of their cross products in the axes of the boxes; these are the cosines
+  // that are known already. Only axes whose gap may exceed that of the best face by more than rounding are computed. A
+  // cosine is off by twelve roundings, and the two lengths that it multiplies are among those that rounding_m is made
+  // of: together 17 of its 32 roundings.
   const Vec3 apart = turned_back(a.axes, d);
   const float least_m = best.gap_m + rounding_m;
   const float slack_m = 0.75F * rounding_m;

@@ -14,7 +14,7 @@ struct Simplex {
   int count = 0;
   Vec3 corners[4];
   float weights[4] = {};  // of the corners that were kept: shares of 1
-  // Of differences of two bodies: which corners of either.
+  // Where corners are differences of two bodies' corners: the numbers of these corners.
   std::uint32_t of_a[4] = {};
   std::uint32_t of_b[4] = {};
 };
@@ -76,9 +76,9 @@ BROADSIDE_HD_CALLED Weighed nearest_of_triangle(const Simplex& s, int p, int q, 
 
 }  // namespace simplex_detail
 
-// Keeps the corners that the nearest point needs and returns that point. inside_m: 0; but where four corners surround
-// the origin, the distance of the nearest side, and then all of them are kept, with weights that add up to 1 but for
-// rounding.
+// Keeps the corners that the nearest point needs, and returns that point. inside_m: 0, unless four corners surround the
+// origin: then it is the distance of the nearest side, and all corners are kept, with weights that add up to 1 to
+// within rounding.
 BROADSIDE_HD Vec3 keep_nearest(Simplex& s, float& inside_m) {
   using namespace simplex_detail;
   inside_m = 0.0F;
@@ -90,7 +90,7 @@ BROADSIDE_HD Vec3 keep_nearest(Simplex& s, float& inside_m) {
     float nearest_side = 3.402823e38F;
     BROADSIDE_KEPT_LOOP
     for (int k = 0; k < 4; ++k) {
-      // The side across from corner k.
+      // The side opposite corner k.
       const int p = k == 0 ? 1 : 0;
       const int q = k <= 1 ? 2 : 1;
       const int r = k <= 2 ? 3 : 2;

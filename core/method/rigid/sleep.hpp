@@ -1,9 +1,9 @@
-// When a body that stands still stops being solved: RIGID 8.8.
+// When a body at rest is no longer solved: RIGID 8.8.
 //
-// A body is still while no point of it moves faster than a sixteenth of what gravity gives in a step; nothing that
-// falls is as slow for two steps. An island is a set of bodies that touch each other directly or through others. It
-// sleeps when each of its bodies has been still long enough, and wakes as one when something that is awake touches it.
-// While it sleeps, a body has no velocity, and its contacts give it in every step what they gave it in its last step
+// A body is still while no point of it moves faster than a sixteenth of the speed that gravity gives in a step; a
+// falling body is not so slow for two steps. An island is a set of bodies that touch each other directly or through
+// others. It sleeps when each of its bodies has been still long enough, and wakes as a whole when an awake body touches
+// it. While it sleeps, a body has no velocity, and its contacts give it in every step the impulses of its last step
 // awake.
 #pragma once
 
@@ -29,8 +29,8 @@ BROADSIDE_HD float fastest_of_body_m_s(const RigidState& s, const RigidMass& mas
 }
 
 // How many steps a body is still before it sleeps. It is the time of a fixed number of falls of the body's own size, a
-// second for a body of a meter, because the larger a body is the longer it takes to tip when it stands on its edge.
-// There are at least as many steps as an impulse takes through a pile.
+// second for a body of a meter, because the larger a body is the longer it takes to tip when it stands on its edge. It
+// is at least the number of steps that an impulse takes through a pile.
 BROADSIDE_HD std::uint32_t still_steps_to_sleep(float outer_m, Vec3 gravity_m_s2, float dt_s) {
   constexpr float kLeastSteps = 32.0F;
   constexpr float kMostSteps = 65536.0F;

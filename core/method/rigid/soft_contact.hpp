@@ -2,12 +2,12 @@
 // and Macklin et al., Small Steps in Physics Simulation (2019).
 //
 // A substep: velocities get gravity and the impulses of the substep before; sweeps hold the bodies at the slop, softly;
-// bodies move; one sweep takes back the velocity that only pushed them apart; what came fast at the start of the step
-// bounces in the substep that first meets it.
+// bodies move; one sweep takes back the velocity that only pushed them apart; points that approached fast at the start
+// of the step bounce in the substep in which they first touch.
 //
 // Departures: friction is Coulomb's cone, solved as a vector after the normal impulses that bound it. Arms and gaps are
-// those of the start, followed to first order. A resting gap is a slop below 0, where the law is linear: at 0 it is
-// not, and a stack never comes to rest on that kink.
+// those of the start, followed to first order. A gap at rest is one slop below 0, because the contact law is linear
+// there. At a gap of 0 the law has a kink, on which a stack never comes to rest.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@
 
 namespace broadside::core {
 
-// Whether the point came fast enough to bounce.
+// Whether the point approached fast enough to bounce.
 template <typename Number>
 BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
   const TruthOf<Number> gives_back = c.surface.restitution > 0.0F;
@@ -30,16 +30,17 @@ BROADSIDE_HD TruthOf<Number> came_fast(const PatchOf<Number>& c, const PatchPoin
   return gives_back & is_fast;
 }
 
-// And was not met in an earlier substep: a body that bounced leaves, and if neighbors drive it back it comes at another
-// speed.
+// Whether the point approached fast and did not touch in an earlier substep. A body that bounced leaves; if neighbors
+// drive it back, it comes at another speed.
 template <typename Number>
 BROADSIDE_HD TruthOf<Number> may_bounce(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
   const TruthOf<Number> was_met = p.normal_total > 0.0F;
   return came_fast(c, p) & !was_met;
 }
 
-// Before anything else of a step: how fast the points come that come fast enough to bounce. Returns whether one does. A
-// patch of which none does has no restitution in this step, so that nobody has to look at its points again to know.
+// Before anything else of a step: notes the approach speeds of the points that are fast enough to bounce. Returns
+// whether there is such a point. A patch without one gets no restitution in this step, so that later stages need not
+// look at its points again.
 BROADSIDE_HD bool note_approach(PatchConstraint& c, const SolverBody& a, const SolverBody& b, const SoftStep& step) {
   const PatchMotion m = motion_of<float>(c, a, b);
   bool is_fast = false;
@@ -93,7 +94,8 @@ BROADSIDE_HD void warm_start(const PatchOf<Number>& c, Body& a, Body& b) {
   give_to_b(c, given, b);
 }
 
-// Adds to a point's normal impulse, which stays a push. Returns how fast that changed the point, m/s.
+// Adds to a point's normal impulse, which never becomes a pull. Returns by how much that changed the point's speed,
+// m/s.
 template <typename Number>
 BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m,
                                        Number change) {
@@ -108,9 +110,10 @@ BROADSIDE_HD Number add_normal_impulse(const PatchOf<Number>& c, PatchPointOf<Nu
   return pick(faster < 0.0F, -faster, faster);
 }
 
-// Friction after the normal impulses: what would stop the point, if static friction can; else kinetic friction against
-// the slip. With one mobility for both directions of a sliding point its friction turns until it opposes the slip.
-// Returns the square of how fast it changed the point, m^2/s^2: only the largest one of a patch is asked for.
+// Friction after the normal impulses: the impulse that stops the point, if static friction can give it; else kinetic
+// friction against the slip. A sliding point has one mobility for both tangents, so from sweep to sweep its friction
+// turns until it opposes the slip. Returns the square of the change of the point's speed, m^2/s^2, because only the
+// largest change of a patch is needed.
 template <typename Number>
 BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number>& p, PatchMotionOf<Number>& m) {
   const Number v1 = tangent_1_speed(m.twist, p.lever);
@@ -122,7 +125,7 @@ BROADSIDE_HD Number solve_friction(const PatchOf<Number>& c, PatchPointOf<Number
   if (!is_left_out(!any(is_sliding))) {
     p.slides = p.slides | is_sliding;
     const Number most = c.surface.mu_kinetic * p.normal_impulse;
-    // What would stop the point, as the speed that it takes away.
+    // The impulse that would stop the point, as the speed that it takes away.
     const Number slide_1 = plus_product(-v1, p.slip_mobility, p.tangent_impulse_1);
     const Number slide_2 = plus_product(-v2, p.slip_mobility, p.tangent_impulse_2);
     const Number size_squared = plus_product(slide_1 * slide_1, slide_2, slide_2);
@@ -160,9 +163,9 @@ BROADSIDE_HD Number yielding(const PatchPointOf<Number>& p, const SoftStep& step
   return step.yield_scale * p.normal_impulse * near_reciprocal<Number>(p.normal_mass);
 }
 
-// An overlap is pushed apart no faster than half of what it would take to fall out of it, beside what the soft contact
-// yields: where something rides on what is pushed, and keeps its speed, it keeps no more energy than that of a quarter
-// of the lift.
+// The largest speed at which an overlap is pushed apart, beside the yielding of the soft contact. With gravity it is
+// half of the speed that a fall through the depth would give: a body that rides on the pushed one, and keeps that
+// speed, then keeps no more energy than that of a quarter of the lift.
 template <typename Number>
 BROADSIDE_HD Number most_push(const PatchOf<Number>& c, Number depth_m, const SoftStep& step) {
   if (!(step.gravity_m_s2 > 0.0F)) return c.fastest_push_m_s;
@@ -173,14 +176,15 @@ BROADSIDE_HD Number most_push(const PatchOf<Number>& c, Number depth_m, const So
 // not from velocities: no other patch changes it during a sweep.
 template <typename Number>
 struct PatchGoalsOf {
-  // By which a point's approach is lessened, m/s: what of it may close a gap, or less than nothing, to push apart.
+  // The speed at which a point may approach, m/s: so fast that it closes a gap; negative where it is to be pushed
+  // apart.
   Number allowed_m_s[kManifoldPoints] = {};
-  // With a gap. After the bodies moved: with a gap and without an impulse, so that the sweep leaves it out.
+  // Whether the point has a gap. After the bodies moved: a gap and no impulse, so that the sweep leaves the point out.
   TruthOf<Number> is_open[kManifoldPoints] = {};
 };
 using PatchGoals = PatchGoalsOf<float>;
 
-// Of a sweep before the bodies move. gap_m(k): of a point, at the start of the substep.
+// The goals of a sweep before the bodies move. gap_m(k): the gap of point k at the start of the substep.
 template <typename Number, typename Gap>
 BROADSIDE_HD PatchGoalsOf<Number> goals_of(const PatchOf<Number>& c, const SoftStep& step, const Gap& gap_m) {
   PatchGoalsOf<Number> goals;
@@ -224,15 +228,16 @@ BROADSIDE_HD Number solve_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
   return pick(size > largest, size, largest);
 }
 
-// Whether the point came fast, and is met in this substep for the first time.
+// Whether the point approached fast, and touches in this substep for the first time.
 template <typename Number>
 BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointOf<Number>& p) {
   const TruthOf<Number> is_met = p.normal_impulse > 0.0F;
   return may_bounce(c, p) & is_met;
 }
 
-// Of a sweep after the bodies moved. Sets the patch's masses where its bodies have turned far: bodies turn where they
-// move alone, so masses that are right here are so until they move again. Impulses that a step left below 0 count.
+// The goals of a sweep after the bodies moved. Computes the patch's masses again where its bodies have turned far:
+// bodies turn only when they move, so these masses hold until they move again. Impulses count as given also where a
+// step along a conjugate direction left them below 0.
 template <typename Number, typename Body>
 BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const Body& a, const Body& b,
                                                      const SoftStep& step) {
@@ -248,9 +253,9 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
     const TruthOf<Number> has_gap = gap > 0.0F;
     const TruthOf<Number> has_pushed = (p.normal_impulse > 0.0F) | (p.normal_impulse < 0.0F);
     const TruthOf<Number> is_bouncing = bounces(c, p);
-    // An open point that gave no impulse is the next substep's.
+    // An open point that gave no impulse is left to the next substep.
     goals.is_open[k] = has_gap & !has_pushed;
-    // What bounces has been met, wherever its neighbors left it.
+    // A point that bounces has touched, wherever its neighbors have moved it since.
     goals.allowed_m_s[k] = pick(has_gap & !is_bouncing, gap * step.per_dt_s, 0.0F);
   });
   return goals;
@@ -268,7 +273,7 @@ BROADSIDE_HD Number relax_patch(PatchOf<Number>& c, const PatchGoalsOf<Number>& 
     PatchPointOf<Number>& p = c.points[k];
     const Number speed = normal_speed(m.twist, p.lever);
     const Number wish = -p.normal_mass * (speed + goals.allowed_m_s[k]);
-    // A point that is not met has no impulse, and gets none.
+    // An open point has no impulse, and gets none.
     const Number size = add_normal_impulse<Number>(c, p, m, pick(is_met, wish, 0.0F));
     largest = pick(size > largest, size, largest);
   });
@@ -286,17 +291,17 @@ BROADSIDE_HD float fastest_bounce(const PatchOf<float>& c) {
   return fastest;
 }
 
-// Sweeps over a patch's points while its bodies are at hand, at most, forward and backward in turns: they share both
-// bodies, and one sweep would leave a spin toward the last of them. What is left after these is below a thousandth, for
-// the four corners of a cube. Most patches are done sooner: one point after one, and all of them once the sweeps over
-// all patches change little.
+// The most sweeps over the points of one patch in a visit, forward and backward in turns: the points share both bodies,
+// and one sweep would leave a spin toward the last point. For the four corners of a cube, less than a thousandth is
+// left after these. Most patches are done sooner: a patch of one point after one pass, and all patches once the sweeps
+// over all of them change little.
 inline constexpr int kSweepsOfBounce = 8;
 
 // Sweeps over all patches end where one changes no speed by more than this share of the fastest approach.
 inline constexpr float kBounceDone = 0x1p-10F;
 
-// Before a bounce: how much the points that bounce may push together, which is the restituted share of what stopped
-// them. How they share it is often open.
+// Before a bounce: the sum of the impulses that the points that bounce may give, which is the restitution times the
+// impulse that stopped them. How the points share this sum is often undetermined.
 BROADSIDE_HD void note_budget(PatchConstraint& c) {
   float stopped = 0.0F;
   each_point(c, [&](int k) {
@@ -306,10 +311,11 @@ BROADSIDE_HD void note_budget(PatchConstraint& c) {
   c.budget_n_s = c.surface.restitution * stopped;
 }
 
-// Points that came fast leave with the share of that speed that restitution gives back (Newton's rule), but for no more
-// than that share of the impulse that stopped their patch (Poisson's rule): where friction turns a body about its
+// Points that approached fast leave with that speed times the restitution (Newton's rule), but get at most the
+// restitution times the impulse that stopped their patch (Poisson's rule): where friction turns a body about its
 // corner, Newton's rule alone may give back more energy than stopping took (Kane and Levinson, Dynamics, 1985). Returns
-// the largest change of a point's speed, m/s. done_m_s: sweeps over its points end that change no speed by more.
+// the largest change of a point's speed, m/s. done_m_s: the sweeps over its points end when none changes a speed by
+// more than this.
 BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, float done_m_s) {
   PatchMotion m = motion_of<float>(c, a, b);
   float largest = 0.0F;
@@ -326,7 +332,7 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, floa
     changed = size > changed ? size : changed;
   };
 #if defined(__CUDACC__)
-#pragma unroll 1  // copies of it are more than a GPU keeps of its code
+#pragma unroll 1  // unrolled, the loop is too much code for a GPU's instruction cache
 #endif
   for (int k = 0; k < kSweepsOfBounce; k += 2) {
     changed = 0.0F;
@@ -339,7 +345,7 @@ BROADSIDE_HD float bounce(PatchConstraint& c, SolverBody& a, SolverBody& b, floa
   return size > largest ? size : largest;
 }
 
-// Ends a substep. What bounced leaves: the next substep does not begin with the impulse of the impact.
+// Ends a substep. Points that bounced leave, so the next substep does not begin with the impulse of their impact.
 template <typename Number>
 BROADSIDE_HD void drop_impacts(PatchOf<Number>& c) {
   each_point(c, [&](int k) {

@@ -1,4 +1,4 @@
-// What a substep of core/method/rigid/soft_contact.hpp is solved with.
+// The numbers that a substep of core/method/rigid/soft_contact.hpp is solved with.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,31 @@ namespace broadside::core {
 struct SoftStep {
   float dt_s = 0.0F;  // of the substep
   float per_dt_s = 0.0F;
-  // What of a gap's difference from the slop a substep takes away, per second; and how much of the impulse is soft.
+  // The rate at which a gap's difference from the slop is taken away, per second; and the shares of mass and impulse
+  // that make the contact soft.
   float push_rate_per_s = 0.0F;
   float mass_scale = 1.0F;
   float impulse_scale = 0.0F;
   float yield_scale = 0.0F;  // the second over the first
-  // At which a point above the slop sinks into it: a small share of what gravity gives, so that it bears its load, and
-  // friction holds, from the first substep on.
+  // The speed at which a point above the slop sinks into it: a small share of the speed that gravity gives, so that the
+  // point bears its load, and friction holds, from the first substep on.
   float settle_m_s = 0.0F;
-  float least_done_m_s = 0.0F;   // changes of speed below this are none to sweep on for
+  float least_done_m_s = 0.0F;   // changes of speed below this do not keep sweeps going
   float bounce_from_m_s = 0.0F;  // approach speeds above this bounce
-  // What pushes bodies apart faster is taken back (pushed_apart.hpp).
+  // Pushes that are faster than this are taken back (pushed_apart.hpp).
   float kept_push_m_s = std::numeric_limits<float>::max();
-  float least_relax_m_s = 0.0F;  // changes of speed below this are none to take back
-  // What relaxation changes by more is swept with what bounces; and where one patch changes by more than the second,
-  // without anything that bounces.
+  float least_relax_m_s = 0.0F;  // changes of speed below this end the sweeps that relax what was taken back
+  // Patches that relaxation changes by more than the first of these are swept with those that bounce; if it changes one
+  // by more than the second, they are swept even if nothing bounces.
   float stirring_m_s = std::numeric_limits<float>::max();
   float begins_m_s = std::numeric_limits<float>::max();
   float gravity_m_s2 = 0.0F;
-  // The last sweep changes no point's speed by more than this share of the fastest, or is the so many-th.
+  // The last sweep is the first that changes no point's speed by more than this share of the fastest speed, or else
+  // number most_sweeps.
   float done_share = 0.0F;
   std::uint32_t most_sweeps = 1;
-  std::uint32_t most_relax_sweeps = 0;  // that take back what pushed overlaps apart
-  // While something bounces, sweeps that stop what came fast, and sweeps that let it bounce, at most.
+  std::uint32_t most_relax_sweeps = 0;  // sweeps that relax after pushes were taken back
+  // While something bounces: the most sweeps that stop points that approached fast, and that let them bounce.
   std::uint32_t most_stop_sweeps = 0;
   std::uint32_t most_bounce_sweeps = 0;
 };
@@ -55,23 +57,25 @@ BROADSIDE_HD SoftStep soft_step(float dt_s, float omega_dt, float damping) {
   return s;
 }
 
-// Of sweeps: the last one changes no point's speed by more. fastest_m_s: of all points.
+// Sweeps end with one that changes no point's speed by more than this, m/s. fastest_m_s: the fastest speed of all
+// points.
 BROADSIDE_HD constexpr float done_m_s(const SoftStep& step, float done_share, float fastest_m_s) {
   const float of_fastest = done_share * fastest_m_s;
   return of_fastest > step.least_done_m_s ? of_fastest : step.least_done_m_s;
 }
 
-// Before a substep of several sweeps relaxes. done_m_s: what they leave. is_pushed: whether pushes are taken back; what
-// that changes is swept on already. Without gravity nothing says which pushes are small, so what relaxation changes by
-// more than sweeps leave is swept on. Relaxation alone solves a point that is first met because its body turned, and
-// one sweep of it gives the two ends of an edge unequal impulses: a needle that struck a plate with its edge went on
-// with 390 rad/s about its own axis.
+// To be called before the relaxation of a substep with several sweeps. done_m_s: the change of speed below which these
+// sweeps ended. is_pushed: whether pushes are taken back; then the patches that this changes are swept anyway. Without
+// gravity nothing says which pushes are small, so patches that relaxation changes by more than done_m_s are swept
+// again. Relaxation alone solves a point that is first met because its body turned, and one sweep of it gives the two
+// ends of an edge unequal impulses: a needle that struck a plate with its edge went on with 390 rad/s about its own
+// axis.
 BROADSIDE_HD constexpr void sweep_on_from(SoftStep& step, float done_m_s, bool is_pushed) {
   if (step.gravity_m_s2 > 0.0F) return;
   step.stirring_m_s = step.begins_m_s = is_pushed ? std::numeric_limits<float>::max() : done_m_s;
 }
 
-// Whether pushes alone may be swept on with.
+// Whether sweeps may begin because of pushes alone.
 BROADSIDE_HD constexpr bool may_begin(const SoftStep& step) {
   return step.begins_m_s < std::numeric_limits<float>::max();
 }

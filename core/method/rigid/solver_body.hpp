@@ -19,7 +19,7 @@ struct SolverBody {
   Vec3 angular_momentum;       // kg m^2/s
   Symmetric3 inverse_inertia;  // world axes, of the orientation at the start of the substep
   float inverse_mass = 0.0F;
-  // Since the start of the step: positions are added once, so that they do not round at every substep.
+  // Since the start of the step: this is added to the positions only once, so that they do not round at every substep.
   Vec3 moved;   // of the center of mass, m
   Vec3 turned;  // sum of h w, rad: the gaps of the step follow it
   RestedQuat orientation;
@@ -55,7 +55,7 @@ BROADSIDE_HD constexpr SolverBody solver_body(const RigidState& s, const RigidMa
   return body;
 }
 
-// Gravity and wrenches of one substep.
+// Applies gravity and the wrench for one substep.
 BROADSIDE_HD void accelerate(SolverBody& body, Vec3 gravity_m_s2, const RigidWrench* wrench, float dt_s) {
   if (!is_moved(body)) return;
   Vec3 acceleration = gravity_m_s2;

@@ -16,7 +16,7 @@ BROADSIDE_HD_CALLED void sphere_manifold(const PlacedShape& sphere, const Placed
   const float gap = distance.gap_m - ball;
   if (!(gap <= reach_m)) return;
   out.normal = distance.normal;
-  // The sphere's surface is its radius towards B; halfway is half a gap further.
+  // The sphere's surface is one radius from its center towards B; the middle is half a gap farther.
   keep_one(out, sphere.center - (ball + 0.5F * gap) * distance.normal, gap, feature_key(0, distance.name));
 }
 

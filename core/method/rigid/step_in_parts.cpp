@@ -22,17 +22,17 @@ std::uint64_t digest_of_step(const FrameRecord& frame) {
   return sum;
 }
 
-// Of a point of the body's surface, where it was at the start of the step.
+// Where a point of the body's surface was at the start of the step.
 Vec3 at_start(const FrameRecord& part, const FrameRecord& first, std::uint32_t body, Vec3 point) {
   if (is_face(body)) return point;
   const Vec3 in_body = turned_back(turned_axes(part.detected_orientation[body]), point - part.detected_position[body]);
   return first.detected_position[body] + turned(turned_axes(first.detected_orientation[body]), in_body);
 }
 
-// All points of a frame belong to its pose of detection, so each is told where its two surfaces were at the start:
-// along the normal in their middle, across it nearer to that which has moved less since. A body that still rests has a
-// moment that follows from there. Before, one that was struck from the side by a fast one was told of it 25 mm beside
-// the corner that was struck.
+// All points of a frame belong to its pose of detection, so each point is placed where its two surfaces were at the
+// start of the step: along the normal in the middle between them, across the normal nearer to the surface that has
+// moved less since. Then the moment of the impulse on a body that was still at rest is right. Before, the point of a
+// blow from the side by a fast body was recorded 25 mm beside the corner that was struck.
 ContactPoint taken_back(ContactPoint p, const FrameRecord& part, const FrameRecord& first) {
   const Vec3 half = (0.5F * p.gap_m) * p.normal;
   const Vec3 on_a = at_start(part, first, p.a, p.point + half);
@@ -41,7 +41,7 @@ ContactPoint taken_back(ContactPoint p, const FrameRecord& part, const FrameReco
   const float way_b_m = length(p.point - half - on_b);
   p.gap_m = dot(p.normal, on_a - on_b);
   const Vec3 across = (on_b - on_a) + p.gap_m * p.normal;
-  // A plane is met where the body is, wherever it slides.
+  // The point on a plane is where the body is, wherever the body slides.
   const float share = is_face(p.b) || !(way_a_m > 0.0F) ? 0.0F : way_a_m / (way_a_m + way_b_m);
   p.point = (on_a - (0.5F * p.gap_m) * p.normal) + share * across;
   return p;
@@ -58,8 +58,8 @@ bool is_before(const ContactPoint& p, const ContactPoint& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
 
-// Along the normals of later parts the bodies may be deeper at the start than they are: no deeper than the points say
-// that were found there.
+// Along the normals of later parts, bodies may seem deeper at the start than they are. So no point is deeper than the
+// deepest one of its pair that was found at the start.
 void keep_depths_of(const FrameRecord& first, std::vector<ContactPoint>& points) {
   auto found = first.points.begin();
   for (auto p = points.begin(); p != points.end();) {

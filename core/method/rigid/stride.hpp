@@ -1,4 +1,4 @@
-// How far a body goes in a step for its size: RIGID 8.7.
+// How far a body moves in a step, relative to its thickness: RIGID 8.7.
 #pragma once
 
 #include "core/attributes.hpp"

@@ -1,9 +1,9 @@
-// How far two bodies can go along what a step moved them by before they are in each other: RIGID 8.7.
+// How far two bodies can go along the motion of a step before they overlap: RIGID 8.7.
 //
-// Contacts of a step are those that its start foretells. Bodies that move farther than they are thick may meet others
-// that nothing foretold. These bodies stop on their way and keep their velocities; the contacts of the next step act on
-// them. The method is conservative advancement (Mirtich, 1996): it advances by no more than the distance, and the speed
-// at which that can shrink, allow.
+// The contacts of a step are those that are detected at its start. Bodies that move farther than they are thick may
+// meet others without such a contact. These bodies stop on their way and keep their velocities; the contacts of the
+// next step act on them. The method is conservative advancement (Mirtich, 1996): each advance is no longer than the
+// distance over the largest speed at which it can shrink.
 #pragma once
 
 #include <cmath>
@@ -22,32 +22,32 @@ namespace broadside::core {
 // stop again and again has finitely many places to stop at, and the stage ends.
 inline constexpr std::uint32_t kPartsOfWay = 256;
 
-// The most rounds; a pile of bodies that stop each other one after another may need many. After them, what still meets
-// stays at its start.
+// The most rounds; a pile of bodies that stop each other one after another may need many. Bodies that still meet after
+// the last round stay where the step began.
 inline constexpr std::uint32_t kMostSweepRounds = 64;
 
 // How deep two bodies may be in each other, as a share of the thinner one's half thickness.
 inline constexpr float kSweptDepthShare = 0x1p-4F;
 
-// Those that are deeper may get a little deeper in each step, up to so many times that depth; then they only part. That
-// is less than a twentieth of the thickness, the limit of class B. Before, bodies that others held between them went
-// through each other little by little.
+// Bodies that are deeper already may get a little deeper in each step, up to this many times that depth; then they may
+// only part. That is less than a twentieth of the thickness, the limit of class B. Before, bodies that were squeezed
+// between others passed through each other little by little.
 inline constexpr float kHeldDepth = 1.5F;
 
 // The search stops where less than this share of the depth is left.
 inline constexpr float kDoneShare = 0x1p-5F;
 
-// A way that is not cleared after this many advances ends where it is clear up to.
+// After this many advances a way ends at the point up to which it is known to be clear.
 inline constexpr int kMostAdvances = 64;
 
-// What one body did in a step.
+// The motion of one body in a step.
 struct SweptWay {
   ContactPose start;
   ContactPose end;
   float swing_m = 0.0F;  // the farthest that turning from start to end moves a point of the shape
 };
 
-// Orientations go the shorter of the two ways from one to the other.
+// The end orientation as q or -q, so that the turn takes the shorter of the two ways.
 BROADSIDE_HD constexpr Quat nearer_end(Quat start, Quat end) {
   return dot(start, end) < 0.0F ? -1.0F * end : end;
 }
@@ -70,8 +70,8 @@ BROADSIDE_HD SweptWay free_way(const ContactPath& path, float outer_m) {
   return {path.start, path.end, swing_of(path.start, path.end, outer_m)};
 }
 
-// Its length is found in double: normals of contacts are turned by it, and with a length in float one was off by 4.03
-// units in the last place.
+// q scaled to length 1. The length is computed in double, because normals of contacts are turned by q, and with a
+// length in float one normal was off by 4.03 units in the last place.
 BROADSIDE_HD Quat of_unit_length(Quat q) {
   const auto square = [](float x) { return static_cast<double>(x) * x; };
   const double scale = 1.0 / sqrt(((square(q.w) + square(q.x)) + square(q.y)) + square(q.z));
@@ -105,7 +105,7 @@ BROADSIDE_HD_CALLED NearestPatch nearest_patch(const ContactShape& a, ContactPos
   return nearest;
 }
 
-// Whether bodies that are in each other at the start are less so at the end, on the same side.
+// Whether bodies that overlap at the start overlap no more at the end, and on the same side.
 template <typename Lanes>
 BROADSIDE_HD bool part_at_end(const NearestPatch& start, const ContactShape& a, const SweptWay& way_a,
                               const ContactShape& b, const SweptWay& way_b, float reach_m) {
@@ -113,10 +113,11 @@ BROADSIDE_HD bool part_at_end(const NearestPatch& start, const ContactShape& a, 
   return !end.is_found || (end.gap_m >= start.gap_m && dot(end.normal, start.normal) > 0.0F);
 }
 
-// The share of both ways, gone at the same time, up to which the bodies are in each other by no more than allowed_m; by
-// 2 done_m more than at the start where they are deeper then, and up to kHeldDepth times allowed_m. Deeper ones go all
-// of it if they part, and nothing else. It stops where less than done_m is left. For two convex shapes it follows the
-// direction that parts them, or in which they overlap least, because only along it can they come nearer.
+// The share of both ways, gone at the same time, up to which the bodies overlap by no more than allowed_m. Bodies that
+// overlap by more at the start, up to kHeldDepth times allowed_m, may overlap by 2 done_m more than at the start. Still
+// deeper ones go all of their way if they part, and none of it otherwise. The search stops where less than done_m is
+// left. For two convex shapes it follows the direction that parts them, or in which they overlap least, because only
+// along it can they come nearer.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED float clear_share(const ContactShape& a, const SweptWay& way_a, const ContactShape& b,
                                       const SweptWay& way_b, float allowed_m, float done_m) {
@@ -153,7 +154,7 @@ BROADSIDE_HD constexpr float swept_done_m(float thinner_m) {
   return kDoneShare * swept_depth_m(thinner_m);
 }
 
-// Whether two bodies do not touch on their free ways: neither if both move, nor if something holds one of them.
+// Whether two bodies do not touch on their free ways, whether both move or something holds one of them.
 template <typename Lanes = OneLane>
 BROADSIDE_HD bool misses(const ContactShape& a, const SweptWay& way_a, const ContactShape& b, const SweptWay& way_b,
                          float thinner_m) {
@@ -170,8 +171,9 @@ BROADSIDE_HD bool moves_far(float way_a_m, float way_b_m, float thinner_m) {
   return way_a_m + way_b_m > swept_depth_m(thinner_m);
 }
 
-// Whether a patch of two bodies that move far leads to no contact in the step. It is asked because planes of patches
-// that are far away mislead. What a push makes of such a way is left to the sweep after the response. fall_m: of both.
+// Whether a patch of two bodies that move far leads to no contact in the step. Such a patch is dropped, because the
+// planes of patches that are far away mislead the solver. If a push changes the way, the sweep after the response takes
+// care of it. fall_m: how far both bodies fall.
 template <typename Lanes = OneLane>
 BROADSIDE_HD_CALLED bool misses_patch(const Manifold& found, const ContactShape& a, const SweptWay& way_a,
                                       const ContactShape& b, const SweptWay& way_b, float fall_m, float thinner_m) {
@@ -187,8 +189,8 @@ BROADSIDE_HD SweptWay part_of_way(SweptWay way, std::uint32_t parts) {
   return way;
 }
 
-// A box that contains the body on all of its way: on it a point leaves the line between its two ends by less than
-// swing_m.
+// A box that contains the body on all of its way: a point of the body stays within swing_m of the line between its two
+// ends.
 BROADSIDE_HD Box box_of_way(const Box& start, const Box& end, float swing_m) {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {

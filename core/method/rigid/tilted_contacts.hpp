@@ -1,9 +1,9 @@
 // Where two round polytopes would touch next if they tilted a little: more points for their manifold.
 //
-// Faces of a finely cut hull are small, so what two of them have in common is a spot. Bodies that roll over each other
-// leave it within a step, and meet half their size away, where no point was: before, bunnies in a heap ended 8 cm deep
-// in each other. Bullet tilts a body and detects again (btConvexConvexAlgorithm, its perturbed manifold). Here the
-// corners that are lowest along tilted directions are looked up, with their gaps as the bodies stand.
+// Faces of a finely cut hull are small, so the common area of two of them is a spot. Bodies that roll over each other
+// leave this spot within a step, and meet half their size away, where no point was. Before, bunnies in a heap ended 8
+// cm deep in each other. Bullet tilts a body and detects again (btConvexConvexAlgorithm, its perturbed manifold). Here
+// the corners that are lowest along tilted directions are looked up, with their gaps in the present, untilted poses.
 #pragma once
 
 #include <cmath>
@@ -22,8 +22,8 @@
 
 namespace broadside::core {
 
-// Tilts go in four directions across the normal, by two angles each, given as tangents; the larger is that of half a
-// radian.
+// Tilts go in four directions across the normal, by two angles each, given as tangents of these angles; the larger
+// angle is about half a radian.
 inline constexpr int kTilts = 8;
 inline constexpr float kLargestTilt = 0.5F;
 
@@ -41,8 +41,9 @@ BROADSIDE_HD int lowest_of(const HullPolytopeOf<Lanes>& p, Vec3 direction) {
 
 // The face through which the line through x along `up` leaves the body on its way up; -1: the line misses the body. The
 // search begins at face `from` and crosses the sides that the line passes. Seen along `up` each crossing leads to where
-// the body is less high, so no face comes twice. Within rounding_m a line counts as over a face. -1 too where x is
-// higher than most_m over the body: it is no higher over the body than over the plane of any face that looks up.
+// the body is less high, so no face comes twice. A line that is beside a face by no more than rounding_m counts as over
+// it. -1 too where x is higher than most_m over the body: it is no higher over the body than over the plane of any face
+// that looks up.
 template <typename Lanes>
 BROADSIDE_HD_CALLED int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m,
                                    float most_m) {
@@ -74,7 +75,7 @@ BROADSIDE_HD_CALLED int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec
   }
   return -1;
 }
-// Where faces are few all are looked at.
+// The same for polytopes with few faces: all faces are tried.
 template <typename Polytope>
 BROADSIDE_HD int face_below(const Polytope& p, int, Vec3 x, Vec3 up, float rounding_m, float) {
   int entered = -1;
@@ -132,7 +133,7 @@ BROADSIDE_HD_CALLED void tilted_contacts(const PolytopeA& a, const PolytopeB& b,
     made = {x - (0.5F * gap) * up, gap, is_a ? feature_key(name, face_name(0)) : feature_key(face_name(0), name)};
     return true;
   };
-  // First of A, then of B, by each tilt.
+  // For each tilt first a corner of A, then one of B.
   typename LanesOf<PolytopeA, PolytopeB>::template Handful<ManifoldPoint> found;
   (void)found.fill(0, 2 * kTilts, [&](int k, ManifoldPoint& made) {
     const int tilt = k / 2;

@@ -7,8 +7,8 @@
 
 namespace broadside::core {
 
-// Records a point that touched or was pushed; false for one that was near and felt nothing. impulse: N s on A, of the
-// whole step. center_a: A's center of mass at detection.
+// Records a point that touched or has an impulse; false for one that had a gap and no impulse. impulse: N s on A, of
+// the whole step. center_a: A's center of mass at detection.
 BROADSIDE_HD constexpr bool told_point(const ContactPatch& patch, int k, Vec3 impulse, Vec3 center_a,
                                        ContactPoint& told) {
   const ManifoldPoint& p = patch.manifold.points[k];

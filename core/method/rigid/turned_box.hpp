@@ -1,5 +1,6 @@
-// The tight axis-aligned box of a turned shape, RIGID 8.2: support points in closed form, by going along a hull's
-// edges, or through the tree over a mesh's vertices. Rounded outward, so the box contains the shape at this very pose.
+// The tight axis-aligned box of a turned shape, RIGID 8.2: support points are found in closed form, by going along a
+// hull's edges, or through the tree over a mesh's vertices. The box is rounded outward, so it contains the shape at
+// exactly this pose.
 #pragma once
 
 #include <cmath>
@@ -39,8 +40,8 @@ BROADSIDE_HD constexpr float leaf_support(const VertexTreeView& tree, std::uint3
   return best;
 }
 
-// The largest coordinate of the vertices along the direction. A maximum does not depend on any order, so this one is
-// that of a loop over all vertices, bit for bit.
+// The largest coordinate of the vertices along the direction. A maximum does not depend on the order, so the result is
+// bit for bit that of a loop over all vertices.
 BROADSIDE_HD float vertex_support(const VertexTreeView& tree, Vec3 d) {
   const auto is_empty = [&tree](std::uint32_t leaf) { return tree.leaf_begin[leaf] == tree.leaf_begin[leaf + 1]; };
   // The most promising leaf first: then few others are opened.
@@ -72,7 +73,7 @@ BROADSIDE_HD float shape_support(const ContactShape& s, const VertexTreeView& tr
     case ContactKind::kCapsule:
       return s.radius_m + s.half_length_m * fabsf(d[s.axis]);
     case ContactKind::kCylinder: {
-      // Not sqrt(1 - d^2): where the axis lies along the direction that is off by the root of a rounding.
+      // Not sqrt(1 - d^2): where the axis lies along the direction, that root is off by the square root of a rounding.
       const float p = d[s.axis == 0 ? 1 : 0];
       const float q = d[s.axis == 2 ? 1 : 2];
       return s.half_length_m * fabsf(d[s.axis]) + s.radius_m * sqrtf(p * p + q * q);

@@ -1,4 +1,4 @@
-// Bodies that a step left without an impulse, although its sweeps gave them some and took them back. An impulse that is
+// Bodies that end a step without an impulse, although its sweeps gave them some and took them back. An impulse that is
 // added to a velocity and subtracted again leaves rounding, which no point of the trace explains. Such a body gets the
 // velocities of one that nothing touched, to the last bit. Before, a card at rest behind others that a bullet struck
 // went on with 0.24 micrometers a second.
@@ -27,7 +27,7 @@ BROADSIDE_HD bool has_pushed(const PatchConstraint& c) {
 }
 
 // The velocities that gravity and the scene's wrench alone give in so many substeps. A wrench in body axes turns with
-// the body, whose orientation the sweeps have changed too: such a body is left as it is.
+// the body, whose orientation the sweeps have changed, too; so a body with such a wrench is left as it is.
 BROADSIDE_HD void forget_pushes(SolverBody& body, const RigidState& before, Vec3 gravity_m_s2,
                                 const RigidWrench* wrench, float substep_s, std::uint32_t substeps) {
   if (!is_moved(body)) return;
