@@ -9,8 +9,6 @@
 namespace broadside::gpu {
 namespace {
 
-using core::Vec3;
-
 std::uint32_t corners_of(const core::HullView& hull) {
   std::uint32_t end = 0;
   for (std::uint32_t k = 0; k < hull.face_count; ++k)

@@ -123,6 +123,7 @@ core::Result<core::DeviceFrame> ToldFrame::remember(core::DeviceFrame frame, std
 core::Status ToldFrame::upload_points(const std::vector<core::ContactPoint>& points) {
   const auto upload = [&](auto& to, auto member) -> core::Status {
     std::vector<std::remove_cvref_t<decltype(points[0].*member)>> rows;
+    rows.reserve(points.size());
     for (const core::ContactPoint& p : points) rows.push_back(p.*member);
     return to.upload(rows, "points");
   };

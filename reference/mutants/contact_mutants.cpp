@@ -10,7 +10,6 @@ namespace {
 
 using core::Contact;
 using core::ContactGeometry;
-using core::Kinematics;
 using core::Pair;
 using core::Parameters;
 using core::Vec3;
